@@ -1,0 +1,118 @@
+/* stickslip/morlet.h -- Morlet wavelet coefficients of a sampled signal.
+ *
+ * With t in seconds from the first sample and h(t) = pi^-1/4 exp(i omega_c t) exp(-t^2/2),
+ *
+ *     W(a, b) = a^-1/2 (1/rate) sum_n x_n conj h((n/rate - b) / a),
+ *
+ * the signal being zero outside the record.  Scales are a = 2^(j/V) s, j an integer, V voices an
+ * octave; translations are b = n B_0 a (stepped) or n / rate (dense), from the first sample.  A
+ * scale is labelled with the frequency f = omega_c / (2 pi a): the maximum over a of the response
+ * to a steady sinusoid carries its frequency with the 1/a norm, and reads low by the factor
+ * 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) with the a^-1/2 norm (1.35 % at omega_c = 6). */
+#ifndef STICKSLIP_MORLET_H
+#define STICKSLIP_MORLET_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/status.h>
+#include <stickslip/signal.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ss_norm {
+    SS_NORM_L2,                 /* a^-1/2, the paper's */
+    SS_NORM_L1                  /* 1/a: a steady sinusoid gives the same |W| at every frequency */
+} ss_norm;
+
+typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } ss_detrend;
+
+typedef enum ss_engine {
+    SS_ENGINE_AUTO,             /* the cheaper one that keeps the accuracy */
+    SS_ENGINE_QUADRATURE,       /* the definition, wavelet truncated as far as accuracy allows */
+    SS_ENGINE_FFT
+} ss_engine;
+
+typedef struct ss_morlet_opts {
+    double center;              /* omega_c  2 ... 1000 */
+    int voices;                 /* V, scales an octave  1 ... 1024 */
+    double step;                /* B_0, translation step in units of the scale  > 0; unused if dense */
+    int dense;                  /* 1: one coefficient a sample at every scale */
+    double fmin, fmax;          /* [Hz] scales labelled fmin to fmax; 0: the default, see below */
+    int octaves;                /* 1: scales from 2^m0 to 2^m1 s instead */
+    double m0, m1;              /* m0 <= m1 */
+    ss_engine engine;
+    double accuracy;            /* TOL  1e-13 ... 1e-1: the error of the sum is at most TOL x (largest
+                                   |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x| */
+    ss_norm norm;
+    int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
+    ss_detrend detrend;         /* what is subtracted from the record first */
+    int force;                  /* 1: also scales that sampling or record do not resolve */
+} ss_morlet_opts;
+/* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
+ * the lowest usable frequency, if that is higher), fmax the highest usable one. */
+extern const ss_morlet_opts ss_morlet_defaults;
+
+typedef struct ss_scale {
+    int j;                      /* a = 2^(j/V) */
+    double m;                   /* j/V = log2 a */
+    double a;                   /* [s] */
+    double f;                   /* omega_c / (2 pi a) [Hz] */
+    double b_num, b_den;        /* translation k is k * b_num / b_den [s] */
+    size_t n;                   /* translations in the record */
+    size_t offset;              /* of its first coefficient in w, counted in coefficients */
+} ss_scale;
+
+/* Usable scales: sampling resolves a if the spectrum of the wavelet at Nyquist is below accuracy,
+ * exp(-(a pi rate - omega_c)^2 / 2) <= accuracy; the record is long enough if some translation
+ * lies outside the cone of influence, 2 sqrt(2) a <= n / rate. */
+typedef struct ss_morlet ss_morlet;     /* a plan: a grid for records of one length and rate */
+
+/* SS_ESCALE if scales are asked for that are not usable (unless force) or none is left. */
+ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts,
+                        ss_error *err);
+size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */
+const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* owned by the plan */
+size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients over all scales */
+
+/* Transform the plan's n samples of x, which must be finite, into w: re, im of coefficient c at
+ * w[2c], w[2c + 1], 2 * ss_morlet_total doubles owned by the caller.  A plan may be executed by
+ * several threads at once. */
+ss_status ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err);
+void ss_morlet_free(ss_morlet *plan);                               /* NULL is allowed */
+
+/* W at one point by the definition, in opts' convention (its grid fields are not used). */
+ss_status ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
+                          double a, double b, double w[2], ss_error *err);
+
+double ss_scale_b(const ss_scale *scale, size_t k);                 /* [s] from the first sample */
+/* 1 inside the cone of influence of a record of n samples: nearer than sqrt(2) a to an end, the
+ * ends being the first and the last sample. */
+int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
+
+/* Coefficients with the grid they stand on, as computed or as read back. */
+typedef struct ss_coefficients {
+    ss_header *head;            /* of the signal: its column transformed, its rate, start and notes,
+                                   the options of the transform among them */
+    size_t n;                   /* samples of the record */
+    double center;              /* omega_c */
+    size_t n_scales;
+    ss_scale *scale;            /* long to short */
+    double *w;                  /* re, im */
+} ss_coefficients;
+
+/* The simple case: transform one column of a signal. */
+ss_status ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
+                       const ss_morlet_opts *opts, ss_error *err);
+ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out);
+ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
+void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
+
+/* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */
+double ss_coefficients_max(const ss_coefficients *coefficients);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,49 @@
+/* stickslip/plot.h -- self-contained gnuplot scripts: data inside, named variables at the top,
+ * no terminal set unless asked for.  Text from files is escaped: it draws, it does not run. */
+#ifndef STICKSLIP_PLOT_H
+#define STICKSLIP_PLOT_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/status.h>
+#include <stickslip/signal.h>
+#include <stickslip/morlet.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ss_plot_opts {
+    const char *output;         /* the picture's file, .png, .svg or .pdf; NULL: none is named, the
+                                   script draws on gnuplot's current terminal */
+    const char *format;         /* "png", "svg", "pdf"; NULL: from output's ending */
+    const char *title;          /* NULL: from the notes (scene, model); "": none */
+    double from, to;            /* [s] on the source's clock, the span drawn; NaN: all of it */
+} ss_plot_opts;
+extern const ss_plot_opts ss_plot_defaults;
+
+/* One panel a column over time (figure 1), of the n columns given by index; n = 0 for all. */
+ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
+                         const ss_plot_opts *opts);
+/* One column over another: a phase plane or a friction loop. */
+ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
+                     const ss_plot_opts *opts);
+
+typedef struct ss_contour_opts {
+    int levels;                 /* contour lines  1 ... 100 */
+    double span;                /* [dB] that they span below the largest |W|  > 0 */
+    const ss_signal *signal;    /* for panel (a), or NULL */
+    size_t column;              /* of that signal */
+    const double *event;        /* [s] on the source's clock, marked by vertical lines, or NULL */
+    size_t n_events;
+} ss_contour_opts;
+extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
+
+/* Contours of L = 20 log10(|W| / max|W| where edge = 0) at -k span/levels, k = 1 ... levels. */
+ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
+                          const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

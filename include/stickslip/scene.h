@@ -1,0 +1,85 @@
+/* stickslip/scene.h -- a scene: one friction model, its parameters, and the record to make of it.
+ *
+ * All models share  m x'' + k x + f = k Z_e cos(Omega t + phase),  t = 0 at the start of settling;
+ * they differ in the friction force f.  The text form is described in stickslip-scene(5). */
+#ifndef STICKSLIP_SCENE_H
+#define STICKSLIP_SCENE_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ss_model {
+    SS_COULOMB,             /* f = f_k sgn(v); sticks while |k (z - x)| <= f_k */
+    SS_STATE_VARIABLE,      /* f = theta, theta' = -gamma (theta - f_k tanh(alpha v)) */
+    SS_COMPLIANT            /* Coulomb through a massless contact of stiffness K_y and damping c */
+} ss_model;
+
+typedef enum ss_law {
+    SS_LAW_SCALED,          /* theta' = -gamma (theta - f_k tanh(alpha v)) */
+    SS_LAW_LITERAL          /* theta' = -gamma f_k (theta - tanh(alpha v)), equation (9) as printed */
+} ss_law;
+
+typedef enum ss_release {
+    SS_RELEASE_SPRING,      /* microstick ends when K_y |y| > f_k, the paper's words */
+    SS_RELEASE_TOTAL        /* microstick ends when |K_y y + c v| > f_k: friction is continuous */
+} ss_release;
+
+typedef struct ss_scene {
+    ss_model model;
+    double mass;                /* m      [kg]     > 0 */
+    double stiffness;           /* k      [N/m]    > 0 */
+    double friction;            /* f_k    [N]     >= 0, kinetic = static */
+    double base_amplitude;      /* Z_e    [m]     >= 0 */
+    double base_frequency;      /* Omega / 2 pi [Hz] >= 0 */
+    double phase;               /* [rad] */
+    double x0, v0;              /* at the start of settling [m, m/s] */
+
+    double alpha, gamma;        /* [s/m] > 0, [1/s] > 0        state-variable only */
+    ss_law law;                 /*                             state-variable only */
+    double contact_stiffness;   /* K_y    [N/m]    > 0         compliant only */
+    double contact_damping;     /* c      [N s/m] >= 0         compliant only */
+    ss_release release;         /*                             compliant only */
+
+    double settle;              /* [s] >= 0  simulated before the record starts, not written */
+    double duration;            /* [s] >= 0  length of the record */
+    double rate;                /* [Hz] > 0  samples a second */
+} ss_scene;
+
+extern const ss_scene ss_scene_defaults;    /* start here: settle 0, duration 10, rate 2000, ... */
+
+/* Read a scene from text.  name stands for the file in messages.  On failure *scene is unchanged.
+ * SS_EDATA for a key that is unknown, repeated, missing, malformed, out of range or not the
+ * model's; SS_EIO if reading failed. */
+ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err);
+
+/* The same with the n settings "key=value" put in place of what the text says, as if they were
+ * its last lines.  A setting at fault gives SS_EINVAL, the text SS_EDATA. */
+ss_status ss_scene_read_set(ss_scene *scene, FILE *in, const char *name,
+                            const char *const settings[], size_t n, ss_error *err);
+
+/* SS_OK if every parameter that the model has lies in its range, else SS_EINVAL. */
+ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
+
+/* Write every key that the model has, one a line, in the fewest digits that read back the same. */
+ss_status ss_scene_write(const ss_scene *scene, FILE *out);
+
+const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
+size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
+
+/* The scenes of the paper's figures, built in.  text is what ss_scene_read takes. */
+typedef struct ss_shipped_scene {
+    const char *name;           /* "compliant-light" */
+    const char *summary;        /* its first comment line: one line of plain text */
+    const char *text;
+} ss_shipped_scene;
+extern const ss_shipped_scene ss_shipped_scenes[];  /* ends with a NULL name */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

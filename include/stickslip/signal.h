@@ -1,0 +1,141 @@
+/* stickslip/signal.h -- uniformly sampled signals of several columns, and their streams.
+ *
+ * Text, AU and delimited text are described in stickslip-signal(5).  A column of time is never
+ * stored: the time of row i is start + i / rate. */
+#ifndef STICKSLIP_SIGNAL_H
+#define STICKSLIP_SIGNAL_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ss_column {
+    char *name;                 /* "a"; no blanks */
+    char *unit;                 /* "m/s^2"; "" if unknown */
+} ss_column;
+
+typedef struct ss_header {
+    double rate;                /* [Hz] > 0 */
+    double start;               /* time of row 0 on the source's clock [s] */
+    int has_time;               /* 1: the text form carries a column of time, t/s, first */
+    size_t n_columns;           /* without time */
+    ss_column *column;
+    size_t n_notes;
+    char **note;                /* "key: value" lines of the source, passed on; never rate, start, columns */
+} ss_header;
+
+/* Build a header: every string is copied.  A note with a key that is there already replaces it. */
+ss_header *ss_header_new(double rate, double start);
+ss_header *ss_header_copy(const ss_header *head);
+ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
+ss_status ss_header_note(ss_header *head, const char *key, const char *value);
+const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
+void ss_header_free(ss_header *head);                                       /* NULL is allowed */
+
+/* The index of a column given by name, or by its number counted from 1; -1 if it is not there. */
+int ss_header_column(const ss_header *head, const char *name);
+
+/* --- reading ------------------------------------------------------------------------------- */
+
+typedef struct ss_read_opts {
+    const char *time;           /* delimited text: column of time by name or number; NULL: found by
+                                   its name (t, time, ...), or the first column if it ascends uniformly */
+    double rate;                /* [Hz] for input without a clock; 0: the input must have one */
+} ss_read_opts;
+
+typedef struct ss_reader ss_reader;
+
+/* Open a stream of any of the three kinds, told apart by its first bytes.  The reader does not own
+ * in.  name stands for the file in messages.  opts may be NULL.  Text and AU streams are read as
+ * they come, in constant memory; delimited text is read whole, to check its clock. */
+ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
+                        ss_error *err);
+const ss_header *ss_reader_header(const ss_reader *reader);
+
+/* Read up to max rows of n_columns values each, one row after the other, into rows.  *n = 0 with
+ * SS_OK is the end.  Fewer than max may come where a pipe is slow. */
+ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
+
+/* A whole signal in memory. */
+typedef struct ss_signal {
+    ss_header *head;
+    size_t n;                   /* rows */
+    double *values;             /* column after column: values[c * n + i] */
+} ss_signal;
+
+ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
+                         ss_error *err);
+/* n rows of zeros under a copy of head. */
+ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n);
+void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+typedef enum ss_format {
+    SS_TSV,                     /* text, tab-separated, fewest digits that read back the same */
+    SS_AU                       /* Sun AU, 64-bit float, the header in its annotation */
+} ss_format;
+
+typedef struct ss_writer ss_writer;
+
+/* Start a stream on out, which the writer does not own; head is copied. */
+ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head);
+/* Append n rows of n_columns values each, one row after the other. */
+ss_status ss_writer_rows(ss_writer *writer, const double *rows, size_t n);
+/* Flush what is buffered to out: SS_EIO if any write failed. */
+ss_status ss_writer_flush(ss_writer *writer);
+void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flush */
+
+ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format);
+
+/* --- making and changing ------------------------------------------------------------------- */
+
+typedef enum ss_wave {
+    SS_SINE,        /* A cos(2 pi f (t - at)) */
+    SS_IMPULSE,     /* A in the sample nearest to at, else 0 */
+    SS_STEP,        /* A from at on, else 0 */
+    SS_CHIRP,       /* A cos of a phase whose frequency goes linearly from f to f_end */
+    SS_RINGDOWN,    /* A exp(-s (t - at)) cos(w (t - at)) from at on, else 0; see damping */
+    SS_NOISE        /* Gaussian white noise of standard deviation A */
+} ss_wave;
+
+typedef struct ss_wave_opts {
+    double rate;                /* [Hz] > 0 */
+    double duration;            /* [s] >= 0: round(duration * rate) samples */
+    double amplitude;           /* A */
+    double frequency;           /* f [Hz] >= 0, damped: w = 2 pi f */
+    double frequency_end;       /* f_end [Hz] at the end of the record, chirp only */
+    double damping;             /* damping ratio s / sqrt(w^2 + s^2) in [0, 1), ringdown only */
+    double at;                  /* [s] */
+    unsigned long seed;         /* noise only */
+} ss_wave_opts;
+extern const ss_wave_opts ss_wave_defaults;     /* 2000 Hz, 10 s, A = 1, f = 10, seed 1 */
+
+/* A benchmark signal of one column, a, without unit. */
+ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
+
+/* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the
+ * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
+ss_status ss_add_noise(double *x, size_t n, double rms, unsigned long seed);
+/* The rms of a noise that is snr_db below the variance of x about its mean. */
+double ss_noise_rms(const double *x, size_t n, double snr_db);
+
+/* --- numbers ------------------------------------------------------------------------------- */
+
+#define SS_NUMBER_MAX 32
+/* Write x in the fewest digits that read back to the same double, whatever the locale, and a
+ * terminating NUL; the length is returned.  "nan", "inf" and "-inf" for what is not finite. */
+size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
+/* Read a decimal number as C's strtod does in the C locale, whatever the locale in force; *end is
+ * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */
+double ss_number_parse(const char *text, char **end);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

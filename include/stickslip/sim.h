@@ -1,0 +1,74 @@
+/* stickslip/sim.h -- the motion of a scene: samples at a fixed rate, and every event between. */
+#ifndef STICKSLIP_SIM_H
+#define STICKSLIP_SIM_H
+
+#include <stddef.h>
+#include <stickslip/scene.h>
+#include <stickslip/signal.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One sample.  At an event the side after it is given. */
+typedef struct ss_sample {
+    double t;           /* [s] n / rate from the start of the record */
+    double x, v, a;     /* displacement, velocity, acceleration of the mass [m, m/s, m/s^2] */
+    double f;           /* friction force on the mass, as it stands in the equation of motion [N] */
+    double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
+    double z;           /* displacement of the base [m] */
+    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip */
+} ss_sample;
+
+typedef enum ss_event_kind {
+    SS_STICK,           /* a Coulomb stick or a compliant microstick begins */
+    SS_SLIP,            /* slip begins */
+    SS_REVERSE          /* slip changes direction with no stick between */
+} ss_event_kind;
+
+typedef struct ss_event {
+    double t;           /* [s] from the start of the record */
+    double x, v;        /* [m, m/s] */
+    ss_event_kind kind;
+    int direction;      /* +1 or -1: of the slip that begins; for SS_STICK, of the one that ended */
+} ss_event;
+
+/* Sinks receive samples (n >= 1) and events in time order, valid during the call only: an event
+ * comes before the first sample that it precedes or coincides with.  A non-zero return ends the
+ * run with SS_STOP.  Either may be NULL. */
+typedef int ss_sample_sink(const ss_sample *s, size_t n, void *user);
+typedef int ss_event_sink(const ss_event *e, void *user);
+
+typedef struct ss_sim_opts {
+    const char *method;         /* a GSL odeiv2 step type by its name, or "exact" */
+    double tol;                 /* relative local error a step, 1e-14 ... 1e-1 */
+    unsigned long max_steps;    /* 0: as many as it takes */
+    ss_sample_sink *samples;
+    ss_event_sink *events;
+    void *user;                 /* handed to both sinks */
+} ss_sim_opts;
+extern const ss_sim_opts ss_sim_defaults;       /* rk8pd at 1e-12, no sinks */
+
+typedef struct ss_sim_stats {   /* what a run cost, from the start of settling */
+    unsigned long steps;        /* accepted integration steps */
+    unsigned long rhs;          /* evaluations of the right-hand side */
+    unsigned long events;       /* before the record too */
+} ss_sim_stats;
+
+/* Simulate the scene from the start of settling to the end of the record, in constant memory.
+ * The events never depend on rate.  stats may be NULL.  SS_EINVAL for a scene or option out of
+ * range, SS_ETOL, SS_ECHATTER, SS_EBUDGET with a diagnosis; SS_STOP. */
+ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats,
+                     ss_error *err);
+
+/* The simple case: the whole record as a signal with the columns x, v, a, f, to be freed with
+ * ss_signal_free. */
+ss_status ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err);
+
+const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
+const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

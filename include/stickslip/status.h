@@ -1,0 +1,36 @@
+/* stickslip/status.h -- what a call answers, and why it failed. */
+#ifndef STICKSLIP_STATUS_H
+#define STICKSLIP_STATUS_H
+
+#define SS_VERSION "0.1.0"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ss_status {
+    SS_OK = 0,
+    SS_STOP,        /* a sink asked to stop; not an error */
+    SS_EINVAL,      /* an argument outside its documented range */
+    SS_ENOMEM,      /* an allocation failed */
+    SS_EIO,         /* reading or writing failed; errno says why */
+    SS_EDATA,       /* malformed input; the text names file and line */
+    SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range */
+    SS_ETOL,        /* the step size underflowed before the tolerance was met */
+    SS_ECHATTER,    /* events follow each other faster than double precision can tell apart */
+    SS_EBUDGET      /* the scene needs more than max_steps integration steps */
+} ss_status;
+
+/* Why a call failed, in one line without a newline: "run.tsv:17: expected 4 columns, found 3".
+ * Filled in on failure only.  Wherever a function takes an ss_error *, NULL is allowed. */
+typedef struct ss_error {
+    char text[512];
+} ss_error;
+
+const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
+const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

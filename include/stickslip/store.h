@@ -1,0 +1,48 @@
+/* stickslip/store.h -- signals, events and coefficients in HDF5 files, laid out as
+ * stickslip-hdf5(5) says.
+ *
+ * Each writing call makes a whole file at path, replacing what is there; on failure path is
+ * removed.  A caller that wants to keep the old file until the new one is whole writes to another
+ * name and renames it, as the tools do.  The same input gives the same bytes. */
+#ifndef STICKSLIP_STORE_H
+#define STICKSLIP_STORE_H
+
+#include <stddef.h>
+#include <stickslip/status.h>
+#include <stickslip/signal.h>
+#include <stickslip/sim.h>
+#include <stickslip/morlet.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What goes into one file; NULL or 0 for what is not there. */
+typedef struct ss_record {
+    const ss_signal *signal;                /* /signal/t and a dataset a column */
+    const ss_event *events;                 /* /events/... */
+    size_t n_events;
+    int has_events;                         /* 1: write /events even if there are none */
+    const ss_coefficients *coefficients;    /* /wavelet/... */
+} ss_record;
+
+ss_status ss_store_write(const char *path, const ss_record *record, ss_error *err);
+
+/* 1 if the file is HDF5 (its signature at byte 0, 512, 1024, ...), else 0, also if it cannot be read. */
+int ss_store_is_hdf5(const char *path);
+
+/* Read /signal of one of our files (dataset NULL or ""), or any 1-D or 2-D real dataset by its
+ * path (columns are the shorter dimension), MATLAB v7.3 among them; its clock from opts->rate. */
+ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
+                               const ss_read_opts *opts, ss_error *err);
+ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
+
+/* Open path whatever it holds: a stream, delimited text, HDF5, or HDF5 with ":/path/to/dataset"
+ * behind it. */
+ss_status ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts,
+                         ss_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,13 @@
+/* error.h -- how library functions fail. */
+#ifndef ERROR_H
+#define ERROR_H
+
+#include <stickslip/status.h>
+
+/* Put the text into *err, unless err is NULL, and give the status back: return ss_fail(...). */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);
+
+#endif

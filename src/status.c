@@ -1,0 +1,40 @@
+/* status.c -- status codes to text. */
+#include <stdarg.h>
+#include <stdio.h>
+#include "error.h"
+
+const char *
+ss_strerror(ss_status status)
+{
+    switch (status) {
+    case SS_OK:       return "no error";
+    case SS_STOP:     return "stopped on request";
+    case SS_EINVAL:   return "argument out of range";
+    case SS_ENOMEM:   return "out of memory";
+    case SS_EIO:      return "input or output error";
+    case SS_EDATA:    return "malformed input";
+    case SS_ESCALE:   return "scales outside the range that the record resolves";
+    case SS_ETOL:     return "tolerance cannot be met";
+    case SS_ECHATTER: return "events too close to tell apart";
+    case SS_EBUDGET:  return "step budget used up";
+    }
+    return "unknown status";
+}
+
+const char *
+ss_version(void)
+{
+    return SS_VERSION;
+}
+
+ss_status
+ss_fail(ss_error *err, ss_status status, const char *format, ...)
+{
+    if (err != NULL) {
+        va_list args;
+        va_start(args, format);
+        vsnprintf(err->text, sizeof err->text, format, args);
+        va_end(args);
+    }
+    return status;
+}

@@ -1,0 +1,370 @@
+/* common.c -- what every tool does the same way.
+ *
+ * A tool is one short-lived process, so its name, verbosity and the file that it is writing are
+ * kept here as static state: an exit or a signal anywhere finds what has to be removed. */
+#include "common.h"
+
+#include <errno.h>
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <limits.h>
+#include <math.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+int tool_verbosity;
+static const char *tool_name = "stickslip", *usage_text = "";
+
+/* The file being written: out_temporary is renamed to out_target when whole. */
+static FILE *out_file;
+static char *out_target;
+static char out_temporary[PATH_MAX];    /* "" if there is none; an array, for the signal handler */
+
+static void
+remove_temporary(void)
+{
+    if (out_temporary[0] != '\0')
+        unlink(out_temporary);
+    out_temporary[0] = '\0';
+}
+
+static void
+remove_and_die(int number)
+{
+    remove_temporary();                 /* unlink is async-signal-safe */
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+void
+tool_begin(char *argv[], const char *name, const char *usage)
+{
+    tool_name = name;
+    usage_text = usage;
+    argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
+    gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
+    atexit(remove_temporary);
+}
+
+static void
+say(const char *format, va_list args)
+{
+    fprintf(stderr, "%s: ", tool_name);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+}
+
+#define SAY(format) do { \
+        va_list args; \
+        va_start(args, format); \
+        say(format, args); \
+        va_end(args); \
+    } while (0)
+
+void
+tool_die(const char *format, ...)
+{
+    SAY(format);
+    exit(1);
+}
+
+void
+tool_usage(const char *format, ...)
+{
+    if (format != NULL)
+        SAY(format);
+    exit(2);
+}
+
+void
+tool_warn(const char *format, ...)
+{
+    if (tool_verbosity >= 0)
+        SAY(format);
+}
+
+void
+tool_note(const char *format, ...)
+{
+    if (tool_verbosity > 0)
+        SAY(format);
+}
+
+void
+tool_check(ss_status status, const ss_error *err)
+{
+    if (status == SS_EIO && ferror(stdout))
+        tool_die("write error: %s", strerror(errno));
+    if (status != SS_OK && status != SS_STOP)
+        tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));
+}
+
+void
+tool_help(void)
+{
+    fputs(usage_text, stdout);
+    tool_end();
+    exit(0);
+}
+
+void
+tool_version(void)
+{
+    printf("%s (libstickslip) %s\n", tool_name, ss_version());
+    tool_end();
+    exit(0);
+}
+
+double
+tool_number(const char *option, const char *text, double lo, double hi)
+{
+    char *end;
+    double x = ss_number_parse(text, &end);
+    if (end == text || *end != '\0')
+        tool_usage("%s: '%s' is not a number", option, text);
+    if (!(x >= lo && x <= hi)) {
+        char a[SS_NUMBER_MAX], b[SS_NUMBER_MAX];
+        ss_number_format(a, lo);
+        ss_number_format(b, hi);
+        if (hi >= DBL_MAX)
+            tool_usage("%s: %s is out of range, at least %s is needed", option, text, a);
+        tool_usage("%s: %s is out of range %s ... %s", option, text, a, b);
+    }
+    return x;
+}
+
+long
+tool_integer(const char *option, const char *text, long lo, long hi)
+{
+    char *end;
+    errno = 0;
+    long i = strtol(text, &end, 10);
+    if (end == text || *end != '\0')
+        tool_usage("%s: '%s' is not a whole number", option, text);
+    if (errno != 0 || i < lo || i > hi)
+        tool_usage("%s: %s is out of range %ld ... %ld", option, text, lo, hi);
+    return i;
+}
+
+int
+tool_choice(const char *option, const char *text, const char *const choice[])
+{
+    char list[256] = "";
+    for (int i = 0; choice[i] != NULL; i++) {
+        if (strcmp(text, choice[i]) == 0)
+            return i;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
+                 choice[i]);
+    }
+    tool_usage("%s: '%s' is none of %s", option, text, list);
+}
+
+/* --- input --------------------------------------------------------------------------------- */
+
+const char *
+tool_input(int argc, char *argv[], int first)
+{
+    if (argc - first > 1)
+        tool_usage("unexpected argument '%s'", argv[first + 1]);
+    return argc > first ? argv[first] : "-";
+}
+
+const char *
+tool_input_name(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "<stdin>" : path;
+}
+
+FILE *
+tool_open(const char *path)
+{
+    if (strcmp(path, "-") == 0)
+        return stdin;
+    FILE *in = fopen(path, "rb");
+    struct stat st;
+    if (in != NULL && fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode)) {
+        fclose(in);
+        in = NULL;
+        errno = EISDIR;
+    }
+    if (in == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return in;
+}
+
+ss_signal *
+tool_read_signal(const char *path, const ss_read_opts *opts)
+{
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    if (strcmp(path, "-") == 0)
+        tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
+    else
+        tool_check(ss_load_signal(&signal, path, opts, &err), &err);
+    return signal;
+}
+
+size_t
+tool_column(const ss_header *head, const char *path, const char *name)
+{
+    char list[512] = "";
+    int c = ss_header_column(head, name != NULL ? name : "a");
+    if (c < 0 && name == NULL && head->n_columns == 1)
+        c = 0;
+    if (c >= 0)
+        return (size_t)c;
+    for (size_t i = 0; i < head->n_columns; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
+                 head->column[i].name);
+    if (name == NULL)
+        tool_die("%s: which column? choose with --column from %s", tool_input_name(path), list);
+    tool_die("%s: no column '%s', there are %s", tool_input_name(path), name, list);
+}
+
+/* --- output -------------------------------------------------------------------------------- */
+
+static const char *const ending[] = { ".tsv", ".au", ".h5", ".gp", ".png", ".svg", ".pdf" };
+
+tool_kind
+tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
+{
+    char list[64] = "";
+    if (path == NULL || strcmp(path, "-") == 0)
+        return fallback;
+    const char *dot = strrchr(path, '.');
+    for (int i = TOOL_TSV; i <= TOOL_PDF; i++) {
+        if (!(allowed & 1u << i))
+            continue;
+        if (dot != NULL && strcmp(dot, ending[i]) == 0)
+            return (tool_kind)i;
+        snprintf(list + strlen(list), sizeof list - strlen(list), " %s", ending[i]);
+    }
+    tool_usage("--output: the ending of '%s' picks the form and must be one of%s", path, list);
+}
+
+const char *
+tool_output_path(const char *path)
+{
+    struct stat st;
+    int exists = stat(path, &st) == 0;
+    if (exists && S_ISDIR(st.st_mode))
+        tool_die("%s: %s", path, strerror(EISDIR));
+    if (exists && !S_ISREG(st.st_mode))
+        return path;                    /* a device or a FIFO: nothing to rename */
+
+    out_target = realpath(path, NULL);  /* a link keeps pointing where it does */
+    if (out_target == NULL)
+        out_target = strdup(path);
+    if (out_target == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    const char *base = strrchr(out_target, '/');
+    base = base != NULL ? base + 1 : out_target;
+    char name[PATH_MAX];
+    int fits = snprintf(name, sizeof name, "%.*s.%s.XXXXXX", (int)(base - out_target), out_target,
+                        base) < (int)sizeof name;
+    int fd = fits ? mkstemp(name) : -1;
+    if (fd < 0)
+        tool_die("%s: %s", path, strerror(fits ? errno : ENAMETOOLONG));
+    mode_t mask = umask(0);
+    umask(mask);
+    fchmod(fd, exists ? st.st_mode & 0777 : 0666 & ~mask);
+    close(fd);
+
+    memcpy(out_temporary, name, sizeof name);
+    static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
+    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++) {
+        struct sigaction old;           /* nohup's SIG_IGN stays */
+        if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+            signal(caught[i], remove_and_die);
+    }
+    return out_temporary;
+}
+
+FILE *
+tool_output(const char *path)
+{
+    if (path == NULL || strcmp(path, "-") == 0)
+        return stdout;
+    out_file = fopen(tool_output_path(path), "wb");
+    if (out_file == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return out_file;
+}
+
+void
+tool_end(void)
+{
+    if (out_file != NULL) {
+        int failed = ferror(out_file);
+        if (fclose(out_file) != 0 || failed)
+            tool_die("write error: %s", strerror(errno));
+        out_file = NULL;
+    }
+    if (out_temporary[0] != '\0') {
+        if (rename(out_temporary, out_target) != 0)
+            tool_die("%s: %s", out_target, strerror(errno));
+        out_temporary[0] = '\0';
+    }
+    free(out_target);
+    out_target = NULL;
+    int failed = ferror(stdout);
+    if (fclose(stdout) != 0 || failed)
+        tool_die("write error: %s", strerror(errno));
+}
+
+/* The last line of gnuplot's words is the reason; those above quote the script. */
+static void
+last_line(FILE *words, char *line, int size)
+{
+    char text[256];
+    rewind(words);
+    while (fgets(text, sizeof text, words) != NULL) {
+        text[strcspn(text, "\n")] = '\0';
+        if (text[strspn(text, " \t^")] != '\0')
+            snprintf(line, (size_t)size, "%s", text + strspn(text, " \t"));
+    }
+}
+
+void
+tool_gnuplot(tool_script *write_script, void *user)
+{
+    int fd[2], status;
+    char reason[256] = "gnuplot failed";
+    ss_error err = { "" };
+    FILE *words = tmpfile();
+    if (words == NULL || pipe(fd) != 0)
+        tool_die("%s", strerror(errno));
+    pid_t child = fork();
+    if (child == 0) {
+        dup2(fd[0], STDIN_FILENO);
+        dup2(fileno(words), STDERR_FILENO);
+        close(fd[0]);
+        close(fd[1]);
+        execlp("gnuplot", "gnuplot", "-", (char *)NULL);
+        _exit(127);
+    }
+    close(fd[0]);
+    FILE *script = child > 0 ? fdopen(fd[1], "w") : NULL;
+    if (script == NULL)
+        tool_die("%s", strerror(errno));
+    signal(SIGPIPE, SIG_IGN);           /* if gnuplot gives up, its own words say why */
+    ss_status st = write_script(script, user, &err);
+    fclose(script);
+    signal(SIGPIPE, SIG_DFL);
+    if (waitpid(child, &status, 0) != child)
+        tool_die("%s", strerror(errno));
+    if (st != SS_EIO)
+        tool_check(st, &err);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        tool_die("gnuplot not found; install it, or write a script with -o FILE.gp");
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || st != SS_OK) {
+        last_line(words, reason, sizeof reason);
+        tool_die("%s", reason);
+    }
+    fclose(words);
+}

@@ -1,0 +1,82 @@
+/* common.h -- what every tool does the same way: its name in messages, exit codes, numbers in
+ * options, output that is whole or absent. */
+#ifndef COMMON_H
+#define COMMON_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip.h>
+
+#if defined(__GNUC__)
+#define TOOL_PRINTF __attribute__((format(printf, 1, 2)))
+#define TOOL_NORETURN __attribute__((noreturn))
+#else
+#define TOOL_PRINTF
+#define TOOL_NORETURN
+#endif
+
+/* Call first.  usage is the text of --help. */
+void tool_begin(char *argv[], const char *name, const char *usage);
+/* Call last, before returning 0: finishes standard output, or dies. */
+void tool_end(void);
+
+void tool_help(void) TOOL_NORETURN;                         /* --help: usage on stdout, exit 0 */
+void tool_version(void) TOOL_NORETURN;                      /* --version */
+void tool_die(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;    /* "ss-x: text", exit 1 */
+/* Wrong usage: "ss-x: text", exit 2; NULL after getopt, which has said what is wrong. */
+void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
+void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
+void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
+void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
+
+extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
+
+/* Values of options; wrong ones are wrong usage. */
+double tool_number(const char *option, const char *text, double lo, double hi);
+long tool_integer(const char *option, const char *text, long lo, long hi);
+/* The index of text in the NULL-terminated list. */
+int tool_choice(const char *option, const char *text, const char *const choice[]);
+
+/* The options that tools share, to be put into their long options. */
+enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_FIRST };
+#define TOOL_LONGOPTS \
+    { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
+    { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
+    { "version", no_argument, NULL, TOOL_OPT_VERSION }, { NULL, 0, NULL, 0 }
+
+/* --- input --------------------------------------------------------------------------------- */
+
+/* The one FILE argument: argv[optind], or "-" if there is none; more are wrong usage. */
+const char *tool_input(int argc, char *argv[], int optind);
+/* What messages call a path: "<stdin>" for "-". */
+const char *tool_input_name(const char *path);
+/* Open for reading, or die; "-" is stdin. */
+FILE *tool_open(const char *path);
+/* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
+ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
+/* The index of a column by name or number, or die with the list of those that are there; name
+ * NULL: "a", else the only one. */
+size_t tool_column(const ss_header *head, const char *path, const char *name);
+
+/* --- output -------------------------------------------------------------------------------- */
+
+typedef enum tool_kind {        /* what the ending of -o asks for */
+    TOOL_TSV, TOOL_AU, TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF
+} tool_kind;
+
+/* The kind of path's ending, among those allowed (a bit set of 1u << kind), else wrong usage that
+ * names them; standard output (NULL or "-") has the fallback. */
+tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
+
+/* Open what -o names: NULL or "-" is standard output, else a temporary file beside path.  It gets
+ * its name in tool_end; in tool_die, at exit and on SIGINT, SIGTERM and SIGHUP it is removed. */
+FILE *tool_output(const char *path);
+/* The same for a library call that wants a path: the name of the temporary file. */
+const char *tool_output_path(const char *path);
+
+/* Run gnuplot on the script that write_script writes, into a picture at path (or standard output);
+ * dies with gnuplot's own words if it fails. */
+typedef ss_status tool_script(FILE *out, void *user, ss_error *err);
+void tool_gnuplot(tool_script *write_script, void *user);
+
+#endif
