@@ -9,7 +9,7 @@ PKG_CONFIG ?= pkg-config
 HDF5    := $(firstword $(foreach p,hdf5-serial hdf5,$(shell $(PKG_CONFIG) --exists $p 2>/dev/null && echo $p)))
 PC       = gsl $(HDF5)
 SANFLAGS = -fsanitize=address,undefined -fno-sanitize-recover=all   # any report fails the test
-ALL_CFLAGS = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
+ALL_CFLAGS = -std=c11 -D_XOPEN_SOURCE=700 -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
 	-fPIC $(shell $(PKG_CONFIG) --cflags $(PC)) $(CFLAGS) $(if $(SAN),$(SANFLAGS))
 ALL_LDFLAGS = $(if $(SAN),$(SANFLAGS)) $(LDFLAGS)
 LIBS     = $(shell $(PKG_CONFIG) --libs-only-L $(PC)) -lhdf5_hl $(shell $(PKG_CONFIG) --libs $(PC)) -lm
