@@ -13,7 +13,10 @@ check() {
 
 # shellcheck disable=SC2046  # flags are a list
 $CCLD -o shared-example "$SRC/tests/examples/contour.c" $(pkg-config --cflags --libs stickslip gsl)
-LD_LIBRARY_PATH=$PWD/usr/lib DYLD_LIBRARY_PATH=$PWD/usr/lib check shared
+LD_LIBRARY_PATH=$PWD/usr/lib DYLD_LIBRARY_PATH=$PWD/usr/lib
+export LD_LIBRARY_PATH DYLD_LIBRARY_PATH
+check shared
+unset LD_LIBRARY_PATH DYLD_LIBRARY_PATH
 
 rm usr/lib/libstickslip.*[!a]
 # shellcheck disable=SC2046  # flags are a list
