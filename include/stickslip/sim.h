@@ -6,9 +6,7 @@
 #include <stickslip/scene.h>
 #include <stickslip/signal.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 /* One sample.  At an event the side after it is given. */
 typedef struct ss_sample {
@@ -85,7 +83,5 @@ ss_status ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err);
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif
