@@ -9,9 +9,7 @@
 #include <stdio.h>
 #include <stickslip/status.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 typedef struct ss_column {
     char *name;                 /* "a"; no blanks */
@@ -28,10 +26,14 @@ typedef struct ss_header {
     char **note;                /* "key: value" lines of the source, passed on; never rate, start, columns */
 } ss_header;
 
-/* Build a header: every string is copied.  A note with a key that is there already replaces it. */
-ss_header *ss_header_new(double rate, double start);
+/* Build a header: every string is copied.  NULL if there is no memory. */
+ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
 ss_header *ss_header_copy(const ss_header *head);
+/* Append a column.  Blanks and slashes in its name become "_", and a name that is there already
+ * gets "_2", "_3", ... behind it; unit may be NULL or "".  SS_EINVAL: no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
+/* Append a note; one with a key that is there already replaces it.  Newlines become blanks.
+ * SS_EINVAL: the key is rate, start, columns or empty, or has a colon in it. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
@@ -39,25 +41,34 @@ void ss_header_free(ss_header *head);                                       /* N
 /* The index of a column given by name, or by its number counted from 1; -1 if it is not there. */
 int ss_header_column(const ss_header *head, const char *name);
 
+/* The first row at time t or after it (by no more than 1e-6 sample periods before it), from 0. */
+size_t ss_header_row(const ss_header *head, double t);
+
+/* A copy with the n columns given by their index, in that order, that starts at row first. */
+ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
+                           size_t first);
+
 /* --- reading ------------------------------------------------------------------------------- */
 
 typedef struct ss_read_opts {
     const char *time;           /* delimited text: column of time by name or number; NULL: found by
                                    its name (t, time, ...), or the first column if it ascends uniformly */
-    double rate;                /* [Hz] for input without a clock; 0: the input must have one */
+    double rate;                /* [Hz] for input without a clock; 0: the input must have one.  With
+                                   delimited text the first row is then at 0, whatever its columns */
 } ss_read_opts;
 
 typedef struct ss_reader ss_reader;
 
 /* Open a stream of any of the three kinds, told apart by its first bytes.  The reader does not own
- * in.  name stands for the file in messages.  opts may be NULL.  Text and AU streams are read as
- * they come, in constant memory; delimited text is read whole, to check its clock. */
+ * in, but reads past its buffer, so nothing may have been read from a pipe before.  name stands for
+ * the file in messages.  opts may be NULL.  Text and AU streams are read as they come, in constant
+ * memory; delimited text is read whole, to check its clock. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);
 
 /* Read up to max rows of n_columns values each, one row after the other, into rows.  *n = 0 with
- * SS_OK is the end.  Fewer than max may come where a pipe is slow. */
+ * SS_OK is the end.  Fewer than max may come: what is there is given before more is waited for. */
 ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
 
@@ -72,6 +83,9 @@ ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_r
                          ss_error *err);
 /* n rows of zeros under a copy of head. */
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n);
+/* A copy of some columns, in the order given by their index, and of the rows [first, end). */
+ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
+                           size_t n_columns, size_t first, size_t end);
 void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 
 /* --- writing ------------------------------------------------------------------------------- */
@@ -83,11 +97,11 @@ typedef enum ss_format {
 
 typedef struct ss_writer ss_writer;
 
-/* Start a stream on out, which the writer does not own; head is copied. */
+/* Start a stream on out, which the writer does not own, with its header; head is copied. */
 ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head);
-/* Append n rows of n_columns values each, one row after the other. */
+/* Append n rows of n_columns values each, one row after the other; SS_EIO if out refuses them. */
 ss_status ss_writer_rows(ss_writer *writer, const double *rows, size_t n);
-/* Flush what is buffered to out: SS_EIO if any write failed. */
+/* Flush out: SS_EIO if any write failed. */
 ss_status ss_writer_flush(ss_writer *writer);
 void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flush */
 
@@ -116,12 +130,18 @@ typedef struct ss_wave_opts {
 } ss_wave_opts;
 extern const ss_wave_opts ss_wave_defaults;     /* 2000 Hz, 10 s, A = 1, f = 10, seed 1 */
 
-/* A benchmark signal of one column, a, without unit. */
+/* A benchmark signal of one column, a, without unit.  Phases are exact to 1e-15 cycles in a record of
+ * any length. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
 /* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the
  * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
 ss_status ss_add_noise(double *x, size_t n, double rms, unsigned long seed);
+/* The same piece by piece: the next value, of standard deviation 1. */
+typedef struct ss_noise ss_noise;
+ss_status ss_noise_new(ss_noise **out, unsigned long seed);
+double ss_noise_next(ss_noise *noise);
+void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
 
@@ -129,13 +149,11 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
 
 #define SS_NUMBER_MAX 32
 /* Write x in the fewest digits that read back to the same double, whatever the locale, and a
- * terminating NUL; the length is returned.  "nan", "inf" and "-inf" for what is not finite. */
+ * terminating NUL, laid out as by %.17g; the length is returned.  "nan", "inf" and "-inf" for what is not finite. */
 size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
 /* Read a decimal number as C's strtod does in the C locale, whatever the locale in force; *end is
  * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */
 double ss_number_parse(const char *text, char **end);
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

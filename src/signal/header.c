@@ -1,0 +1,343 @@
+/* header.c -- what a signal is made of: rate, start, columns, notes. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "stream.h"
+
+ss_header *
+ss_header_new(double rate, double start)
+{
+    ss_header *head = calloc(1, sizeof *head);
+    if (head == NULL)
+        return NULL;
+    head->rate = rate;
+    head->start = start;
+    head->has_time = 1;
+    return head;
+}
+
+void
+ss_header_free(ss_header *head)
+{
+    if (head == NULL)
+        return;
+    for (size_t i = 0; i < head->n_columns; i++) {
+        free(head->column[i].name);
+        free(head->column[i].unit);
+    }
+    for (size_t i = 0; i < head->n_notes; i++)
+        free(head->note[i]);
+    free(head->column);
+    free(head->note);
+    free(head);
+}
+
+static int
+copy_notes(ss_header *to, const ss_header *from)
+{
+    to->note = calloc(from->n_notes + 1, sizeof *to->note);
+    if (to->note == NULL)
+        return 0;
+    for (; to->n_notes < from->n_notes; to->n_notes++) {
+        to->note[to->n_notes] = strdup(from->note[to->n_notes]);
+        if (to->note[to->n_notes] == NULL)
+            return 0;
+    }
+    return 1;
+}
+
+ss_status
+ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
+                 size_t first)
+{
+    ss_header *copy = ss_header_new(head->rate, head->start);
+    *out = NULL;
+    if (copy == NULL || !copy_notes(copy, head)) {
+        ss_header_free(copy);
+        return SS_ENOMEM;
+    }
+    copy->has_time = head->has_time;
+    if (first > 0)
+        copy->start += (double)first / head->rate;
+    for (size_t i = 0; i < n; i++) {
+        ss_status st = SS_EINVAL;
+        if (column[i] < head->n_columns)
+            st = ss_header_add_column(copy, head->column[column[i]].name,
+                                      head->column[column[i]].unit);
+        if (st != SS_OK) {
+            ss_header_free(copy);
+            return st;
+        }
+    }
+    *out = copy;
+    return SS_OK;
+}
+
+ss_header *
+ss_header_copy(const ss_header *head)
+{
+    ss_header *copy = NULL;
+    size_t *all = malloc((head->n_columns + 1) * sizeof *all);
+    if (all == NULL)
+        return NULL;
+    for (size_t i = 0; i < head->n_columns; i++)
+        all[i] = i;
+    ss_header_select(&copy, head, all, head->n_columns, 0);
+    free(all);
+    return copy;
+}
+
+/* --- columns ------------------------------------------------------------------------------- */
+
+static int
+is_blank(char c)
+{
+    return (unsigned char)c <= ' ' || c == 127;
+}
+
+static int
+find_name(const ss_header *head, const char *name)
+{
+    for (size_t i = 0; i < head->n_columns; i++)
+        if (strcmp(head->column[i].name, name) == 0)
+            return (int)i;
+    return -1;
+}
+
+/* A name without blanks, slashes, or one that is there already. */
+static char *
+clean_name(const ss_header *head, const char *name)
+{
+    size_t size = strlen(name) + 24;
+    char *clean = malloc(size), *p = clean;
+    if (clean == NULL)
+        return NULL;
+    for (; *name != '\0'; name++)
+        *p++ = is_blank(*name) || *name == '/' ? '_' : *name;
+    *p = '\0';
+    for (unsigned i = 2; find_name(head, clean) >= 0; i++)
+        snprintf(p, size - (size_t)(p - clean), "_%u", i);
+    return clean;
+}
+
+/* A unit whose brackets match, so that a label can be read back. */
+static char *
+clean_unit(const char *unit)
+{
+    char *clean = strdup(unit != NULL ? unit : "");
+    int depth = 0, lowest = 0;
+    if (clean == NULL)
+        return NULL;
+    for (char *p = clean; *p != '\0'; p++) {
+        if (is_blank(*p))
+            *p = ' ';
+        depth += (*p == '(') - (*p == ')');
+        lowest = depth < lowest ? depth : lowest;
+    }
+    if (depth != 0 || lowest < 0)
+        for (char *p = clean; (p = strpbrk(p, "()")) != NULL; )
+            *p = ' ';
+    return clean;
+}
+
+ss_status
+ss_header_add_column(ss_header *head, const char *name, const char *unit)
+{
+    if (name == NULL || *name == '\0')
+        return SS_EINVAL;
+    ss_column *more = realloc(head->column, (head->n_columns + 1) * sizeof *more);
+    if (more == NULL)
+        return SS_ENOMEM;
+    head->column = more;
+    ss_column c = { clean_name(head, name), clean_unit(unit) };
+    if (c.name == NULL || c.unit == NULL) {
+        free(c.name);
+        free(c.unit);
+        return SS_ENOMEM;
+    }
+    head->column[head->n_columns++] = c;
+    return SS_OK;
+}
+
+int
+ss_header_column(const ss_header *head, const char *name)
+{
+    int c = find_name(head, name);
+    if (c >= 0 || *name < '0' || *name > '9')
+        return c;
+    char *end;
+    unsigned long number = strtoul(name, &end, 10);
+    return *end == '\0' && number >= 1 && number <= head->n_columns ? (int)(number - 1) : -1;
+}
+
+size_t
+ss_header_row(const ss_header *head, double t)
+{
+    double row = ceil((t - head->start) * head->rate - 1e-6);
+    if (!(row > 0))
+        return 0;
+    return row < (double)(SIZE_MAX / 2) ? (size_t)row : SIZE_MAX / 2;
+}
+
+/* --- notes --------------------------------------------------------------------------------- */
+
+/* The index of the note with this key, or n_notes; *value is what stands behind the colon. */
+static size_t
+find_note(const ss_header *head, const char *key, size_t length, const char **value)
+{
+    size_t i;
+    for (i = 0; i < head->n_notes; i++)
+        if (strncmp(head->note[i], key, length) == 0 && head->note[i][length] == ':') {
+            *value = head->note[i] + length + 1;
+            *value += **value == ' ';
+            break;
+        }
+    return i;
+}
+
+const char *
+ss_header_find_note(const ss_header *head, const char *key)
+{
+    const char *value = NULL;
+    find_note(head, key, strlen(key), &value);
+    return value;
+}
+
+ss_status
+ss_header_note(ss_header *head, const char *key, const char *value)
+{
+    const char *old;
+    size_t length = strlen(key), i = find_note(head, key, length, &old);
+    if (length == 0 || strchr(key, ':') != NULL || strcmp(key, "rate") == 0
+        || strcmp(key, "start") == 0 || strcmp(key, "columns") == 0)
+        return SS_EINVAL;
+    char *note = malloc(length + strlen(value) + 3);
+    if (note == NULL)
+        return SS_ENOMEM;
+    sprintf(note, "%s: %s", key, value);
+    for (char *p = note; (p = strpbrk(p, "\r\n")) != NULL; )
+        *p = ' ';
+    if (i == head->n_notes) {
+        char **more = realloc(head->note, (i + 1) * sizeof *more);
+        if (more == NULL) {
+            free(note);
+            return SS_ENOMEM;
+        }
+        head->note = more;
+        head->note[head->n_notes++] = NULL;
+    }
+    free(head->note[i]);
+    head->note[i] = note;
+    return SS_OK;
+}
+
+/* --- as text ------------------------------------------------------------------------------- */
+
+static void
+write_label(FILE *out, const ss_column *c)
+{
+    const char *unit = c->unit;
+    if (*unit == '\0')
+        fprintf(out, " %s", c->name);
+    else if (strpbrk(unit, "/ (") != NULL)
+        fprintf(out, " %s/(%s)", c->name, unit);
+    else
+        fprintf(out, " %s/%s", c->name, unit);
+}
+
+char *
+header_text(const ss_header *head, size_t *length)
+{
+    char *text = NULL, number[SS_NUMBER_MAX];
+    FILE *out = open_memstream(&text, length);
+    if (out == NULL)
+        return NULL;
+    fputs(STREAM_MAGIC "\n", out);
+    for (size_t i = 0; i < head->n_notes; i++)
+        fprintf(out, "# %s\n", head->note[i]);
+    ss_number_format(number, head->rate);
+    fprintf(out, "# rate: %s\n", number);
+    ss_number_format(number, head->start);
+    fprintf(out, "# start: %s\n# columns:", number);
+    if (head->has_time)
+        fputs(" t/s", out);
+    for (size_t i = 0; i < head->n_columns; i++)
+        write_label(out, &head->column[i]);
+    fputc('\n', out);
+    int failed = ferror(out);
+    if (fclose(out) == 0 && !failed)
+        return text;
+    free(text);
+    return NULL;
+}
+
+void
+split_label(char *label, char **name, char **unit)
+{
+    char *slash = strchr(label, '/');
+    *name = label;
+    *unit = label + strlen(label);
+    if (slash == NULL)
+        return;
+    *slash = '\0';
+    size_t n = strlen(slash + 1);
+    if (slash[1] == '(' && slash[n] == ')') {
+        slash[n] = '\0';
+        slash++;
+    }
+    *unit = slash + 1;
+}
+
+static ss_status
+take_columns(ss_header *head, char *p, const char **reason)
+{
+    head->has_time = 0;
+    for (int first = 1; *(p += strspn(p, " \t")) != '\0'; first = 0) {
+        char *label = p, *name, *unit;
+        int depth = 0, more;
+        for (; *p != '\0' && (depth > 0 || (*p != ' ' && *p != '\t')); p++)
+            depth += (*p == '(') - (*p == ')' && depth > 0);
+        more = *p != '\0';
+        *p = '\0';
+        p += more;
+        split_label(label, &name, &unit);
+        if (first && strcmp(name, "t") == 0 && strcmp(unit, "s") == 0) {
+            head->has_time = 1;
+            continue;
+        }
+        ss_status st = ss_header_add_column(head, name, unit);
+        *reason = "a column without a name";
+        if (st != SS_OK)
+            return st == SS_EINVAL ? SS_EDATA : st;
+    }
+    *reason = "no column but time";
+    return head->n_columns > 0 ? SS_OK : SS_EDATA;
+}
+
+ss_status
+header_take(ss_header *head, char *line, const char **reason)
+{
+    char *key = line + 1, *colon = strchr(line, ':'), *end;
+    if (colon == NULL)
+        return SS_OK;
+    *colon = '\0';
+    key += strspn(key, " \t");
+    char *value = colon + 1 + strspn(colon + 1, " \t");
+    double x = ss_number_parse(value, &end);
+    int number = end > value && *end == '\0' && isfinite(x);
+    if (strcmp(key, "rate") == 0) {
+        *reason = "the rate is not a number above 0";
+        head->rate = x;
+        return number && x > 0 ? SS_OK : SS_EDATA;
+    }
+    if (strcmp(key, "start") == 0) {
+        *reason = "the start is not a number";
+        head->start = x;
+        return number ? SS_OK : SS_EDATA;
+    }
+    if (strcmp(key, "columns") == 0) {
+        *reason = "columns are named twice";
+        return head->n_columns > 0 ? SS_EDATA : take_columns(head, value, reason);
+    }
+    return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
+}

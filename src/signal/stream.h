@@ -1,0 +1,60 @@
+/* stream.h -- what the readers and writers of signals share. */
+#ifndef STREAM_H
+#define STREAM_H
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stickslip/signal.h>
+
+/* Bytes of a stream, as they come: never waits for more than is asked for. */
+struct input {
+    FILE *file;
+    const char *name;           /* in messages; owned */
+    char *buffer;
+    size_t capacity, lo, hi;    /* what is there is buffer[lo ... hi) */
+    size_t scanned;             /* no newline before this */
+    int ended;
+    unsigned long line;         /* of the line read last, from 1 */
+};
+ss_status input_open(struct input *in, FILE *file, const char *name, ss_error *err);
+void input_close(struct input *in);
+/* Have n bytes in the buffer, or all that there are until the end. */
+ss_status input_need(struct input *in, size_t n, ss_error *err);
+/* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0
+ * and *line = NULL at the end of the stream. */
+ss_status input_line(struct input *in, char **line, size_t *length, ss_error *err);
+int input_has_line(struct input *in);           /* is a whole line in the buffer? */
+
+typedef ss_status read_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+struct ss_reader {
+    struct input in;
+    ss_header *head;
+    read_rows *rows;
+    uint64_t row;               /* rows given so far */
+    int encoding;               /* AU: of its values */
+    uint64_t bytes_left;        /* AU: of its data, UINT64_MAX if unknown */
+    double *values;             /* delimited text: all rows, one after the other */
+    size_t n_rows;
+};
+ss_status text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+ss_status au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+ss_status delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+
+/* Refuse options for input without a clock, as this one has one. */
+ss_status refuse_clock(const ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+
+/* --- headers ------------------------------------------------------------------------------- */
+
+#define STREAM_MAGIC "# stickslip signal 1"
+/* The lines of a header, to be freed, or NULL if there is no memory. */
+char *header_text(const ss_header *head, size_t *length);
+/* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
+ss_status header_take(ss_header *head, char *line, const char **reason);
+/* "name", "name/unit", "name/(unit)" into its two parts, in place. */
+void split_label(char *label, char **name, char **unit);
+
+/* Time stamps t of n rows, of which row i stands in line line[i]: a uniform clock? */
+ss_status find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
+                     double *rate, ss_error *err);
+
+#endif
