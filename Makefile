@@ -54,7 +54,7 @@ MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o)
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -96,7 +96,9 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
-	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(CMOCKA_LIBS) $(LIBS)
+	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
+
+$(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
 
 # Objects are made again when the Makefile or the flags change, and not before the packages that
 # they need are there.

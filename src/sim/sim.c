@@ -66,7 +66,7 @@ motion_of(const ss_scene *scene)
 typedef struct record {
     const ss_scene *scene;
     const ss_sim_opts *opts;
-    instant settle, end;                /* of the record, from the start of settling */
+    instant end;                        /* of the record, from the start of settling */
     size_t n, i;                        /* samples in all, next sample */
     size_t filled;
     ss_sample buffer[256];
@@ -83,16 +83,31 @@ flush(record *r)
     return SS_OK;
 }
 
+static instant
+instant_of_sample(const record *r, size_t i)
+{
+    return instant_add(instant_sample((double)i, r->scene->rate), r->scene->settle);
+}
+
 /* The time from m->u to the i-th sample of the record. */
 static double
 until_sample(const record *r, const motion *m, size_t i)
 {
-    instant t = instant_sample((double)i, r->scene->rate);
-    t = instant_add(instant_add(t, r->settle.hi), r->settle.lo);
-    return instant_diff(t, m->origin) - m->u;
+    return instant_diff(instant_of_sample(r, i), m->origin) - m->u;
 }
 
-/* All samples up to, not including, h after m->u.  A mass at rest keeps its state. */
+/* The i-th sample, s after m->u in state q. */
+static void
+fill_sample(ss_sample *sample, const record *r, const motion *m, double s, const double q[])
+{
+    double u = m->u + s;
+    m->model->sample(m, u, q, sample);
+    sample->t = (double)r->i / r->scene->rate;
+    sample->z = motion_drive(m, u) / r->scene->stiffness;
+}
+
+/* All samples up to, not including, h after m->u.  A mass at rest keeps its state, and as that may
+ * last for ever, each of its samples has its own origin. */
 static ss_status
 write_samples(record *r, engine *e, int still, double h)
 {
@@ -101,20 +116,23 @@ write_samples(record *r, engine *e, int still, double h)
         double q[MAX_DIM], s = until_sample(r, m, r->i);
         if (!(s < h))
             break;
+        s = fmax(s, 0);
         if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
             ss_status st = flush(r);
             if (st != SS_OK)
                 return st;
         }
         ss_sample *sample = &r->buffer[r->filled++];
-        s = fmax(s, 0);
-        if (still)
-            memcpy(q, m->q, sizeof q);
-        else
+        if (still) {
+            motion then = *m;
+            then.origin = instant_of_sample(r, r->i);
+            then.u = 0;
+            motion_rebase(&then);
+            fill_sample(sample, r, &then, 0, then.q);
+        } else {
             e->type->at(e, s, q);
-        m->model->sample(m, m->u + s, q, sample);
-        sample->t = (double)r->i / r->scene->rate;
-        sample->z = r->scene->base_amplitude * cos(m->theta + m->omega * (m->u + s));
+            fill_sample(sample, r, m, s, q);
+        }
     }
     return SS_OK;
 }
@@ -123,7 +141,7 @@ static ss_status
 write_event(record *r, const motion *m, ss_event *e)
 {
     instant t = instant_add(m->origin, m->u);
-    e->t = instant_diff(t, r->settle);
+    e->t = (t.hi - r->scene->settle) + t.lo;
     e->x = m->x_ref + m->q[0];
     e->v = m->q[1];
     if (!(e->t >= 0 && instant_diff(t, r->end) < 0) || r->opts->events == NULL)
@@ -264,7 +282,6 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (st != SS_OK)
         return st;
     record r = { .scene = scene, .opts = opts, .n = ss_scene_samples(scene),
-                 .settle = { scene->settle, 0 },
                  .end = instant_sum(scene->settle, scene->duration) };
     motion m = motion_of(scene);
     engine *e = NULL;
