@@ -116,7 +116,7 @@ DEPS = CC=$(call quote,$(CC)) PKG_CONFIG=$(call quote,$(PKG_CONFIG)) INSTALL_DEP
 	sh tools/install-deps.sh
 
 needs:
-	@INSTALL_DEPS= && $(DEPS) --report build
+	@$(DEPS) --report build
 
 deps:
 	@$(DEPS) build check paper
