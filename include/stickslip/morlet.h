@@ -27,9 +27,8 @@ typedef enum ss_norm {
 typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } ss_detrend;
 
 typedef enum ss_engine {
-    SS_ENGINE_AUTO,             /* the cheaper one that keeps the accuracy */
-    SS_ENGINE_QUADRATURE,       /* the definition, wavelet truncated as far as accuracy allows */
-    SS_ENGINE_FFT
+    SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
+    SS_ENGINE_QUADRATURE        /* the definition, wavelet truncated as far as accuracy allows */
 } ss_engine;
 
 typedef struct ss_morlet_opts {
@@ -39,10 +38,11 @@ typedef struct ss_morlet_opts {
     int dense;                  /* 1: one coefficient a sample at every scale */
     double fmin, fmax;          /* [Hz] scales labelled fmin to fmax; 0: the default, see below */
     int octaves;                /* 1: scales from 2^m0 to 2^m1 s instead */
-    double m0, m1;              /* m0 <= m1 */
+    double m0, m1;              /* -500 <= m0 <= m1 <= 500 */
     ss_engine engine;
     double accuracy;            /* TOL  1e-13 ... 1e-1: the error of the sum is at most TOL x (largest
-                                   |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x| */
+                                   |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x|, with the
+                                   1/a norm 16 DBL_EPSILON max|x| */
     ss_norm norm;
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
     ss_detrend detrend;         /* what is subtracted from the record first */
@@ -80,19 +80,23 @@ size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficie
 ss_status ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err);
 void ss_morlet_free(ss_morlet *plan);                               /* NULL is allowed */
 
-/* W at one point by the definition, in opts' convention (its grid fields are not used). */
+/* W at one point by the definition, as exactly as double precision allows, in opts' convention
+ * (its grid fields and its accuracy are not used; detrend is).  a > 0, b within the record. */
 ss_status ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
                           double a, double b, double w[2], ss_error *err);
 
-double ss_scale_b(const ss_scale *scale, size_t k);                 /* [s] from the first sample */
+/* b of translation k [s] from the first sample.  W is taken at this double exactly, except that
+ * one which is the time n / rate of a sample, rounded, stands for that sample. */
+double ss_scale_b(const ss_scale *scale, size_t k);
 /* 1 inside the cone of influence of a record of n samples: nearer than sqrt(2) a to an end, the
  * ends being the first and the last sample. */
 int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
 /* Coefficients with the grid they stand on, as computed or as read back. */
 typedef struct ss_coefficients {
-    ss_header *head;            /* of the signal: its column transformed, its rate, start and notes,
-                                   the options of the transform among them */
+    ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
+                                   and the options as notes: samples, column, unit, center, voices,
+                                   step (or dense: yes), norm, admissible, detrend, accuracy, method */
     size_t n;                   /* samples of the record */
     double center;              /* omega_c */
     size_t n_scales;

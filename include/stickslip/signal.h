@@ -148,8 +148,9 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
 /* --- numbers ------------------------------------------------------------------------------- */
 
 #define SS_NUMBER_MAX 32
-/* Write x in the fewest digits that read back to the same double, whatever the locale, and a
- * terminating NUL, laid out as by %.17g; the length is returned.  "nan", "inf" and "-inf" for what is not finite. */
+/* Write x in the fewest digits that read back to the same double, laid out as by %.17g but whatever
+ * the locale, and a terminating NUL; the length is returned.  What is not finite is "nan", "inf"
+ * or "-inf". */
 size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
 /* Read a decimal number as C's strtod does in the C locale, whatever the locale in force; *end is
  * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */

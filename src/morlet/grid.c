@@ -1,0 +1,230 @@
+/* grid.c -- which scales and translations a transform computes, and which it refuses.
+ *
+ * Scales are numbered: a = 2^(j/V).  Whatever limits them (a frequency, octaves, the sampling, the
+ * record's length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale
+ * includes it, and then of integers j; so a request is refused for a scale that it contains, not
+ * for the frequency it is worded in. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "error.h"
+#include "morlet/plan.h"
+
+#define SLACK 1e-9          /* in j; rounding of V log2 a is below 1e-10 */
+
+const ss_morlet_opts ss_morlet_defaults = {
+    .center = 6, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
+    .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE
+};
+
+typedef struct range {
+    double lo, hi;          /* of j, whole numbers; empty if lo > hi */
+} range;
+
+static range
+whole(double a_lo, double a_hi, int voices)
+{
+    return (range){ ceil(voices * log2(a_lo) - SLACK), floor(voices * log2(a_hi) + SLACK) };
+}
+
+static double
+label(double j, const ss_morlet_opts *opts)
+{
+    return opts->center / (2 * M_PI * exp2(j / opts->voices));
+}
+
+/* Scales that the sampling resolves and the record holds, see stickslip/morlet.h. */
+static range
+usable(size_t n, double rate, const ss_morlet_opts *opts)
+{
+    double a_lo = (opts->center + sqrt(-2 * log(opts->accuracy))) / (M_PI * rate);
+    double a_hi = (double)n / rate / (2 * sqrt(2));
+    return whole(a_lo, a_hi, opts->voices);
+}
+
+static range
+asked(size_t n, double rate, const ss_morlet_opts *opts, range use)
+{
+    double per_f = opts->center / (2 * M_PI);   /* a = per_f / f */
+    if (opts->octaves)
+        return whole(exp2(opts->m0), exp2(opts->m1), opts->voices);
+    range ask = use;
+    if (opts->fmax > 0)
+        ask.lo = whole(per_f / opts->fmax, 1, opts->voices).lo;
+    if (opts->fmin > 0)
+        ask.hi = whole(1, per_f / opts->fmin, opts->voices).hi;
+    else {
+        double four_cycles = whole(1, per_f * (double)n / rate / 4, opts->voices).hi;
+        if (four_cycles >= ask.lo)
+            ask.hi = fmin(use.hi, four_cycles);
+    }
+    return ask;
+}
+
+static ss_status
+check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts *opts,
+              ss_error *err)
+{
+    int complete = opts->octaves || (opts->fmin > 0 && opts->fmax > 0);
+    if (use.lo > use.hi && !(opts->force && complete)) {
+        double need = ceil(2 * sqrt(2) * rate * exp2(use.lo / opts->voices));
+        return ss_fail(err, SS_ESCALE, "a record of %zu sample%s at %g Hz is too short for any "
+                       "scale that its sampling resolves within accuracy %g; %.0f samples are "
+                       "needed%s", n, n == 1 ? "" : "s", rate, opts->accuracy, need,
+                       opts->force ? ", or --force with both limits of frequency" : "");
+    }
+    if (!opts->force && (ask.lo < use.lo || ask.hi > use.hi))
+        return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz "
+                       "within accuracy %g, not from %.6g to %.6g Hz; --force computes them all "
+                       "the same", n, rate, label(use.hi, opts), label(use.lo, opts),
+                       opts->accuracy, label(ask.hi, opts), label(ask.lo, opts));
+    if (ask.lo > ask.hi)
+        return ss_fail(err, SS_EINVAL, "no scale lies between these limits of frequency; %d voices "
+                       "an octave are next to them at %.6g and %.6g Hz", opts->voices,
+                       label(ask.lo, opts), label(ask.hi, opts));
+    if (fmax(fabs(ask.lo), fabs(ask.hi)) > 500.0 * opts->voices)
+        return ss_fail(err, SS_EINVAL, "scales must lie between 2^-500 and 2^500 s");
+    return SS_OK;
+}
+
+ss_status
+morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
+{
+    if (n == 0)
+        return ss_fail(err, SS_EINVAL, "the record is empty");
+    if (!(rate >= 1e-100 && rate <= 1e100))
+        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
+    if (!(opts->center >= 2 && opts->center <= 1000))
+        return ss_fail(err, SS_EINVAL, "center %g is out of range 2 ... 1000", opts->center);
+    if (opts->voices < 1 || opts->voices > 1024)
+        return ss_fail(err, SS_EINVAL, "voices %d is out of range 1 ... 1024", opts->voices);
+    if (!opts->dense && !(opts->step > 0 && opts->step <= 1e100))
+        return ss_fail(err, SS_EINVAL, "step %g is not positive", opts->step);
+    if (!(opts->accuracy >= 1e-13 && opts->accuracy <= 0.1))
+        return ss_fail(err, SS_EINVAL, "accuracy %g is out of range 1e-13 ... 0.1",
+                       opts->accuracy);
+    if (!(opts->fmin >= 0 && opts->fmin <= 1e100 && opts->fmax >= 0 && opts->fmax <= 1e100)
+        || (opts->fmin > 0 && opts->fmax > 0 && opts->fmin > opts->fmax))
+        return ss_fail(err, SS_EINVAL, "no frequencies between fmin %g and fmax %g Hz",
+                       opts->fmin, opts->fmax);
+    if (opts->octaves && !(opts->m0 >= -500 && opts->m0 <= opts->m1 && opts->m1 <= 500))
+        return ss_fail(err, SS_EINVAL, "octaves %g:%g are not ascending in -500 ... 500",
+                       opts->m0, opts->m1);
+    if ((unsigned)opts->norm > SS_NORM_L1 || (unsigned)opts->detrend > SS_DETREND_LINEAR
+        || (unsigned)opts->engine > SS_ENGINE_QUADRATURE)
+        return ss_fail(err, SS_EINVAL, "unknown norm, detrend or engine");
+    return SS_OK;
+}
+
+double
+ss_scale_b(const ss_scale *scale, size_t k)
+{
+    return (double)k * scale->b_num / scale->b_den;
+}
+
+int
+ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate)
+{
+    double b = ss_scale_b(scale, k), cone = sqrt(2) * scale->a;
+    return b < cone || (double)(n - 1) / rate - b < cone;
+}
+
+/* The floor is within one of the count that ss_scale_b gives, rounding included. */
+static ss_status
+count_translations(ss_scale *scale, size_t n, double rate, ss_error *err)
+{
+    double last = (double)(n - 1) / rate, count = floor(last * scale->b_den / scale->b_num);
+    if (!(count < 0x1p50))
+        return ss_fail(err, SS_EINVAL, "the translation step %g s is too small for a record of "
+                       "%g s", scale->b_num / scale->b_den, last);
+    scale->n = (size_t)count;
+    while (ss_scale_b(scale, scale->n) <= last)
+        scale->n++;
+    while (ss_scale_b(scale, scale->n - 1) > last)
+        scale->n--;
+    return SS_OK;
+}
+
+ss_status
+morlet_scale(ss_scale *scale, int j, double a, size_t n, double rate, const ss_morlet_opts *opts,
+             ss_error *err)
+{
+    int v = opts->voices, octave = j >= 0 ? j / v : -((v - 1 - j) / v);     /* rounded down */
+    if (isnan(a))       /* octaves apart by exactly 2 */
+        a = ldexp(exp2((double)(j - octave * v) / v), octave);
+    *scale = (ss_scale){ .j = j, .m = (double)j / v, .a = a, .f = opts->center / (2 * M_PI * a),
+                         .b_num = opts->dense ? 1 : opts->step * a,
+                         .b_den = opts->dense ? rate : 1 };
+    if (!(scale->b_num >= 1e-300))
+        return ss_fail(err, SS_EINVAL, "step %g is too small", opts->step);
+    return count_translations(scale, n, rate, err);
+}
+
+static ss_status
+fill_grid(ss_morlet *plan, int j_long, ss_error *err)
+{
+    for (size_t i = 0; i < plan->n_scales; i++) {
+        ss_scale *scale = &plan->scale[i];
+        ss_status st = morlet_scale(scale, j_long - (int)i, NAN, plan->n, plan->rate, &plan->opts,
+                                    err);
+        if (st != SS_OK)
+            return st;
+        scale->offset = plan->total;
+        plan->total += scale->n;
+        if (plan->total > SIZE_MAX / (2 * sizeof(double)))
+            return SS_ENOMEM;
+    }
+    return SS_OK;
+}
+
+ss_status
+ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
+{
+    ss_status st = morlet_check(n, rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    range use = usable(n, rate, opts), ask = asked(n, rate, opts, use);
+    if ((st = check_request(ask, use, n, rate, opts, err)) != SS_OK)
+        return st;
+
+    ss_morlet *plan = calloc(1, sizeof *plan);
+    if (plan == NULL)
+        return SS_ENOMEM;
+    *plan = (ss_morlet){ .opts = *opts, .n = n, .rate = rate,
+                         .n_scales = (size_t)(ask.hi - ask.lo) + 1 };
+    plan->scale = calloc(plan->n_scales, sizeof *plan->scale);
+    st = plan->scale == NULL ? SS_ENOMEM : fill_grid(plan, (int)ask.hi, err);
+    if (st != SS_OK) {
+        ss_morlet_free(plan);
+        return st;
+    }
+    *out = plan;
+    return SS_OK;
+}
+
+size_t
+ss_morlet_scales(const ss_morlet *plan)
+{
+    return plan->n_scales;
+}
+
+const ss_scale *
+ss_morlet_scale(const ss_morlet *plan, size_t i)
+{
+    return &plan->scale[i];
+}
+
+size_t
+ss_morlet_total(const ss_morlet *plan)
+{
+    return plan->total;
+}
+
+void
+ss_morlet_free(ss_morlet *plan)
+{
+    if (plan == NULL)
+        return;
+    free(plan->scale);
+    free(plan);
+}

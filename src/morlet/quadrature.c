@@ -1,0 +1,377 @@
+/* quadrature.c -- wavelet coefficients by their definition, the sum over samples.
+ *
+ * The trapezoidal rule needs no more care than that for a Gaussian window; what needs care is where
+ * to cut the window and how to spend little on a tap.
+ *
+ * Cut.  In units of a^1/2 max|x| the taps with |u| >= R, u = (n/rate - b)/a, contribute at most
+ *     tail(R) = 2 pi^-1/4 (d exp(-R^2/2) + sqrt(pi/2) erfc(R/sqrt 2)),   d = 1/(a rate),
+ * the outermost tap of each side and the integral that bounds the rest.  A scale is first computed
+ * with tail(R) = TOL/10, which suffices if the largest |W| found is not small beside max|x|.  Then
+ * the promise is checked: max|W| - tail(R) is below the true maximum, and if tail(R) exceeds TOL
+ * times that + TAIL_FLOOR, the taps out to the R which keeps this are added.  So two passes do, R
+ * stays below 8.3, and no tap is computed twice.  TAIL_FLOOR is 4 eps; of the 16 eps promised the
+ * other 12 are for rounding, whose largest found in tests/bench/bench_morlet is below 3.
+ *
+ * Tap.  A coefficient's centre lies tau samples, |tau| <= 1/2, from the sample c nearest to it:
+ *     conj h((k - tau) d) = T_k exp(k tau d^2) exp(-(tau d)^2/2) exp(i omega_c tau d)
+ * for sample c + k, with T_k = conj h(k d) from a table made once a scale.  The last two factors
+ * multiply the sum; exp(k tau d^2) is a product of one exp a block of taps, and one of a table of
+ * exp(j tau d^2), j < BLOCK: no recurrence, nothing accumulates.  Phases are reduced in cycles with
+ * the products' rounding errors kept, so they are good to an ulp of pi for any omega_c and k. */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "error.h"
+#include "morlet/plan.h"
+
+enum { BLOCK = 32, LANES = 4 };
+
+#define TAIL_FLOOR (4 * DBL_EPSILON)
+#define PI_M14 0.75112554446494248286   /* pi^-1/4 */
+
+/* The wavelet of one scale at whole samples; tables reach from -reach to reach. */
+typedef struct kernel {
+    double d, d_low;                    /* 1/(a rate) and its rounding error */
+    double cycles, cycles_low;          /* omega_c d / (2 pi), likewise */
+    double second;                      /* exp(-omega_c^2/2) if admissible, else 0 */
+    size_t taps;                        /* tables are filled for |k| < taps */
+    double *re, *im, *gauss;            /* T_k and exp(-(k d)^2/2) at index k, also negative */
+} kernel;
+
+static kernel
+kernel_of(const ss_morlet_opts *opts, double a, double rate)
+{
+    const double inv_2pi = 0.15915494309189535, inv_2pi_low = -9.8393371591263536e-18;
+    kernel ker = { 0 };
+    double p = a * rate, p_low = fma(a, rate, -p);
+    ker.d = 1 / p;
+    ker.d_low = ker.d * (fma(-ker.d, p, 1) - ker.d * p_low);
+    double c = opts->center * inv_2pi;
+    double c_low = fma(opts->center, inv_2pi, -c) + opts->center * inv_2pi_low;
+    ker.cycles = c * ker.d;
+    ker.cycles_low = fma(c, ker.d, -ker.cycles) + c * ker.d_low + c_low * ker.d;
+    ker.second = opts->admissible ? exp(-opts->center * opts->center / 2) : 0;
+    return ker;
+}
+
+/* omega_c k d, less whole turns. */
+static double
+phase(const kernel *ker, double k)
+{
+    double turns = k * ker->cycles, low = fma(k, ker->cycles, -turns) + k * ker->cycles_low;
+    return 2 * M_PI * (turns - rint(turns) + low);
+}
+
+static void
+fill_tables(kernel *ker, size_t taps)
+{
+    for (; ker->taps < taps; ker->taps++) {
+        ptrdiff_t k = (ptrdiff_t)ker->taps;
+        double u = fma((double)k, ker->d, (double)k * ker->d_low), g = exp(-u * u / 2);
+        double p = phase(ker, (double)k);
+        ker->re[k] = ker->re[-k] = g * cos(p);
+        ker->im[-k] = g * sin(p);
+        ker->im[k] = -ker->im[-k];
+        if (ker->second > 0)
+            ker->gauss[k] = ker->gauss[-k] = g;
+    }
+}
+
+static double
+tail(const kernel *ker, double r)
+{
+    return 2 * PI_M14 * (1 + ker->second)
+        * (ker->d * exp(-r * r / 2) + sqrt(M_PI / 2) * erfc(r / sqrt(2)));
+}
+
+/* How many taps |k| < taps make the tail at most bound; n, which leaves out nothing, at most. */
+static size_t
+taps_for(const kernel *ker, double bound, size_t n)
+{
+    double r = 1;
+    while (tail(ker, r) > bound)
+        r += 1. / 16;
+    double taps = ceil(r / ker->d + 0.5);       /* |tau| <= 1/2 */
+    return taps < (double)n ? (size_t)taps : n;
+}
+
+/* Sum x_i g_i (re_i, im_i) over n taps; in lanes, which a compiler may put into one register. */
+static void
+block_sum(const double *restrict x, const double *restrict g, const double *restrict re,
+          const double *restrict im, size_t n, double sum[2])
+{
+    double s[LANES] = { 0 }, t[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            double y = x[i + l] * g[i + l];
+            s[l] += y * re[i + l];
+            t[l] += y * im[i + l];
+        }
+    for (; i < n; i++) {
+        s[0] += x[i] * g[i] * re[i];
+        t[0] += x[i] * g[i] * im[i];
+    }
+    sum[0] = (s[0] + s[1]) + (s[2] + s[3]);
+    sum[1] = (t[0] + t[1]) + (t[2] + t[3]);
+}
+
+/* sum += y, its rounding error into low. */
+static void
+add(double *sum, double *low, double y)
+{
+    double s = *sum + y, back = s - *sum;
+    *low += (*sum - (s - back)) + (y - back);
+    *sum = s;
+}
+
+/* Where a coefficient stands: tau samples after sample c. */
+typedef struct place {
+    ptrdiff_t c;
+    double tau, q;                      /* q = tau d^2 */
+    double g[BLOCK];                    /* exp(j q) */
+} place;
+
+/* Sum over the taps lo <= k <= hi of x[c + k] exp(k q) (re_k, im_k). */
+static void
+wing(const place *at, const double *x, const double *re, const double *im, ptrdiff_t lo,
+     ptrdiff_t hi, double sum[2])
+{
+    double low[2] = { 0, 0 }, part[2];
+    sum[0] = sum[1] = 0;
+    for (ptrdiff_t k = lo; k <= hi; k += BLOCK) {
+        size_t n = hi - k < BLOCK ? (size_t)(hi - k) + 1 : BLOCK;
+        block_sum(x + at->c + k, at->g, re + k, im + k, n, part);
+        double g = at->q == 0 ? 1 : exp(at->q * (double)k);
+        add(&sum[0], &low[0], g * part[0]);
+        add(&sum[1], &low[1], g * part[1]);
+    }
+    sum[0] += low[0];
+    sum[1] += low[1];
+}
+
+static void
+locate(place *at, const kernel *ker, double b, double rate, size_t taps)
+{
+    double c = rint(b * rate);
+    at->c = (ptrdiff_t)c;
+    at->tau = c / rate == b ? 0 : fma(b, rate, -c);
+    at->q = at->tau * ker->d * ker->d;
+    for (size_t j = 0; j < BLOCK && j < 2 * taps; j++)
+        at->g[j] = at->q == 0 ? 1 : exp(at->q * (double)j);
+}
+
+/* Add to w, in units of a^1/2, what the taps from <= |k| < to contribute to the coefficient at b. */
+static void
+add_taps(const kernel *ker, const double *x, size_t n, double rate, double b, size_t from,
+         size_t to, double w[2])
+{
+    double sum[2], second[2] = { 0, 0 }, part[2];
+    place at;
+    locate(&at, ker, b, rate, to);
+    ptrdiff_t first = -at.c, last = (ptrdiff_t)n - 1 - at.c, out = (ptrdiff_t)to - 1;
+    ptrdiff_t lo = first > -out ? first : -out, hi = last < out ? last : out;
+    ptrdiff_t in = (ptrdiff_t)from - 1; /* |k| <= in is there already */
+
+    /* to the left of what is there, or all at once; then to the right of it */
+    ptrdiff_t cut = from == 0 ? hi : hi < -in - 1 ? hi : -in - 1;
+    wing(&at, x, ker->re, ker->im, lo, cut, sum);
+    if (ker->second > 0)
+        wing(&at, x, ker->gauss, ker->gauss, lo, cut, second);
+    if (from > 0) {
+        ptrdiff_t start = lo > in + 1 ? lo : in + 1;
+        wing(&at, x, ker->re, ker->im, start, hi, part);
+        sum[0] += part[0];
+        sum[1] += part[1];
+        if (ker->second > 0) {
+            wing(&at, x, ker->gauss, ker->gauss, start, hi, part);
+            second[0] += part[0];
+        }
+    }
+    double u = at.tau * ker->d, scale = PI_M14 * ker->d * exp(-u * u / 2);
+    double p = phase(ker, at.tau), c = cos(p), s = sin(p);
+    w[0] += scale * (c * sum[0] - s * sum[1] - ker->second * second[0]);
+    w[1] += scale * (c * sum[1] + s * sum[0]);
+}
+
+/* --- the record ---------------------------------------------------------------------------- */
+
+/* A copy of the record, detrended, times the power of two that brings max|x| into [1/2, 1). */
+typedef struct record {
+    size_t n;
+    double *x, x_max;                   /* x_max = max|x| */
+    int exponent;                       /* the record is x 2^exponent */
+} record;
+
+static void
+normalise(record *rec)
+{
+    double most = 0;
+    int e;
+    for (size_t i = 0; i < rec->n; i++)
+        most = fmax(most, fabs(rec->x[i]));
+    rec->x_max = frexp(most, &e);
+    for (size_t i = 0; i < rec->n; i++)
+        rec->x[i] = ldexp(rec->x[i], -e);
+    rec->exponent += e;
+}
+
+/* Subtract the mean, or the line of least squares.  Sums are of differences to the first sample:
+ * what is constant leaves exactly nothing. */
+static void
+subtract(record *rec, ss_detrend detrend)
+{
+    long double mean = 0, slope = 0, mid = (long double)(rec->n - 1) / 2, n = rec->n;
+    double x0 = rec->x[0];
+    for (size_t i = 0; i < rec->n; i++)
+        mean += (long double)rec->x[i] - x0;
+    mean /= n;
+    if (detrend == SS_DETREND_LINEAR && rec->n > 1) {
+        for (size_t i = 0; i < rec->n; i++)
+            slope += (i - mid) * ((long double)rec->x[i] - x0 - mean);
+        slope /= n * (n * n - 1) / 12;
+    }
+    for (size_t i = 0; i < rec->n; i++)
+        rec->x[i] = (double)((long double)rec->x[i] - x0 - mean - slope * (i - mid));
+}
+
+static ss_status
+record_new(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", i + 1,
+                           isnan(x[i]) ? "NaN" : "infinite");
+    *rec = (record){ .n = n, .x = n <= SIZE_MAX / sizeof *x ? malloc(n * sizeof *x) : NULL };
+    if (rec->x == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        rec->x[i] = x[i];
+    normalise(rec);
+    if (detrend != SS_DETREND_NONE) {
+        subtract(rec, detrend);
+        normalise(rec);
+    }
+    return SS_OK;
+}
+
+/* --- scales -------------------------------------------------------------------------------- */
+
+/* Room for tables of |k| < taps. */
+static ss_status
+tables_new(double **base, size_t taps)
+{
+    size_t width = 2 * taps - 1;
+    *base = taps > SIZE_MAX / (8 * sizeof **base) ? NULL : malloc(3 * width * sizeof **base);
+    return *base == NULL ? SS_ENOMEM : SS_OK;
+}
+
+static void
+tables_use(kernel *ker, double *base, size_t taps)
+{
+    size_t width = 2 * taps - 1;
+    ker->re = base + taps - 1;
+    ker->im = ker->re + width;
+    ker->gauss = ker->im + width;
+}
+
+/* Taps that leave out no more than TAIL_FLOOR. */
+static size_t
+most_taps(const ss_morlet_opts *opts, double a, double rate, size_t n)
+{
+    kernel ker = kernel_of(opts, a, rate);
+    return taps_for(&ker, TAIL_FLOOR, n);
+}
+
+/* From units of a^1/2 and a normalised record to the norm and the record's own size. */
+static ss_status
+finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
+{
+    double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
+    for (size_t i = 0; i < 2 * n; i++) {
+        w[i] = ldexp(w[i] * factor, exponent);
+        if (!isfinite(w[i]))
+            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
+                           a);
+    }
+    return SS_OK;
+}
+
+/* All coefficients of a scale in units of a^1/2, see above. */
+static void
+transform_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec, double *base,
+                size_t room, double *w)
+{
+    kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
+    double tol = plan->opts.accuracy, bound = tol / 10;
+    tables_use(&ker, base, room);
+    for (size_t i = 0; i < 2 * scale->n; i++)
+        w[i] = 0;
+
+    for (int pass = 0; pass < 2; pass++) {
+        size_t from = ker.taps, to = taps_for(&ker, fmax(bound, TAIL_FLOOR), rec->n);
+        double most = 0;
+        if (to <= from || rec->x_max == 0)
+            return;
+        fill_tables(&ker, to);
+        for (size_t k = 0; k < scale->n; k++) {
+            add_taps(&ker, rec->x, rec->n, plan->rate, ss_scale_b(scale, k), from, to, w + 2 * k);
+            most = fmax(most, hypot(w[2 * k], w[2 * k + 1]));
+        }
+        double cut = to >= rec->n ? 0 : tail(&ker, ((double)to - 0.5) * ker.d);
+        bound = tol * fmax(0, most / rec->x_max - cut) + TAIL_FLOOR;
+        if (cut <= bound)
+            return;
+    }
+}
+
+ss_status
+ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err)
+{
+    record rec;
+    double *base = NULL;
+    ss_status st = record_new(&rec, x, plan->n, plan->opts.detrend, err);
+    if (st != SS_OK)
+        return st;
+    size_t room = most_taps(&plan->opts, plan->scale[0].a, plan->rate, plan->n);
+    st = tables_new(&base, room);
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
+        const ss_scale *scale = &plan->scale[i];
+        double *row = w + 2 * scale->offset;
+        transform_scale(plan, scale, &rec, base, room, row);
+        st = finish(row, scale->n, scale->a, plan->opts.norm, rec.exponent, err);
+    }
+    free(base);
+    free(rec.x);
+    return st;
+}
+
+ss_status
+ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a,
+                double b, double w[2], ss_error *err)
+{
+    record rec;
+    double *base = NULL;
+    ss_status st = morlet_check(n, rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    if (!(a >= 0x1p-500 && a <= 0x1p500) || !(b >= 0 && b <= (double)(n - 1) / rate))
+        return ss_fail(err, SS_EINVAL, "a = %g s, b = %g s is not a scale and a time of the record",
+                       a, b);
+    if ((st = record_new(&rec, x, n, opts->detrend, err)) != SS_OK)
+        return st;
+    kernel ker = kernel_of(opts, a, rate);
+    size_t taps = taps_for(&ker, TAIL_FLOOR, n);
+    if ((st = tables_new(&base, taps)) == SS_OK) {
+        tables_use(&ker, base, taps);
+        fill_tables(&ker, taps);
+        w[0] = w[1] = 0;
+        add_taps(&ker, rec.x, n, rate, b, 0, taps, w);
+        st = finish(w, 1, a, opts->norm, rec.exponent, err);
+    }
+    free(base);
+    free(rec.x);
+    return st;
+}
