@@ -1,4 +1,5 @@
 /* ss-sim -- simulate a scene; write samples or events. */
+#include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
@@ -209,14 +210,14 @@ main(int argc, char *argv[])
     }
     ss_status st = ss_sim_run(&scene, &opts, &stats, &err);
     if (st == SS_STOP)
-        tool_die("write error");
+        tool_die("write error: %s", strerror(errno));
     if (st == SS_OK && o.signal != NULL)
         st = ss_store_write(tool_output_path(path),
                             &(ss_record){ .signal = o.signal, .events = o.events,
                                           .n_events = o.n_events,
                                           .has_events = scene.model != SS_STATE_VARIABLE }, &err);
     if (st == SS_OK && o.writer != NULL && ss_writer_flush(o.writer) != SS_OK)
-        tool_die("write error");
+        tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
     tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", opts.method, opts.tol,
               stats.steps, stats.rhs, stats.events);
