@@ -1,60 +1,181 @@
-# libstickslip.  Targets: all check check-all paper install uninstall clean; see README.md.
-PREFIX  ?= /usr/local
-CFLAGS  ?= -O2 -g
-BUILD   ?= build$(if $(SAN),-san)
-VERSION := $(shell sed -n 's/^.define SS_VERSION "\(.*\)"/\1/p' include/stickslip/status.h)
-SOVERSION = 0
-
+# libstickslip.
+#
+#   make                    libraries and tools, under build/
+#   make check              all tests; installs first what is missing for them
+#   make check-all          these, the long ones, with sanitizers and with the other compiler too
+#   make paper              the paper's figures, under build/paper; installs first what is missing
+#                           (MEASURED=FILE COLUMN=NAME: figure 7 from a recording)
+#   make install uninstall  PREFIX=/usr/local DESTDIR=
+#   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
+#   make clean
+#
+# SAN=1 builds and checks with sanitizers in a tree of its own.  CC, AR, CPPFLAGS, CFLAGS, LDFLAGS
+# and BUILD are honoured; flags that changed rebuild what they concern.  Written for GNU make 3.81.
+PREFIX     ?= /usr/local
+BINDIR     ?= $(PREFIX)/bin
+LIBDIR     ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+SCENEDIR   ?= $(PREFIX)/share/stickslip/scenes
+MANDIR     ?= $(PREFIX)/share/man
+CFLAGS     ?= -O2 -g
+BUILD      ?= build$(if $(SAN),-san)
+INSTALL    ?= install
 PKG_CONFIG ?= pkg-config
-HDF5    := $(firstword $(foreach p,hdf5-serial hdf5,$(shell $(PKG_CONFIG) --exists $p 2>/dev/null && echo $p)))
-PC       = gsl $(HDF5)
-SANFLAGS = -fsanitize=address,undefined -fno-sanitize-recover=all   # any report fails the test
-ALL_CFLAGS = -std=c11 -D_XOPEN_SOURCE=700 -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
-	-fPIC $(shell $(PKG_CONFIG) --cflags $(PC)) $(CFLAGS) $(if $(SAN),$(SANFLAGS))
-ALL_LDFLAGS = $(if $(SAN),$(SANFLAGS)) $(LDFLAGS)
-LIBS     = $(shell $(PKG_CONFIG) --libs-only-L $(PC)) -lhdf5_hl $(shell $(PKG_CONFIG) --libs $(PC)) -lm
 
+VERSION   := $(shell sed -n 's/^.define SS_VERSION "\(.*\)"/\1/p' include/stickslip/status.h)
+SOVERSION := 0
+
+# --- flags -----------------------------------------------------------------------------------
+# HDF5 has no pkg-config file where it was built with autotools (Fedora, older Homebrew): there it
+# lies in the compiler's own directories, or in Homebrew's.
+pc        = $(shell $(PKG_CONFIG) --$1 $2 2>/dev/null)
+HDF5_PC  := $(firstword $(foreach p,hdf5-serial hdf5,$(if $(call pc,modversion,$p),$p)))
+HOMEBREW := $(if $(HDF5_PC),,$(shell brew --prefix 2>/dev/null))
+INCLUDES := $(call pc,cflags,gsl) $(call pc,cflags,$(HDF5_PC)) $(HOMEBREW:%=-I%/include)
+LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 \
+	$(call pc,libs,gsl) -lm
+CMOCKA_INCLUDES := $(call pc,cflags,cmocka)
+CMOCKA_LIBS     := $(or $(call pc,libs,cmocka),-lcmocka)
+
+ifneq ($(SAN),)
+SANFLAGS := -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all # any report fails
+endif
+ALL_CFLAGS := -std=c11 -D_XOPEN_SOURCE=700 -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
+	$(INCLUDES) -fPIC -fvisibility=hidden $(SANFLAGS) $(CPPFLAGS) $(CFLAGS)
+ALL_LDFLAGS := $(SANFLAGS) $(LDFLAGS)
+COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@
+
+# --- what is built ---------------------------------------------------------------------------
 LIB_SRC := $(wildcard src/*.c src/*/*.c)
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/scenes.o
+SCENES  := $(wildcard data/scenes/*.scene)
+HEADERS := $(wildcard include/stickslip/*.h)
+MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
+	$(TESTS:%=$(BUILD)/tests/%.o)
+
 STATIC  := $(BUILD)/libstickslip.a
-SHARED  := $(BUILD)/libstickslip.so.$(VERSION)
+ifeq ($(shell uname),Darwin)
+SHARED  := libstickslip.$(SOVERSION).dylib
+LINKS   := libstickslip.dylib
+SOFLAGS  = -dynamiclib -install_name $(LIBDIR)/$(SHARED) -current_version $(VERSION)
+else
+SHARED  := libstickslip.so.$(VERSION)
+LINKS   := libstickslip.so.$(SOVERSION) libstickslip.so
+SOFLAGS  = -shared -Wl,-soname,libstickslip.so.$(SOVERSION)
+endif
 
-all: $(STATIC) $(SHARED) $(TOOLS:%=$(BUILD)/bin/%)
+all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%)
 
-$(BUILD)/%.o: %.c Makefile
+$(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+	$(COMPILE) $<
 
-$(BUILD)/scenes.c: data/embed.sh $(wildcard data/scenes/*.scene)
+$(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
-	sh data/embed.sh data/scenes/*.scene > $@.new && mv $@.new $@
+	$(COMPILE) $(CMOCKA_INCLUDES) $<
 
 $(BUILD)/scenes.o: $(BUILD)/scenes.c
-	$(CC) $(ALL_CFLAGS) -c -o $@ $<
+	$(COMPILE) $<
+
+$(BUILD)/scenes.c: data/embed.sh $(SCENES)
+	@mkdir -p $(@D)
+	sh data/embed.sh $(SCENES) > $@.new && mv $@.new $@
 
 $(STATIC): $(LIB_OBJ)
 	rm -f $@ && $(AR) rcs $@ $^
 
-$(SHARED): $(LIB_OBJ)
-	$(CC) -shared -Wl,-soname,libstickslip.so.$(SOVERSION) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
-	ln -sf $(@F) $(BUILD)/libstickslip.so.$(SOVERSION)
-	ln -sf $(@F) $(BUILD)/libstickslip.so
+$(BUILD)/$(SHARED): $(LIB_OBJ)
+	$(CC) $(SOFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+	cd $(@D) && for l in $(LINKS); do ln -sf $(@F) $$l; done
 
-$(BUILD)/bin/ss-%: $(BUILD)/tools/ss-%.o $(BUILD)/tools/common.o $(STATIC)
+$(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
-	$(CC) $(ALL_LDFLAGS) -o $@ $^ -lcmocka $(LIBS)
+	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(CMOCKA_LIBS) $(LIBS)
 
-check: all $(TESTS:%=$(BUILD)/tests/%)
-	@for t in $(TESTS); do $(BUILD)/tests/$$t || exit 1; done
+# Objects are made again when the Makefile or the flags change, and not before the packages that
+# they need are there.
+$(OBJECTS): Makefile $(BUILD)/flags | needs
+
+quote = '$(subst ','\'',$1)'
+FLAGS := $(CC) $(ALL_CFLAGS) : $(ALL_LDFLAGS) $(LIBS)
+$(BUILD)/flags: always
+	@mkdir -p $(@D)
+	@printf '%s\n' $(call quote,$(FLAGS)) | cmp -s - $@ || \
+		printf '%s\n' $(call quote,$(FLAGS)) > $@
+
+# --- what it needs ---------------------------------------------------------------------------
+# The packages are looked for when make starts, so what comes after an installation is done by a
+# second make.
+DEPS = CC=$(call quote,$(CC)) PKG_CONFIG=$(call quote,$(PKG_CONFIG)) INSTALL_DEPS=$(INSTALL_DEPS) \
+	sh tools/install-deps.sh
+
+needs:
+	@INSTALL_DEPS= && $(DEPS) --report build
+
+deps:
+	@$(DEPS) build check paper
+
+check:
+	@$(DEPS) build check
+	@$(MAKE) --no-print-directory run-tests
+
+check-all:
+	@$(DEPS) build check
+	@$(MAKE) --no-print-directory run-tests LONG=1
+	@$(MAKE) --no-print-directory run-tests SAN=1 BUILD=$(BUILD)-san
+	@for cc in gcc clang; do \
+		if command -v $$cc > /dev/null; then \
+			$(MAKE) --no-print-directory run-tests CC=$$cc BUILD=$(BUILD)-$$cc || exit 1; \
+		fi; \
+	done
+
+paper:
+	@$(DEPS) build paper
+	@$(MAKE) --no-print-directory draw-paper
+
+run-tests: all $(TESTS:%=$(BUILD)/tests/%)
+	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
+		MAKE=$(call quote,$(MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
+		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
+
+draw-paper: all
+	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
+		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
+
+# --- install ---------------------------------------------------------------------------------
+install: all
+	$(INSTALL) -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(SCENEDIR) \
+		$(DESTDIR)$(INCLUDEDIR)/stickslip
+	$(INSTALL) -m 644 include/stickslip.h $(DESTDIR)$(INCLUDEDIR)
+	$(INSTALL) -m 644 $(HEADERS) $(DESTDIR)$(INCLUDEDIR)/stickslip
+	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)
+	$(INSTALL) -m 755 $(BUILD)/$(SHARED) $(DESTDIR)$(LIBDIR)
+	cd $(DESTDIR)$(LIBDIR) && for l in $(LINKS); do ln -sf $(SHARED) $$l; done
+	sed -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' -e 's|@VERSION@|$(VERSION)|' \
+		-e 's|@LIBS@|$(LIBS)|' stickslip.pc.in > $(DESTDIR)$(LIBDIR)/pkgconfig/stickslip.pc
+	$(INSTALL) -m 644 $(SCENES) $(DESTDIR)$(SCENEDIR)
+	for t in $(TOOLS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(DESTDIR)$(BINDIR) || exit 1; done
+	for m in $(MANUAL); do d=$(DESTDIR)$(MANDIR)/man$${m##*.}; \
+		$(INSTALL) -d $$d && $(INSTALL) -m 644 $$m $$d || exit 1; done
+
+# Directories that only we use go too.
+uninstall:
+	cd $(DESTDIR)$(LIBDIR) && rm -f $(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc
+	cd $(DESTDIR)$(INCLUDEDIR) && rm -f stickslip.h $(HEADERS:include/%=%) && rmdir stickslip
+	cd $(DESTDIR)$(SCENEDIR) && rm -f $(notdir $(SCENES))
+	rmdir $(DESTDIR)$(SCENEDIR) && rmdir $(dir $(DESTDIR)$(SCENEDIR))
+	for t in $(TOOLS); do rm -f $(DESTDIR)$(BINDIR)/$$t; done
+	for m in $(MANUAL); do rm -f $(DESTDIR)$(MANDIR)/man$${m##*.}/$${m##*/}; done
 
 clean:
-	rm -rf build build-san
+	rm -rf $(BUILD) build build-*
 
-.PHONY: all check clean
+.PHONY: all always check check-all clean deps draw-paper install needs paper run-tests uninstall
 .SECONDARY:
--include $(LIB_OBJ:.o=.d) $(TOOLS:%=$(BUILD)/tools/%.d) $(BUILD)/tools/common.d $(TESTS:%=$(BUILD)/tests/%.d)
+-include $(OBJECTS:.o=.d)

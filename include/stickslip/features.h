@@ -6,9 +6,7 @@
 #include <stickslip/status.h>
 #include <stickslip/morlet.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 /* A local maximum of |W| over time and scale: the middle of a closed contour. */
 typedef struct ss_maximum {
@@ -32,7 +30,5 @@ ss_status ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coeffici
 ss_status ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
                     double range, double min_prominence);
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

@@ -17,9 +17,7 @@
 #include <stickslip/status.h>
 #include <stickslip/signal.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 typedef enum ss_norm {
     SS_NORM_L2,                 /* a^-1/2, the paper's */
@@ -116,7 +114,5 @@ void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is a
 /* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */
 double ss_coefficients_max(const ss_coefficients *coefficients);
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

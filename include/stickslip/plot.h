@@ -9,9 +9,7 @@
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 typedef struct ss_plot_opts {
     const char *output;         /* the picture's file, .png, .svg or .pdf; NULL: none is named, the
@@ -43,7 +41,5 @@ extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB 
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
                           const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

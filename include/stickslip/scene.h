@@ -9,9 +9,7 @@
 #include <stdio.h>
 #include <stickslip/status.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 typedef enum ss_model {
     SS_COULOMB,             /* f = f_k sgn(v); sticks while |k (z - x)| <= f_k */
@@ -79,7 +77,5 @@ typedef struct ss_shipped_scene {
 } ss_shipped_scene;
 extern const ss_shipped_scene ss_shipped_scenes[];  /* ends with a NULL name */
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

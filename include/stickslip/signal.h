@@ -9,9 +9,7 @@
 #include <stdio.h>
 #include <stickslip/status.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 typedef struct ss_column {
     char *name;                 /* "a"; no blanks */
@@ -160,7 +158,5 @@ size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
  * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */
 double ss_number_parse(const char *text, char **end);
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

@@ -6,9 +6,7 @@
 #include <stickslip/scene.h>
 #include <stickslip/signal.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 /* One sample.  At an event the side after it is given. */
 typedef struct ss_sample {
@@ -17,7 +15,8 @@ typedef struct ss_sample {
     double f;           /* friction force on the mass, as it stands in the equation of motion [N] */
     double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
     double z;           /* displacement of the base [m] */
-    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip */
+    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip;
+                           state-variable: the sign of v */
 } ss_sample;
 
 typedef enum ss_event_kind {
@@ -40,7 +39,7 @@ typedef int ss_sample_sink(const ss_sample *s, size_t n, void *user);
 typedef int ss_event_sink(const ss_event *e, void *user);
 
 typedef struct ss_sim_opts {
-    const char *method;         /* a GSL odeiv2 step type by its name, or "exact" */
+    const char *method;         /* one of ss_sim_method_name */
     double tol;                 /* relative local error a step, 1e-14 ... 1e-1 */
     unsigned long max_steps;    /* 0: as many as it takes */
     ss_sample_sink *samples;
@@ -61,6 +60,22 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
 ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats,
                      ss_error *err);
 
+/* Which columns of a sample are wanted, and in which order. */
+enum { SS_SIM_COLUMNS = 7 };            /* x, v, a, f, y, z, mode */
+typedef struct ss_sim_columns {
+    int has_time;                       /* t was asked for (first) */
+    size_t n;
+    int pick[SS_SIM_COLUMNS];
+} ss_sim_columns;
+
+/* From a list such as "t,x,v,a,f"; SS_EINVAL for an unknown or repeated name, or t not first. */
+ss_status ss_sim_columns_parse(ss_sim_columns *columns, const char *list, ss_error *err);
+/* The header of such a signal, with the scene's parameters as notes; to be freed with
+ * ss_header_free.  NULL if out of memory. */
+ss_header *ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns);
+/* The values of one sample in that order, columns->n of them. */
+void ss_sim_row(const ss_sim_columns *columns, const ss_sample *sample, double *row);
+
 /* The simple case: the whole record as a signal with the columns x, v, a, f, to be freed with
  * ss_signal_free. */
 ss_status ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err);
@@ -68,7 +83,5 @@ ss_status ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err);
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

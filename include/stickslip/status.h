@@ -4,9 +4,24 @@
 
 #define SS_VERSION "0.1.0"
 
+/* What public headers declare has C linkage and is visible outside the shared library; what the
+ * library's own headers declare is not. */
 #ifdef __cplusplus
-extern "C" {
+#define SS_EXTERN_C extern "C" {
+#define SS_EXTERN_C_END }
+#else
+#define SS_EXTERN_C
+#define SS_EXTERN_C_END
 #endif
+#ifdef __GNUC__
+#define SS_BEGIN_DECLARATIONS SS_EXTERN_C _Pragma("GCC visibility push(default)")
+#define SS_END_DECLARATIONS _Pragma("GCC visibility pop") SS_EXTERN_C_END
+#else
+#define SS_BEGIN_DECLARATIONS SS_EXTERN_C
+#define SS_END_DECLARATIONS SS_EXTERN_C_END
+#endif
+
+SS_BEGIN_DECLARATIONS
 
 typedef enum ss_status {
     SS_OK = 0,
@@ -30,7 +45,5 @@ typedef struct ss_error {
 const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
 const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

@@ -13,9 +13,7 @@
 #include <stickslip/sim.h>
 #include <stickslip/morlet.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+SS_BEGIN_DECLARATIONS
 
 /* What goes into one file; NULL or 0 for what is not there. */
 typedef struct ss_record {
@@ -42,7 +40,5 @@ ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss
 ss_status ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts,
                          ss_error *err);
 
-#ifdef __cplusplus
-}
-#endif
+SS_END_DECLARATIONS
 #endif

@@ -1,0 +1,68 @@
+/* model.h -- a friction model as a table of functions, and the motion that it moves.
+ *
+ * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); everything non-smooth
+ * happens where the mode changes.  Coulomb and compliant contact are linear within a mode and
+ * share one equation, m q'' = drive - f0 - k q - c q', whose coefficients the mode sets. */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <stddef.h>
+#include <stickslip/sim.h>
+#include "sim/instant.h"
+
+enum { MAX_DIM = 3 };
+
+typedef struct motion {
+    const ss_scene *scene;
+    const struct model *model;
+    double omega;                   /* Omega [rad/s] */
+    double drive;                   /* k Z_e [N] */
+
+    int mode;
+    double k, c, f0;                /* of the mode, see above */
+    double x_ref;                   /* x = x_ref + q[0]: q[0] is the contact's y in microstick */
+
+    instant origin;                 /* u, the time within a mode, counts from here */
+    double theta;                   /* phase of the base at the origin [rad] */
+    double u;                       /* start of the present step */
+    double q[MAX_DIM];              /* state there: x or y, v, theta */
+} motion;
+
+struct model {
+    size_t dim;
+    /* Enter the first mode at the scene's initial state; 1 if it starts in slip. */
+    int (*start)(motion *m);
+    /* Largest angular frequency or rate of decay of the mode: caps the steps [rad/s]. */
+    double (*fastest)(const motion *m);
+    /* GSL's rhs and Jacobian; params is the motion, time is u. */
+    int (*rhs)(double u, const double q[], double dqdt[], void *params);
+    int (*jacobian)(double u, const double q[], double *dfdq, double dfdt[], void *params);
+    /* Not negative within the mode, and its rate of change; NULL if the model has no events. */
+    double (*guard)(const motion *m, const double q[], const double dqdt[], double *slope);
+    /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever). */
+    int (*still)(const motion *m, double *u_end);
+    /* The mode ends at m->u in state m->q: enter the next.  1 if that is an event, put into *e. */
+    int (*next)(motion *m, ss_event *e);
+    /* What the state says at time u, except t and z. */
+    void (*sample)(const motion *m, double u, const double q[], ss_sample *s);
+};
+
+extern const struct model coulomb_model, state_variable_model, compliant_model;
+
+static inline int
+sign(double x)
+{
+    return (x > 0) - (x < 0);
+}
+
+double motion_drive(const motion *m, double u);     /* k Z_e cos(Omega t + phase) [N] */
+void motion_rebase(motion *m);                      /* let u count from the present step: sim.c */
+
+/* linear.c: what Coulomb and compliant contact share. */
+int linear_rhs(double u, const double q[], double dqdt[], void *params);
+int linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params);
+double linear_fastest(const motion *m);
+void linear_slip(motion *m, double x, double v, int direction);
+double linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);
+
+#endif

@@ -1,0 +1,33 @@
+/* engine.h -- what carries a motion from one event to the next: a GSL stepper or a closed form. */
+#ifndef ENGINE_H
+#define ENGINE_H
+
+#include "model/model.h"
+
+typedef struct engine engine;
+
+struct engine_type {
+    /* The motion has entered a mode: forget what belonged to the last one. */
+    ss_status (*begin)(engine *e);
+    /* Take one step of at most h_max from m->u: fills h, q1, dq1. */
+    ss_status (*step)(engine *e, double h_max, ss_error *err);
+    /* The state at m->u + s, 0 <= s <= h, within the step just taken. */
+    void (*at)(engine *e, double s, double q[]);
+    /* The step is done with: it ended at m->u + h, which becomes m->u. */
+    void (*accept)(engine *e);
+    void (*free)(engine *e);
+};
+
+struct engine {
+    const struct engine_type *type;
+    motion *m;
+    double h;                               /* of the last step */
+    double dq0[MAX_DIM];                    /* rate of change of the state at its start */
+    double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
+    int lands_on_samples;                   /* at() answers at the ends only */
+    unsigned long steps, rhs, events;
+};
+
+ss_status ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err);
+
+#endif

@@ -1,0 +1,416 @@
+/* sim.c -- a motion from event to event, its samples and events fed to the sinks.
+ *
+ * The steps know nothing of the samples: an engine steps freely, capped by the mode's own fastest
+ * period, and samples are read off inside its steps.  So the events are the same, to the last digit,
+ * whatever the rate.  (Only multistep methods on the state variable, which has no events, land on
+ * the samples.) */
+#include <stickslip/sim.h>
+
+#include <float.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "sim/engine.h"
+#include "sim/event.h"
+
+/* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
+ * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and a guard has at most one extremum a step. */
+enum { STEPS_PER_PERIOD = 40 };
+
+/* Chatter: so many events in a row, each within so small a part of the fastest period of the last,
+ * are the rounding of one grazing contact and no motion. */
+enum { CHATTER_EVENTS = 1000 };
+#define CHATTER_PART 1e-6
+
+const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
+
+const char *
+ss_event_kind_name(ss_event_kind kind)
+{
+    static const char *const name[] = { "stick", "slip", "reverse" };
+    return name[kind];
+}
+
+static const struct model *
+model_of(const ss_scene *scene)
+{
+    static const struct model *const model[] = { &coulomb_model, &state_variable_model,
+                                                 &compliant_model };
+    return model[scene->model];
+}
+
+/* --- the motion ---------------------------------------------------------------------------- */
+
+/* Let u count from the instant of the present step, with the phase there. */
+void
+motion_rebase(motion *m)
+{
+    m->origin = instant_add(m->origin, m->u);
+    m->u = 0;
+    m->theta = 2 * M_PI * instant_cycles(m->origin, m->scene->base_frequency) + m->scene->phase;
+}
+
+static motion
+motion_of(const ss_scene *scene)
+{
+    motion m = { .scene = scene, .model = model_of(scene),
+                 .omega = 2 * M_PI * scene->base_frequency,
+                 .drive = scene->stiffness * scene->base_amplitude };
+    motion_rebase(&m);
+    return m;
+}
+
+/* --- the record ---------------------------------------------------------------------------- */
+
+typedef struct record {
+    const ss_scene *scene;
+    const ss_sim_opts *opts;
+    instant settle, end;                /* of the record, from the start of settling */
+    size_t n, i;                        /* samples in all, next sample */
+    size_t filled;
+    ss_sample buffer[256];
+} record;
+
+static ss_status
+flush(record *r)
+{
+    size_t filled = r->filled;
+    r->filled = 0;
+    if (filled > 0 && r->opts->samples != NULL
+        && r->opts->samples(r->buffer, filled, r->opts->user) != 0)
+        return SS_STOP;
+    return SS_OK;
+}
+
+/* The time from m->u to the i-th sample of the record. */
+static double
+until_sample(const record *r, const motion *m, size_t i)
+{
+    instant t = instant_sample((double)i, r->scene->rate);
+    t = instant_add(instant_add(t, r->settle.hi), r->settle.lo);
+    return instant_diff(t, m->origin) - m->u;
+}
+
+/* All samples up to, not including, h after m->u.  A mass at rest keeps its state. */
+static ss_status
+write_samples(record *r, engine *e, int still, double h)
+{
+    const motion *m = e->m;
+    for (; r->i < r->n; r->i++) {
+        double q[MAX_DIM], s = until_sample(r, m, r->i);
+        if (!(s < h))
+            break;
+        if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
+            ss_status st = flush(r);
+            if (st != SS_OK)
+                return st;
+        }
+        ss_sample *sample = &r->buffer[r->filled++];
+        s = fmax(s, 0);
+        if (still)
+            memcpy(q, m->q, sizeof q);
+        else
+            e->type->at(e, s, q);
+        m->model->sample(m, m->u + s, q, sample);
+        sample->t = (double)r->i / r->scene->rate;
+        sample->z = r->scene->base_amplitude * cos(m->theta + m->omega * (m->u + s));
+    }
+    return SS_OK;
+}
+
+static ss_status
+write_event(record *r, const motion *m, ss_event *e)
+{
+    instant t = instant_add(m->origin, m->u);
+    e->t = instant_diff(t, r->settle);
+    e->x = m->x_ref + m->q[0];
+    e->v = m->q[1];
+    if (!(e->t >= 0 && instant_diff(t, r->end) < 0) || r->opts->events == NULL)
+        return SS_OK;
+    ss_status st = flush(r);
+    if (st == SS_OK && r->opts->events(e, r->opts->user) != 0)
+        st = SS_STOP;
+    return st;
+}
+
+/* --- from event to event ------------------------------------------------------------------- */
+
+static guard_value
+guard_at(double s, void *user)
+{
+    engine *e = user;
+    const motion *m = e->m;
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    guard_value at;
+    e->type->at(e, s, q);
+    e->rhs++;
+    m->model->rhs(m->u + s, q, dqdt, (void *)m);
+    at.g = m->model->guard(m, q, dqdt, &at.slope);
+    return at;
+}
+
+/* Whether the mode ends within the step just taken, and when. */
+static int
+ends_within(engine *e, double *s_event)
+{
+    const motion *m = e->m;
+    guard_value at_0, at_h;
+    if (m->model->guard == NULL)
+        return 0;
+    at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
+    at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
+    return event_find(guard_at, e, e->h, at_0, at_h, s_event);
+}
+
+/* The mode has ended s after m->u: enter the next one. */
+static ss_status
+change_mode(record *r, engine *e, int still, double s)
+{
+    motion *m = e->m;
+    ss_event event;
+    if (!still) {
+        double q[MAX_DIM];
+        e->type->at(e, s, q);
+        memcpy(m->q, q, sizeof q);
+    }
+    m->u += s;
+    motion_rebase(m);
+    ss_status st = SS_OK;
+    if (m->model->next(m, &event)) {
+        e->events++;
+        st = write_event(r, m, &event);
+    }
+    return st == SS_OK ? e->type->begin(e) : st;
+}
+
+static ss_status
+chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
+{
+    double period = 2 * M_PI / m->model->fastest(m);
+    *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
+    if (*in_a_row <= CHATTER_EVENTS)
+        return SS_OK;
+    return ss_fail(err, SS_ECHATTER, "more than %d events in a row at t = %.9g s, each within "
+                   "%.2g s of the last: the contact grazes its limit", CHATTER_EVENTS,
+                   m->origin.hi, CHATTER_PART * period);
+}
+
+static ss_status
+run(record *r, engine *e, ss_error *err)
+{
+    motion *m = e->m;
+    const struct model *model = m->model;
+    double lasted = 0;                      /* of the present mode */
+    int in_a_row = 0;
+
+    for (;;) {
+        double h, cap = 2 * M_PI / (STEPS_PER_PERIOD * model->fastest(m));
+        int still = model->still != NULL && model->still(m, &h), ends = still && isfinite(h);
+        ss_status st = SS_OK;
+        if (still) {
+            h -= m->u;
+        } else {
+            if (r->opts->max_steps > 0 && e->steps >= r->opts->max_steps)
+                return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s; steps "
+                               "are at most %.3g s long, 1/%d of the fastest period of the mode",
+                               r->opts->max_steps, m->origin.hi + m->u, cap, STEPS_PER_PERIOD);
+            if (e->lands_on_samples && r->i < r->n) {
+                double s = until_sample(r, m, r->i);
+                cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
+            }
+            st = e->type->step(e, cap, err);
+            if (st != SS_OK)
+                return st;
+            h = e->h;
+            ends = ends_within(e, &h);
+        }
+        st = write_samples(r, e, still, h);
+        if (st != SS_OK)
+            return st;
+        if (instant_diff(r->end, m->origin) - m->u <= h)
+            return flush(r);
+        lasted += h;
+        if (ends) {
+            st = change_mode(r, e, still, h);
+            if (st == SS_OK)
+                st = chatters(m, lasted, &in_a_row, err);
+            if (st != SS_OK)
+                return st;
+            lasted = 0;
+        } else {
+            e->type->accept(e);
+        }
+    }
+}
+
+/* A start in slip is an event at t = 0. */
+static ss_status
+begin(record *r, engine *e, int slips)
+{
+    ss_event event = { .kind = SS_SLIP, .direction = e->m->mode };
+    ss_status st = SS_OK;
+    if (slips) {
+        e->events++;
+        st = write_event(r, e->m, &event);
+    }
+    return st == SS_OK ? e->type->begin(e) : st;
+}
+
+ss_status
+ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, ss_error *err)
+{
+    ss_status st = ss_scene_check(scene, err);
+    if (st != SS_OK)
+        return st;
+    record r = { .scene = scene, .opts = opts, .n = ss_scene_samples(scene),
+                 .settle = { scene->settle, 0 },
+                 .end = instant_sum(scene->settle, scene->duration) };
+    motion m = motion_of(scene);
+    engine *e = NULL;
+
+    if (r.n == SIZE_MAX)
+        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
+    if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
+        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
+    int slips = m.model->start(&m);
+    st = ode_new(&e, &m, opts, err);
+    if (st == SS_OK)
+        st = begin(&r, e, slips);
+    if (st == SS_OK)
+        st = run(&r, e, err);
+    if (stats != NULL && e != NULL)
+        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events };
+    if (e != NULL)
+        e->type->free(e);
+    return st;
+}
+
+/* --- as a signal --------------------------------------------------------------------------- */
+
+static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
+    { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "y", "m" }, { "z", "m" },
+    { "mode", "" }
+};
+
+ss_status
+ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
+{
+    ss_sim_columns columns = { 0 };
+    for (const char *name = list;; name++) {
+        size_t length = strcspn(name, ",");
+        int c = 0, repeated = 0;
+        if (length == 1 && *name == 't' && name == list) {
+            columns.has_time = 1;
+        } else {
+            while (c < SS_SIM_COLUMNS && (strlen(column[c].name) != length
+                                          || strncmp(name, column[c].name, length) != 0))
+                c++;
+            for (size_t i = 0; i < columns.n; i++)
+                repeated |= columns.pick[i] == c;
+            if (c == SS_SIM_COLUMNS || repeated)
+                return ss_fail(err, SS_EINVAL, "%s '%.*s' in '%s': columns are t (first), x, v, a, "
+                               "f, y, z, mode", repeated ? "repeated column" : "unknown column",
+                               (int)length, name, list);
+            columns.pick[columns.n++] = c;
+        }
+        name += length;
+        if (*name == '\0')
+            break;
+    }
+    if (columns.n == 0)
+        return ss_fail(err, SS_EINVAL, "a signal needs a column besides t");
+    *out = columns;
+    return SS_OK;
+}
+
+void
+ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
+{
+    const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->y, s->z, s->mode };
+    for (size_t i = 0; i < columns->n; i++)
+        row[i] = value[columns->pick[i]];
+}
+
+/* The scene's own text as notes, but for the rate, which every header has. */
+static ss_status
+note_scene(ss_header *head, const ss_scene *scene)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (out == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_scene_write(scene, out);
+    if (fclose(out) != 0)
+        st = SS_ENOMEM;
+    for (char *line = text; st == SS_OK && *line != '\0';) {
+        char *equals = strstr(line, " = "), *end = strchr(line, '\n');
+        *equals = *end = '\0';
+        if (strcmp(line, "rate") != 0)
+            st = ss_header_note(head, line, equals + 3);
+        line = end + 1;
+    }
+    free(text);
+    return st;
+}
+
+ss_header *
+ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns)
+{
+    ss_header *head = ss_header_new(scene->rate, 0);
+    if (head == NULL)
+        return NULL;
+    head->has_time = columns->has_time;
+    ss_status st = note_scene(head, scene);
+    for (size_t i = 0; st == SS_OK && i < columns->n; i++)
+        st = ss_header_add_column(head, column[columns->pick[i]].name,
+                                  column[columns->pick[i]].unit);
+    if (st == SS_OK)
+        return head;
+    ss_header_free(head);
+    return NULL;
+}
+
+struct collector {
+    const ss_sim_columns *columns;
+    ss_signal *signal;
+    size_t i;
+};
+
+static int
+collect(const ss_sample *s, size_t n, void *user)
+{
+    struct collector *c = user;
+    double row[SS_SIM_COLUMNS];
+    for (size_t k = 0; k < n; k++, c->i++) {
+        ss_sim_row(c->columns, &s[k], row);
+        for (size_t j = 0; j < c->columns->n; j++)
+            c->signal->values[j * c->signal->n + c->i] = row[j];
+    }
+    return 0;
+}
+
+ss_status
+ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err)
+{
+    const ss_sim_columns columns = { 1, 4, { 0, 1, 2, 3 } };
+    ss_status st = ss_scene_check(scene, err);
+    if (st != SS_OK)
+        return st;
+    struct collector c = { &columns, NULL, 0 };
+    ss_header *head = ss_sim_header(scene, &columns);
+    st = head != NULL ? ss_signal_new(&c.signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
+    ss_header_free(head);
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    ss_sim_opts opts = ss_sim_defaults;
+    opts.samples = collect;
+    opts.user = &c;
+    st = ss_sim_run(scene, &opts, NULL, err);
+    if (st == SS_OK)
+        *out = c.signal;
+    else
+        ss_signal_free(c.signal);
+    return st;
+}

@@ -1,0 +1,191 @@
+/* foreign.c -- datasets of files that others wrote: any 1-D or 2-D array of real numbers.
+ *
+ * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
+ * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
+ * or its group, which our own files have. */
+#include "h5.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../error.h"
+
+typedef struct array {
+    size_t rows, columns;
+    int transposed;             /* a column is contiguous in the file */
+} array;
+
+/* --- what can be read ---------------------------------------------------------------------- */
+
+static const char *
+refuse_type(hid_t id)
+{
+    hid_t type = H5Dget_type(id);
+    H5T_class_t class = H5Tget_class(type);
+    char *matlab = h5_get_text(id, "MATLAB_class");
+    int text = class == H5T_STRING || (matlab != NULL && strcmp(matlab, "char") == 0);
+    int pair = class == H5T_COMPOUND && H5Tget_nmembers(type) == 2
+               && (H5Tget_member_index(type, "imag") >= 0 || H5Tget_member_index(type, "i") >= 0);
+    free(matlab);
+    H5Tclose(type);
+    if (text)
+        return "holds text, not numbers";
+    if (pair)
+        return "holds complex numbers; a signal is real";
+    if (class != H5T_INTEGER && class != H5T_FLOAT)
+        return "does not hold real numbers";
+    return NULL;
+}
+
+static const char *
+get_shape(hid_t id, array *shape)
+{
+    hid_t space = H5Dget_space(id);
+    hsize_t dims[H5S_MAX_RANK] = { 0, 1 };
+    int rank = H5Sget_simple_extent_ndims(space);
+    if (rank > 0)
+        H5Sget_simple_extent_dims(space, dims, NULL);
+    H5Sclose(space);
+    if (rank != 1 && rank != 2)
+        return rank > 2 ? "has more than two dimensions" : "is a single value, not an array";
+    if (dims[0] == 0 || dims[1] == 0)
+        return "is empty";
+    if (dims[0] > H5_MAX_VALUES / dims[1])
+        return "has more values than can be read at once";
+    shape->transposed = dims[0] < dims[1];
+    shape->rows = (size_t)(shape->transposed ? dims[1] : dims[0]);
+    shape->columns = (size_t)(shape->transposed ? dims[0] : dims[1]);
+    return NULL;
+}
+
+/* --- the list ------------------------------------------------------------------------------ */
+
+static herr_t
+list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
+{
+    array shape;
+    char *list = user;
+    if (info->type != H5O_TYPE_DATASET)
+        return 0;
+    hid_t id = H5Dopen2(root, name, H5P_DEFAULT);
+    if (id >= 0 && refuse_type(id) == NULL && get_shape(id, &shape) == NULL) {
+        size_t length = strlen(list), room = 300 - length;
+        if (snprintf(list + length, room, " /%s", name) >= (int)room) {
+            strcpy(list + length, " ...");
+            return H5Dclose(id) < 0 ? -1 : 1;
+        }
+    }
+    H5Dclose(id);
+    return 0;
+}
+
+ss_status
+h5_fail_listing(h5_file *file)
+{
+    char list[310] = "";        /* room for the dots behind 300 */
+    H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, list);
+    if (list[0] == '\0')
+        return h5_fail(file, SS_EDATA, 0, "", "no /signal in it, nor any array of real numbers");
+    return ss_fail(file->err, SS_EDATA, "%s: no /signal in it; choose one as %s:/PATH from%s",
+                   file->path, file->path, list);
+}
+
+/* --- reading ------------------------------------------------------------------------------- */
+
+/* Rate and start: the caller's, else those noted at the dataset or its group. */
+static ss_status
+find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+{
+    *start = 0;
+    if (*rate > 0)
+        return SS_OK;
+    char *parent = strdup(dataset);
+    if (parent == NULL)
+        return SS_ENOMEM;
+    char *slash = strrchr(parent, '/');
+    if (slash != NULL)
+        slash[slash == parent] = '\0';
+    hid_t group = slash != NULL ? H5Gopen2(file->id, parent, H5P_DEFAULT) : -1;
+    free(parent);
+    int found = h5_get_number(id, "rate", rate);
+    if (found)
+        h5_get_number(id, "start", start);
+    else if (group >= 0 && (found = h5_get_number(group, "rate", rate)))
+        h5_get_number(group, "start", start);
+    H5Gclose(group);
+    if (!found || !(*rate > 0) || !isfinite(*rate) || !isfinite(*start))
+        return h5_fail(file, SS_EDATA, 0, dataset, "has no clock; give its rate in Hz");
+    return SS_OK;
+}
+
+/* Columns named after the dataset, numbered from 1 where there are several. */
+static ss_status
+make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, double rate,
+            ss_header **out)
+{
+    double start;
+    char name[128];
+    ss_status status = find_clock(file, id, dataset, &rate, &start);
+    if (status != SS_OK)
+        return status;
+    *out = ss_header_new(rate, start);
+    if (*out == NULL)
+        return SS_ENOMEM;
+    const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
+    char *unit = h5_get_text(id, "units");
+    for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
+        int length = snprintf(name, sizeof name, "%.100s", base);
+        if (shape->columns > 1)
+            snprintf(name + length, sizeof name - (size_t)length, "%zu", c + 1);
+        status = ss_header_add_column(*out, name, unit != NULL ? unit : "");
+    }
+    free(unit);
+    return status;
+}
+
+static ss_status
+read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, double *values)
+{
+    size_t n = shape->rows * shape->columns;
+    double *raw = malloc(n * sizeof *raw);
+    if (raw == NULL)
+        return SS_ENOMEM;
+    ss_status status = SS_OK;
+    if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw) < 0)
+        status = h5_fail(file, SS_EIO, 0, dataset, "cannot be read");
+    for (size_t i = 0; status == SS_OK && i < n; i++) {
+        size_t row = shape->transposed ? i % shape->rows : i / shape->columns;
+        size_t column = shape->transposed ? i / shape->rows : i % shape->columns;
+        values[column * shape->rows + row] = raw[i];
+        if (!isfinite(raw[i])) {
+            char text[64];
+            snprintf(text, sizeof text, "value %zu is not finite", i + 1);
+            status = h5_fail(file, SS_EDATA, 0, dataset, text);
+        }
+    }
+    free(raw);
+    return status;
+}
+
+ss_status
+h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, double rate)
+{
+    array shape;
+    ss_header *head = NULL;
+    hid_t id = H5Dopen2(file->id, dataset, H5P_DEFAULT);
+    if (id < 0)
+        return h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
+    const char *wrong = refuse_type(id);
+    if (wrong == NULL)
+        wrong = get_shape(id, &shape);
+    ss_status status = wrong != NULL ? h5_fail(file, SS_EDATA, 0, dataset, wrong)
+                       : make_header(file, id, dataset, &shape, rate, &head);
+    if (status == SS_OK)
+        status = ss_signal_new(out, head, shape.rows);
+    if (status == SS_OK)
+        status = read_array(file, id, dataset, &shape, (*out)->values);
+    ss_header_free(head);
+    H5Dclose(id);
+    return status;
+}

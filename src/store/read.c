@@ -1,0 +1,361 @@
+/* read.c -- our own files back into memory, value by value as they were written.
+ *
+ * A file may have come through other hands, so every size is checked before it is believed: those
+ * of datasets against each other, those in attributes against the datasets. */
+#include "h5.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../error.h"
+
+/* A required attribute of a group, lo <= value <= hi. */
+static ss_status
+get_number(h5_file *file, hid_t group, const char *name, double lo, double hi, double *value)
+{
+    if (h5_get_number(group, name, value) && *value >= lo && *value <= hi)
+        return SS_OK;
+    char text[128];
+    snprintf(text, sizeof text, "attribute '%s' is missing or out of range", name);
+    return h5_fail(file, SS_EDATA, group, "", text);
+}
+
+/* Rate, start and whether the text form has a column of time, from a group into a new header. */
+static ss_status
+get_header(h5_file *file, hid_t group, ss_header **head)
+{
+    double rate, start, has_time;
+    ss_status status;
+    if ((status = get_number(file, group, "rate", 1e-300, 1e300, &rate)) != SS_OK
+        || (status = get_number(file, group, "start", -1e300, 1e300, &start)) != SS_OK
+        || (status = get_number(file, group, "has_time", 0, 1, &has_time)) != SS_OK)
+        return status;
+    *head = ss_header_new(rate, start);
+    if (*head == NULL)
+        return SS_ENOMEM;
+    (*head)->has_time = has_time != 0;
+    return h5_read_notes(file, *head);
+}
+
+/* The number of values of a 1-D or 2-D dataset. */
+static ss_status
+get_size(h5_file *file, hid_t group, const char *name, size_t *n)
+{
+    hid_t id = H5Dopen2(group, name, H5P_DEFAULT);
+    if (id < 0)
+        return h5_fail(file, SS_EDATA, group, name, "no such dataset");
+    hid_t space = H5Dget_space(id);
+    hssize_t points = H5Sget_simple_extent_npoints(space);
+    H5Sclose(space);
+    H5Dclose(id);
+    if (points < 0 || points > H5_MAX_VALUES)
+        return h5_fail(file, SS_EDATA, group, name, "more values than can be read at once");
+    *n = (size_t)points;
+    return SS_OK;
+}
+
+/* --- /signal ------------------------------------------------------------------------------- */
+
+/* The links of a group, in the order of writing where the file keeps it. */
+static H5_index_t
+link_order(hid_t group)
+{
+    unsigned tracked = 0;
+    hid_t how = H5Gget_create_plist(group);
+    H5Pget_link_creation_order(how, &tracked);
+    H5Pclose(how);
+    return tracked & H5P_CRT_ORDER_TRACKED ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
+}
+
+static char *
+link_at(hid_t group, H5_index_t order, hsize_t i)
+{
+    ssize_t length = H5Lget_name_by_idx(group, ".", order, H5_ITER_INC, i, NULL, 0, H5P_DEFAULT);
+    char *name = length >= 0 ? malloc((size_t)length + 1) : NULL;
+    if (name != NULL)
+        H5Lget_name_by_idx(group, ".", order, H5_ITER_INC, i, name, (size_t)length + 1,
+                           H5P_DEFAULT);
+    return name;
+}
+
+/* Add the dataset at a link as a column of the header; *link stays the caller's. */
+static ss_status
+add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
+{
+    hid_t id = H5Dopen2(group, link, H5P_DEFAULT);
+    if (id < 0)
+        return h5_fail(file, SS_EDATA, group, link, "not a dataset");
+    char *name = h5_get_text(id, "column"), *unit = h5_get_text(id, "units");
+    ss_status status = ss_header_add_column(head, name != NULL ? name : link,
+                                            unit != NULL ? unit : "");
+    free(name);
+    free(unit);
+    H5Dclose(id);
+    return status;
+}
+
+static ss_status
+check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n)
+{
+    char text[64];
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) {
+            snprintf(text, sizeof text, "value %zu is not finite", i + 1);
+            return h5_fail(file, SS_EDATA, group, name, text);
+        }
+    return SS_OK;
+}
+
+static ss_status
+read_columns(h5_file *file, hid_t group, ss_header *head, char *link[], hsize_t n_links,
+             ss_signal **out)
+{
+    size_t n;
+    ss_status status = get_size(file, group, "t", &n);
+    for (hsize_t i = 0; status == SS_OK && i < n_links; i++)
+        if (strcmp(link[i], "t") != 0)
+            status = add_column(file, group, link[i], head);
+    if (status == SS_OK)
+        status = ss_signal_new(out, head, n);
+    double *values = status == SS_OK ? (*out)->values : NULL;
+    for (hsize_t i = 0; status == SS_OK && i < n_links; i++) {
+        if (strcmp(link[i], "t") == 0)
+            continue;
+        status = h5_read_values(file, group, link[i], values, n);
+        if (status == SS_OK)
+            status = check_finite(file, group, link[i], values, n);
+        values += n;
+    }
+    return status;
+}
+
+static ss_status
+read_signal(h5_file *file, ss_signal **out)
+{
+    hid_t group = H5Gopen2(file->id, "/signal", H5P_DEFAULT);
+    H5G_info_t info = { 0 };
+    ss_header *head = NULL;
+    ss_status status = get_header(file, group, &head);
+    if (status == SS_OK && H5Gget_info(group, &info) < 0)
+        status = h5_fail(file, SS_EIO, 0, "/signal", "cannot be read");
+    H5_index_t order = link_order(group);
+    char **link = calloc(info.nlinks + 1, sizeof *link);
+    if (link == NULL)
+        status = SS_ENOMEM;
+    for (hsize_t i = 0; status == SS_OK && i < info.nlinks; i++)
+        if ((link[i] = link_at(group, order, i)) == NULL)
+            status = SS_ENOMEM;
+    if (status == SS_OK)
+        status = read_columns(file, group, head, link, info.nlinks, out);
+    for (hsize_t i = 0; link != NULL && i < info.nlinks; i++)
+        free(link[i]);
+    free(link);
+    ss_header_free(head);
+    H5Gclose(group);
+    return status;
+}
+
+/* --- /wavelet ------------------------------------------------------------------------------ */
+
+static ss_status
+add_grid_column(hid_t group, ss_header *head)
+{
+    char *name = h5_get_text(group, "column"), *unit = h5_get_text(group, "column_units");
+    ss_status status = SS_OK;
+    if (name != NULL && name[0] != '\0')
+        status = ss_header_add_column(head, name, unit != NULL ? unit : "");
+    free(name);
+    free(unit);
+    return status;
+}
+
+static ss_status
+get_lattice(h5_file *file, hid_t group, ss_scale *scale)
+{
+    ss_status status = get_number(file, group, "b_num", 1e-300, 1e300, &scale->b_num);
+    return status == SS_OK ? get_number(file, group, "b_den", 1e-300, 1e300, &scale->b_den) : status;
+}
+
+/* Make room for n coefficients more; scale gets the first of them. */
+static ss_status
+add_room(ss_coefficients *c, ss_scale *scale, size_t n, size_t *total)
+{
+    if (n > (SIZE_MAX - *total) / (2 * sizeof *c->w))
+        return SS_ENOMEM;
+    double *w = realloc(c->w, (*total + n + 1) * 2 * sizeof *w);
+    if (w == NULL)
+        return SS_ENOMEM;
+    c->w = w;
+    scale->n = n;
+    scale->offset = *total;
+    *total += n;
+    return SS_OK;
+}
+
+/* re and im of n coefficients from w on. */
+static ss_status
+get_coefficients(h5_file *file, hid_t group, double *w, size_t n)
+{
+    double *part = malloc((n + 1) * sizeof *part);
+    ss_status status = part != NULL ? SS_OK : SS_ENOMEM;
+    for (int i = 0; status == SS_OK && i < 2; i++) {
+        const char *name = i == 0 ? "re" : "im";
+        status = h5_read_values(file, group, name, part, n);
+        if (status == SS_OK)
+            status = check_finite(file, group, name, part, n);
+        for (size_t k = 0; status == SS_OK && k < n; k++)
+            w[2 * k + (size_t)i] = part[k];
+    }
+    free(part);
+    return status;
+}
+
+static ss_status
+get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *total)
+{
+    char name[32];
+    double j;
+    ss_scale *scale = &c->scale[i];
+    size_t n = 0;
+    ss_status status;
+    snprintf(name, sizeof name, "scale%03zu", i);
+    hid_t group = H5Gopen2(parent, name, H5P_DEFAULT);
+    if (group < 0)
+        return h5_fail(file, SS_EDATA, parent, name, "no such group");
+    if ((status = get_number(file, group, "j", -1e6, 1e6, &j)) == SS_OK
+        && (status = get_number(file, group, "m", -1e4, 1e4, &scale->m)) == SS_OK
+        && (status = get_number(file, group, "scale", 1e-300, 1e300, &scale->a)) == SS_OK
+        && (status = get_number(file, group, "frequency", 1e-300, 1e300, &scale->f)) == SS_OK
+        && (status = get_lattice(file, group, scale)) == SS_OK
+        && (status = get_size(file, group, "re", &n)) == SS_OK
+        && (status = add_room(c, scale, n, total)) == SS_OK) {
+        scale->j = (int)j;
+        status = get_coefficients(file, group, c->w + 2 * scale->offset, n);
+    }
+    H5Gclose(group);
+    return status;
+}
+
+/* A rectangle of coefficients, the members of its scales one dataset each. */
+static ss_status
+get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
+{
+    static const char *const name[] = { "m", "scale", "frequency", "j" };
+    size_t n = c->n_scales;
+    double *row = malloc((4 * n + 1) * sizeof *row);
+    ss_status status = row != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t k = 0; status == SS_OK && k < 4; k++) {
+        status = h5_read_values(file, group, name[k], row + k * n, n);
+        if (status == SS_OK)
+            status = check_finite(file, group, name[k], row + k * n, n);
+    }
+    for (size_t i = 0; status == SS_OK && i < n; i++) {
+        ss_scale *scale = &c->scale[i];
+        scale->m = row[i];
+        scale->a = row[n + i];
+        scale->f = row[2 * n + i];
+        scale->j = (int)row[3 * n + i];
+        if (!(scale->a > 0 && scale->f > 0 && fabs(row[3 * n + i]) <= 1e6))
+            status = h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
+        else if ((status = get_lattice(file, group, scale)) == SS_OK)
+            status = add_room(c, scale, c->n, total);
+    }
+    free(row);
+    return status == SS_OK ? get_coefficients(file, group, c->w, *total) : status;
+}
+
+static ss_status
+read_grid(h5_file *file, hid_t group, ss_coefficients *c)
+{
+    double samples, scales, dense;
+    size_t total = 0;
+    ss_status status;
+    if ((status = get_header(file, group, &c->head)) != SS_OK
+        || (status = add_grid_column(group, c->head)) != SS_OK
+        || (status = get_number(file, group, "samples", 0, H5_MAX_VALUES, &samples)) != SS_OK
+        || (status = get_number(file, group, "scales", 0, 1e6, &scales)) != SS_OK
+        || (status = get_number(file, group, "center", 1e-300, 1e300, &c->center)) != SS_OK
+        || (status = get_number(file, group, "dense", 0, 1, &dense)) != SS_OK)
+        return status;
+    c->n = (size_t)samples;
+    c->n_scales = (size_t)scales;
+    c->scale = calloc(c->n_scales + 1, sizeof *c->scale);
+    if (c->scale == NULL)
+        return SS_ENOMEM;
+    if (dense != 0)
+        return get_dense(file, group, c, &total);
+    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
+        status = get_scale(file, group, c, i, &total);
+    return status;
+}
+
+static ss_status
+read_coefficients(h5_file *file, ss_coefficients **out)
+{
+    if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
+        return h5_fail(file, SS_EDATA, 0, "", "no /wavelet in it; ss-morlet -o FILE.h5 makes one");
+    *out = calloc(1, sizeof **out);
+    if (*out == NULL)
+        return SS_ENOMEM;
+    hid_t group = H5Gopen2(file->id, "wavelet", H5P_DEFAULT);
+    ss_status status = read_grid(file, group, *out);
+    H5Gclose(group);
+    return status;
+}
+
+/* --- public -------------------------------------------------------------------------------- */
+
+static ss_status
+finish(h5_file *file, ss_status status)
+{
+    if (file->id >= 0)
+        H5Fclose(file->id);
+    if (status == SS_ENOMEM)
+        return ss_fail(file->err, status, "%s: %s", file->path, ss_strerror(status));
+    return status;
+}
+
+ss_status
+ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
+                     const ss_read_opts *opts, ss_error *err)
+{
+    h5_file file = { -1, path, err };
+    ss_signal *signal = NULL;
+    ss_status status;
+    H5E_BEGIN_TRY {
+        status = h5_open(&file);
+        if (status == SS_OK && dataset != NULL && dataset[0] != '\0')
+            status = h5_read_foreign(&signal, &file, dataset, opts != NULL ? opts->rate : 0);
+        else if (status == SS_OK && H5Lexists(file.id, "signal", H5P_DEFAULT) > 0)
+            status = read_signal(&file, &signal);
+        else if (status == SS_OK)
+            status = h5_fail_listing(&file);
+        status = finish(&file, status);
+    } H5E_END_TRY
+    if (status == SS_OK)
+        *out = signal;
+    else
+        ss_signal_free(signal);
+    return status;
+}
+
+ss_status
+ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
+{
+    h5_file file = { -1, path, err };
+    ss_coefficients *coefficients = NULL;
+    ss_status status;
+    H5E_BEGIN_TRY {
+        status = h5_open(&file);
+        if (status == SS_OK)
+            status = read_coefficients(&file, &coefficients);
+        status = finish(&file, status);
+    } H5E_END_TRY
+    if (status == SS_OK)
+        *out = coefficients;
+    else
+        ss_coefficients_free(coefficients);
+    return status;
+}

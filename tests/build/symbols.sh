@@ -1,0 +1,13 @@
+# The shared library has its soname and shows what the public headers declare, no more and no less.
+library=$BUILD/libstickslip.so
+[ -f "$library" ] || { echo "no ELF library"; exit 77; }
+nm -D --defined-only "$library" | sed 's/.* //' | grep -v '^_' | sort > shown
+
+# Functions and constants that the headers declare.
+echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#' |
+    tr '\n;{}' ' \n\n\n' | grep -v typedef |
+    sed -n -e 's/^.*[ *]\(ss_[a-z0-9_]*\) *(.*/\1/p' \
+        -e 's/^ *extern const.*[ *]\(ss_[a-z0-9_]*\).*$/\1/p' |
+    sort -u > declared
+diff declared shown
+readelf -d "$library" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p'

@@ -1,0 +1,118 @@
+#!/bin/sh
+# run.sh TEST_PROGRAM ...: run all tests, several at a time, and close with their sum.
+#
+# Tests are the CMocka programs named, from $BUILD/tests, and the scripts tests/cli/*.sh and
+# tests/build/*.sh, with LONG=1 also tests/long/*.sh.  A script is run by sh -eu in an empty
+# directory, with the tools in PATH and $SRC, $BUILD, $CC, $CCLD (compiler with flags for linking),
+# $LIBS, $MAKE and $SAN set.  It must give what NAME.out, NAME.err and NAME.exit beside it hold
+# (nothing, nothing and 0 if they are absent).  Exit 77 skips it, its first line saying why.
+set -u
+SRC=$(cd "$(dirname "$0")/.." && pwd)
+: "${LIMIT:=600}" "${JOBS:=$(getconf _NPROCESSORS_ONLN)}"
+
+# --- one test, by a run.sh of its own ----------------------------------------------------------
+
+limited() {
+    if command -v timeout > /dev/null; then timeout -k 10 "$LIMIT" "$@"; else "$@"; fi
+}
+
+# Sets passed, failed, skipped from the test's words in TAP.
+run_program() {
+    TMPDIR=$scratch CMOCKA_MESSAGE_OUTPUT=TAP limited "$BUILD/tests/$1" > "$log" 2>&1 < /dev/null
+    status=$?
+    # shellcheck disable=SC2046  # four numbers
+    set -- $(awk '/^(not )?ok .*# SKIP/ { s++; next } /^ok / { p++ } /^not ok / { f++ }
+        /^1\.\.[0-9]+$/ { plan += substr($0, 4) } END { print p + 0, f + 0, s + 0, plan + 0 }' "$log")
+    passed=$1 failed=$2 skipped=$3
+    if [ $((passed + failed + skipped)) -ne "$4" ] || [ "$4" = 0 ] ||
+            { [ $status != 0 ] && [ "$failed" = 0 ]; }; then
+        echo "exit status $status after $((passed + failed + skipped)) of $4 tests" >> "$log"
+        failed=$((failed + 1))
+    fi
+}
+
+compare() {     # FILE WHAT: is the text in $scratch.WHAT that of FILE, or empty without FILE?
+    if [ -f "$1" ]; then diff -u "$1" "$scratch.$2"; else diff -u /dev/null "$scratch.$2"; fi ||
+        passed=0
+}
+
+run_script() {
+    passed=0 failed=0 skipped=0 status=0 wanted=0
+    base=$SRC/tests/$1
+    (cd "$scratch" && limited sh -eu "$base.sh" > "$scratch.out" 2> "$scratch.err" < /dev/null) ||
+        status=$?
+    if [ $status = 77 ]; then
+        skipped=1
+        head -n 1 "$scratch.out" > "$log"
+        return
+    fi
+    [ ! -f "$base.exit" ] || read -r wanted < "$base.exit"
+    passed=1
+    {
+        compare "$base.out" out
+        compare "$base.err" err
+        [ $status = "$wanted" ] || { echo "exit status $status, not $wanted"; passed=0; }
+        if grep -qF -e "$SRC" -e "$scratch" "$scratch.out" "$scratch.err"; then
+            echo "a path of this machine in the output"
+            passed=0
+        fi
+    } > "$log" 2>&1
+    failed=$((1 - passed))
+}
+
+if [ "${1-}" = --one ]; then
+    scratch=$WORK/$(echo "$2" | tr / -)
+    log=$scratch.log
+    mkdir "$scratch"
+    began=$(date +%s)
+    case $2 in
+    */*) run_script "$2" ;;
+    *)   run_program "$2" ;;
+    esac
+    echo "$passed $failed $skipped $2" > "$scratch.count"
+    spent=$(($(date +%s) - began))
+    if [ "$failed" != 0 ]; then printf 'FAIL  %s: %d failed' "$2" "$failed"
+    elif [ "$passed" = 0 ]; then printf 'skip  %s: %s' "$2" "$(head -n 1 "$log")"
+    else printf 'ok    %s' "$2"
+    fi
+    [ $((passed + failed + skipped)) = 1 ] || printf ' (%d tests)' $((passed + failed + skipped))
+    [ $spent -lt 2 ] || printf ' %d s' $spent
+    echo
+    exit 0
+fi
+
+# --- all tests ---------------------------------------------------------------------------------
+
+WORK=$(mktemp -d "${TMPDIR:-/tmp}/stickslip-check.XXXXXX") || exit 1
+trap 'rm -rf "$WORK"' EXIT
+trap 'exit 130' HUP INT TERM
+BUILD=$(cd "$BUILD" && pwd) || exit 1
+PATH=$BUILD/bin:$PATH
+HOME=$WORK
+LC_ALL=C
+ASAN_OPTIONS=detect_stack_use_after_return=1
+[ "$(uname)" = Darwin ] || ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=1
+UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export SRC WORK BUILD PATH HOME LC_ALL ASAN_OPTIONS UBSAN_OPTIONS LIMIT CC CCLD LIBS MAKE SAN
+unset CDPATH GNUTERM DISPLAY
+
+cd "$SRC" || exit 1
+tests=$*
+for script in tests/cli/*.sh tests/build/*.sh ${LONG:+tests/long/*.sh}; do
+    [ ! -f "$script" ] || { script=${script#tests/}; tests="$tests ${script%.sh}"; }
+done
+
+[ -n "$tests" ] || { echo "no tests"; exit 1; }
+
+# shellcheck disable=SC2086  # a list of names
+printf '%s\n' $tests | xargs -n 1 -P "$JOBS" sh tests/run.sh --one
+
+passed=0 failed=0 skipped=0
+for name in $tests; do
+    result=$WORK/$(echo "$name" | tr / -)
+    read -r p f s _ < "$result.count" || { p=0 f=1 s=0; }
+    passed=$((passed + p)) failed=$((failed + f)) skipped=$((skipped + s))
+    [ "$f" = 0 ] || { echo; echo "--- $name"; cat "$result.log"; }
+done
+echo "$passed passed, $failed failed, $skipped skipped"
+[ $failed = 0 ]
