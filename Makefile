@@ -116,7 +116,7 @@ DEPS = CC=$(call quote,$(CC)) PKG_CONFIG=$(call quote,$(PKG_CONFIG)) INSTALL_DEP
 	sh tools/install-deps.sh
 
 needs:
-	@INSTALL_DEPS= && $(DEPS) --report build
+	@$(DEPS) --report build
 
 deps:
 	@$(DEPS) build check paper
@@ -166,12 +166,12 @@ install: all
 
 # Directories that only we use go too.
 uninstall:
-	cd $(DESTDIR)$(LIBDIR) && rm -f $(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc
-	cd $(DESTDIR)$(INCLUDEDIR) && rm -f stickslip.h $(HEADERS:include/%=%) && rmdir stickslip
-	cd $(DESTDIR)$(SCENEDIR) && rm -f $(notdir $(SCENES))
-	rmdir $(DESTDIR)$(SCENEDIR) && rmdir $(dir $(DESTDIR)$(SCENEDIR))
-	for t in $(TOOLS); do rm -f $(DESTDIR)$(BINDIR)/$$t; done
-	for m in $(MANUAL); do rm -f $(DESTDIR)$(MANDIR)/man$${m##*.}/$${m##*/}; done
+	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
+		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
+		$(SCENES:data/scenes/%=$(DESTDIR)$(SCENEDIR)/%) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
+		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
+	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
+		rmdir $(DESTDIR)$$d 2> /dev/null || :; done
 
 clean:
 	rm -rf $(BUILD) build build-*
