@@ -173,7 +173,7 @@ uninstall:
 		$(SCENES:data/scenes/%=$(DESTDIR)$(SCENEDIR)/%) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
 		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
 	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
-		[ ! -d $(DESTDIR)$$d ] || rmdir $(DESTDIR)$$d; done
+		rmdir $(DESTDIR)$$d 2> /dev/null || :; done
 
 clean:
 	rm -rf $(BUILD) build build-*

@@ -239,6 +239,14 @@ tool_read_scene(const char *path, const char *const settings[], size_t n)
     return scene;
 }
 
+int
+tool_is_hdf5(const char *path)
+{
+    if (strcmp(path, "-") == 0)
+        return 0;
+    return ss_store_is_hdf5(path) || (access(path, F_OK) != 0 && strstr(path, ":/") != NULL);
+}
+
 size_t
 tool_column(const ss_header *head, const char *path, const char *name)
 {
@@ -345,6 +353,25 @@ tool_end(void)
     int failed = ferror(stdout);
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));
+}
+
+tool_kind
+tool_format(const char *text)
+{
+    static const char *const form[] = { "tsv", "au", NULL };
+    return tool_choice("--format", text, form) == 0 ? TOOL_TSV : TOOL_AU;
+}
+
+void
+tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
+{
+    ss_error err = { "" };
+    if (kind == TOOL_H5)
+        tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
+                   &err);
+    else
+        tool_check(ss_signal_write(signal, tool_output(path), kind == TOOL_AU ? SS_AU : SS_TSV),
+                   NULL);
 }
 
 /* The last line of gnuplot's words is the reason; those above quote the script. */

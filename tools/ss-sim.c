@@ -142,7 +142,6 @@ main(int argc, char *argv[])
         { "max-steps", required_argument, NULL, OPT_MAX_STEPS },
         { "list", no_argument, NULL, 'l' },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
-    static const char *const formats[] = { "tsv", "au", NULL };
     const char *columns = "t,x,v,a,f", *path = NULL;
     const char **settings = calloc((size_t)argc, sizeof *settings);
     size_t n_settings = 0;
@@ -167,7 +166,7 @@ main(int argc, char *argv[])
             opts.max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, 1L << 62);
             break;
         case 'l': list(); break;
-        case TOOL_OPT_FORMAT: kind = (tool_kind)tool_choice("--format", optarg, formats); break;
+        case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
         case 'o': path = optarg; break;
         case 'q': tool_verbosity = -1; break;
         case 'v': tool_verbosity = 1; break;

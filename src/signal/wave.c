@@ -156,10 +156,14 @@ ss_noise_new(ss_noise **out, unsigned long seed)
     return SS_OK;
 }
 
-double
-ss_noise_next(ss_noise *noise)
+void
+ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
+             const double *rms)
 {
-    return gsl_ran_gaussian_ziggurat(noise->rng, 1);
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < n_columns; c++)
+            if (rms[c] > 0)
+                x[i * row + c * column] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
 }
 
 void
@@ -180,8 +184,7 @@ ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
     ss_status st = ss_noise_new(&noise, seed);
     if (st != SS_OK)
         return st;
-    for (size_t i = 0; i < n; i++)
-        x[i] += rms * ss_noise_next(noise);
+    ss_noise_add(noise, x, n, 1, 1, 1, &rms);
     ss_noise_free(noise);
     return SS_OK;
 }
