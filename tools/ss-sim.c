@@ -118,8 +118,8 @@ note_origin(ss_header *head, const char *path, const ss_sim_opts *opts)
     char tol[SS_NUMBER_MAX];
     ss_number_format(tol, opts->tol);
     if (ss_header_note(head, "scene", slash != NULL ? slash + 1 : tool_input_name(path)) != SS_OK
-        || ss_header_note(head, "method", opts->method) != SS_OK
-        || ss_header_note(head, "tol", tol) != SS_OK)
+        || ss_header_note(head, "integrator", opts->method) != SS_OK
+        || ss_header_note(head, "tolerance", tol) != SS_OK)
         tool_die("%s", ss_strerror(SS_ENOMEM));
 }
 
