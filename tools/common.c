@@ -98,7 +98,7 @@ tool_note(const char *format, ...)
 void
 tool_check(ss_status status, const ss_error *err)
 {
-    if (status == SS_EIO && ferror(stdout))
+    if (status == SS_EIO && (ferror(stdout) || (out_file != NULL && ferror(out_file))))
         tool_die("write error: %s", strerror(errno));
     if (status != SS_OK && status != SS_STOP)
         tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));

@@ -65,7 +65,8 @@ unquote(char *p)
     return to;
 }
 
-/* Split a line, in place, into t->cell; one empty cell at the end is dropped.  NONE: no memory. */
+/* Split a line, in place, into t->cell; one empty cell too many at the end is dropped.  NONE: no
+ * memory. */
 static size_t
 split(struct table *t, char *p, char separator)
 {
@@ -87,7 +88,7 @@ split(struct table *t, char *p, char separator)
         t->cell[n++] = trim(begin);
         p = end + more;
     }
-    if (n > 1 && t->cell[n - 1][0] == '\0')
+    if (n > 1 && n != t->n_columns && t->cell[n - 1][0] == '\0')
         n--;
     return n;
 }
