@@ -54,7 +54,7 @@ MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o)
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -96,7 +96,9 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
-	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(CMOCKA_LIBS) $(LIBS)
+	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
+
+$(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
 
 # Objects are made again when the Makefile or the flags change, and not before the packages that
 # they need are there.
@@ -116,7 +118,7 @@ DEPS = CC=$(call quote,$(CC)) PKG_CONFIG=$(call quote,$(PKG_CONFIG)) INSTALL_DEP
 	sh tools/install-deps.sh
 
 needs:
-	@INSTALL_DEPS= && $(DEPS) --report build
+	@$(DEPS) --report build
 
 deps:
 	@$(DEPS) build check paper
@@ -166,12 +168,12 @@ install: all
 
 # Directories that only we use go too.
 uninstall:
-	cd $(DESTDIR)$(LIBDIR) && rm -f $(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc
-	cd $(DESTDIR)$(INCLUDEDIR) && rm -f stickslip.h $(HEADERS:include/%=%) && rmdir stickslip
-	cd $(DESTDIR)$(SCENEDIR) && rm -f $(notdir $(SCENES))
-	rmdir $(DESTDIR)$(SCENEDIR) && rmdir $(dir $(DESTDIR)$(SCENEDIR))
-	for t in $(TOOLS); do rm -f $(DESTDIR)$(BINDIR)/$$t; done
-	for m in $(MANUAL); do rm -f $(DESTDIR)$(MANDIR)/man$${m##*.}/$${m##*/}; done
+	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
+		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
+		$(SCENES:data/scenes/%=$(DESTDIR)$(SCENEDIR)/%) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
+		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
+	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
+		rmdir $(DESTDIR)$$d 2> /dev/null || :; done
 
 clean:
 	rm -rf $(BUILD) build build-*

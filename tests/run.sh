@@ -71,13 +71,13 @@ if [ "${1-}" = --one ]; then
     esac
     echo "$passed $failed $skipped $2" > "$scratch.count"
     spent=$(($(date +%s) - began))
-    if [ "$failed" != 0 ]; then printf 'FAIL  %s: %d failed' "$2" "$failed"
-    elif [ "$passed" = 0 ]; then printf 'skip  %s: %s' "$2" "$(head -n 1 "$log")"
-    else printf 'ok    %s' "$2"
+    if [ "$failed" != 0 ]; then line="FAIL  $2: $failed failed"
+    elif [ "$passed" = 0 ]; then line="skip  $2: $(head -n 1 "$log")"
+    else line="ok    $2"
     fi
-    [ $((passed + failed + skipped)) = 1 ] || printf ' (%d tests)' $((passed + failed + skipped))
-    [ $spent -lt 2 ] || printf ' %d s' $spent
-    echo
+    [ $((passed + failed + skipped)) = 1 ] || line="$line ($((passed + failed + skipped)) tests)"
+    [ $spent -lt 2 ] || line="$line $spent s"
+    echo "$line"                    # at once: others write too
     exit 0
 fi
 

@@ -98,7 +98,7 @@ tool_note(const char *format, ...)
 void
 tool_check(ss_status status, const ss_error *err)
 {
-    if (status == SS_EIO && ferror(stdout))
+    if (status == SS_EIO && (ferror(stdout) || (out_file != NULL && ferror(out_file))))
         tool_die("write error: %s", strerror(errno));
     if (status != SS_OK && status != SS_STOP)
         tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));
@@ -209,6 +209,44 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
     return signal;
 }
 
+static const ss_shipped_scene *
+shipped(const char *name)
+{
+    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
+        if (strcmp(s->name, name) == 0)
+            return s;
+    return NULL;
+}
+
+ss_scene
+tool_read_scene(const char *path, const char *const settings[], size_t n)
+{
+    ss_scene scene;
+    ss_error err = { "" };
+    const ss_shipped_scene *s = shipped(path);
+    if (s == NULL && strcmp(path, "-") != 0 && access(path, F_OK) != 0)
+        tool_die("%s: %s, and no shipped scene has this name (--list shows them)", path,
+                 strerror(errno));
+    FILE *in = s != NULL ? fmemopen((void *)s->text, strlen(s->text), "r") : tool_open(path);
+    if (in == NULL)
+        tool_die("%s", strerror(errno));
+    ss_status st = ss_scene_read_set(&scene, in, tool_input_name(path), settings, n, &err);
+    if (st == SS_EINVAL)
+        tool_usage("--set: %s", err.text);
+    tool_check(st, &err);
+    if (in != stdin)
+        fclose(in);
+    return scene;
+}
+
+int
+tool_is_hdf5(const char *path)
+{
+    if (strcmp(path, "-") == 0)
+        return 0;
+    return ss_store_is_hdf5(path) || (access(path, F_OK) != 0 && strstr(path, ":/") != NULL);
+}
+
 size_t
 tool_column(const ss_header *head, const char *path, const char *name)
 {
@@ -315,6 +353,25 @@ tool_end(void)
     int failed = ferror(stdout);
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));
+}
+
+tool_kind
+tool_format(const char *text)
+{
+    static const char *const form[] = { "tsv", "au", NULL };
+    return tool_choice("--format", text, form) == 0 ? TOOL_TSV : TOOL_AU;
+}
+
+void
+tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
+{
+    ss_error err = { "" };
+    if (kind == TOOL_H5)
+        tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
+                   &err);
+    else
+        tool_check(ss_signal_write(signal, tool_output(path), kind == TOOL_AU ? SS_AU : SS_TSV),
+                   NULL);
 }
 
 /* The last line of gnuplot's words is the reason; those above quote the script. */

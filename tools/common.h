@@ -54,6 +54,11 @@ const char *tool_input_name(const char *path);
 FILE *tool_open(const char *path);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
+/* Read a scene given by path, by the bare name of a shipped one, or "-", with settings
+ * "key=value" in place of its own; dies, a setting at fault being wrong usage. */
+ss_scene tool_read_scene(const char *path, const char *const settings[], size_t n);
+/* 1 if path holds HDF5 or names a dataset in it, which cannot be read row by row, else 0. */
+int tool_is_hdf5(const char *path);
 /* The index of a column by name or number, or die with the list of those that are there; name
  * NULL: "a", else the only one. */
 size_t tool_column(const ss_header *head, const char *path, const char *name);
@@ -73,6 +78,11 @@ tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallbac
 FILE *tool_output(const char *path);
 /* The same for a library call that wants a path: the name of the temporary file. */
 const char *tool_output_path(const char *path);
+
+/* What --format names: tsv or au. */
+tool_kind tool_format(const char *text);
+/* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
+void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
 /* Run gnuplot on the script that write_script writes, into a picture at path (or standard output);
  * dies with gnuplot's own words if it fails. */

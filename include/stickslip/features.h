@@ -13,12 +13,14 @@ typedef struct ss_maximum {
     double t;               /* [s] from the first sample */
     double f;               /* label omega_c / (2 pi a) [Hz] */
     double level;           /* [dB] re the largest |W| outside the cone of influence */
-    double prominence;      /* [dB] above the highest saddle towards any higher point of the map */
+    double prominence;      /* [dB] above the highest saddle towards any higher point of the map;
+                               infinite where there is no way to a higher one */
 } ss_maximum;
 
 /* All local maxima outside the cone of influence with at least the given prominence, in time order;
  * *out is to be freed with free().  Translations of neighbouring scales differ: a coefficient's
- * neighbours are those of its row and, in the two rows beside, those nearest to it in time. */
+ * neighbours are those of its row and, in the two rows beside, those nearest to it in time.  What is
+ * highest on the border of the map (its first and last scale, or beside the cone) is no maximum. */
 ss_status ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                     double min_prominence);
 

@@ -137,10 +137,12 @@ ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, s
 /* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the
  * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
 ss_status ss_add_noise(double *x, size_t n, double rms, unsigned long seed);
-/* The same piece by piece: the next value, of standard deviation 1. */
+/* The same piece by piece, for several columns: to n rows, of which value c of row i stands at
+ * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (where it is 0 none is drawn). */
 typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
-double ss_noise_next(ss_noise *noise);
+void ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
+                  const double *rms);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
@@ -148,8 +150,9 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
 /* --- numbers ------------------------------------------------------------------------------- */
 
 #define SS_NUMBER_MAX 32
-/* Write x in the fewest digits that read back to the same double, whatever the locale, and a
- * terminating NUL, laid out as by %.17g; the length is returned.  "nan", "inf" and "-inf" for what is not finite. */
+/* Write x in the fewest digits that read back to the same double, laid out as by %.17g but whatever
+ * the locale, and a terminating NUL; the length is returned.  What is not finite is "nan", "inf"
+ * or "-inf". */
 size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
 /* Read a decimal number as C's strtod does in the C locale, whatever the locale in force; *end is
  * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */

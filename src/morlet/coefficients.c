@@ -61,15 +61,7 @@ static ss_status
 note_options(ss_header *head, const ss_signal *signal, size_t column, const ss_morlet_opts *opts)
 {
     const ss_column *col = &signal->head->column[column];
-    int failed = 0;
-    for (size_t i = 0; i < signal->head->n_notes; i++) {
-        const char *note = signal->head->note[i], *colon = strstr(note, ": ");
-        char *key = colon != NULL ? strndup(note, (size_t)(colon - note)) : NULL;
-        failed |= colon != NULL
-            && (key == NULL || ss_header_note(head, key, colon + 2) != SS_OK);
-        free(key);
-    }
-    failed |= note_number(head, "samples", (double)signal->n)
+    int failed = note_number(head, "samples", (double)signal->n)
         || ss_header_note(head, "column", col->name) || ss_header_note(head, "unit", col->unit)
         || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
         || (opts->dense ? ss_header_note(head, "dense", "yes")
@@ -83,22 +75,11 @@ note_options(ss_header *head, const ss_signal *signal, size_t column, const ss_m
 }
 
 static ss_status
-make_head(ss_header **head, const ss_signal *signal, size_t column, const ss_morlet_opts *opts)
-{
-    const ss_column *col = &signal->head->column[column];
-    *head = ss_header_new(signal->head->rate, signal->head->start);
-    if (*head == NULL || ss_header_add_column(*head, col->name, col->unit) != SS_OK)
-        return SS_ENOMEM;
-    (*head)->has_time = signal->head->has_time;
-    return note_options(*head, signal, column, opts);
-}
-
-static ss_status
 fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_morlet *plan,
      const ss_morlet_opts *opts, ss_error *err)
 {
-    ss_status st = make_head(&coef->head, signal, column, opts);
-    if (st != SS_OK)
+    ss_status st = ss_header_select(&coef->head, signal->head, &column, 1, 0);
+    if (st != SS_OK || (st = note_options(coef->head, signal, column, opts)) != SS_OK)
         return st;
     coef->n = signal->n;
     coef->center = opts->center;

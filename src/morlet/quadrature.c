@@ -15,8 +15,8 @@
  * Tap.  A coefficient's centre lies tau samples, |tau| <= 1/2, from the sample c nearest to it:
  *     conj h((k - tau) d) = T_k exp(k tau d^2) exp(-(tau d)^2/2) exp(i omega_c tau d)
  * for sample c + k, with T_k = conj h(k d) from a table made once a scale.  The last two factors
- * multiply the sum; exp(k tau d^2) is a product of one exp a block of taps, and one of a table of
- * exp(j tau d^2), j < BLOCK: no recurrence, nothing accumulates.  Phases are reduced in cycles with
+ * multiply the sum; exp(k tau d^2) is a product of three exps, one for the block of taps and two for
+ * the place in the block: no recurrence, nothing accumulates.  Phases are reduced in cycles with
  * the products' rounding errors kept, so they are good to an ulp of pi for any omega_c and k. */
 #include <float.h>
 #include <math.h>
@@ -26,7 +26,7 @@
 #include "error.h"
 #include "morlet/plan.h"
 
-enum { BLOCK = 32, LANES = 4 };
+enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
 #define TAIL_FLOOR (4 * DBL_EPSILON)
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
@@ -152,15 +152,21 @@ wing(const place *at, const double *x, const double *re, const double *im, ptrdi
     sum[1] += low[1];
 }
 
+/* Only the first width of at->g are needed. */
 static void
-locate(place *at, const kernel *ker, double b, double rate, size_t taps)
+locate(place *at, const kernel *ker, double b, double rate, size_t width)
 {
-    double c = rint(b * rate);
+    double c = rint(b * rate), fine[ROOT];
     at->c = (ptrdiff_t)c;
     at->tau = c / rate == b ? 0 : fma(b, rate, -c);
     at->q = at->tau * ker->d * ker->d;
-    for (size_t j = 0; j < BLOCK && j < 2 * taps; j++)
-        at->g[j] = at->q == 0 ? 1 : exp(at->q * (double)j);
+    for (size_t j = 0; j < ROOT; j++)
+        fine[j] = at->q == 0 ? 1 : exp(at->q * (double)j);
+    for (size_t i = 0; i < BLOCK && i < width; i += ROOT) {
+        double coarse = at->q == 0 ? 1 : exp(at->q * (double)i);
+        for (size_t j = 0; j < ROOT; j++)
+            at->g[i + j] = coarse * fine[j];
+    }
 }
 
 /* Add to w, in units of a^1/2, what the taps from <= |k| < to contribute to the coefficient at b. */
@@ -170,7 +176,7 @@ add_taps(const kernel *ker, const double *x, size_t n, double rate, double b, si
 {
     double sum[2], second[2] = { 0, 0 }, part[2];
     place at;
-    locate(&at, ker, b, rate, to);
+    locate(&at, ker, b, rate, 2 * to);
     ptrdiff_t first = -at.c, last = (ptrdiff_t)n - 1 - at.c, out = (ptrdiff_t)to - 1;
     ptrdiff_t lo = first > -out ? first : -out, hi = last < out ? last : out;
     ptrdiff_t in = (ptrdiff_t)from - 1; /* |k| <= in is there already */
@@ -318,10 +324,10 @@ transform_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
         fill_tables(&ker, to);
         for (size_t k = 0; k < scale->n; k++) {
             add_taps(&ker, rec->x, rec->n, plan->rate, ss_scale_b(scale, k), from, to, w + 2 * k);
-            most = fmax(most, hypot(w[2 * k], w[2 * k + 1]));
+            most = fmax(most, w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1]);
         }
         double cut = to >= rec->n ? 0 : tail(&ker, ((double)to - 0.5) * ker.d);
-        bound = tol * fmax(0, most / rec->x_max - cut) + TAIL_FLOOR;
+        bound = tol * fmax(0, sqrt(most) / rec->x_max - cut) + TAIL_FLOOR;
         if (cut <= bound)
             return;
     }

@@ -40,6 +40,9 @@ ss_status text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 ss_status au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 ss_status delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 
+/* The nearest whole Hz that AU can say; the annotation has the exact rate. */
+uint32_t au_rate(double rate);
+
 /* Refuse options for input without a clock, as this one has one. */
 ss_status refuse_clock(const ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 

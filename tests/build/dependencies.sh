@@ -25,6 +25,8 @@ echo '-- report'
 echo ID=debian > os-release
 deps --report build
 INSTALL_DEPS=0 deps paper
+"$MAKE" -s -C "$SRC" BUILD="$PWD/tree" CC=no-compiler 2>&1 | grep -v '^make'
+"$MAKE" -s -C "$SRC" BUILD="$PWD/tree" CC=no-compiler INSTALL_DEPS=0 check 2>&1 | grep -v '^make'
 echo '-- nothing is missing'
 printf '#!/bin/sh\nexit 0\n' > bin/pkg-config
 cp bin/pkg-config bin/gnuplot

@@ -1,0 +1,201 @@
+/* wave.c -- benchmark signals and noise.
+ *
+ * A phase of 1e6 cycles in one double is only good to 1e-10 cycles, so times and phases are kept in
+ * two (Dekker 1971) until whole cycles have been taken off: then it is good to 1e-16 in a record of
+ * any length. */
+#include <float.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <stdlib.h>
+#include "error.h"
+#include "stream.h"
+
+const ss_wave_opts ss_wave_defaults = {
+    .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,
+    .damping = 0.05, .at = 0, .seed = 1
+};
+
+struct twofold {
+    double hi, lo;              /* hi + lo, |lo| <= ulp(hi) / 2 or so */
+};
+
+static struct twofold
+add(struct twofold a, double b)
+{
+    double sum = a.hi + b, part = sum - a.hi;
+    return (struct twofold){ sum, (a.hi - (sum - part)) + (b - part) + a.lo };
+}
+
+static struct twofold
+multiply(struct twofold a, struct twofold b)
+{
+    double p = a.hi * b.hi;
+    return (struct twofold){ p, fma(a.hi, b.hi, -p) + (a.hi * b.lo + a.lo * b.hi) };
+}
+
+static struct twofold
+divide(struct twofold a, double b)
+{
+    double q = a.hi / b;
+    return (struct twofold){ q, (fma(-q, b, a.hi) + a.lo) / b };
+}
+
+static struct twofold
+single(double x)
+{
+    return (struct twofold){ x, 0 };
+}
+
+/* cos(2 pi cycles) */
+static double
+cosine(struct twofold cycles)
+{
+    double rest = cycles.hi - rint(cycles.hi);          /* exact */
+    rest += cycles.lo - rint(cycles.lo);
+    return cos(2 * M_PI * rest);
+}
+
+static double
+ringdown(const ss_wave_opts *o, struct twofold t)
+{
+    double w = 2 * M_PI * o->frequency, s = w * o->damping / sqrt(1 - o->damping * o->damping);
+    return o->amplitude * exp(-s * t.hi) * cosine(multiply(t, single(o->frequency)));
+}
+
+/* The mean frequency since the start, times t. */
+static struct twofold
+chirp_cycles(const ss_wave_opts *o, struct twofold t)
+{
+    struct twofold slope = add(single(o->frequency_end), -o->frequency);
+    struct twofold mean = multiply(divide(slope, 2 * o->duration), t);
+    struct twofold sum = add(mean, o->frequency);
+    return multiply(sum, t);
+}
+
+/* The deterministic ones, in sample i. */
+static double
+sample(ss_wave wave, const ss_wave_opts *o, size_t i)
+{
+    struct twofold t = divide(single((double)i), o->rate), since = add(t, -o->at);
+    int begun = t.hi >= o->at;                  /* as the time is printed */
+    switch (wave) {
+    case SS_SINE:     return o->amplitude * cosine(multiply(since, single(o->frequency)));
+    case SS_IMPULSE:  return (double)i == round(o->at * o->rate) ? o->amplitude : 0;
+    case SS_STEP:     return begun ? o->amplitude : 0;
+    case SS_CHIRP:    return o->amplitude * cosine(chirp_cycles(o, t));
+    case SS_RINGDOWN: return begun ? ringdown(o, since) : 0;
+    case SS_NOISE:    break;
+    }
+    return 0;
+}
+
+/* What is wrong with the options, or NULL. */
+static const char *
+refuse_opts(ss_wave wave, const ss_wave_opts *o)
+{
+    if (wave > SS_NOISE)
+        return "no such kind of signal";
+    if (!(o->rate > 0 && isfinite(o->rate)))
+        return "rate must be above 0";
+    if (!(o->duration >= 0 && o->duration * o->rate < (double)(SIZE_MAX / 64)))
+        return "duration must be at least 0 and finite";
+    if (!isfinite(o->amplitude) || !isfinite(o->at))
+        return "amplitude and at must be finite";
+    if (!(o->frequency >= 0 && o->frequency_end >= 0 && isfinite(o->frequency + o->frequency_end)))
+        return "frequencies must be at least 0 and finite";
+    if (!(o->damping >= 0 && o->damping < 1))
+        return "damping must be in [0, 1)";
+    return NULL;
+}
+
+ss_status
+ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err)
+{
+    const char *wrong = refuse_opts(wave, opts);
+    *out = NULL;
+    if (wrong != NULL)
+        return ss_fail(err, SS_EINVAL, "%s", wrong);
+    ss_header *head = ss_header_new(opts->rate, 0);
+    ss_status st = head != NULL ? ss_header_add_column(head, "a", "") : SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_signal_new(out, head, (size_t)round(opts->duration * opts->rate));
+    ss_header_free(head);
+    if (st == SS_OK && wave == SS_NOISE)
+        st = ss_add_noise((*out)->values, (*out)->n, fabs(opts->amplitude), opts->seed);
+    if (st != SS_OK) {
+        ss_signal_free(*out);
+        *out = NULL;
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    }
+    for (size_t i = 0; wave != SS_NOISE && i < (*out)->n; i++)
+        (*out)->values[i] = sample(wave, opts, i);
+    return SS_OK;
+}
+
+/* --- noise --------------------------------------------------------------------------------- */
+
+struct ss_noise {
+    gsl_rng *rng;
+};
+
+ss_status
+ss_noise_new(ss_noise **out, unsigned long seed)
+{
+    ss_noise *noise = malloc(sizeof *noise);
+    *out = NULL;
+    if (noise == NULL)
+        return SS_ENOMEM;
+    noise->rng = gsl_rng_alloc(gsl_rng_mt19937);
+    if (noise->rng == NULL) {
+        free(noise);
+        return SS_ENOMEM;
+    }
+    gsl_rng_set(noise->rng, seed);
+    *out = noise;
+    return SS_OK;
+}
+
+void
+ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
+             const double *rms)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < n_columns; c++)
+            if (rms[c] > 0)
+                x[i * row + c * column] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
+}
+
+void
+ss_noise_free(ss_noise *noise)
+{
+    if (noise == NULL)
+        return;
+    gsl_rng_free(noise->rng);
+    free(noise);
+}
+
+ss_status
+ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
+{
+    ss_noise *noise;
+    if (!(rms >= 0 && isfinite(rms)))
+        return SS_EINVAL;
+    ss_status st = ss_noise_new(&noise, seed);
+    if (st != SS_OK)
+        return st;
+    ss_noise_add(noise, x, n, 1, 1, 1, &rms);
+    ss_noise_free(noise);
+    return SS_OK;
+}
+
+double
+ss_noise_rms(const double *x, size_t n, double snr_db)
+{
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += (x[i] - mean) / (double)(i + 1);
+    for (size_t i = 0; i < n; i++)
+        square += (x[i] - mean) * (x[i] - mean);
+    return n > 0 ? sqrt(square / (double)n) * pow(10, -snr_db / 20) : 0;
+}

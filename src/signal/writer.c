@@ -1,0 +1,158 @@
+/* writer.c -- signals as text or as Sun AU. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "stream.h"
+
+enum { ROOM = 65536, ANNOTATION_UNIT = 8 };
+
+struct ss_writer {
+    FILE *out;
+    ss_format format;
+    ss_header *head;
+    size_t row;                 /* rows written so far */
+    size_t used;
+    char buffer[ROOM];          /* empty between calls */
+};
+
+static ss_status
+drain(ss_writer *writer)
+{
+    size_t n = writer->used;
+    writer->used = 0;
+    return fwrite(writer->buffer, 1, n, writer->out) == n ? SS_OK : SS_EIO;
+}
+
+static void
+put_big_endian(char *p, uint64_t x, size_t n)
+{
+    for (; n-- > 0; x >>= 8)
+        p[n] = (char)(x & 0xff);
+}
+
+uint32_t
+au_rate(double rate)
+{
+    return rate < 1 ? 1 : rate < UINT32_MAX ? (uint32_t)rint(rate) : UINT32_MAX;
+}
+
+static ss_status
+write_header(ss_writer *writer)
+{
+    size_t length;
+    char *text = header_text(writer->head, &length), fixed[24];
+    if (text == NULL)
+        return SS_ENOMEM;
+    if (writer->format == SS_AU) {
+        size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;    /* NULs, at least one */
+        uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), 0xffffffff,
+                              7, au_rate(writer->head->rate),
+                              (uint32_t)writer->head->n_columns };
+        for (int i = 0; i < 6; i++)
+            put_big_endian(fixed + 4 * i, field[i], 4);
+        fwrite(fixed, 1, sizeof fixed, writer->out);
+        fwrite(text, 1, length, writer->out);
+        fwrite("\0\0\0\0\0\0\0", 1, padding, writer->out);
+    } else {
+        fwrite(text, 1, length, writer->out);
+    }
+    free(text);
+    return ferror(writer->out) ? SS_EIO : SS_OK;
+}
+
+ss_status
+ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
+{
+    ss_writer *writer = malloc(sizeof *writer);
+    *out_writer = NULL;
+    if (writer == NULL)
+        return SS_ENOMEM;
+    writer->out = out;
+    writer->format = format;
+    writer->row = writer->used = 0;
+    writer->head = ss_header_copy(head);
+    ss_status st = writer->head != NULL ? write_header(writer) : SS_ENOMEM;
+    if (st != SS_OK) {
+        ss_writer_free(writer);
+        return st;
+    }
+    *out_writer = writer;
+    return SS_OK;
+}
+
+static void
+put_value(ss_writer *writer, double x, char separator)
+{
+    char *to = writer->buffer + writer->used;
+    if (writer->format == SS_AU) {
+        uint64_t bits;
+        memcpy(&bits, &x, sizeof bits);
+        put_big_endian(to, bits, sizeof bits);
+        writer->used += sizeof bits;
+    } else {
+        size_t n = ss_number_format(to, x);
+        to[n] = separator;
+        writer->used += n + 1;
+    }
+}
+
+ss_status
+ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
+{
+    const ss_header *head = writer->head;
+    size_t columns = head->n_columns;
+    for (size_t i = 0; i < n; i++, writer->row++) {
+        if (head->has_time && writer->format == SS_TSV)
+            put_value(writer, head->start + (double)writer->row / head->rate,
+                      columns > 0 ? '\t' : '\n');
+        for (size_t c = 0; c < columns; c++) {
+            if (writer->used > ROOM - 2 * SS_NUMBER_MAX) {
+                ss_status st = drain(writer);
+                if (st != SS_OK)
+                    return st;
+            }
+            put_value(writer, *rows++, c + 1 < columns ? '\t' : '\n');
+        }
+    }
+    return drain(writer);
+}
+
+ss_status
+ss_writer_flush(ss_writer *writer)
+{
+    return fflush(writer->out) == 0 && !ferror(writer->out) ? SS_OK : SS_EIO;
+}
+
+void
+ss_writer_free(ss_writer *writer)
+{
+    if (writer == NULL)
+        return;
+    ss_header_free(writer->head);
+    free(writer);
+}
+
+ss_status
+ss_signal_write(const ss_signal *signal, FILE *out, ss_format format)
+{
+    enum { PIECE = 1024 };
+    ss_writer *writer;
+    size_t columns = signal->head->n_columns;
+    double *rows = malloc((columns + 1) * PIECE * sizeof *rows);
+    if (rows == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_writer_new(&writer, out, format, signal->head);
+    for (size_t first = 0; st == SS_OK && first < signal->n; first += PIECE) {
+        size_t n = signal->n - first < PIECE ? signal->n - first : PIECE;
+        for (size_t i = 0; i < n; i++)
+            for (size_t c = 0; c < columns; c++)
+                rows[i * columns + c] = signal->values[c * signal->n + first + i];
+        st = ss_writer_rows(writer, rows, n);
+    }
+    if (st == SS_OK)
+        st = ss_writer_flush(writer);
+    ss_writer_free(writer);
+    free(rows);
+    return st;
+}

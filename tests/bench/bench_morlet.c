@@ -1,0 +1,74 @@
+/* bench_morlet.c -- error and cost of the wavelet transform, for each accuracy.
+ *
+ * Prints the largest error against the sum in long double as a fraction of the bound promised, over
+ * all signals of morlet_oracle.h, the largest rounding error in eps a^1/2 max|x|, and the cost; then
+ * the cost for longer records.  Exits 1 if a bound is exceeded. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include "../morlet_oracle.h"
+
+static double
+now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Seconds for one transform of n samples at 2 kHz; its largest error over the bound into *worst. */
+static double
+run(kind which, size_t n, const ss_morlet_opts *opts, double *worst, double *floors,
+    size_t *coefficients)
+{
+    ss_morlet *plan = NULL;
+    double *x = malloc(n * sizeof *x), *w, seconds;
+    make(which, x, n);
+    if (ss_morlet_new(&plan, n, 2000, opts, NULL) != SS_OK)
+        exit(2);
+    *coefficients = ss_morlet_total(plan);
+    w = malloc(2 * *coefficients * sizeof *w);
+    seconds = now();
+    if (ss_morlet_execute(plan, x, w, NULL) != SS_OK)
+        exit(2);
+    seconds = now() - seconds;
+    if (worst != NULL)
+        *worst = worst_error(plan, x, n, 2000, opts, w, 7, floors);
+    ss_morlet_free(plan);
+    free(x);
+    free(w);
+    return seconds;
+}
+
+int
+main(void)
+{
+    static const double accuracy[] = { 1e-3, 1e-6, 1e-9, 1e-12, 1e-13 };
+    ss_morlet_opts opts = ss_morlet_defaults;
+    size_t count;
+    int failed = 0;
+
+    printf("accuracy  error/bound  rounding/eps  ms a record of 6000, 16 voices\n");
+    for (size_t i = 0; i < sizeof accuracy / sizeof *accuracy; i++) {
+        double worst = 0, floors = 0, slowest = 0;
+        opts.accuracy = accuracy[i];
+        for (kind which = 0; which < KINDS; which++) {
+            double w, f;
+            slowest = fmax(slowest, run(which, 6000, &opts, NULL, NULL, &count));
+            opts.voices = 2;
+            run(which, 2003, &opts, &w, &f, &count);
+            opts.voices = 16;
+            worst = fmax(worst, w);
+            floors = fmax(floors, f);
+        }
+        printf("%8.0e  %11.2g  %12.2g  %.1f\n", accuracy[i], worst, floors, 1e3 * slowest);
+        failed |= !(worst <= 1);
+    }
+    opts.accuracy = 1e-6;
+    printf("samples  coefficients  seconds\n");
+    for (size_t n = 6000; n <= 1000000; n = n == 6000 ? 100000 : 10 * n) {
+        double seconds = run(WEAK_BURST, n, &opts, NULL, NULL, &count);
+        printf("%7zu  %12zu  %.3g\n", n, count, seconds);
+    }
+    return failed;
+}

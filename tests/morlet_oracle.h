@@ -1,0 +1,99 @@
+/* morlet_oracle.h -- the wavelet sum as stickslip/morlet.h writes it, in long double and with no
+ * thought for speed, and signals that are hard on a truncated window.  For tests and benchmarks. */
+#ifndef MORLET_ORACLE_H
+#define MORLET_ORACLE_H
+
+#include <float.h>
+#include <math.h>
+#include <stickslip.h>
+
+/* W(a, b) of n samples.  Taps beyond 12 a are below 1e-31 and left out. */
+static void
+oracle(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a, double b,
+       long double w[2])
+{
+    const long double wc = opts->center;
+    long double k = opts->admissible ? expl(-wc * wc / 2) : 0, re = 0, im = 0;
+    double c = rint(b * rate);
+    for (size_t i = 0; i < n; i++) {
+        long double s = c / rate == b ? i - (long double)c : -fmal(b, rate, -(long double)i);
+        long double u = s / ((long double)a * rate);
+        if (fabsl(u) > 12)
+            continue;
+        long double g = x[i] * expl(-u * u / 2);
+        re += g * (cosl(wc * u) - k);
+        im -= g * sinl(wc * u);
+    }
+    long double factor = powl(acosl(-1), -0.25L) / rate
+        / (opts->norm == SS_NORM_L1 ? (long double)a : sqrtl(a));
+    w[0] = re * factor;
+    w[1] = im * factor;
+}
+
+/* What long double itself gets wrong, in units of a^1/2 max|x|: nothing where it is wider. */
+static double
+oracle_error(const ss_morlet_opts *opts)
+{
+    return LDBL_EPSILON * (16 + 8 * opts->center);
+}
+
+/* The largest error of a transform over its bound, INTERFACE.md's promise, over all scales; the
+ * error itself goes into *floors in units of eps a^1/2 max|x|.  every: look at one coefficient in
+ * so many; the largest |W| is that of all coefficients got, which is right to within accuracy. */
+static double
+worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
+            const ss_morlet_opts *opts, const double *w, size_t every, double *floors)
+{
+    double worst = 0, x_max = 0;
+    *floors = 0;
+    for (size_t i = 0; i < n; i++)
+        x_max = fmax(x_max, fabs(x[i]));
+    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
+        const ss_scale *sc = ss_morlet_scale(plan, i);
+        double unit = (opts->norm == SS_NORM_L1 ? 1 : sqrt(sc->a)) * x_max, most = 0, error = 0;
+        for (size_t k = 0; k < sc->n; k++) {
+            const double *got = w + 2 * (sc->offset + k);
+            long double want[2];
+            most = fmax(most, hypot(got[0], got[1]) / (1 + opts->accuracy));
+            if (k % every != 0)
+                continue;
+            oracle(x, n, rate, opts, sc->a, ss_scale_b(sc, k), want);
+            error = fmax(error, (double)hypotl(got[0] - want[0], got[1] - want[1]));
+        }
+        double bound = opts->accuracy * most + 16 * DBL_EPSILON * unit;
+        worst = fmax(worst, (error - oracle_error(opts) * unit) / bound);
+        *floors = fmax(*floors, error / (DBL_EPSILON * unit));
+    }
+    return worst;
+}
+
+/* --- signals ------------------------------------------------------------------------------- */
+
+typedef enum kind { NOISE, TONE, IMPULSE, STEP, WEAK_BURST, OFFSET, KINDS } kind;
+
+static const char *const kind_name[KINDS] = {
+    "noise", "tone", "impulse", "step", "weak burst under a strong tone", "tone on an offset"
+};
+
+/* Fill x with n samples; frequencies relative to the rate, so any rate will do. */
+static void
+make(kind which, double *x, size_t n)
+{
+    unsigned long long seed = 12345;
+    for (size_t i = 0; i < n; i++) {
+        double t = (double)i, mid = (double)n / 2, u = (t - mid) / 40;
+        seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+        double noise = (double)(seed >> 11) * 0x1p-52 - 1;
+        switch (which) {
+        case NOISE:      x[i] = noise; break;
+        case TONE:       x[i] = cos(2 * M_PI * 0.047 * t + 1); break;
+        case IMPULSE:    x[i] = i == n / 3; break;
+        case STEP:       x[i] = i >= n / 3; break;
+        case WEAK_BURST: x[i] = cos(2 * M_PI * 0.00125 * t)     /* 2.5 and 47 Hz at 2 kHz */
+                             + 1e-5 * exp(-u * u) * cos(2 * M_PI * 0.0235 * t); break;
+        default:         x[i] = 1000 + sin(2 * M_PI * 0.02 * t); break;
+        }
+    }
+}
+
+#endif

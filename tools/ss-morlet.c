@@ -1,0 +1,184 @@
+/* ss-morlet.c -- wavelet coefficients of one column of a signal. */
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "common.h"
+
+static const char usage[] =
+"usage: ss-morlet [options] [FILE] > coefficients\n"
+"Morlet wavelet coefficients of a signal, from FILE or standard input.\n"
+"      --column=NAME|N    column to transform (a, or the only one)\n"
+"      --center=WC        omega_c, angular centre frequency of the wavelet (6)\n"
+"      --voices=V         scales an octave (16)\n"
+"      --step=B0          translation step in units of the scale (0.25)\n"
+"      --dense            one coefficient a sample at every scale\n"
+"      --dyadic           the paper's grid: one voice, step 1\n"
+"      --fmin=HZ          lowest frequency (4 cycles a record)\n"
+"      --fmax=HZ          highest frequency (the highest that sampling resolves)\n"
+"      --octaves=M0:M1    scales from 2^M0 to 2^M1 seconds instead\n"
+"      --method=NAME      auto or quadrature (auto)\n"
+"      --accuracy=TOL     error relative to the largest of a scale (1e-6)\n"
+"      --norm=l2|l1       a^-1/2 or 1/a (l2)\n"
+"      --admissible       keep the second term of the wavelet\n"
+"      --detrend=NAME     subtract none, mean or linear first (none)\n"
+"      --force            also scales that the record does not resolve\n"
+"  -o, --output=FILE      .tsv, or .h5 with the signal beside; - is standard output\n"
+"  -q, --quiet            no warnings\n"
+"  -v, --verbose          say what was chosen and what it cost\n"
+"  -h, --help             show this text and exit\n"
+"      --version          show the version and exit\n";
+
+enum {
+    OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
+    OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
+    OPT_FORCE
+};
+
+static const struct option longopts[] = {
+    { "column", required_argument, NULL, OPT_COLUMN },
+    { "center", required_argument, NULL, OPT_CENTER },
+    { "voices", required_argument, NULL, OPT_VOICES },
+    { "step", required_argument, NULL, OPT_STEP },
+    { "dense", no_argument, NULL, OPT_DENSE },
+    { "dyadic", no_argument, NULL, OPT_DYADIC },
+    { "fmin", required_argument, NULL, OPT_FMIN },
+    { "fmax", required_argument, NULL, OPT_FMAX },
+    { "octaves", required_argument, NULL, OPT_OCTAVES },
+    { "method", required_argument, NULL, OPT_METHOD },
+    { "accuracy", required_argument, NULL, OPT_ACCURACY },
+    { "norm", required_argument, NULL, OPT_NORM },
+    { "admissible", no_argument, NULL, OPT_ADMISSIBLE },
+    { "detrend", required_argument, NULL, OPT_DETREND },
+    { "force", no_argument, NULL, OPT_FORCE },
+    TOOL_LONGOPTS
+};
+
+/* In the order of the library's enumerations. */
+static const char *const methods[] = { "auto", "quadrature", NULL };
+static const char *const norms[] = { "l2", "l1", NULL };
+static const char *const detrends[] = { "none", "mean", "linear", NULL };
+
+typedef struct request {
+    ss_morlet_opts opts;
+    const char *column, *output;
+    int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
+} request;
+
+static void
+parse_octaves(ss_morlet_opts *opts, const char *text)
+{
+    char low[64];
+    size_t n = strcspn(text, ":");
+    if (text[n] != ':' || n >= sizeof low)
+        tool_usage("--octaves: '%s' is not M0:M1", text);
+    memcpy(low, text, n);
+    low[n] = '\0';
+    opts->octaves = 1;
+    opts->m0 = tool_number("--octaves", low, -500, 500);
+    opts->m1 = tool_number("--octaves", text + n + 1, opts->m0, 500);
+}
+
+static void
+set_option(request *req, int c)
+{
+    ss_morlet_opts *opts = &req->opts;
+    req->grid |= c == OPT_VOICES || c == OPT_STEP || c == OPT_DENSE;
+    switch (c) {
+    case OPT_COLUMN:     req->column = optarg; break;
+    case OPT_CENTER:     opts->center = tool_number("--center", optarg, 2, 1000); break;
+    case OPT_VOICES:     opts->voices = (int)tool_integer("--voices", optarg, 1, 1024); break;
+    case OPT_STEP:       opts->step = tool_number("--step", optarg, 1e-6, 1e6); break;
+    case OPT_DENSE:      opts->dense = 1; break;
+    case OPT_DYADIC:     req->dyadic = 1; break;
+    case OPT_FMIN:       opts->fmin = tool_number("--fmin", optarg, 1e-100, 1e100); break;
+    case OPT_FMAX:       opts->fmax = tool_number("--fmax", optarg, 1e-100, 1e100); break;
+    case OPT_OCTAVES:    parse_octaves(opts, optarg); break;
+    case OPT_METHOD:     opts->engine = (ss_engine)tool_choice("--method", optarg, methods); break;
+    case OPT_ACCURACY:   opts->accuracy = tool_number("--accuracy", optarg, 1e-13, 0.1); break;
+    case OPT_NORM:       opts->norm = (ss_norm)tool_choice("--norm", optarg, norms); break;
+    case OPT_ADMISSIBLE: opts->admissible = 1; break;
+    case OPT_DETREND:    opts->detrend = (ss_detrend)tool_choice("--detrend", optarg, detrends);
+                         break;
+    case OPT_FORCE:      opts->force = 1; break;
+    case 'o':            req->output = optarg; break;
+    case 'q':            tool_verbosity = -1; break;
+    case 'v':            tool_verbosity = 1; break;
+    case 'h':            tool_help();
+    case TOOL_OPT_VERSION: tool_version();
+    default:             tool_usage(NULL);
+    }
+}
+
+/* Options that exclude each other. */
+static void
+check_request(request *req)
+{
+    ss_morlet_opts *opts = &req->opts;
+    if (opts->octaves && (opts->fmin > 0 || opts->fmax > 0))
+        tool_usage("--octaves excludes --fmin and --fmax");
+    if (opts->fmin > 0 && opts->fmax > 0 && opts->fmin > opts->fmax)
+        tool_usage("--fmin lies above --fmax");
+    if (req->dyadic && req->grid)
+        tool_usage("--dyadic excludes --voices, --step and --dense");
+    if (req->dyadic) {
+        opts->voices = 1;
+        opts->step = 1;
+    }
+}
+
+/* A library call's failure, told with the input's name. */
+static void
+check(ss_status status, const ss_error *err, const char *path)
+{
+    if (status != SS_OK)
+        tool_die("%s: %s", tool_input_name(path),
+                 err->text[0] != '\0' ? err->text : ss_strerror(status));
+}
+
+static void
+say_what_was_done(const ss_coefficients *coef, double seconds)
+{
+    const ss_scale *last = &coef->scale[coef->n_scales - 1];
+    tool_note("quadrature: %zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %.3g s",
+              last->offset + last->n, coef->n, coef->n_scales, coef->scale[0].f, last->f, seconds);
+}
+
+static void
+write_output(const char *path, const ss_signal *signal, const ss_coefficients *coef)
+{
+    ss_error err = { "" };
+    if (tool_output_kind(path, 1u << TOOL_TSV | 1u << TOOL_H5, TOOL_TSV) == TOOL_H5) {
+        ss_record record = { .signal = signal, .coefficients = coef };
+        tool_check(ss_store_write(tool_output_path(path), &record, &err), &err);
+        return;
+    }
+    if (ss_coefficients_write(coef, tool_output(path)) != SS_OK)
+        tool_end();                     /* says why */
+}
+
+int
+main(int argc, char *argv[])
+{
+    request req = { .opts = ss_morlet_defaults };
+    ss_coefficients *coef = NULL;
+    ss_error err = { "" };
+
+    tool_begin(argv, "ss-morlet", usage);
+    for (int c; (c = getopt_long(argc, argv, "o:qvh", longopts, NULL)) != -1;)
+        set_option(&req, c);
+    check_request(&req);
+    tool_output_kind(req.output, 1u << TOOL_TSV | 1u << TOOL_H5, TOOL_TSV);
+    const char *path = tool_input(argc, argv, optind);
+
+    ss_signal *signal = tool_read_signal(path, NULL);
+    size_t column = tool_column(signal->head, path, req.column);
+    clock_t begin = clock();
+    check(ss_transform(&coef, signal, column, &req.opts, &err), &err, path);
+    say_what_was_done(coef, (double)(clock() - begin) / CLOCKS_PER_SEC);
+    write_output(req.output, signal, coef);
+    ss_coefficients_free(coef);
+    ss_signal_free(signal);
+    tool_end();
+    return 0;
+}
