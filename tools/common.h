@@ -69,6 +69,8 @@ typedef enum tool_kind {        /* what the ending of -o asks for */
     TOOL_TSV, TOOL_AU, TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF
 } tool_kind;
 
+#define TOOL_PICTURES (1u << TOOL_GP | 1u << TOOL_PNG | 1u << TOOL_SVG | 1u << TOOL_PDF)
+
 /* The kind of path's ending, among those allowed (a bit set of 1u << kind), else wrong usage that
  * names them; standard output (NULL or "-") has the fallback. */
 tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
@@ -84,9 +86,9 @@ tool_kind tool_format(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
-/* Run gnuplot on the script that write_script writes, into a picture at path (or standard output);
- * dies with gnuplot's own words if it fails. */
-typedef ss_status tool_script(FILE *out, void *user, ss_error *err);
-void tool_gnuplot(tool_script *write_script, void *user);
+/* Write a script to what -o names, a .gp or standard output, or the picture that gnuplot makes of
+ * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
+typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
+void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
 
 #endif

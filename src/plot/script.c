@@ -1,7 +1,7 @@
 /* script.c -- what all gnuplot scripts have in common: terminal, size, text that draws and does not
  * run, numbers that no locale changes, lines thinned to the picture's width.
  *
- * A picture is as wide as a journal's column, 8.5 cm, its letters 7 points high. */
+ * A picture is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
 #include "script.h"
 
 #include <ctype.h>
@@ -148,9 +148,10 @@ put_terminal(FILE *out, const char *format, const char *output, double height)
     script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
     script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
-    fprintf(out, "font = 'Sans,%s'\n", pdf ? "7" : "20");
+    fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : "24");
     fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
-            terminal(format), unit, unit, pdf ? "0.5" : "2", pdf ? " fontscale 1" : "");
+            terminal(format), unit, unit, pdf ? "0.5" : "2",
+            pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
         fputs("set output ", out);
         script_quote(out, output);
@@ -183,7 +184,7 @@ script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double 
     if (format != NULL)
         put_terminal(out, format, opts->output, height);
     else
-        fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,7' fontscale 1 "
+        fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", 8.5, height);
     fputs("title = ", out);
     script_quote(out, find_title(opts, head));
