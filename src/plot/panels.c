@@ -136,6 +136,7 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
           "set title title noenhanced offset 0,-0.5; set xlabel x_label noenhanced offset 0,0.3\n"
           "set label 1 y_label at screen 0.035,graph 0.5 center rotate noenhanced; unset key\n"
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+          "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
           "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour\n", out);

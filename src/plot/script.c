@@ -148,9 +148,9 @@ put_terminal(FILE *out, const char *format, const char *output, double height)
     script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
     script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
-    fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : "24");
+    fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
     fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
-            terminal(format), unit, unit, pdf ? "0.5" : "2",
+            terminal(format), unit, unit, pdf ? "0.6" : "2",
             pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
         fputs("set output ", out);
