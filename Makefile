@@ -55,7 +55,8 @@ TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,%,$(wildcard tests/bench/bench_*.c))
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/bench/%.o)
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
+	$(BENCHES:%=$(BUILD)/tests/bench/%.o)
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -97,7 +98,9 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
-	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(CMOCKA_LIBS) $(LIBS)
+	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
+
+$(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
 
 # What benchmarks print goes into the manual pages; they fail if an error passes its bound.
 bench: $(BENCHES:%=$(BUILD)/tests/bench/%)

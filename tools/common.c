@@ -98,7 +98,7 @@ tool_note(const char *format, ...)
 void
 tool_check(ss_status status, const ss_error *err)
 {
-    if (status == SS_EIO && ferror(stdout))
+    if (status == SS_EIO && (ferror(stdout) || (out_file != NULL && ferror(out_file))))
         tool_die("write error: %s", strerror(errno));
     if (status != SS_OK && status != SS_STOP)
         tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));
@@ -207,6 +207,36 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
     else
         tool_check(ss_load_signal(&signal, path, opts, &err), &err);
     return signal;
+}
+
+static const ss_shipped_scene *
+shipped(const char *name)
+{
+    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
+        if (strcmp(s->name, name) == 0)
+            return s;
+    return NULL;
+}
+
+ss_scene
+tool_read_scene(const char *path, const char *const settings[], size_t n)
+{
+    ss_scene scene;
+    ss_error err = { "" };
+    const ss_shipped_scene *s = shipped(path);
+    if (s == NULL && strcmp(path, "-") != 0 && access(path, F_OK) != 0)
+        tool_die("%s: %s, and no shipped scene has this name (--list shows them)", path,
+                 strerror(errno));
+    FILE *in = s != NULL ? fmemopen((void *)s->text, strlen(s->text), "r") : tool_open(path);
+    if (in == NULL)
+        tool_die("%s", strerror(errno));
+    ss_status st = ss_scene_read_set(&scene, in, tool_input_name(path), settings, n, &err);
+    if (st == SS_EINVAL)
+        tool_usage("--set: %s", err.text);
+    tool_check(st, &err);
+    if (in != stdin)
+        fclose(in);
+    return scene;
 }
 
 int

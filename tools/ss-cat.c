@@ -33,8 +33,8 @@ say_header(const ss_header *head)
     char rate[SS_NUMBER_MAX], start[SS_NUMBER_MAX];
     ss_number_format(rate, head->rate);
     ss_number_format(start, head->start);
-    tool_note("%s: %zu columns at %s Hz from %s s", tool_input_name(path), head->n_columns, rate,
-              start);
+    tool_note("%s: %s Hz from %s s, columns: %zu", tool_input_name(path), rate, start,
+              head->n_columns);
 }
 
 /* The indices of the columns asked for. */

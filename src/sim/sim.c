@@ -25,6 +25,14 @@ enum { CHATTER_EVENTS = 1000 };
 
 const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
 
+#define EXACT "exact"
+
+const char *
+ss_sim_method_name(size_t i)
+{
+    return i == 0 ? EXACT : ode_method_name(i - 1);
+}
+
 const char *
 ss_event_kind_name(ss_event_kind kind)
 {
@@ -66,7 +74,7 @@ motion_of(const ss_scene *scene)
 typedef struct record {
     const ss_scene *scene;
     const ss_sim_opts *opts;
-    instant settle, end;                /* of the record, from the start of settling */
+    instant end;                        /* of the record, from the start of settling */
     size_t n, i;                        /* samples in all, next sample */
     size_t filled;
     ss_sample buffer[256];
@@ -83,38 +91,57 @@ flush(record *r)
     return SS_OK;
 }
 
+static instant
+instant_of_sample(const record *r, size_t i)
+{
+    return instant_add(instant_sample((double)i, r->scene->rate), r->scene->settle);
+}
+
 /* The time from m->u to the i-th sample of the record. */
 static double
 until_sample(const record *r, const motion *m, size_t i)
 {
-    instant t = instant_sample((double)i, r->scene->rate);
-    t = instant_add(instant_add(t, r->settle.hi), r->settle.lo);
-    return instant_diff(t, m->origin) - m->u;
+    return instant_diff(instant_of_sample(r, i), m->origin) - m->u;
 }
 
-/* All samples up to, not including, h after m->u.  A mass at rest keeps its state. */
+/* The i-th sample, s after m->u in state q. */
+static void
+fill_sample(ss_sample *sample, const record *r, const motion *m, double s, const double q[],
+            const double dqdt[])
+{
+    double u = m->u + s;
+    m->model->sample(m, u, q, dqdt, sample);
+    sample->t = (double)r->i / r->scene->rate;
+    sample->z = motion_drive(m, u) / r->scene->stiffness;
+}
+
+/* All samples up to, not including, h after m->u.  A mass at rest keeps its state, and as that may
+ * last for ever, each of its samples has its own origin. */
 static ss_status
 write_samples(record *r, engine *e, int still, double h)
 {
     const motion *m = e->m;
     for (; r->i < r->n; r->i++) {
-        double q[MAX_DIM], s = until_sample(r, m, r->i);
+        double q[MAX_DIM], dqdt[MAX_DIM] = { 0 }, s = until_sample(r, m, r->i);
         if (!(s < h))
             break;
+        s = fmax(s, 0);
         if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
             ss_status st = flush(r);
             if (st != SS_OK)
                 return st;
         }
         ss_sample *sample = &r->buffer[r->filled++];
-        s = fmax(s, 0);
-        if (still)
-            memcpy(q, m->q, sizeof q);
-        else
-            e->type->at(e, s, q);
-        m->model->sample(m, m->u + s, q, sample);
-        sample->t = (double)r->i / r->scene->rate;
-        sample->z = r->scene->base_amplitude * cos(m->theta + m->omega * (m->u + s));
+        if (still) {
+            motion then = *m;
+            then.origin = instant_of_sample(r, r->i);
+            then.u = 0;
+            motion_rebase(&then);
+            fill_sample(sample, r, &then, 0, then.q, dqdt);
+        } else {
+            e->type->at(e, s, q, dqdt);
+            fill_sample(sample, r, m, s, q, dqdt);
+        }
     }
     return SS_OK;
 }
@@ -123,7 +150,7 @@ static ss_status
 write_event(record *r, const motion *m, ss_event *e)
 {
     instant t = instant_add(m->origin, m->u);
-    e->t = instant_diff(t, r->settle);
+    e->t = (t.hi - r->scene->settle) + t.lo;
     e->x = m->x_ref + m->q[0];
     e->v = m->q[1];
     if (!(e->t >= 0 && instant_diff(t, r->end) < 0) || r->opts->events == NULL)
@@ -143,9 +170,7 @@ guard_at(double s, void *user)
     const motion *m = e->m;
     double q[MAX_DIM], dqdt[MAX_DIM];
     guard_value at;
-    e->type->at(e, s, q);
-    e->rhs++;
-    m->model->rhs(m->u + s, q, dqdt, (void *)m);
+    e->type->at(e, s, q, dqdt);
     at.g = m->model->guard(m, q, dqdt, &at.slope);
     return at;
 }
@@ -170,8 +195,8 @@ change_mode(record *r, engine *e, int still, double s)
     motion *m = e->m;
     ss_event event;
     if (!still) {
-        double q[MAX_DIM];
-        e->type->at(e, s, q);
+        double q[MAX_DIM], dqdt[MAX_DIM];
+        e->type->at(e, s, q, dqdt);
         memcpy(m->q, q, sizeof q);
     }
     m->u += s;
@@ -264,7 +289,6 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (st != SS_OK)
         return st;
     record r = { .scene = scene, .opts = opts, .n = ss_scene_samples(scene),
-                 .settle = { scene->settle, 0 },
                  .end = instant_sum(scene->settle, scene->duration) };
     motion m = motion_of(scene);
     engine *e = NULL;
@@ -274,7 +298,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
     int slips = m.model->start(&m);
-    st = ode_new(&e, &m, opts, err);
+    st = strcmp(opts->method, EXACT) == 0 ? exact_new(&e, &m, err) : ode_new(&e, &m, opts, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)

@@ -1,0 +1,32 @@
+/* oracle.h -- the motion of Coulomb and compliant scenes in closed form, in long double.
+ *
+ * Independent of the library: between events the motion is a sum of a steady and a damped
+ * sinusoid; events are found by scanning that sum in steps of 1/2000 of its fastest period, with a
+ * look at every minimum between, and bisection to the last bit. */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+#include <stddef.h>
+#include <stickslip.h>
+
+typedef struct oracle_piece {       /* what holds from one event to the next */
+    long double t0;                 /* [s] from the start of settling */
+    int mode;                       /* 0 stick or microstick, else the sign of the slip */
+    ss_event_kind kind;             /* of the event that it begins with */
+    int direction;
+    long double x_ref, c, k, f0;    /* m q'' + c q' + k q = drive - f0, x = x_ref + q */
+    long double q0, v0, at_rest;    /* at t0; at_rest: v is 0 throughout */
+} oracle_piece;
+
+typedef struct oracle {
+    const ss_scene *scene;
+    size_t n, room;
+    oracle_piece *piece;            /* the first one is not an event if the scene starts in stick */
+    int starts_with_event;
+} oracle;
+
+oracle *oracle_new(const ss_scene *scene, double t_end);
+void oracle_at(const oracle *o, size_t piece, long double t, long double out[3]);    /* x, v, a */
+void oracle_free(oracle *o);
+
+#endif

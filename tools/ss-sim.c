@@ -1,0 +1,230 @@
+/* ss-sim -- simulate a scene; write samples or events. */
+#include <errno.h>
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+#include "common.h"
+
+static const char usage[] =
+"usage: ss-sim [options] SCENE\n"
+"Simulate an oscillator with dry friction.  SCENE is a file, - for standard\n"
+"input, or the name of a shipped scene; the record goes to standard output.\n"
+"  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
+"  -c, --columns LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
+"  -e, --events          write the events in the record, not the samples\n"
+"  -m, --method NAME     a GSL step type (default rk8pd), or exact: closed form\n"
+"  -t, --tol TOL         relative local error a step (default 1e-12)\n"
+"      --max-steps N     give up after N integration steps\n"
+"  -l, --list            list the shipped scenes and the methods\n"
+"  -o, --output FILE     .tsv, .au or .h5; whole or absent (default: stdout)\n"
+"      --format FORM     of standard output: tsv (default) or au\n"
+"  -q, --quiet           no warnings; -v, --verbose: what was done and its cost\n"
+"  -h, --help            show this text; --version: show the version\n";
+
+enum { OPT_MAX_STEPS = TOOL_OPT_FIRST };
+
+/* What the sinks need: a stream to write to, or a record to fill. */
+struct output {
+    ss_sim_columns columns;
+    ss_header *head;
+    ss_writer *writer;              /* samples as a stream */
+    FILE *events_out;               /* events as text */
+    ss_signal *signal;              /* for HDF5 */
+    size_t n_samples;
+    ss_event *events;
+    size_t n_events, room;
+};
+
+static int
+stream_samples(const ss_sample *s, size_t n, void *user)
+{
+    struct output *o = user;
+    double row[SS_SIM_COLUMNS];
+    for (size_t i = 0; i < n; i++) {
+        ss_sim_row(&o->columns, &s[i], row);
+        if (ss_writer_rows(o->writer, row, 1) != SS_OK)
+            return 1;
+    }
+    return 0;
+}
+
+static int
+keep_samples(const ss_sample *s, size_t n, void *user)
+{
+    struct output *o = user;
+    double row[SS_SIM_COLUMNS];
+    for (size_t i = 0; i < n; i++, o->n_samples++) {
+        ss_sim_row(&o->columns, &s[i], row);
+        for (size_t c = 0; c < o->columns.n; c++)
+            o->signal->values[c * o->signal->n + o->n_samples] = row[c];
+    }
+    return 0;
+}
+
+static int
+print_event(const ss_event *e, void *user)
+{
+    const struct output *o = user;
+    char t[SS_NUMBER_MAX], x[SS_NUMBER_MAX], v[SS_NUMBER_MAX];
+    ss_number_format(t, e->t);
+    ss_number_format(x, e->x);
+    ss_number_format(v, e->v);
+    return fprintf(o->events_out, "%s\t%s\t%s\t%s\t%d\n", t, ss_event_kind_name(e->kind), x, v,
+                   e->direction) < 0;
+}
+
+static int
+keep_event(const ss_event *e, void *user)
+{
+    struct output *o = user;
+    if (o->n_events == o->room) {
+        o->room = o->room > 0 ? 2 * o->room : 64;
+        o->events = realloc(o->events, o->room * sizeof *o->events);
+        if (o->events == NULL)
+            tool_die("%s", ss_strerror(SS_ENOMEM));
+    }
+    o->events[o->n_events++] = *e;
+    return 0;
+}
+
+static void
+list(void)
+{
+    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
+        printf("%-16s %s\n", s->name, s->summary);
+    printf("\nmethods:");
+    for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
+        printf(" %s", ss_sim_method_name(i));
+    printf("\n");
+    tool_end();
+    exit(0);
+}
+
+static void
+choose_method(ss_sim_opts *opts, const char *name)
+{
+    enum { MOST = 32 };
+    const char *choice[MOST + 1] = { NULL };
+    for (size_t i = 0; i < MOST && ss_sim_method_name(i) != NULL; i++)
+        choice[i] = ss_sim_method_name(i);
+    opts->method = choice[tool_choice("--method", name, choice)];
+}
+
+/* The name by which the scene is known, without its directories. */
+static void
+note_origin(ss_header *head, const char *path, const ss_sim_opts *opts)
+{
+    const char *slash = strrchr(path, '/');
+    char tol[SS_NUMBER_MAX];
+    ss_number_format(tol, opts->tol);
+    if (ss_header_note(head, "scene", slash != NULL ? slash + 1 : tool_input_name(path)) != SS_OK
+        || ss_header_note(head, "integrator", opts->method) != SS_OK
+        || ss_header_note(head, "tolerance", tol) != SS_OK)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+}
+
+static void
+print_events_header(FILE *out, const ss_header *head)
+{
+    fprintf(out, "# stickslip events 1\n");
+    for (size_t i = 0; i < head->n_notes; i++)
+        fprintf(out, "# %s\n", head->note[i]);
+    fprintf(out, "# columns: t/s kind x/m v/(m/s) direction\n");
+}
+
+int
+main(int argc, char *argv[])
+{
+    static const struct option longopts[] = {
+        { "set", required_argument, NULL, 's' }, { "columns", required_argument, NULL, 'c' },
+        { "events", no_argument, NULL, 'e' }, { "method", required_argument, NULL, 'm' },
+        { "tol", required_argument, NULL, 't' },
+        { "max-steps", required_argument, NULL, OPT_MAX_STEPS },
+        { "list", no_argument, NULL, 'l' },
+        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
+    const char *columns = "t,x,v,a,f", *path = NULL;
+    const char **settings = calloc((size_t)argc, sizeof *settings);
+    size_t n_settings = 0;
+    int events = 0;
+    tool_kind kind = TOOL_TSV;
+    struct output o = { .writer = NULL };
+    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_stats stats = { 0 };
+    ss_error err = { "" };
+
+    tool_begin(argv, "ss-sim", usage);
+    if (settings == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (int c; (c = getopt_long(argc, argv, "s:c:em:t:lo:qvh", longopts, NULL)) != -1;)
+        switch (c) {
+        case 's': settings[n_settings++] = optarg; break;
+        case 'c': columns = optarg; break;
+        case 'e': events = 1; break;
+        case 'm': choose_method(&opts, optarg); break;
+        case 't': opts.tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
+        case OPT_MAX_STEPS:
+            opts.max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, 1L << 62);
+            break;
+        case 'l': list(); break;
+        case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
+        case 'o': path = optarg; break;
+        case 'q': tool_verbosity = -1; break;
+        case 'v': tool_verbosity = 1; break;
+        case 'h': tool_help();
+        case TOOL_OPT_VERSION: tool_version();
+        default: tool_usage(NULL);
+        }
+    if (optind == argc)
+        tool_usage("which scene? give a file, or one of those that --list shows");
+    if (optind + 1 != argc)
+        tool_usage("unexpected argument '%s'", argv[optind + 1]);
+    kind = tool_output_kind(path, events ? 1u << TOOL_TSV
+                            : 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
+    if (events && kind != TOOL_TSV)
+        tool_usage("--events are text: --format au does not apply");
+    if (ss_sim_columns_parse(&o.columns, columns, &err) != SS_OK)
+        tool_usage("--columns: %s", err.text);
+
+    ss_scene scene = tool_read_scene(argv[optind], settings, n_settings);
+    o.head = ss_sim_header(&scene, &o.columns);
+    if (o.head == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    note_origin(o.head, argv[optind], &opts);
+    if (events && scene.model == SS_STATE_VARIABLE)
+        tool_warn("the state-variable model has no events");
+
+    opts.user = &o;
+    if (events) {
+        o.events_out = tool_output(path);
+        print_events_header(o.events_out, o.head);
+        opts.events = print_event;
+    } else if (kind == TOOL_H5) {
+        tool_check(ss_signal_new(&o.signal, o.head, ss_scene_samples(&scene)), NULL);
+        opts.samples = keep_samples;
+        opts.events = keep_event;
+    } else {
+        tool_check(ss_writer_new(&o.writer, tool_output(path), kind == TOOL_AU ? SS_AU : SS_TSV,
+                                 o.head), NULL);
+        opts.samples = stream_samples;
+    }
+    ss_status st = ss_sim_run(&scene, &opts, &stats, &err);
+    if (st == SS_STOP)
+        tool_die("write error: %s", strerror(errno));
+    if (st == SS_OK && o.signal != NULL)
+        st = ss_store_write(tool_output_path(path),
+                            &(ss_record){ .signal = o.signal, .events = o.events,
+                                          .n_events = o.n_events,
+                                          .has_events = scene.model != SS_STATE_VARIABLE }, &err);
+    if (st == SS_OK && o.writer != NULL && ss_writer_flush(o.writer) != SS_OK)
+        tool_die("write error: %s", strerror(errno));
+    tool_check(st, &err);
+    tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", opts.method, opts.tol,
+              stats.steps, stats.rhs, stats.events);
+    ss_writer_free(o.writer);
+    ss_signal_free(o.signal);
+    ss_header_free(o.head);
+    free(o.events);
+    free(settings);
+    tool_end();
+    return 0;
+}
