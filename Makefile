@@ -53,8 +53,10 @@ HEADERS := $(wildcard include/stickslip/*.h)
 MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+BENCHES := $(patsubst tests/bench/%.c,%,$(wildcard tests/bench/bench_*.c))
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
+	$(BENCHES:%=$(BUILD)/tests/bench/%.o)
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -99,6 +101,13 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
 $(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
+
+# What benchmarks print goes into the manual pages; they fail if an error passes its bound.
+bench: $(BENCHES:%=$(BUILD)/tests/bench/%)
+	@for b in $^; do $$b || exit 1; done
+
+$(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(STATIC)
+	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 # Objects are made again when the Makefile or the flags change, and not before the packages that
 # they need are there.
@@ -178,6 +187,6 @@ uninstall:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench check check-all clean deps draw-paper install needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)
