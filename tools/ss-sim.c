@@ -12,7 +12,7 @@ static const char usage[] =
 "  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
 "  -c, --columns LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
-"  -m, --method NAME     integrator: a GSL step type (default rk8pd)\n"
+"  -m, --method NAME     a GSL step type (default rk8pd), or exact: closed form\n"
 "  -t, --tol TOL         relative local error a step (default 1e-12)\n"
 "      --max-steps N     give up after N integration steps\n"
 "  -l, --list            list the shipped scenes and the methods\n"

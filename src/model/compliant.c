@@ -72,10 +72,9 @@ next(motion *m, ss_event *e)
 }
 
 static void
-sample(const motion *m, double u, const double q[], ss_sample *s)
+sample(const motion *m, double u, const double q[], const double dqdt[], ss_sample *s)
 {
-    double dqdt[MAX_DIM];
-    linear_rhs(u, q, dqdt, (void *)m);
+    (void)u;
     s->x = m->x_ref + q[0];
     s->v = q[1];
     s->a = dqdt[1];

@@ -92,21 +92,15 @@ next(motion *m, ss_event *e)
 }
 
 static void
-sample(const motion *m, double u, const double q[], ss_sample *s)
+sample(const motion *m, double u, const double q[], const double dqdt[], ss_sample *s)
 {
-    double dqdt[MAX_DIM];
+    int still = m->mode == 0;
     s->x = q[0];
     s->v = q[1];
+    s->a = still ? 0 : dqdt[1];
+    s->f = still ? spring_force(m, u, q[0]) : m->f0;
     s->y = 0;
     s->mode = m->mode;
-    if (m->mode == 0) {
-        s->a = 0;
-        s->f = spring_force(m, u, q[0]);
-        return;
-    }
-    linear_rhs(u, q, dqdt, (void *)m);
-    s->a = dqdt[1];
-    s->f = m->f0;
 }
 
 const struct model coulomb_model = {

@@ -43,8 +43,9 @@ struct model {
     int (*still)(const motion *m, double *u_end);
     /* The mode ends at m->u in state m->q: enter the next.  1 if that is an event, put into *e. */
     int (*next)(motion *m, ss_event *e);
-    /* What the state says at time u, except t and z. */
-    void (*sample)(const motion *m, double u, const double q[], ss_sample *s);
+    /* What the state and its rate of change say at time u, except t and z. */
+    void (*sample)(const motion *m, double u, const double q[], const double dqdt[],
+                   ss_sample *s);
 };
 
 extern const struct model coulomb_model, state_variable_model, compliant_model;

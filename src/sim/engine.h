@@ -11,8 +11,8 @@ struct engine_type {
     ss_status (*begin)(engine *e);
     /* Take one step of at most h_max from m->u: fills h, q1, dq1. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
-    /* The state at m->u + s, 0 <= s <= h, within the step just taken. */
-    void (*at)(engine *e, double s, double q[]);
+    /* The state at m->u + s, 0 <= s <= h, within the step just taken, and its rate of change. */
+    void (*at)(engine *e, double s, double q[], double dqdt[]);
     /* The step is done with: it ended at m->u + h, which becomes m->u. */
     void (*accept)(engine *e);
     void (*free)(engine *e);
@@ -28,6 +28,8 @@ struct engine {
     unsigned long steps, rhs, events;
 };
 
+const char *ode_method_name(size_t i);      /* NULL after the last */
 ss_status ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err);
+ss_status exact_new(engine **out, motion *m, ss_error *err);
 
 #endif

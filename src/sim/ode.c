@@ -103,7 +103,7 @@ ode_step(engine *e, double h_max, ss_error *err)
 }
 
 static void
-ode_at(engine *e, double s, double q[])
+ode_at(engine *e, double s, double q[], double dqdt[])
 {
     ode *o = (ode *)e;
     double error[MAX_DIM];
@@ -111,6 +111,7 @@ ode_at(engine *e, double s, double q[])
     if (s > 0 && s < e->h)
         gsl_odeiv2_step_apply(o->side, e->m->u, s, q, error,
                               o->side->type->can_use_dydt_in ? e->dq0 : NULL, NULL, &o->system);
+    rhs(e->m->u + s, q, dqdt, o);
 }
 
 static void
@@ -157,7 +158,7 @@ method[] = {
 enum { METHODS = sizeof method / sizeof *method };
 
 const char *
-ss_sim_method_name(size_t i)
+ode_method_name(size_t i)
 {
     return i < METHODS ? method[i].name : NULL;
 }

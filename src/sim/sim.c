@@ -25,6 +25,14 @@ enum { CHATTER_EVENTS = 1000 };
 
 const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
 
+#define EXACT "exact"
+
+const char *
+ss_sim_method_name(size_t i)
+{
+    return i == 0 ? EXACT : ode_method_name(i - 1);
+}
+
 const char *
 ss_event_kind_name(ss_event_kind kind)
 {
@@ -98,10 +106,11 @@ until_sample(const record *r, const motion *m, size_t i)
 
 /* The i-th sample, s after m->u in state q. */
 static void
-fill_sample(ss_sample *sample, const record *r, const motion *m, double s, const double q[])
+fill_sample(ss_sample *sample, const record *r, const motion *m, double s, const double q[],
+            const double dqdt[])
 {
     double u = m->u + s;
-    m->model->sample(m, u, q, sample);
+    m->model->sample(m, u, q, dqdt, sample);
     sample->t = (double)r->i / r->scene->rate;
     sample->z = motion_drive(m, u) / r->scene->stiffness;
 }
@@ -113,7 +122,7 @@ write_samples(record *r, engine *e, int still, double h)
 {
     const motion *m = e->m;
     for (; r->i < r->n; r->i++) {
-        double q[MAX_DIM], s = until_sample(r, m, r->i);
+        double q[MAX_DIM], dqdt[MAX_DIM] = { 0 }, s = until_sample(r, m, r->i);
         if (!(s < h))
             break;
         s = fmax(s, 0);
@@ -128,10 +137,10 @@ write_samples(record *r, engine *e, int still, double h)
             then.origin = instant_of_sample(r, r->i);
             then.u = 0;
             motion_rebase(&then);
-            fill_sample(sample, r, &then, 0, then.q);
+            fill_sample(sample, r, &then, 0, then.q, dqdt);
         } else {
-            e->type->at(e, s, q);
-            fill_sample(sample, r, m, s, q);
+            e->type->at(e, s, q, dqdt);
+            fill_sample(sample, r, m, s, q, dqdt);
         }
     }
     return SS_OK;
@@ -161,9 +170,7 @@ guard_at(double s, void *user)
     const motion *m = e->m;
     double q[MAX_DIM], dqdt[MAX_DIM];
     guard_value at;
-    e->type->at(e, s, q);
-    e->rhs++;
-    m->model->rhs(m->u + s, q, dqdt, (void *)m);
+    e->type->at(e, s, q, dqdt);
     at.g = m->model->guard(m, q, dqdt, &at.slope);
     return at;
 }
@@ -188,8 +195,8 @@ change_mode(record *r, engine *e, int still, double s)
     motion *m = e->m;
     ss_event event;
     if (!still) {
-        double q[MAX_DIM];
-        e->type->at(e, s, q);
+        double q[MAX_DIM], dqdt[MAX_DIM];
+        e->type->at(e, s, q, dqdt);
         memcpy(m->q, q, sizeof q);
     }
     m->u += s;
@@ -291,7 +298,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
     int slips = m.model->start(&m);
-    st = ode_new(&e, &m, opts, err);
+    st = strcmp(opts->method, EXACT) == 0 ? exact_new(&e, &m, err) : ode_new(&e, &m, opts, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)

@@ -1,4 +1,4 @@
 printf '' > run.csv
 ss-cat -o out.tsv run.csv || status=$?
 ls
-exit $status
+exit "$status"

@@ -2,4 +2,4 @@
 { ss-signal sine --duration 20; echo "20	oops"; } > run.tsv
 ss-cat -o out.tsv run.tsv || status=$?
 ls
-exit $status
+exit "$status"

@@ -3,7 +3,7 @@ mkfifo in
 ss-cat < in > out &
 exec 3> in
 printf '# stickslip signal 1\n# rate: 10\n# columns: t/s x\n0\t1\n' >&3
-for i in 1 2 3 4 5 6 7 8 9 10; do
+for _ in 1 2 3 4 5 6 7 8 9 10; do
     grep -q '^0' out && break
     sleep 0.3
 done

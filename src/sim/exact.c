@@ -1,0 +1,185 @@
+/* exact.c -- a motion in closed form: Coulomb and compliant contact are linear within a mode.
+ *
+ * From the start of a mode, with m q'' + c q' + k q = D cos(theta + Omega u) - f0,
+ *
+ *     q(u) = P(u) + (q0 - P(0)) C(u) + (q0' - P'(0)) S(u) - (f0/m) G(u),
+ *
+ * where S and C answer a unit velocity and a unit displacement, G is the integral of S, and P is the
+ * steady motion.  C, S and G are written so that nothing cancels or overflows at critical damping,
+ * far beyond it, or for w u -> 0.  P has a singularity at resonance; within a tenth of it (where
+ * the damping is light, too) the motion from rest takes its place, as a divided difference of
+ * exponentials, which has none.  Its error is rounding: a few ulp of each term. */
+#include "sim/engine.h"
+
+#include <complex.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+
+/* |k - m Omega^2 + i c Omega| below this part of k is treated as resonance: from there on, P costs
+ * one digit at most. */
+#define RESONANCE 0.1
+
+/* Cycles of the base after which the mode is taken up anew from its present state, so that Omega u
+ * keeps its digits. */
+enum { CYCLES = 4 };
+
+typedef struct exact {
+    engine base;
+    double s, w;                    /* roots of m r^2 + c r + k: -s +- i w, or -s +- w */
+    int overdamped;
+    int resonant;
+    double p_cos, p_sin;            /* P = p_cos cos(theta + Omega u) + p_sin sin(...) */
+    double q, v;                    /* factors of C and S */
+} exact;
+
+/* C, S, G and the first two's derivatives follow from these: C' = -(k/m) S, S' = C - 2 s S. */
+static void
+free_motion(const exact *x, double u, double *C, double *S, double *G)
+{
+    double k_m = x->base.m->k / x->base.m->scene->mass, wu = x->w * u, sinc;
+    if (x->overdamped) {
+        double slow = -k_m / (x->s + x->w), decay = exp(slow * u), part = -expm1(-2 * wu);
+        *S = decay * part / (2 * x->w);
+        *C = decay * (1 - part / 2) + x->s * *S;
+        *G = (1 - *C) / k_m;
+        return;
+    }
+    double decay = x->s == 0 ? 1 : exp(-x->s * u);
+    sinc = x->w > 0 ? sin(wu) / x->w : u;
+    *S = decay * sinc;
+    *C = decay * cos(wu) + x->s * *S;
+    if (x->s == 0) {
+        double half = x->w > 0 ? sin(wu / 2) / (x->w / 2) : u;
+        *G = half * half / 2;               /* (1 - cos wu) / w^2 */
+    } else {
+        *G = (1 - *C) / k_m;
+    }
+}
+
+/* (exp(z) - 1) / z */
+static double complex
+expm1_over(double complex z)
+{
+    double x = creal(z), y = cimag(z), half = sin(y / 2);
+    if (x == 0 && y == 0)
+        return 1;
+    return (expm1(x) * cos(y) - 2 * half * half + I * (exp(x) * sin(y))) / z;
+}
+
+/* The answer, from rest at u = 0, to D cos(theta + Omega u): q and q'. */
+static void
+driven_from_rest(const exact *x, double u, double *q, double *v)
+{
+    const motion *m = x->base.m;
+    double complex io = I * m->omega, r[2] = { -x->s + I * x->w, -x->s - I * x->w }, part[2];
+    double complex D = m->drive / m->scene->mass * cexp(I * m->theta);
+    for (int i = 0; i < 2; i++)             /* integral of exp(r (u - t)) exp(i Omega t) */
+        part[i] = u * cexp(r[i] * u) * expm1_over((io - r[i]) * u);
+    *q = creal(D * (part[0] - part[1]) / (r[0] - r[1]));
+    *v = creal(D * (r[0] * part[0] - r[1] * part[1]) / (r[0] - r[1]));
+}
+
+static void
+evaluate(const exact *x, double u, double q[], double dqdt[])
+{
+    const motion *m = x->base.m;
+    double mass = m->scene->mass, f_m = m->f0 / mass, C, S, G, p, dp;
+    double phase = m->theta + m->omega * u, co = cos(phase), si = sin(phase);
+    free_motion(x, u, &C, &S, &G);
+    if (x->resonant) {
+        driven_from_rest(x, u, &p, &dp);
+    } else {
+        p = x->p_cos * co + x->p_sin * si;
+        dp = m->omega * (x->p_sin * co - x->p_cos * si);
+    }
+    q[0] = p + x->q * C + x->v * S - f_m * G;
+    q[1] = dp - x->q * m->k / mass * S + x->v * (C - m->c / mass * S) - f_m * S;
+    dqdt[0] = q[1];
+    dqdt[1] = (m->drive * co - m->f0 - m->k * q[0] - m->c * q[1]) / mass;
+}
+
+static ss_status
+exact_begin(engine *e)
+{
+    exact *x = (exact *)e;
+    motion *m = e->m;
+    double mass = m->scene->mass, omega0 = sqrt(m->k / mass);
+    double stiffness = m->k - mass * m->omega * m->omega, damping = m->c * m->omega;
+    double impedance = hypot(stiffness, damping);
+
+    motion_rebase(m);
+    x->s = m->c / (2 * mass);
+    x->overdamped = x->s > omega0;
+    x->w = sqrt(fabs(omega0 - x->s) * (omega0 + x->s));
+    x->resonant = impedance < RESONANCE * m->k;
+    x->q = m->q[0];
+    x->v = m->q[1];
+    if (!x->resonant) {
+        double in_phase = m->drive * (stiffness / impedance) / impedance;
+        double late = m->drive * (damping / impedance) / impedance;
+        double co = cos(m->theta), si = sin(m->theta);
+        x->p_cos = in_phase;
+        x->p_sin = late;
+        x->q -= in_phase * co + late * si;
+        x->v -= m->omega * (late * co - in_phase * si);
+    }
+    e->rhs++;
+    double q[MAX_DIM];
+    evaluate(x, 0, q, e->dq0);
+    return SS_OK;
+}
+
+static ss_status
+exact_step(engine *e, double h_max, ss_error *err)
+{
+    const exact *x = (exact *)e;
+    (void)err;
+    e->h = h_max;
+    e->steps++;
+    e->rhs++;
+    evaluate(x, e->m->u + e->h, e->q1, e->dq1);
+    return SS_OK;
+}
+
+static void
+exact_at(engine *e, double s, double q[], double dqdt[])
+{
+    e->rhs++;
+    evaluate((exact *)e, e->m->u + s, q, dqdt);
+}
+
+static void
+exact_accept(engine *e)
+{
+    motion *m = e->m;
+    memcpy(m->q, e->q1, sizeof m->q);
+    memcpy(e->dq0, e->dq1, sizeof e->dq0);
+    m->u += e->h;
+    if (m->u * m->omega > CYCLES * 2 * M_PI)
+        exact_begin(e);
+}
+
+static void
+exact_free(engine *e)
+{
+    free(e);
+}
+
+static const struct engine_type exact_type = {
+    .begin = exact_begin, .step = exact_step, .at = exact_at, .accept = exact_accept,
+    .free = exact_free
+};
+
+ss_status
+exact_new(engine **out, motion *m, ss_error *err)
+{
+    if (m->scene->model == SS_STATE_VARIABLE)
+        return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");
+    exact *x = calloc(1, sizeof *x);
+    if (x == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    x->base = (engine){ .type = &exact_type, .m = m };
+    *out = &x->base;
+    return SS_OK;
+}
