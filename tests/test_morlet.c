@@ -85,11 +85,11 @@ error_of_the_sum_is_below_its_bound(void **state)
             opts.accuracy = accuracy[j];
             ss_morlet *plan = plan_of(s.n, s.rate, &opts);
             for (kind which = 0; which < KINDS; which++) {
-                double *x = malloc(s.n * sizeof *x), floors;
+                double *x = malloc(s.n * sizeof *x);
                 make(which, x, s.n);
                 double *w = transform(plan, x);
                 size_t every = 1 + ss_morlet_total(plan) * s.n / 30000;
-                double worst = worst_error(plan, x, s.n, s.rate, &opts, w, every, &floors);
+                double worst = worst_error(plan, x, s.n, s.rate, &opts, w, every);
                 if (!(worst <= 1))
                     fail_msg("center %g, %d voices, accuracy %g, %s: %g times the bound",
                              s.center, s.voices, opts.accuracy, kind_name[which], worst);
@@ -758,6 +758,86 @@ stream_may_interleave_scales(void **state)
     fclose(mixed);
 }
 
+/* One change to a good stream, and what must be said of it. */
+static const struct damage {
+    const char *from, *to, *says;
+} damage[] = {
+    { "# stickslip coefficients 1", "# stickslip signal 1", "c.tsv:1: a signal where" },
+    { "# stickslip coefficients 1", "t,x,a", "c.tsv:1: not a coefficient stream" },
+    { "# rate: 2000", "# rate: fast", "rate 'fast' is not a number" },
+    { "# rate: 2000", "# rate: -1", "rate -1 Hz is out of range" },
+    { "# samples: 300\n", "", "no line '# samples: ...'" },
+    { "# samples: 300", "# samples: 300.5", "not whole numbers" },
+    { "# samples: 300", "# samples: 400", "of the" },
+    { "# voices: 2", "# voices: 3", "not those of a scale" },
+    { "# step: 0.25", "# step: 0.5", "b is 0.0078125 s where the grid has 0.015625 s" },
+    { "# center: 6", "# center: 7", "not those of a scale" },
+    { "# columns: m a/s", "# columns: m a/min", "expected '# columns: m a/s b/s" },
+    { "-5\t0.03125\t0\t", "-5\t0.03125\tzero\t", "column 3 is not a number" },
+    { "-5\t0.03125\t0\t", "-5\t0.03125\tnan\t", "column 3 is not a number" },
+    { "-5\t0.03125\t0\t", "-5\t0.03125\t0 ", "expected 7 numbers separated by tabs" },
+    { "-5\t0.03125\t0\t", "-5\t0.03125\t0.1\t", "b is 0.1 s where the grid has 0 s" },
+    { "-5\t0.03125\t0\t", "1e300\t0.03125\t0\t", "not those of a scale" },
+    { "\t1\n-5\t0.03125\t0.0078125", "\t0\n-5\t0.03125\t0.0078125", "edge is 0" },
+    { "\t1\n-5\t0.03125\t0.0078125", "\t1\t2\n-5\t0.03125\t0.0078125", "separated by tabs" },
+};
+
+/* The text with its first from put in place by to. */
+static FILE *
+damaged(const char *text, const struct damage *d)
+{
+    const char *at = strstr(text, d->from);
+    FILE *file = tmpfile();
+    if (at == NULL)
+        fail_msg("no '%s' to damage", d->from);
+    fwrite(text, 1, (size_t)(at - text), file);
+    fputs(d->to, file);
+    fputs(at + strlen(d->from), file);
+    rewind(file);
+    return file;
+}
+
+static void
+assert_refused(FILE *file, const char *says)
+{
+    ss_coefficients *back = NULL;
+    ss_error err = { "" };
+    ss_status st = ss_coefficients_read(&back, file, "c.tsv", &err);
+    if (st != SS_EDATA || strncmp(err.text, "c.tsv:", 6) != 0 || strstr(err.text, says) == NULL)
+        fail_msg("'%s' expected, not %d, '%s'", says, st, err.text);
+    fclose(file);
+}
+
+static void
+refuses_broken_streams(void **state)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    opts.voices = 2, opts.octaves = 1, opts.m0 = -6, opts.m1 = -5;
+    ss_coefficients *coef = some_coefficients(&opts);
+    ss_coefficients_write(coef, file);
+    ss_coefficients_free(coef);
+    fclose(file);
+    for (size_t i = 0; i < LENGTH(damage); i++)
+        assert_refused(damaged(text, &damage[i]), damage[i].says);
+
+    char *last = strrchr(text, '\t');           /* cut within the last row, then before it */
+    *last = '\0';
+    assert_refused(damaged(text, &(struct damage){ "", "", NULL }), "separated by tabs");
+    strrchr(text, '\n')[1] = '\0';
+    assert_refused(damaged(text, &(struct damage){ "", "", NULL }), "coefficients of scale -6");
+    strstr(text, "edge\n")[5] = '\0';
+    assert_refused(damaged(text, &(struct damage){ "", "", NULL }), "without coefficients");
+    *strstr(text, "# columns") = '\0';
+    assert_refused(damaged(text, &(struct damage){ "", "", NULL }), "ends before '# columns");
+    *text = '\0';
+    assert_refused(damaged(text, &(struct damage){ "", "", NULL }), "empty");
+    free(text);
+}
+
 int
 main(void)
 {
@@ -787,6 +867,7 @@ main(void)
         cmocka_unit_test(refuses_points_off_the_plane),
         cmocka_unit_test(stream_reads_back_the_same),
         cmocka_unit_test(stream_may_interleave_scales),
+        cmocka_unit_test(refuses_broken_streams),
     };
     gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);
