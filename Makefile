@@ -147,9 +147,11 @@ paper:
 	@$(DEPS) build paper
 	@$(MAKE) --no-print-directory draw-paper
 
+# make -n runs lines that name MAKE, so the tests get it by another name.
+THIS_MAKE = $(MAKE)
 run-tests: all $(TESTS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
-		MAKE=$(call quote,$(MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
+		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
 		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
 
 draw-paper: all
