@@ -9,13 +9,13 @@
 
 static const char usage[] =
 "usage: ss-contour [options] [FILE] | gnuplot -p\n"
-"Draw wavelet coefficients: contours of |W| in dB below the largest, over time and\n"
-"frequency, under the signal that an HDF5 file has beside them.\n"
+"Draw wavelet coefficients: contours of |W| in dB below the largest, over time\n"
+"and frequency, under the signal that an HDF5 file has beside them.\n"
 "      --levels=N       contour lines (18)\n"
 "      --span=DB        that they span below the largest |W| (80)\n"
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
-"      --events=FILE    mark the times in the first column, as ss-sim --events writes\n"
+"      --events=FILE    mark these times, as ss-sim --events writes them\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
@@ -70,7 +70,8 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
         signal_path = path;
     if (signal == NULL)
         return NULL;
-    if (column == NULL && head->n_columns > 0 && ss_header_column(signal->head, head->column[0].name) >= 0)
+    if (column == NULL && head->n_columns > 0
+        && ss_header_column(signal->head, head->column[0].name) >= 0)
         column = head->column[0].name;
     d->opts.signal = signal;
     d->opts.column = tool_column(signal->head, signal_path, column);

@@ -10,7 +10,7 @@ static const char usage[] =
 "usage: ss-plot [options] [FILE[:/dataset]] | gnuplot -p\n"
 "Draw a signal: one panel a column over time, or one column over another.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
-"      --xy=X,Y         column Y over column X instead: a phase plane, a friction loop\n"
+"      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
