@@ -153,8 +153,8 @@ text_of_files_stands_between_quotes(void **state)
     (void)state;
     opts.title = "\"; system 'touch x'\n`touch y`";
     char *script = signal_script(signal, &opts);
-    assert_non_null(strstr(script, "\ntitle = '\"; system ''touch x'' `touch y`'\n"));
-    assert_non_null(strstr(script, "\nlabel1 = 'a''`@b / m''s'\n"));
+    assert_non_null(strstr(script, "\ntitle = '\"; system '.\"'\".'touch x'.\"'\".' `touch y`'\n"));
+    assert_non_null(strstr(script, "\nlabel1 = 'a'.\"'\".'`@b / m'.\"'\".'s'\n"));
     free(script);
     ss_signal_free(signal);
 }
