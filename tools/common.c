@@ -118,17 +118,15 @@ tool_check(ss_status status, const ss_error *err)
 }
 
 void
-tool_help(void)
+tool_option(int c)
 {
-    fputs(usage_text, stdout);
-    tool_end();
-    exit(0);
-}
-
-void
-tool_version(void)
-{
-    printf("%s (libstickslip) %s\n", tool_name, ss_version());
+    switch (c) {
+    case 'q': tool_verbosity = -1; return;
+    case 'v': tool_verbosity = 1; return;
+    case 'h': fputs(usage_text, stdout); break;
+    case TOOL_OPT_VERSION: printf("%s (libstickslip) %s\n", tool_name, ss_version()); break;
+    default: tool_usage(NULL);          /* getopt has said what is wrong */
+    }
     tool_end();
     exit(0);
 }

@@ -142,11 +142,7 @@ main(int argc, char *argv[])
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     const char *path = tool_input(argc, argv, optind);
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);

@@ -80,11 +80,7 @@ main(int argc, char *argv[])
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'r': read_opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;
         case 'o': output = optarg; break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     }
     const char *path = tool_input(argc, argv, optind);
