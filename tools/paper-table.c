@@ -10,6 +10,7 @@
  * spike less prominent along the shortest scale is none. */
 #define PROMINENCE (80.0 / 18)
 #define LOWEST (-40.0)          /* local maxima below this are noise [dB] */
+#define LOW 20.0                /* local maxima below belong to the base and its harmonics [Hz] */
 #define RANGE 20.0              /* spikes this much below the highest one do not count [dB] */
 #define LISTED 60               /* more spikes than this are noise too, and counted only */
 
@@ -60,6 +61,28 @@ keep(ss_maximum *maximum, size_t n, double lowest)
     return kept;
 }
 
+/* Of those above the harmonics of the base: how many, where, how prominent. */
+static void
+print_ranges(const ss_maximum *maximum, size_t n)
+{
+    double f[2] = { INFINITY, 0 }, prominence[2] = { INFINITY, 0 };
+    size_t high = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (maximum[i].f < LOW)
+            continue;
+        high++;
+        f[0] = fmin(f[0], maximum[i].f);
+        f[1] = fmax(f[1], maximum[i].f);
+        prominence[0] = fmin(prominence[0], maximum[i].prominence);
+        prominence[1] = fmax(prominence[1], maximum[i].prominence);
+    }
+    printf("; above %g Hz: %zu", LOW, high);
+    if (high > 0)
+        printf(", at %.1f to %.1f Hz, prominence %.1f to %.1f dB", f[0], f[1], prominence[0],
+               prominence[1]);
+    printf("\n");
+}
+
 static void
 print_maxima(const ss_coefficients *c)
 {
@@ -67,27 +90,14 @@ print_maxima(const ss_coefficients *c)
     size_t n = 0;
     tool_check(ss_maxima(&maximum, &n, c, PROMINENCE), NULL);
     n = keep(maximum, n, LOWEST);
-    printf("  local maxima: %zu\n", n);
+    printf("  local maxima: %zu", n);
+    print_ranges(maximum, n);
     if (n > 0)
         printf("    %8s %9s %9s %14s\n", "t/s", "f/Hz", "level/dB", "prominence/dB");
     for (size_t i = 0; i < n; i++)
         printf("    %8.4f %9.3f %9.2f %14.2f\n", c->head->start + maximum[i].t, maximum[i].f,
                maximum[i].level, maximum[i].prominence);
     free(maximum);
-}
-
-/* Spikes of the shortest scale.  The range that ss_spikes takes begins at the largest |W| of the
- * scale, which may be what the record's ends leave beside the cone; here the highest spike counts. */
-static ss_maximum *
-find_spikes(const ss_coefficients *c, size_t *n)
-{
-    ss_maximum *spike = NULL;
-    double highest = -INFINITY;
-    tool_check(ss_spikes(&spike, n, c, c->n_scales - 1, 1000, PROMINENCE), NULL);
-    for (size_t i = 0; i < *n; i++)
-        highest = fmax(highest, spike[i].level);
-    *n = keep(spike, *n, highest - RANGE);
-    return spike;
 }
 
 static void
@@ -105,10 +115,11 @@ print_counts(const ss_maximum *spike, size_t n, double half, double end)
 static void
 print_spikes(const ss_coefficients *c)
 {
-    size_t n;
-    ss_maximum *spike = find_spikes(c, &n);
+    size_t n, shortest = c->n_scales - 1;
+    ss_maximum *spike;
     double half = half_cycle(c->head);
-    printf("  spikes at %.0f Hz: %zu", c->scale[c->n_scales - 1].f, n);
+    tool_check(ss_spikes(&spike, &n, c, shortest, RANGE, PROMINENCE), NULL);
+    printf("  spikes at %.0f Hz: %zu", c->scale[shortest].f, n);
     if (half > 0)
         print_counts(spike, n, half, (double)c->n / c->head->rate);
     printf("\n");

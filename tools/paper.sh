@@ -42,4 +42,7 @@ fi
 for n in 2 3 5 6 7; do
     set -- "$@" "$OUT/figure$n.h5"
 done
-paper-table "$@" | tee "$OUT/table.txt"
+paper-table "$@" > "$OUT/table.txt"
+grep -v '^    ' "$OUT/table.txt"
+echo
+echo "Each of them: $OUT/table.txt.  The figures: $OUT/*.png, *.pdf."
