@@ -155,24 +155,25 @@ put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo
     }
 }
 
-/* 1 2 5 10 20 50 ... Hz, or powers of ten only where those would not fit. */
+/* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, or at the powers only
+ * where those would not fit. */
 static void
 put_frequency_tics(FILE *out, double lo, double hi)
 {
-    static const int step[] = { 1, 2, 5 };
+    int sparse = hi / lo > 2e4;
     const char *between = "set ytics (";
     for (int e = (int)floor(log10(lo)); e <= (int)floor(log10(hi)); e++)
-        for (int i = 0; i < 3; i++) {
-            double f = step[i] * pow(10, abs(e));
-            f = e < 0 ? step[i] / pow(10, -e) : f;
-            if (f < lo || f > hi || (i > 0 && hi / lo > 2e4))
-                continue;
+        for (int digit = 1; digit <= 9; digit++) {
+            double f = e < 0 ? digit / pow(10, -e) : digit * pow(10, e);
+            int major = digit == 1 || (!sparse && (digit == 2 || digit == 5));
             char text[SS_NUMBER_MAX];
+            if (f < lo || f > hi)
+                continue;
             ss_number_format(text, f);
-            fprintf(out, "%s'%s' %s", between, text, text);
+            fprintf(out, "%s'%s' %s %d", between, major ? text : "", text, !major);
             between = ", ";
         }
-    fputs(between[0] == ',' ? ") nomirror\n" : "", out);
+    fputs(between[0] == ',' ? ")\n" : "", out);
 }
 
 static void
@@ -196,7 +197,7 @@ static const char around[] =
     "set multiplot\n"
     "left = 0.16; right = 0.83\n"
     "set lmargin at screen left; set rmargin at screen right\n"
-    "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror scale 0.6 front\n"
+    "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3\n"
     "set title title noenhanced offset 0,-0.5\n";
 
 /* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */

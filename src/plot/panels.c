@@ -17,7 +17,7 @@ static const char layout[] =
     "set title title noenhanced offset 0,-0.5\n"
     "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
     "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
-    "set autoscale yfix; set ytics nomirror; set tics scale 0.6; set xtics format ''\n"
+    "set autoscale yfix; set tics nomirror out scale 0.6; set xtics format ''\n"
     "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
     "unset key\n";
 
@@ -138,7 +138,7 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
           "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
-          "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
+          "set tics nomirror out scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour\n", out);
     return script_end(out);
 }
