@@ -86,5 +86,5 @@ sample(const motion *m, double u, const double q[], const double dqdt[], ss_samp
 
 const struct model compliant_model = {
     .dim = 2, .start = start, .fastest = linear_fastest, .rhs = linear_rhs,
-    .jacobian = linear_jacobian, .guard = guard, .next = next, .sample = sample
+    .jacobian = linear_jacobian, .derivatives = linear_derivatives, .guard = guard, .next = next, .sample = sample
 };

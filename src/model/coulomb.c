@@ -105,6 +105,6 @@ sample(const motion *m, double u, const double q[], const double dqdt[], ss_samp
 
 const struct model coulomb_model = {
     .dim = 2, .start = start, .fastest = linear_fastest, .rhs = linear_rhs,
-    .jacobian = linear_jacobian, .guard = linear_slip_guard, .still = still, .next = next,
+    .jacobian = linear_jacobian, .derivatives = linear_derivatives, .guard = linear_slip_guard, .still = still, .next = next,
     .sample = sample
 };

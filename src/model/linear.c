@@ -33,6 +33,22 @@ linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *p
     return GSL_SUCCESS;
 }
 
+/* By differentiating the equation of motion. */
+void
+linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
+                   double higher[][MAX_DIM])
+{
+    double phase = m->theta + m->omega * u, mass = m->scene->mass;
+    double D = m->drive * m->omega, d[ORDERS + 2] = { q[0], q[1], dqdt[1] };
+    double co = cos(phase), si = sin(phase);
+    const double turn[] = { -si, -co, si };
+    for (int i = 0; i < ORDERS - 1; i++, D *= m->omega) {
+        d[i + 3] = (D * turn[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
+        higher[i][0] = d[i + 2];
+        higher[i][1] = d[i + 3];
+    }
+}
+
 /* The larger root of m s^2 + c s + k = 0 in modulus, or Omega. */
 double
 linear_fastest(const motion *m)

@@ -10,7 +10,7 @@
 #include <stickslip/sim.h>
 #include "sim/instant.h"
 
-enum { MAX_DIM = 3 };
+enum { MAX_DIM = 3, ORDERS = 4 };
 
 typedef struct motion {
     const ss_scene *scene;
@@ -37,6 +37,10 @@ struct model {
     /* GSL's rhs and Jacobian; params is the motion, time is u. */
     int (*rhs)(double u, const double q[], double dqdt[], void *params);
     int (*jacobian)(double u, const double q[], double *dfdq, double dfdt[], void *params);
+    /* The ORDERS - 1 rates of change after dqdt of a state at u; NULL if steps are to be repeated
+     * for what lies inside them. */
+    void (*derivatives)(const motion *m, double u, const double q[], const double dqdt[],
+                        double higher[][MAX_DIM]);
     /* Not negative within the mode, and its rate of change; NULL if the model has no events. */
     double (*guard)(const motion *m, const double q[], const double dqdt[], double *slope);
     /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever). */
@@ -62,6 +66,8 @@ void motion_rebase(motion *m);                      /* let u count from the pres
 /* linear.c: what Coulomb and compliant contact share. */
 int linear_rhs(double u, const double q[], double dqdt[], void *params);
 int linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params);
+void linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
+                        double higher[][MAX_DIM]);
 double linear_fastest(const motion *m);
 void linear_slip(motion *m, double x, double v, int direction);
 double linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);
