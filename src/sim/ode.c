@@ -36,15 +36,18 @@ static int
 rhs(double u, const double q[], double dqdt[], void *params)
 {
     ode *o = params;
+    const motion *m = o->base.m;
     o->base.rhs++;
-    return o->base.m->model->rhs(u, q, dqdt, o->base.m);
+    m->model->rates(m, motion_drive(m, u), q, dqdt);
+    return GSL_SUCCESS;
 }
 
 static int
 jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params)
 {
     const ode *o = params;
-    return o->base.m->model->jacobian(u, q, dfdq, dfdt, o->base.m);
+    o->base.m->model->jacobian(o->base.m, u, q, dfdq, dfdt);
+    return GSL_SUCCESS;
 }
 
 static ss_status
@@ -165,20 +168,26 @@ read_curve(const ode *o, double x, double q[])
 }
 
 static void
-ode_at(engine *e, double s, double q[], double dqdt[])
+ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 {
     ode *o = (ode *)e;
+    const motion *m = e->m;
     double error[MAX_DIM];
-    memcpy(q, s >= e->h ? e->q1 : e->m->q, sizeof e->q1);
-    if (s > 0 && s < e->h && o->side != NULL) {
-        gsl_odeiv2_step_apply(o->side, e->m->u, s, q, error,
+    (void)where;
+    int inside = s > 0 && s < e->h && !e->lands_on_samples;
+    if (inside && o->side != NULL) {
+        memcpy(q, m->q, sizeof m->q);
+        gsl_odeiv2_step_apply(o->side, m->u, s, q, error,
                               o->side->type->can_use_dydt_in ? e->dq0 : NULL, NULL, &o->system);
-    } else if (s > 0 && s < e->h) {
+    } else if (inside) {
         if (!o->has_curve)
             draw_curve(o);
         read_curve(o, s / e->h, q);
+    } else {
+        memcpy(q, s > e->h / 2 ? e->q1 : m->q, sizeof e->q1);
     }
-    rhs(e->m->u + s, q, dqdt, o);
+    e->rhs++;
+    m->model->rates(m, m->drive * base.co, q, dqdt);
 }
 
 static void
