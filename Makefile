@@ -5,6 +5,7 @@
 #   make check-all          these, the long ones, with sanitizers and with the other compiler too
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME: figure 7 from a recording)
+#   make bench              cost of simulation, also against CVODE and SciPy where they are installed
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
@@ -150,6 +151,10 @@ draw-paper: all
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
 
+bench: all
+	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
+		BUILD=$(call quote,$(BUILD)) sh tests/bench/run.sh
+
 # --- install ---------------------------------------------------------------------------------
 install: all
 	$(INSTALL) -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(SCENEDIR) \
@@ -178,6 +183,6 @@ uninstall:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench check check-all clean deps draw-paper install needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

@@ -33,6 +33,7 @@ enum { CYCLES = 4 };
 
 typedef struct exact {
     engine base;
+    double k_m, c_m, f_m;           /* k, c, f0 over m */
     double s, w;                    /* roots of m r^2 + c r + k: -s +- i w, or -s +- w */
     int overdamped;
     int resonant;
@@ -58,19 +59,18 @@ swing_at(const exact *x, double u)
 static void
 free_motion(const exact *x, double u, turn swing, double *C, double *S, double *G)
 {
-    double k_m = x->base.m->k / x->base.m->scene->mass;
     if (x->overdamped) {
-        double slow = -k_m / (x->s + x->w), decay = exp(slow * u), part = -expm1(-2 * x->w * u);
+        double slow = -x->k_m / (x->s + x->w), decay = exp(slow * u), part = -expm1(-2 * x->w * u);
         *S = decay * part / (2 * x->w);
         *C = decay * (1 - part / 2) + x->s * *S;
-        *G = (1 - *C) / k_m;
+        *G = (1 - *C) / x->k_m;
         return;
     }
     *S = x->w > 0 ? swing.si / x->w : swing.co * u;
     *C = swing.co + x->s * *S;
-    *G = (1 - *C) / k_m;
+    *G = (1 - *C) / x->k_m;
     if (x->s == 0 && swing.co > 0)          /* the same without cancellation */
-        *G = swing.si * swing.si / (1 + swing.co) / k_m;
+        *G = swing.si * swing.si / (1 + swing.co) / x->k_m;
 }
 
 /* (exp(z) - 1) / z */
@@ -100,7 +100,7 @@ static void
 evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqdt[])
 {
     const motion *m = x->base.m;
-    double mass = m->scene->mass, f_m = m->f0 / mass, C, S, G, p, dp;
+    double C, S, G, p, dp;
     free_motion(x, u, swing, &C, &S, &G);
     if (x->resonant) {
         driven_from_rest(x, u, &p, &dp);
@@ -108,8 +108,8 @@ evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqd
         p = x->p_cos * base.co + x->p_sin * base.si;
         dp = m->omega * (x->p_sin * base.co - x->p_cos * base.si);
     }
-    q[0] = p + x->q * C + x->v * S - f_m * G;
-    q[1] = dp - x->q * m->k / mass * S + x->v * (C - m->c / mass * S) - f_m * S;
+    q[0] = p + x->q * C + x->v * S - x->f_m * G;
+    q[1] = dp - x->q * x->k_m * S + x->v * (C - x->c_m * S) - x->f_m * S;
     m->model->rates(m, m->drive * base.co, q, dqdt);
 }
 
@@ -147,6 +147,9 @@ exact_begin(engine *e)
     double impedance = hypot(stiffness, damping);
 
     motion_rebase(m);
+    x->k_m = m->k / mass;
+    x->c_m = m->c / mass;
+    x->f_m = m->f0 / mass;
     x->s = m->c / (2 * mass);
     x->overdamped = x->s > omega0;
     x->w = sqrt(fabs(omega0 - x->s) * (omega0 + x->s));

@@ -82,7 +82,7 @@ typedef struct record {
     const ss_scene *scene;
     const ss_sim_opts *opts;
     instant end;                        /* of the record, from the start of settling */
-    size_t n, i;                        /* samples in all, next sample */
+    size_t n, i;                        /* samples in all (that anyone wants), next sample */
     double interval;                    /* between samples */
     turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
     size_t filled;
@@ -98,8 +98,7 @@ flush(record *r)
 {
     size_t filled = r->filled;
     r->filled = 0;
-    if (filled > 0 && r->opts->samples != NULL
-        && r->opts->samples(r->buffer, filled, r->opts->user) != 0)
+    if (filled > 0 && r->opts->samples(r->buffer, filled, r->opts->user) != 0)
         return SS_STOP;
     return SS_OK;
 }
@@ -302,15 +301,16 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     ss_status st = ss_scene_check(scene, err);
     if (st != SS_OK)
         return st;
-    record r = { .scene = scene, .opts = opts, .n = ss_scene_samples(scene),
+    if (ss_scene_samples(scene) == SIZE_MAX)
+        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
+    record r = { .scene = scene, .opts = opts,
+                 .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate,
                  .base_further = base_turns(scene) };
     motion m = motion_of(scene);
     engine *e = NULL;
 
-    if (r.n == SIZE_MAX)
-        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
     int slips = m.model->start(&m);

@@ -49,12 +49,6 @@ bench_alloc(size_t n)
     return x;
 }
 
-static inline double
-bench_duration(int argc, char *argv[])
-{
-    return argc > 1 ? atof(argv[1]) : 10;
-}
-
 typedef struct bench_kept {
     double *x;
     size_t n, events;
@@ -77,7 +71,7 @@ bench_count(const ss_event *e, void *user)
     return 0;
 }
 
-/* x of every sample and the number of events; a failure's words go to standard error. */
+/* x of every sample and the number of events; a failure is a comment among the rows. */
 static inline ss_status
 bench_simulate(const ss_scene *scene, const char *method, double tol, double *x, size_t *events)
 {
@@ -87,7 +81,7 @@ bench_simulate(const ss_scene *scene, const char *method, double tol, double *x,
                          .events = bench_count, .user = &k };
     ss_status st = ss_sim_run(scene, &opts, NULL, &err);
     if (st != SS_OK)
-        fprintf(stderr, "%s at %g: %s\n", method, tol, err.text);
+        printf("# %s at %g: %s\n", method, tol, err.text);
     *events = k.events;
     return st;
 }
