@@ -2,10 +2,11 @@
 #
 #   make                    libraries and tools, under build/
 #   make check              all tests; installs first what is missing for them
-#   make check-all          these, the long ones, with sanitizers and with the other compiler too
+#   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench
+#   make bench              error and cost, measured here, simulation against CVODE and SciPy too;
+#                           fails if an error exceeds its bound
 #   make paper              the paper's figures, under build/paper; installs first what is missing
-#                           (MEASURED=FILE COLUMN=NAME: figure 7 from a recording)
-#   make bench              cost of simulation, also against CVODE and SciPy where they are installed
+#                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
@@ -54,8 +55,9 @@ HEADERS := $(wildcard include/stickslip/*.h)
 MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+BENCHES := $(patsubst tests/%.c,%,$(wildcard tests/bench/bench_*.c))
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -96,7 +98,7 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
+$(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
 $(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
@@ -137,21 +139,27 @@ check-all:
 			$(MAKE) --no-print-directory run-tests CC=$$cc BUILD=$(BUILD)-$$cc || exit 1; \
 		fi; \
 	done
+	@$(MAKE) --no-print-directory bench-errors
+
+bench-errors: $(BENCHES:%=$(BUILD)/tests/%)
+	@for b in $^; do $$b || exit 1; done
 
 paper:
 	@$(DEPS) build paper
 	@$(MAKE) --no-print-directory draw-paper
 
+# make -n runs lines that name MAKE, so the tests get it by another name.
+THIS_MAKE = $(MAKE)
 run-tests: all $(TESTS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
-		MAKE=$(call quote,$(MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
+		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
 		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
 
-draw-paper: all
+draw-paper: all $(BUILD)/bin/paper-table
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
 
-bench: all
+bench: all bench-errors
 	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
 		BUILD=$(call quote,$(BUILD)) sh tests/bench/run.sh
 
@@ -183,6 +191,6 @@ uninstall:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always bench check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench bench-errors check check-all clean deps draw-paper install needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

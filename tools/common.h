@@ -20,8 +20,6 @@ void tool_begin(char *argv[], const char *name, const char *usage);
 /* Call last, before returning 0: finishes standard output, or dies. */
 void tool_end(void);
 
-void tool_help(void) TOOL_NORETURN;                         /* --help: usage on stdout, exit 0 */
-void tool_version(void) TOOL_NORETURN;                      /* --version */
 void tool_die(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;    /* "ss-x: text", exit 1 */
 /* Wrong usage: "ss-x: text", exit 2; NULL after getopt, which has said what is wrong. */
 void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
@@ -43,6 +41,8 @@ enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_FIRST };
     { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
     { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
     { "version", no_argument, NULL, TOOL_OPT_VERSION }, { NULL, 0, NULL, 0 }
+/* What getopt_long gave, if it is none of the tool's own: -q, -v, --help, --version, or wrong usage. */
+void tool_option(int c);
 
 /* --- input --------------------------------------------------------------------------------- */
 
@@ -69,6 +69,8 @@ typedef enum tool_kind {        /* what the ending of -o asks for */
     TOOL_TSV, TOOL_AU, TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF
 } tool_kind;
 
+#define TOOL_PICTURES (1u << TOOL_GP | 1u << TOOL_PNG | 1u << TOOL_SVG | 1u << TOOL_PDF)
+
 /* The kind of path's ending, among those allowed (a bit set of 1u << kind), else wrong usage that
  * names them; standard output (NULL or "-") has the fallback. */
 tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
@@ -84,9 +86,9 @@ tool_kind tool_format(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
-/* Run gnuplot on the script that write_script writes, into a picture at path (or standard output);
- * dies with gnuplot's own words if it fails. */
-typedef ss_status tool_script(FILE *out, void *user, ss_error *err);
-void tool_gnuplot(tool_script *write_script, void *user);
+/* Write a script to what -o names, a .gp or standard output, or the picture that gnuplot makes of
+ * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
+typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
+void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
 
 #endif

@@ -22,10 +22,10 @@ extern const ss_plot_opts ss_plot_defaults;
 
 /* One panel a column over time (figure 1), of the n columns given by index; n = 0 for all. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
-                         const ss_plot_opts *opts);
+                         const ss_plot_opts *opts, ss_error *err);
 /* One column over another: a phase plane or a friction loop. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
-                     const ss_plot_opts *opts);
+                     const ss_plot_opts *opts, ss_error *err);
 
 typedef struct ss_contour_opts {
     int levels;                 /* contour lines  1 ... 100 */

@@ -3,7 +3,11 @@
  *
  * Each writing call makes a whole file at path, replacing what is there; on failure path is
  * removed.  A caller that wants to keep the old file until the new one is whole writes to another
- * name and renames it, as the tools do.  The same input gives the same bytes. */
+ * name and renames it, as the tools do.  The same input gives the same bytes.  The file is built in
+ * memory first.
+ *
+ * HDF5 itself is safe in several threads only where it was built so, which its serial packages are
+ * not: calls of this header then come from one thread at a time. */
 #ifndef STICKSLIP_STORE_H
 #define STICKSLIP_STORE_H
 

@@ -57,7 +57,10 @@ asked(size_t n, double rate, const ss_morlet_opts *opts, range use)
         double four_cycles = whole(1, per_f * (double)n / rate / 4, opts->voices).hi;
         if (four_cycles >= ask.lo)
             ask.hi = fmin(use.hi, four_cycles);
+        ask.hi = fmax(ask.hi, ask.lo);
     }
+    if (opts->fmax == 0)        /* a limit beyond the usable ones stands for itself */
+        ask.lo = fmin(ask.lo, ask.hi);
     return ask;
 }
 

@@ -9,7 +9,7 @@
 #include "error.h"
 #include "stream.h"
 
-enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 65536 };
+enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 #define UNKNOWN_SIZE UINT32_C(0xffffffff)
 
 /* Bytes a value, by the encoding of the file; 0 is not supported. */

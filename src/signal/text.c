@@ -58,7 +58,7 @@ check_time(const ss_reader *reader, double t, ss_error *err)
     char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];
     ss_number_format(is, t);
     ss_number_format(should, expected);
-    return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, but start + %llu / rate = %s",
+    return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s",
                    reader->in.name, reader->in.line, is, (unsigned long long)reader->row, should);
 }
 

@@ -3,8 +3,8 @@
  * Every dataset carries units and long_name and is tied to the dimension scales that it stands on.
  * Nothing in the file depends on the clock, the path or the machine: creation times are not
  * tracked, file types are little-endian, links and attributes are kept in the order of writing.
- * HDF5 reports a full disk as late as in closing, and cannot let go of such a file then; so a
- * failed file is closed whatever happens and removed. */
+ * HDF5 cannot let go of a file that it failed to write (a full disk): it tries again at exit, in
+ * vain and aloud.  So it builds the file in memory, and the bytes are written out here. */
 #include "h5.h"
 
 #include <errno.h>
@@ -18,6 +18,7 @@
 
 #define CHUNK 65536             /* values in a chunk at most */
 #define PLAIN_BYTES 65536       /* a dataset up to this size is stored as it is */
+#define IMAGE_STEP 1048576      /* bytes by which the image in memory grows */
 
 /* One dataset to be written. */
 typedef struct variable {
@@ -27,13 +28,11 @@ typedef struct variable {
     size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
 } variable;
 
+/* In memory a call of HDF5 fails for want of that, or of a name or size that HDF5 can store. */
 static ss_status
 fail_write(h5_file *file, hid_t group, const char *name)
 {
-    char text[128] = "cannot be written";
-    if (errno != 0)             /* ss_store_write set it to 0; HDF5 keeps what the system said */
-        snprintf(text, sizeof text, "%s", strerror(errno));
-    return h5_fail(file, SS_EIO, group, name, text);
+    return h5_fail(file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
 }
 
 static int
@@ -422,10 +421,12 @@ put_notes(h5_file *file, const ss_header *head)
     return SS_OK;
 }
 
+/* A file in memory; *access goes with it. */
 static hid_t
-create_file(const char *path)
+create_image(const char *path, hid_t access)
 {
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS), how = H5Pcreate(H5P_FILE_CREATE);
+    hid_t how = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_fapl_core(access, IMAGE_STEP, 0);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);   /* read by everyone since 2008 */
     H5Pset_obj_track_times(how, 0);
@@ -433,17 +434,12 @@ create_file(const char *path)
     H5Pset_attr_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     hid_t id = H5Fcreate(path, H5F_ACC_TRUNC, how, access);
     H5Pclose(how);
-    H5Pclose(access);
     return id;
 }
 
 static ss_status
-write_record(h5_file *file, const ss_record *record)
+fill_image(h5_file *file, const ss_record *record)
 {
-    errno = 0;
-    file->id = create_file(file->path);
-    if (file->id < 0)
-        return fail_write(file, 0, "");
     ss_status status = put_notes(file, record->coefficients != NULL ? record->coefficients->head
                                        : record->signal != NULL ? record->signal->head : NULL);
     if (status == SS_OK && record->signal != NULL)
@@ -452,8 +448,43 @@ write_record(h5_file *file, const ss_record *record)
         status = put_events(file, record->events, record->n_events);
     if (status == SS_OK && record->coefficients != NULL)
         status = put_wavelet(file, record->coefficients);
-    if (H5Fclose(file->id) < 0 && status == SS_OK)
-        status = fail_write(file, 0, "");
+    return status;
+}
+
+static ss_status
+write_out(h5_file *file, const void *bytes, size_t size)
+{
+    struct stat st;
+    FILE *out = fopen(file->path, "wb");
+    if (out == NULL)
+        return h5_fail(file, SS_EIO, 0, "", strerror(errno));
+    int failed = fwrite(bytes, 1, size, out) != size, why = errno;
+    if (fclose(out) != 0 && !failed) {
+        failed = 1;
+        why = errno;
+    }
+    if (failed && stat(file->path, &st) == 0 && S_ISREG(st.st_mode))
+        unlink(file->path);
+    return failed ? h5_fail(file, SS_EIO, 0, "", strerror(why)) : SS_OK;
+}
+
+static ss_status
+write_record(h5_file *file, const ss_record *record)
+{
+    void *handle = NULL;        /* for this driver, the address of the pointer to the bytes */
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    file->id = create_image(file->path, access);
+    ss_status status = file->id >= 0 ? fill_image(file, record) : SS_ENOMEM;
+    if (status == SS_OK && H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0)
+        status = SS_ENOMEM;
+    ssize_t size = status == SS_OK ? H5Fget_file_image(file->id, NULL, 0) : 0;
+    if (status == SS_OK && (size < 0 || H5Fget_vfd_handle(file->id, access, &handle) < 0))
+        status = SS_ENOMEM;
+    if (status == SS_OK)
+        status = write_out(file, *(void **)handle, (size_t)size);
+    if (file->id >= 0)
+        H5Fclose(file->id);
+    H5Pclose(access);
     return status;
 }
 
@@ -461,13 +492,10 @@ ss_status
 ss_store_write(const char *path, const ss_record *record, ss_error *err)
 {
     h5_file file = { -1, path, err };
-    struct stat st;
     ss_status status;
     H5E_BEGIN_TRY {
         status = write_record(&file, record);
     } H5E_END_TRY
-    if (status != SS_OK && file.id >= 0 && stat(path, &st) == 0 && S_ISREG(st.st_mode))
-        unlink(path);
     if (status == SS_ENOMEM)
         ss_fail(err, status, "%s: %s", path, ss_strerror(status));
     return status;

@@ -73,7 +73,7 @@ bench_count(const ss_event *e, void *user)
 
 /* x of every sample and the number of events; a failure is a comment among the rows. */
 static inline ss_status
-bench_simulate(const ss_scene *scene, const char *method, double tol, double *x, size_t *events)
+cost_simulate(const ss_scene *scene, const char *method, double tol, double *x, size_t *events)
 {
     bench_kept k = { x, 0, 0 };
     ss_error err = { "" };
@@ -107,7 +107,7 @@ bench_scene_new(const ss_shipped_scene *s, double duration)
     size_t n = ss_scene_samples(&b.scene);
     b.x = bench_alloc(n);
     int smooth = b.scene.model == SS_STATE_VARIABLE;
-    if (bench_simulate(&b.scene, smooth ? "rk8pd" : "exact", 1e-13, b.x, &events) != SS_OK)
+    if (cost_simulate(&b.scene, smooth ? "rk8pd" : "exact", 1e-13, b.x, &events) != SS_OK)
         exit(1);
     for (size_t i = 0; i < n; i++)
         b.max_x = fmax(b.max_x, fabs(b.x[i]));

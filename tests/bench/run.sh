@@ -37,8 +37,8 @@ table() {
     }' "$1"
 }
 
-compile bench_sim ''
-if compile bench_cvode '-lsundials_cvode -lsundials_nvecserial' 2> "$out/bench_cvode.log"; then
+compile cost_sim ''
+if compile cost_cvode '-lsundials_cvode -lsundials_nvecserial' 2> "$out/cost_cvode.log"; then
     cvode=1
 else
     cvode=0
@@ -54,15 +54,15 @@ fi
 for seconds in 10 1000; do
     [ $seconds = 10 ] || [ "$LONG_RECORD" = 1 ] || continue
     rows=$out/rows-$seconds.tsv
-    "$out/bench_sim" compare $seconds > "$rows"
-    [ $cvode = 0 ] || "$out/bench_cvode" $seconds >> "$rows"
+    "$out/cost_sim" compare $seconds > "$rows"
+    [ $cvode = 0 ] || "$out/cost_cvode" $seconds >> "$rows"
     if [ $seconds != 10 ]; then
         echo "SciPy left out at $seconds s: it would take a quarter of an hour"
     elif [ $scipy = 1 ]; then
-        "$PYTHON" tests/bench/bench_scipy.py $seconds 1e-6 1e-8 1e-10 >> "$rows"
+        "$PYTHON" tests/bench/cost_scipy.py $seconds 1e-6 1e-8 1e-10 >> "$rows"
     fi
     sort -s -t "$(printf '\t')" -k 1,1 "$rows" > "$rows.sorted"
     table "$rows.sorted"
     echo
 done
-"$out/bench_sim" cost "$out/scratch.h5" | expand -t 18
+"$out/cost_sim" cost "$out/scratch.h5" | expand -t 18

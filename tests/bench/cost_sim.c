@@ -1,7 +1,7 @@
-/* bench_sim.c -- what simulation costs.
+/* cost_sim.c -- what simulation costs.
  *
- * bench_sim compare SECONDS: rows as in bench.h, our methods on the paper's scenes.
- * bench_sim cost SCRATCH.h5: against length, contact stiffness, rate, columns and output form. */
+ * cost_sim compare SECONDS: rows as in bench.h, our methods on the paper's scenes.
+ * cost_sim cost SCRATCH.h5: against length, contact stiffness, rate, columns and output form. */
 #include "bench.h"
 
 static double
@@ -11,7 +11,7 @@ time_run(const ss_scene *scene, const char *method, double tol, double *x, size_
     int n = scene->duration > 100 ? 1 : 15;
     for (int i = 0; i < n; i++) {
         double began = bench_seconds();
-        if (bench_simulate(scene, method, tol, x, events) != SS_OK)
+        if (cost_simulate(scene, method, tol, x, events) != SS_OK)
             return NAN;
         seconds[i] = bench_seconds() - began;
     }
@@ -248,7 +248,7 @@ main(int argc, char *argv[])
         cost_of_columns();
         cost_of_form(argv[2]);
     } else {
-        fprintf(stderr, "usage: bench_sim compare SECONDS | bench_sim cost SCRATCH.h5\n");
+        fprintf(stderr, "usage: cost_sim compare SECONDS | cost_sim cost SCRATCH.h5\n");
         return 2;
     }
     return 0;

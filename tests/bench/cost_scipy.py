@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""bench_scipy.py DURATION TOLERANCE ...: the paper's scenes with SciPy's solve_ivp and its events.
+"""cost_scipy.py DURATION TOLERANCE ...: the paper's scenes with SciPy's solve_ivp and its events.
 
 ss-sim must be in PATH: it makes the reference.  Written as SciPy's manual advises: one terminal event
 function a mode, with its direction; samples by t_eval; absolute tolerances by the scale of each

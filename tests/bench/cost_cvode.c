@@ -1,9 +1,9 @@
-/* bench_cvode.c -- the paper's scenes with CVODE and its root finding: Adams and BDF.
+/* cost_cvode.c -- the paper's scenes with CVODE and its root finding: Adams and BDF.
  *
  * Written as CVODE's manual advises: one root function a mode, with its direction; steps free of the
  * samples, which are interpolated; after a root a new start in the next mode; absolute tolerances by
  * the scale of each state.  Only a Coulomb stick, in which nothing moves, gets a step cap: without
- * one CVODE sleeps through its end.  bench_cvode SECONDS prints rows as in bench.h. */
+ * one CVODE sleeps through its end.  cost_cvode SECONDS prints rows as in bench.h. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

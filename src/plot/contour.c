@@ -1,0 +1,318 @@
+/* contour.c -- contours of |W| in decibels over time and frequency, under the signal.
+ *
+ * |W| is brought onto a rectangle as wide as the picture, one row a scale.  Translations that
+ * share a column give it their largest |W|, so that a spike is never lost; between translations
+ * farther apart |W| is interpolated linearly.  The lines of equal level on it go into the script,
+ * as few points of them as keep them within a fraction of a pixel. */
+#include "isoline.h"
+#include "script.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../error.h"
+
+#define COLUMNS 700             /* pixels that panel (b) is wide, about */
+#define ROWS 580                /* and high */
+#define BLUR 0.2                /* pixels that a line may be off by leaving points out */
+#define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0 */
+
+const ss_contour_opts ss_contour_defaults = { 18, 80, NULL, 0, NULL, 0 };
+
+/* --- the map ------------------------------------------------------------------------------- */
+
+static double
+magnitude(const double *w, size_t k)
+{
+    return hypot(w[2 * k], w[2 * k + 1]);
+}
+
+/* |W| of a scale in the column of time [lo, hi], from the first sample. */
+static double
+in_column(const ss_scale *scale, const double *w, double lo, double hi)
+{
+    double step = scale->b_num / scale->b_den, at = (lo + hi) / 2 / step;
+    size_t last = scale->n - 1, k = at > 0 ? (size_t)fmin(at, (double)last) : 0;
+    double part = fmin(fmax(at - (double)k, 0), 1);
+    double level = magnitude(w, k);
+    if (k < last)
+        level += part * (magnitude(w, k + 1) - level);
+    for (k = lo > 0 ? (size_t)fmin(ceil(lo / step), (double)last) : 0;
+         k <= last && (double)k * step <= hi; k++)
+        level = fmax(level, magnitude(w, k));
+    return level;
+}
+
+/* Levels in decibels re the largest |W|, COLUMNS + 1 of them a scale. */
+static double *
+make_map(const ss_coefficients *c, const script_span *span)
+{
+    double width = (span->to - span->from) / COLUMNS, max = ss_coefficients_max(c);
+    double *map = malloc(c->n_scales * (COLUMNS + 1) * sizeof *map);
+    for (size_t s = 0; map != NULL && s < c->n_scales; s++)
+        for (size_t i = 0; i <= COLUMNS; i++) {
+            double t = span->from - c->head->start + (double)i * width, *level;
+            level = &map[s * (COLUMNS + 1) + i];
+            *level = in_column(&c->scale[s], c->w + 2 * c->scale[s].offset, t - width / 2,
+                               t + width / 2);
+            *level = max > 0 && *level > 0 ? fmax(20 * log10(*level / max), -FLOOR) : -FLOOR;
+        }
+    return map;
+}
+
+/* --- its lines ----------------------------------------------------------------------------- */
+
+typedef struct line_sink {
+    FILE *out;
+    const ss_coefficients *c;
+    const script_span *span;
+    int level;                  /* number of the line */
+} line_sink;
+
+static void
+put_point(const line_sink *sink, const double point[2])
+{
+    const ss_scale *scale = sink->c->scale;
+    double range = sink->span->to - sink->span->from;
+    size_t row = (size_t)fmin(point[1], (double)(sink->c->n_scales - 2));
+    double part = point[1] - (double)row;
+    double f = scale[row].f * pow(scale[row + 1].f / scale[row].f, part);
+    script_put(sink->out, sink->span->from + point[0] / COLUMNS * range, script_decimals(range), " ");
+    script_put(sink->out, f, 3 - (int)floor(log10(f)), "");
+    fprintf(sink->out, " %d\n", sink->level);
+}
+
+/* May the points between first and last be left out? */
+static int
+is_straight(const double (*point)[2], size_t first, size_t last, double row)
+{
+    double dx = point[last][0] - point[first][0], dy = (point[last][1] - point[first][1]) * row;
+    double length = hypot(dx, dy);
+    for (size_t i = first + 1; i < last; i++) {
+        double x = point[i][0] - point[first][0], y = (point[i][1] - point[first][1]) * row;
+        double along = x * dx + y * dy, off = fabs(x * dy - y * dx);
+        if (!(off <= BLUR * length && along >= 0 && along <= length * length))
+            return 0;
+    }
+    return 1;
+}
+
+static void
+put_line(const double (*point)[2], size_t n, void *user)
+{
+    const line_sink *sink = user;
+    double row = (double)ROWS / (double)(sink->c->n_scales - 1);    /* pixels */
+    put_point(sink, point[0]);
+    for (size_t first = 0, last; first < n - 1; first = last) {
+        for (last = first + 1; last + 1 < n && last - first < 64
+             && is_straight(point, first, last + 1, row); last++)
+            ;
+        put_point(sink, point[last]);
+    }
+    putc('\n', sink->out);
+}
+
+/* A datablock of time, frequency and number of the line, a blank line after each. */
+static ss_status
+put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
+             const script_span *span)
+{
+    line_sink sink = { out, c, span, 0 };
+    double *level = make_map(c, span);
+    const isoline_map map = { COLUMNS + 1, c->n_scales, level };
+    ss_status status = level != NULL ? SS_OK : SS_ENOMEM;
+    fputs("$contour << EOD\n", out);
+    for (int k = 1; status == SS_OK && k <= contour->levels; k++) {
+        sink.level = k;
+        status = isolines(&map, -k * contour->span / contour->levels, put_line, &sink);
+    }
+    fputs("EOD\n", out);
+    free(level);
+    return status;
+}
+
+/* --- what stands around it ----------------------------------------------------------------- */
+
+/* The cone of influence: a curve of times at either end, nearer than sqrt(2) a to it. */
+static void
+put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo, double hi)
+{
+    enum { POINTS = 100 };
+    double start = c->head->start, length = (double)(c->n - 1) / c->head->rate;
+    int decimals = script_decimals(span->to - span->from);
+    for (int end = 0; end < 2; end++) {
+        fputs(end == 0 ? "$cone_left << EOD\n" : "$cone_right << EOD\n", out);
+        for (int i = -1; i <= POINTS + 1; i++) {
+            double f = lo * pow(hi / lo, fmin(fmax(i, 0), POINTS) / POINTS);
+            double edge = fmin(sqrt(2) * c->center / (2 * M_PI * f), length / 2);
+            if (i < 0 || i > POINTS)            /* close the polygon beyond the end of the record */
+                edge = -1;
+            double t = end == 0 ? start + edge : start + length - edge;
+            script_put(out, fmin(fmax(t, span->from), span->to), decimals, " ");
+            script_put(out, f, 6, "\n");
+        }
+        fputs("EOD\n", out);
+    }
+}
+
+/* 1 2 5 10 20 50 ... Hz, or powers of ten only where those would not fit. */
+static void
+put_frequency_tics(FILE *out, double lo, double hi)
+{
+    static const int step[] = { 1, 2, 5 };
+    const char *between = "set ytics (";
+    for (int e = (int)floor(log10(lo)); e <= (int)floor(log10(hi)); e++)
+        for (int i = 0; i < 3; i++) {
+            double f = step[i] * pow(10, abs(e));
+            f = e < 0 ? step[i] / pow(10, -e) : f;
+            if (f < lo || f > hi || (i > 0 && hi / lo > 2e4))
+                continue;
+            char text[SS_NUMBER_MAX];
+            ss_number_format(text, f);
+            fprintf(out, "%s'%s' %s", between, text, text);
+            between = ", ";
+        }
+    fputs(between[0] == ',' ? ") nomirror\n" : "", out);
+}
+
+static void
+put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
+{
+    int decimals = script_decimals(span->to - span->from);
+    fputs("$events << EOD\n", out);
+    for (size_t i = 0; i < contour->n_events; i++)
+        for (int end = 0; end < 2; end++) {
+            script_put(out, contour->event[i], decimals, end == 0 ? " 0\n" : " 1\n\n");
+            if (contour->event[i] < span->from || contour->event[i] > span->to)
+                break;                          /* half a line draws nothing */
+        }
+    fputs("EOD\n", out);
+}
+
+/* --- the script ---------------------------------------------------------------------------- */
+
+static const char around[] =
+    "set encoding utf8\n"
+    "set multiplot\n"
+    "left = 0.16; right = 0.83\n"
+    "set lmargin at screen left; set rmargin at screen right\n"
+    "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror scale 0.6 front\n"
+    "set title title noenhanced offset 0,-0.5\n";
+
+/* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */
+static const char panel_a[] =
+    "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
+    "set xtics format ''; set label 2 signal_label at screen 0.04,graph 0.5 center rotate noenhanced\n"
+    "set label 1 '(a)' at screen 0.01, screen 0.96\n"
+    "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
+    "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"
+    "unset title; set offsets 0,0,0,0\n";
+
+static const char panel_b[] =
+    "set bmargin at screen 0.12; set tmargin at screen top_b\n"
+    "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
+    "set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
+    "set label 2 'frequency / Hz' at screen 0.04,graph 0.5 center rotate\n"
+    "set logscale y; set yrange [fmin:fmax]\n"
+    "set palette defined (@colours) maxcolors levels\n"
+    "set cbrange [-span - step/2 : -step/2]\n"
+    "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
+    "set colorbox user origin screen right + 0.02, screen 0.12 size screen 0.025, screen top_b - 0.12\n";
+
+/* Events first, so that they stand behind the lines; then the cone, then the contours. */
+static void
+put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range)
+{
+    fputs(around, out);
+    if (contour->signal != NULL) {
+        script_put_tics(out, "ytics", range, 5);
+        fputs(panel_a, out);
+    }
+    fprintf(out, "top_b = %s\n", contour->signal != NULL ? "0.68" : "0.925");
+    fputs(panel_b, out);
+    put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
+    if (contour->signal == NULL)
+        fputs("unset label 1\n", out);
+    fputs("plot $cone_left using 1:2 with filledcurves closed fs solid 1 noborder lc rgb cone_colour, "
+          "\\\n    $cone_right using 1:2 with filledcurves closed fs solid 1 noborder lc rgb "
+          "cone_colour, \\\n", out);
+    if (contour->n_events > 0)
+        fputs("    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour, "
+              "\\\n", out);
+    fputs("    $contour using 1:2:(-$3*step) with lines lw 1 lc palette\n"
+          "unset multiplot\n", out);
+}
+
+static ss_status
+check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
+{
+    if (contour->levels < 1 || contour->levels > 100)
+        return ss_fail(err, SS_EINVAL, "levels: %d is out of range 1 ... 100", contour->levels);
+    if (!(contour->span > 0 && contour->span <= 10000))
+        return ss_fail(err, SS_EINVAL, "span: more than 0 and at most 10000 dB are needed");
+    if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", contour->column + 1,
+                       contour->signal->head->n_columns);
+    if (c->n_scales < 2)
+        return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu",
+                       c->n_scales);
+    return SS_OK;
+}
+
+static ss_status
+put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, double *range,
+           ss_error *err)
+{
+    const ss_signal *signal = contour->signal;
+    const double *x = signal->values + contour->column * signal->n;
+    script_span span;
+    ss_status status = script_find_span(&span, signal->head, signal->n, opts, err);
+    if (status != SS_OK)
+        return status;
+    int exponent = script_exponent(x + span.first, span.n);
+    fputs("signal_label = ", out);
+    script_put_label(out, &signal->head->column[contour->column], exponent);
+    putc('\n', out);
+    *range = script_put_trace(out, "$signal", x, signal->head, &span, exponent);
+    return SS_OK;
+}
+
+ss_status
+ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour_opts *contour,
+                const ss_plot_opts *opts, ss_error *err)
+{
+    const ss_coefficients *c = coefficients;
+    script_span span;
+    ss_status status = check(c, contour, err);
+    if (status == SS_OK)
+        status = script_find_span(&span, c->head, c->n, opts, err);
+    if (status == SS_OK)
+        status = script_begin(out, opts, c->head, contour->signal != NULL ? 8.5 : 6.5, err);
+    if (status != SS_OK)
+        return status;
+    double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
+    double range = 0;
+    ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
+    drawn.from = span.from;
+    drawn.to = span.to;
+    script_put_span(out, &span);
+    fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ", contour->levels);
+    script_put(out, contour->span, 6, "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
+    fputs("fmin = ", out);
+    script_put(out, fmin, 6, "    # Hz\nfmax = ");
+    script_put(out, fmax, 6, "  # Hz\n");
+    fputs("colours = \"0 '#7ad151', 0.3 '#22a884', 0.55 '#2a788e', 0.8 '#414487', 1 '#440154'\"\n"
+          "cone_colour = '#e4e4e4'; event_colour = '#d55e00'\n", out);
+    if (contour->signal != NULL)
+        status = put_signal(out, contour, &drawn, &range, err);
+    if (status != SS_OK)
+        return status;
+    put_cone(out, c, &span, fmin, fmax);
+    if (contour->n_events > 0)
+        put_events(out, contour, &span);
+    status = put_contours(out, c, contour, &span);
+    if (status != SS_OK)
+        return status;
+    put_panels(out, c, contour, range);
+    return script_end(out);
+}

@@ -1,0 +1,19 @@
+/* isoline.h -- lines of equal height on a rectangle of heights. */
+#ifndef ISOLINE_H
+#define ISOLINE_H
+
+#include <stddef.h>
+#include <stickslip/status.h>
+
+typedef struct isoline_map {
+    size_t nx, ny;              /* >= 2 each */
+    const double *height;       /* finite, row after row: height[j * nx + i] */
+} isoline_map;
+
+/* One line of n >= 2 points in units of the grid; a closed one ends where it began. */
+typedef void isoline_sink(const double (*point)[2], size_t n, void *user);
+
+/* Hand every line at this level to the sink, those that end at the border first. */
+ss_status isolines(const isoline_map *map, double level, isoline_sink *sink, void *user);
+
+#endif

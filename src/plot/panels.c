@@ -1,0 +1,144 @@
+/* panels.c -- a signal over time, one panel a column, and one column over another. */
+#include "script.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include "../error.h"
+
+#define PANEL 2.1               /* height of one panel [cm] */
+#define TITLE 0.6               /* height above the panels [cm] */
+#define TIME 1.0                /* and below them */
+
+/* Margins in the script's own terms: panel i of n stands in its share of the height between rims,
+ * its left edge where that of all others is. */
+static const char layout[] =
+    "set encoding utf8\n"
+    "set multiplot\n"
+    "set title title noenhanced offset 0,-0.5\n"
+    "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+    "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
+    "set autoscale yfix; set ytics nomirror; set tics scale 0.6; set xtics format ''\n"
+    "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
+    "unset key\n";
+
+ss_status
+ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
+               const ss_plot_opts *opts, ss_error *err)
+{
+    const ss_header *head = signal->head;
+    script_span span;
+    size_t panels = n > 0 ? n : head->n_columns;
+    double height = TITLE + TIME + PANEL * (double)panels;
+    for (size_t i = 0; i < n; i++)
+        if (column[i] >= head->n_columns)
+            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1,
+                           head->n_columns);
+    if (panels == 0)
+        return ss_fail(err, SS_EINVAL, "no columns to draw");
+    ss_status status = script_find_span(&span, head, signal->n, opts, err);
+    if (status == SS_OK)
+        status = script_begin(out, opts, head, height, err);
+    if (status != SS_OK)
+        return status;
+    double *ranges = malloc(panels * sizeof *ranges);
+    if (ranges == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    script_put_span(out, &span);
+    fputs("colour = '#0072b2'\n", out);
+    for (size_t i = 0; i < panels; i++) {
+        size_t c = n > 0 ? column[i] : i;
+        const double *x = signal->values + c * signal->n;
+        int exponent = script_exponent(x + span.first, span.n);
+        char name[32];
+        snprintf(name, sizeof name, "$panel%zu", i + 1);
+        ranges[i] = script_put_trace(out, name, x, head, &span, exponent);
+        fprintf(out, "label%zu = ", i + 1);
+        script_put_label(out, &head->column[c], exponent);
+        putc('\n', out);
+    }
+    fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
+            1 - TITLE / height, panels);
+    fputs(layout, out);
+    for (size_t i = 1; i <= panels; i++) {
+        if (i == panels)
+            fputs("set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n", out);
+        fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
+                "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
+        fprintf(out, "set label 1 label%zu at screen 0.035,graph 0.5 center rotate noenhanced\n", i);
+        script_put_tics(out, "ytics", ranges[i - 1], 5);
+        fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
+        if (i == 1)
+            fputs("unset title\n", out);
+    }
+    free(ranges);
+    fputs("unset multiplot\n", out);
+    return script_end(out);
+}
+
+/* --- one over the other -------------------------------------------------------------------- */
+
+static double
+range(const double *x, size_t n, double unit)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
+    }
+    return (hi - lo) / unit;
+}
+
+/* A point nearer than half a pixel to the last one written is left out. */
+static void
+put_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, double y_unit)
+{
+    double x_range = range(x, n, x_unit), y_range = range(y, n, y_unit);
+    script_put_tics(out, "xtics", x_range, 6);
+    script_put_tics(out, "ytics", y_range, 6);
+    double near_x = x_range / (2 * SCRIPT_COLUMNS), near_y = y_range / (2 * SCRIPT_COLUMNS);
+    size_t last = 0;
+    fputs("$path << EOD\n", out);
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && i + 1 < n && fabs(x[i] - x[last]) / x_unit <= near_x
+            && fabs(y[i] - y[last]) / y_unit <= near_y)
+            continue;
+        script_put(out, x[i] / x_unit, script_decimals(x_range), " ");
+        script_put(out, y[i] / y_unit, script_decimals(y_range), "\n");
+        last = i;
+    }
+    fputs("EOD\n", out);
+}
+
+ss_status
+ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot_opts *opts,
+           ss_error *err)
+{
+    const ss_header *head = signal->head;
+    script_span span;
+    if (x >= head->n_columns || y >= head->n_columns)
+        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1,
+                       head->n_columns);
+    ss_status status = script_find_span(&span, head, signal->n, opts, err);
+    if (status == SS_OK)
+        status = script_begin(out, opts, head, 6.5, err);
+    if (status != SS_OK)
+        return status;
+    const double *of_x = signal->values + x * signal->n + span.first;
+    const double *of_y = signal->values + y * signal->n + span.first;
+    int exponent[2] = { script_exponent(of_x, span.n), script_exponent(of_y, span.n) };
+    fputs("colour = '#0072b2'\nx_label = ", out);
+    script_put_label(out, &head->column[x], exponent[0]);
+    fputs("\ny_label = ", out);
+    script_put_label(out, &head->column[y], exponent[1]);
+    putc('\n', out);
+    put_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
+    fputs("set encoding utf8\n"
+          "set title title noenhanced offset 0,-0.5; set xlabel x_label noenhanced offset 0,0.3\n"
+          "set label 1 y_label at screen 0.035,graph 0.5 center rotate noenhanced; unset key\n"
+          "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+          "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
+          "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
+          "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
+          "plot $path using 1:2 with lines lw 1 lc rgb colour\n", out);
+    return script_end(out);
+}

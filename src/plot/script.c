@@ -1,0 +1,306 @@
+/* script.c -- what all gnuplot scripts have in common: terminal, size, text that draws and does not
+ * run, numbers that no locale changes, lines thinned to the picture's width.
+ *
+ * A picture is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
+#include "script.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../error.h"
+
+#define WIDTH 8.5               /* [cm] */
+#define PIXELS_PER_CM 118.11    /* 300 dots per inch */
+
+const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN };
+
+/* --- numbers and text ---------------------------------------------------------------------- */
+
+void
+script_put(FILE *out, double x, int decimals, const char *behind)
+{
+    char text[SS_NUMBER_MAX];
+    double unit = pow(10, decimals < 0 ? -decimals : decimals);
+    if (decimals > 0 && fabs(x) < 1e15 / unit)
+        x = round(x * unit) / unit;     /* the double next to that decimal: it prints short */
+    else if (decimals < 0)
+        x = round(x / unit) * unit;
+    ss_number_format(text, x + 0.0);    /* and no -0 */
+    fputs(text, out);
+    fputs(behind, out);
+}
+
+int
+script_decimals(double range)
+{
+    if (!(range > 0))
+        return 6;
+    return (int)fmax(0, fmin(15, ceil(-log10(range / SCRIPT_COLUMNS)) + 1));
+}
+
+/* Between single quotes gnuplot replaces nothing; a quote itself stands between double ones.  (Two
+ * quotes for one are legal, but three in a row are read as an empty text and a new quote.) */
+void
+script_quote(FILE *out, const char *text)
+{
+    putc('\'', out);
+    for (; *text != '\0'; text++)
+        if (*text == '\'')
+            fputs("'.\"'\".'", out);
+        else
+            putc(iscntrl((unsigned char)*text) ? ' ' : *text, out);
+    putc('\'', out);
+}
+
+int
+script_exponent(const double *x, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, fabs(x[i]));
+    if (largest == 0 || (largest >= 0.1 && largest < 10000))
+        return 0;
+    return 3 * (int)floor((log10(largest) + 1) / 3);
+}
+
+void
+script_put_tics(FILE *out, const char *axis, double range, int intervals)
+{
+    double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
+    int step = share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10;
+    if (range > 0)
+        fprintf(out, "set %s ", axis);
+    if (range > 0)
+        script_put(out, step * power, power < 1 ? (int)round(-log10(power)) : 0, "\n");
+    else
+        fprintf(out, "set %s autofreq\n", axis);
+}
+
+/* Text under construction; what does not fit is left out. */
+typedef struct label {
+    char text[256];
+    size_t n;
+} label;
+
+static void
+add(label *l, const char *text)
+{
+    size_t length = strlen(text);
+    if (l->n + length >= sizeof l->text)
+        return;
+    memcpy(l->text + l->n, text, length + 1);
+    l->n += length;
+}
+
+static void
+add_superscript(label *l, int exponent)
+{
+    static const char *const digit[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
+    char text[16];
+    snprintf(text, sizeof text, "%d", exponent);
+    for (const char *c = text; *c != '\0'; c++)
+        add(l, *c == '-' ? "⁻" : digit[*c - '0']);
+}
+
+/* A unit, its ^2 and ^3 raised. */
+static void
+add_unit(label *l, const char *unit)
+{
+    for (; *unit != '\0'; unit++) {
+        const char part[2] = { *unit, '\0' };
+        if (*unit == '^' && (unit[1] == '2' || unit[1] == '3') && !isdigit((unsigned char)unit[2])
+            && unit[2] != '.')
+            add_superscript(l, *++unit - '0');
+        else
+            add(l, part);
+    }
+}
+
+/* Where a label too long for the height of a panel goes on in a second line: behind the blank,
+ * underscore or slash nearest to its middle; 0 if it need not. */
+static size_t
+line_break(const label *l)
+{
+    size_t best = 0;
+    for (size_t i = 1; l->n > 16 && i + 1 < l->n; i++) {
+        long off = labs(2 * (long)(i + 1) - (long)l->n);
+        if (strchr(" _/", l->text[i]) != NULL
+            && (best == 0 || off < labs(2 * (long)best - (long)l->n)))
+            best = i + 1;
+    }
+    return best;
+}
+
+void
+script_put_label(FILE *out, const ss_column *column, int exponent)
+{
+    const char *unit = column->unit;
+    int brackets = unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL);
+    label l = { "", 0 };
+    add(&l, column->name);
+    if (unit[0] != '\0' || exponent != 0)
+        add(&l, brackets ? " / (" : " / ");
+    if (exponent != 0) {
+        add(&l, "10");
+        add_superscript(&l, exponent);
+        add(&l, unit[0] != '\0' ? " " : "");
+    }
+    add_unit(&l, unit);
+    add(&l, brackets ? ")" : "");
+    size_t split = line_break(&l);
+    if (split > 0) {
+        char second[sizeof l.text];
+        memcpy(second, l.text + split, l.n - split + 1);
+        l.text[split] = '\0';
+        script_quote(out, l.text);
+        fputs(".\"\\n\".", out);
+        script_quote(out, second);
+    } else {
+        script_quote(out, l.text);
+    }
+}
+
+/* --- top and end --------------------------------------------------------------------------- */
+
+/* The terminal of a format, or NULL. */
+static const char *
+terminal(const char *format)
+{
+    static const char *const name[][2] = {
+        { "png", "pngcairo" }, { "svg", "svg" }, { "pdf", "pdfcairo" } };
+    for (size_t i = 0; i < sizeof name / sizeof *name; i++)
+        if (strcmp(format, name[i][0]) == 0)
+            return name[i][1];
+    return NULL;
+}
+
+static void
+put_terminal(FILE *out, const char *format, const char *output, double height)
+{
+    int pdf = strcmp(format, "pdf") == 0;
+    double per_cm = pdf ? 1 : PIXELS_PER_CM;
+    const char *unit = pdf ? " cm" : "";
+    fputs("width = ", out);
+    script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    fputs("height = ", out);
+    script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
+    fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
+            terminal(format), unit, unit, pdf ? "0.6" : "2",
+            pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
+    if (output != NULL) {
+        fputs("set output ", out);
+        script_quote(out, output);
+        putc('\n', out);
+    }
+}
+
+static const char *
+find_title(const ss_plot_opts *opts, const ss_header *head)
+{
+    const char *title = opts->title;
+    if (title == NULL)
+        title = ss_header_find_note(head, "scene");
+    if (title == NULL)
+        title = ss_header_find_note(head, "model");
+    return title != NULL ? title : "";
+}
+
+ss_status
+script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
+             ss_error *err)
+{
+    const char *format = opts->format, *dot;
+    if (format == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
+        format = dot + 1;
+    if ((format != NULL || opts->output != NULL) && (format == NULL || terminal(format) == NULL))
+        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
+                       format != NULL ? format : opts->output);
+    fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
+    if (format != NULL)
+        put_terminal(out, format, opts->output, height);
+    else
+        fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
+                "linewidth 0.5; set output 'figure.pdf'\n", 8.5, height);
+    fputs("title = ", out);
+    script_quote(out, find_title(opts, head));
+    putc('\n', out);
+    return SS_OK;
+}
+
+void
+script_put_span(FILE *out, const script_span *span)
+{
+    int decimals = script_decimals(span->to - span->from);
+    fputs("from = ", out);
+    script_put(out, span->from, decimals, "         # s\n");
+    fputs("to = ", out);
+    script_put(out, span->to, decimals, "           # s\n");
+}
+
+ss_status
+script_end(FILE *out)
+{
+    fputs("unset output\n", out);
+    return ferror(out) || fflush(out) != 0 ? SS_EIO : SS_OK;
+}
+
+/* --- time ---------------------------------------------------------------------------------- */
+
+ss_status
+script_find_span(script_span *span, const ss_header *head, size_t n, const ss_plot_opts *opts,
+                 ss_error *err)
+{
+    double end = head->start + (double)n / head->rate, rate = head->rate;
+    span->from = isnan(opts->from) ? head->start : opts->from;
+    span->to = isnan(opts->to) ? end : opts->to;
+    double lo = floor((span->from - head->start) * rate), hi = ceil((span->to - head->start) * rate);
+    if (!(span->from < span->to) || !(hi >= 0 && lo < (double)n)) {
+        char text[4][SS_NUMBER_MAX];
+        const double t[4] = { span->from, span->to, head->start, end };
+        for (int i = 0; i < 4; i++)
+            ss_number_format(text[i], t[i]);
+        return ss_fail(err, SS_EINVAL, "nothing to draw from %s s to %s s; the record goes from "
+                       "%s s to %s s", text[0], text[1], text[2], text[3]);
+    }
+    span->first = lo > 0 ? (size_t)lo : 0;
+    span->n = (hi < (double)n ? (size_t)hi + 1 : n) - span->first;
+    return SS_OK;
+}
+
+static void
+put_sample(FILE *out, const double *x, size_t i, const ss_header *head, const int decimals[2],
+           double unit)
+{
+    script_put(out, head->start + (double)i / head->rate, decimals[0], " ");
+    script_put(out, x[i] / unit, decimals[1], "\n");
+}
+
+double
+script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
+                 const script_span *span, int exponent)
+{
+    double unit = pow(10, exponent), lo = INFINITY, hi = -INFINITY;
+    size_t end = span->first + span->n;
+    for (size_t i = span->first; i < end; i++) {
+        lo = fmin(lo, x[i] / unit);
+        hi = fmax(hi, x[i] / unit);
+    }
+    const int decimals[2] = { script_decimals(span->to - span->from), script_decimals(hi - lo) };
+    size_t columns = span->n > 2 * SCRIPT_COLUMNS ? SCRIPT_COLUMNS : span->n;
+    fprintf(out, "%s << EOD\n", name);
+    for (size_t c = 0, i = span->first; c < columns; c++) {
+        size_t until = span->first + (size_t)((double)span->n * (double)(c + 1) / (double)columns);
+        size_t min = i, max = i;
+        for (; i < until && i < end; i++) {
+            min = x[i] < x[min] ? i : min;
+            max = x[i] > x[max] ? i : max;
+        }
+        put_sample(out, x, min < max ? min : max, head, decimals, unit);
+        if (min != max)
+            put_sample(out, x, min < max ? max : min, head, decimals, unit);
+    }
+    fputs("EOD\n", out);
+    return hi - lo;
+}

@@ -1,0 +1,4 @@
+printf 'hello\n' > run.csv
+ss-cat -o out.tsv run.csv || status=$?
+ls
+exit "$status"

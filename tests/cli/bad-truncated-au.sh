@@ -1,0 +1,3 @@
+ss-signal sine --format au | head -c 1001 | ss-cat -o out.tsv || status=$?
+ls
+exit "$status"

@@ -1,0 +1,9 @@
+[ -c /dev/full ] || { echo "no /dev/full"; exit 77; }
+ss-signal sine > /dev/full || echo $?
+ss-signal sine --format au > /dev/full || echo $?
+ss-signal sine | ss-cat > /dev/full || echo $?
+ss-signal sine | ss-noise --rms 1 > /dev/full || echo $?
+ss-signal sine | ss-noise --snr 1 > /dev/full || echo $?
+ss-signal --help > /dev/full || echo $?
+ss-cat --version > /dev/full || echo $?
+ss-signal sine -o /dev/full 2> /dev/null || echo $?

@@ -1,0 +1,511 @@
+/* test_store.c -- what goes into an HDF5 file comes out again, to the last bit; what others wrote
+ * is read or refused in clear words; a failed write leaves nothing behind. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <errno.h>
+#include <hdf5.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <stickslip.h>
+
+static char dir[] = "/tmp/test_store.XXXXXX", path[64];
+
+static int
+make_dir(void **state)
+{
+    (void)state;
+    if (mkdtemp(dir) == NULL)
+        return -1;
+    snprintf(path, sizeof path, "%s/run.h5", dir);
+    return 0;
+}
+
+static int
+remove_dir(void **state)
+{
+    (void)state;
+    unlink(path);
+    return rmdir(dir);
+}
+
+/* --- records ------------------------------------------------------------------------------- */
+
+static ss_signal *
+new_signal(size_t n)
+{
+    ss_signal *signal = NULL;
+    ss_header *head = ss_header_new(1000.0 / 3, -0.1);
+    assert_int_equal(ss_header_add_column(head, "zeta", "kip"), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "a", "m/s^2"), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "t", ""), SS_OK);      /* as the clock is called */
+    assert_int_equal(ss_header_note(head, "scene", "compliant-light"), SS_OK);
+    assert_int_equal(ss_header_note(head, "author", "\303\204rger: \"\\ $x`"), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header_free(head);
+    for (size_t i = 0; i < 3 * n; i++)
+        signal->values[i] = sin((double)i) / 3 + ldexp(1, -(int)(i % 1070));
+    return signal;
+}
+
+static const ss_event events[] = {
+    { 0.1 / 3, 1e-300, -0.0, SS_SLIP, 1 },
+    { 0.2, 3.661076025e-4, 0, SS_STICK, -1 },
+    { 0.2, -1, 5e-324, SS_REVERSE, -1 },
+};
+
+static ss_coefficients *
+transform(const ss_signal *signal, int dense)
+{
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.dense = dense;
+    opts.voices = 5;
+    opts.engine = SS_ENGINE_QUADRATURE;
+    if (ss_transform(&c, signal, 1, &opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return c;
+}
+
+static void
+write_ok(const ss_record *record)
+{
+    ss_error err = { "" };
+    if (ss_store_write(path, record, &err) != SS_OK)
+        fail_msg("%s", err.text);
+}
+
+static void
+assert_same_bits(const double *a, const double *b, size_t n)
+{
+    assert_memory_equal(a, b, n * sizeof *a);
+}
+
+static void
+assert_same_columns(const ss_header *a, const ss_header *b)
+{
+    assert_same_bits(&a->rate, &b->rate, 1);
+    assert_same_bits(&a->start, &b->start, 1);
+    assert_int_equal(a->has_time, b->has_time);
+    assert_int_equal(a->n_columns, b->n_columns);
+    for (size_t i = 0; i < a->n_columns; i++) {
+        assert_string_equal(a->column[i].name, b->column[i].name);
+        assert_string_equal(a->column[i].unit, b->column[i].unit);
+    }
+}
+
+static void
+assert_same_notes(const ss_header *a, const ss_header *b)
+{
+    assert_int_equal(a->n_notes, b->n_notes);
+    for (size_t i = 0; i < a->n_notes; i++)
+        assert_string_equal(a->note[i], b->note[i]);
+}
+
+static void
+a_signal_reads_back_exactly(void **state)
+{
+    static const size_t length[] = { 0, 1, 1000, 20000 };   /* none, one, plain, compressed */
+    (void)state;
+    for (size_t i = 0; i < sizeof length / sizeof *length; i++) {
+        ss_signal *signal = new_signal(length[i]), *back = NULL;
+        signal->head->has_time = i % 2 == 0;
+        write_ok(&(ss_record){ .signal = signal });
+        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+        assert_int_equal(back->n, length[i]);
+        assert_same_columns(signal->head, back->head);
+        assert_same_notes(signal->head, back->head);
+        assert_same_bits(signal->values, back->values, 3 * length[i]);
+        ss_signal_free(signal);
+        ss_signal_free(back);
+    }
+}
+
+static void
+coefficients_read_back_exactly(void **state)
+{
+    (void)state;
+    for (int dense = 0; dense < 2; dense++) {
+        ss_signal *signal = new_signal(500);
+        ss_coefficients *c = transform(signal, dense), *back = NULL;
+        write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+        assert_int_equal(ss_store_read_coefficients(&back, path, NULL), SS_OK);
+        assert_same_columns(c->head, back->head);
+        assert_same_notes(c->head, back->head);
+        assert_int_equal(back->n, c->n);
+        assert_same_bits(&back->center, &c->center, 1);
+        assert_int_equal(back->n_scales, c->n_scales);
+        size_t total = 0;
+        for (size_t i = 0; i < c->n_scales; i++) {
+            const ss_scale *a = &c->scale[i], *b = &back->scale[i];
+            const double one[] = { a->m, a->a, a->f, a->b_num, a->b_den };
+            const double two[] = { b->m, b->a, b->f, b->b_num, b->b_den };
+            assert_same_bits(one, two, 5);
+            assert_int_equal(a->j, b->j);
+            assert_int_equal(a->n, b->n);
+            assert_int_equal(a->offset, b->offset);
+            total += a->n;
+        }
+        assert_same_bits(c->w, back->w, 2 * total);
+        ss_coefficients_free(back);
+        ss_coefficients_free(c);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+read_raw(const char *name, hid_t type, void *values)
+{
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t id = H5Dopen2(file, name, H5P_DEFAULT);
+    assert_true(id >= 0);
+    assert_true(H5Dread(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    H5Dclose(id);
+    H5Fclose(file);
+}
+
+static void
+events_are_stored_with_their_kinds_as_words(void **state)
+{
+    double t[3], x[3], v[3];
+    int direction[3];
+    char kind[3][8];
+    hid_t text = H5Tcopy(H5T_C_S1);
+    (void)state;
+    H5Tset_size(text, 8);
+    write_ok(&(ss_record){ .events = events, .n_events = 3 });
+    read_raw("/events/t", H5T_NATIVE_DOUBLE, t);
+    read_raw("/events/x", H5T_NATIVE_DOUBLE, x);
+    read_raw("/events/v", H5T_NATIVE_DOUBLE, v);
+    read_raw("/events/direction", H5T_NATIVE_INT, direction);
+    read_raw("/events/kind", text, kind);
+    H5Tclose(text);
+    for (size_t i = 0; i < 3; i++) {
+        assert_same_bits(&t[i], &events[i].t, 1);
+        assert_same_bits(&x[i], &events[i].x, 1);
+        assert_same_bits(&v[i], &events[i].v, 1);
+        assert_int_equal(direction[i], events[i].direction);
+        assert_string_equal(kind[i], ss_event_kind_name(events[i].kind));
+    }
+}
+
+static void
+no_events_are_an_empty_group_only_where_asked_for(void **state)
+{
+    (void)state;
+    for (int has = 0; has < 2; has++) {
+        write_ok(&(ss_record){ .has_events = has });
+        hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        assert_int_equal(H5Lexists(file, "events", H5P_DEFAULT) > 0, has);
+        H5Fclose(file);
+    }
+}
+
+static char *
+read_bytes(size_t *size)
+{
+    FILE *in = fopen(path, "rb");
+    struct stat st;
+    assert_int_equal(fstat(fileno(in), &st), 0);
+    *size = (size_t)st.st_size;
+    char *bytes = malloc(*size);
+    assert_int_equal(fread(bytes, 1, *size, in), *size);
+    fclose(in);
+    return bytes;
+}
+
+static void
+the_same_record_gives_the_same_bytes_a_second_later(void **state)
+{
+    ss_signal *signal = new_signal(20000);
+    ss_coefficients *c = transform(signal, 0);
+    ss_record record = { signal, events, 3, 1, c };
+    size_t n, m;
+    (void)state;
+    write_ok(&record);
+    char *before = read_bytes(&n);
+    sleep(2);                           /* HDF5 keeps whole seconds */
+    write_ok(&record);
+    char *after = read_bytes(&m);
+    assert_int_equal(n, m);
+    assert_memory_equal(before, after, n);
+    free(before);
+    free(after);
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+static void
+only_large_datasets_are_compressed(void **state)
+{
+    (void)state;
+    for (size_t n = 8192; n <= 8193; n++) {             /* 64 KiB, and a value more */
+        ss_signal *signal = new_signal(n);
+        write_ok(&(ss_record){ .signal = signal });
+        hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        hid_t id = H5Dopen2(file, "/signal/a", H5P_DEFAULT), how = H5Dget_create_plist(id);
+        assert_int_equal(H5Pget_nfilters(how), n > 8192 ? 2 : 0);
+        H5Pclose(how);
+        H5Dclose(id);
+        H5Fclose(file);
+        ss_signal_free(signal);
+    }
+}
+
+/* --- failures ------------------------------------------------------------------------------ */
+
+static void
+a_write_that_fails_says_why_and_leaves_no_file(void **state)
+{
+    struct rlimit old, small;
+    ss_error err = { "" };
+    (void)state;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+    ss_signal *signal = new_signal(50000);
+    for (rlim_t limit = 0; limit < 1000000; limit = 2 * limit + 100) {
+        small = old;
+        small.rlim_cur = limit;
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+        ss_status status = ss_store_write(path, &(ss_record){ .signal = signal }, &err);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+        assert_int_equal(status, SS_EIO);
+        assert_non_null(strstr(err.text, path));
+        assert_non_null(strstr(err.text, strerror(EFBIG)));
+        assert_int_equal(access(path, F_OK), -1);
+    }
+    write_ok(&(ss_record){ .signal = signal });         /* and the library is fit to go on */
+    ss_signal_free(signal);
+}
+
+static void
+a_target_that_cannot_be_opened_says_why(void **state)
+{
+    ss_error err = { "" };
+    (void)state;
+    assert_int_equal(ss_store_write("/nonexistent/run.h5", &(ss_record){ .has_events = 1 }, &err),
+                     SS_EIO);
+    assert_string_equal(err.text, "/nonexistent/run.h5: No such file or directory");
+}
+
+static herr_t
+count_reports(hid_t stack, void *user)
+{
+    (void)stack;
+    ++*(int *)user;
+    return 0;
+}
+
+static void
+hdf5_reports_nothing_and_is_left_as_it_was(void **state)
+{
+    int reports = 0;
+    void *user = NULL;
+    ss_signal *signal = NULL;
+    H5E_auto2_t old, now;
+    void *old_user;
+    (void)state;
+    H5Eget_auto2(H5E_DEFAULT, &old, &old_user);
+    H5Eset_auto2(H5E_DEFAULT, count_reports, &reports);
+    assert_int_equal(ss_store_read_signal(&signal, "/dev/null", NULL, NULL, NULL), SS_EDATA);
+    assert_int_equal(ss_store_write("/nonexistent/run.h5", &(ss_record){ .has_events = 1 }, NULL),
+                     SS_EIO);
+    assert_int_equal(reports, 0);
+    H5Eget_auto2(H5E_DEFAULT, &now, &user);
+    assert_true(now == count_reports && user == &reports);
+    H5Eset_auto2(H5E_DEFAULT, old, old_user);
+}
+
+/* --- files of others ----------------------------------------------------------------------- */
+
+/* A file with a user block of the given size, holding arrays of every sort. */
+static void
+write_foreign(hsize_t user_block)
+{
+    static const double real[6] = { 1, 2, 3, 4, 5, 6 };
+    static const struct { const char *name; int rank; hsize_t dims[3]; int text; } row[] = {
+        { "tall", 2, { 3, 2 }, 0 },     { "wide", 2, { 2, 3 }, 0 },     { "line", 1, { 6 }, 0 },
+        { "cube", 3, { 1, 2, 3 }, 0 },  { "word", 1, { 1 }, 1 },        { "huge", 1, { 0 }, 0 },
+    };
+    hid_t how = H5Pcreate(H5P_FILE_CREATE), text = H5Tcopy(H5T_C_S1);
+    hid_t complex = H5Tcreate(H5T_COMPOUND, 16);
+    H5Tinsert(complex, "r", 0, H5T_NATIVE_DOUBLE);
+    H5Tinsert(complex, "i", 8, H5T_NATIVE_DOUBLE);
+    H5Tset_size(text, 40);
+    H5Pset_userblock(how, user_block);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, how, H5P_DEFAULT);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        hsize_t big = (hsize_t)1 << 50, chunk = 100;
+        int huge = strcmp(row[i].name, "huge") == 0;
+        hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+        if (huge)
+            H5Pset_chunk(layout, 1, &chunk);
+        hid_t space = H5Screate_simple(row[i].rank, huge ? &big : row[i].dims, NULL);
+        hid_t type = row[i].text ? text : strcmp(row[i].name, "line") == 0 ? H5T_STD_I16BE
+                                                                           : H5T_IEEE_F32BE;
+        hid_t id = H5Dcreate2(file, row[i].name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+        if (!huge)
+            assert_true(H5Dwrite(id, row[i].text ? text : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL,
+                                 H5P_DEFAULT, real) >= 0);
+        H5Dclose(id);
+        H5Sclose(space);
+        H5Pclose(layout);
+    }
+    hid_t two = H5Screate_simple(1, (hsize_t[]){ 2 }, NULL);
+    H5Dclose(H5Dcreate2(file, "complex", complex, two, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Sclose(two);
+    H5Tclose(complex);
+    H5Tclose(text);
+    H5Pclose(how);
+    H5Fclose(file);
+}
+
+static void
+arrays_of_others_are_read_by_their_path(void **state)
+{
+    static const struct { const char *path; size_t rows, columns; double values[6]; } row[] = {
+        { "/tall", 3, 2, { 1, 3, 5, 2, 4, 6 } },
+        { "/wide", 3, 2, { 1, 2, 3, 4, 5, 6 } },
+        { "/line", 6, 1, { 1, 2, 3, 4, 5, 6 } },
+    };
+    ss_read_opts opts = { .rate = 50 };
+    (void)state;
+    for (hsize_t block = 0; block <= 1024; block = block > 0 ? 2 * block : 512) {
+        write_foreign(block);
+        assert_true(ss_store_is_hdf5(path));
+        for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+            ss_signal *signal = NULL;
+            ss_error err = { "" };
+            char where[128];
+            snprintf(where, sizeof where, "%s:%s", path, row[i].path);
+            if (ss_load_signal(&signal, where, &opts, &err) != SS_OK)
+                fail_msg("%s", err.text);
+            assert_int_equal(signal->n, row[i].rows);
+            assert_int_equal(signal->head->n_columns, row[i].columns);
+            assert_true(signal->head->rate == 50);
+            assert_same_bits(signal->values, row[i].values, 6);
+            assert_string_equal(signal->head->column[row[i].columns - 1].name,
+                                i == 0 ? "tall2" : i == 1 ? "wide2" : "line");
+            ss_signal_free(signal);
+        }
+    }
+}
+
+static void
+a_dataset_of_our_own_brings_its_clock(void **state)
+{
+    ss_signal *signal = new_signal(10), *back = NULL;
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal });
+    assert_int_equal(ss_store_read_signal(&back, path, "/signal/a", NULL, NULL), SS_OK);
+    assert_same_bits(&back->head->rate, &signal->head->rate, 1);
+    assert_same_bits(&back->head->start, &signal->head->start, 1);
+    assert_string_equal(back->head->column[0].unit, "m/s^2");
+    ss_signal_free(back);
+    ss_signal_free(signal);
+}
+
+static void
+what_cannot_be_read_is_refused_in_clear_words(void **state)
+{
+    static const struct { const char *dataset, *words; } row[] = {
+        { "", "no /signal in it; choose one as %s:/PATH from /line /tall /wide" },
+        { "/line", "has no clock; give its rate in Hz" },
+        { "/cube", "has more than two dimensions" },
+        { "/word", "holds text, not numbers" },
+        { "/complex", "holds complex numbers; a signal is real" },
+        { "/huge", "has more values than can be read at once" },
+        { "/nothing", "no such dataset" },
+        { "/", "no such dataset" },
+    };
+    (void)state;
+    write_foreign(0);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char words[256], expected[512];
+        ss_signal *signal = NULL;
+        ss_error err = { "" };
+        snprintf(words, sizeof words, row[i].words, path);
+        snprintf(expected, sizeof expected, "%s%s%s: %s", path, i > 0 ? ":" : "", row[i].dataset,
+                 words);
+        assert_int_equal(ss_store_read_signal(&signal, path, row[i].dataset, NULL, &err), SS_EDATA);
+        assert_null(signal);
+        assert_string_equal(err.text, expected);
+    }
+}
+
+static void
+a_file_without_coefficients_says_so(void **state)
+{
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    (void)state;
+    write_foreign(0);
+    assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "no /wavelet"));
+}
+
+/* Every prefix of a file must be refused or read, never crash. */
+static void
+a_truncated_file_is_refused(void **state)
+{
+    ss_signal *signal = new_signal(100);
+    ss_coefficients *c = transform(signal, 0);
+    size_t size;
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+    char *bytes = read_bytes(&size);
+    for (size_t cut = 0; cut < size; cut += 997) {
+        ss_coefficients *back = NULL;
+        ss_error err = { "" };
+        assert_int_equal(truncate(path, (off_t)(size - 1 - cut)), 0);
+        assert_int_not_equal(ss_store_read_coefficients(&back, path, &err), SS_OK);
+        assert_null(back);
+        assert_non_null(strstr(err.text, path));
+    }
+    free(bytes);
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+static void
+a_fifo_keeps_its_first_bytes(void **state)
+{
+    char fifo[80];
+    (void)state;
+    snprintf(fifo, sizeof fifo, "%s/fifo", dir);
+    assert_int_equal(mkfifo(fifo, 0600), 0);
+    assert_false(ss_store_is_hdf5(fifo));               /* and does not wait for a writer */
+    unlink(fifo);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_signal_reads_back_exactly),
+        cmocka_unit_test(coefficients_read_back_exactly),
+        cmocka_unit_test(events_are_stored_with_their_kinds_as_words),
+        cmocka_unit_test(no_events_are_an_empty_group_only_where_asked_for),
+        cmocka_unit_test(the_same_record_gives_the_same_bytes_a_second_later),
+        cmocka_unit_test(only_large_datasets_are_compressed),
+        cmocka_unit_test(a_write_that_fails_says_why_and_leaves_no_file),
+        cmocka_unit_test(a_target_that_cannot_be_opened_says_why),
+        cmocka_unit_test(hdf5_reports_nothing_and_is_left_as_it_was),
+        cmocka_unit_test(arrays_of_others_are_read_by_their_path),
+        cmocka_unit_test(a_dataset_of_our_own_brings_its_clock),
+        cmocka_unit_test(what_cannot_be_read_is_refused_in_clear_words),
+        cmocka_unit_test(a_file_without_coefficients_says_so),
+        cmocka_unit_test(a_truncated_file_is_refused),
+        cmocka_unit_test(a_fifo_keeps_its_first_bytes),
+    };
+    return cmocka_run_group_tests_name("store", tests, make_dir, remove_dir);
+}
