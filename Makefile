@@ -2,8 +2,9 @@
 #
 #   make                    libraries and tools, under build/
 #   make check              all tests; installs first what is missing for them
-#   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench
-#   make bench              error and cost, measured here; fails if an error exceeds its bound
+#   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench-errors
+#   make bench              error and cost, measured here, simulation against CVODE and SciPy too;
+#                           fails if an error exceeds its bound
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
@@ -138,9 +139,9 @@ check-all:
 			$(MAKE) --no-print-directory run-tests CC=$$cc BUILD=$(BUILD)-$$cc || exit 1; \
 		fi; \
 	done
-	@$(MAKE) --no-print-directory bench
+	@$(MAKE) --no-print-directory bench-errors
 
-bench: $(BENCHES:%=$(BUILD)/tests/%)
+bench-errors: $(BENCHES:%=$(BUILD)/tests/%)
 	@for b in $^; do $$b || exit 1; done
 
 paper:
@@ -157,6 +158,10 @@ run-tests: all $(TESTS:%=$(BUILD)/tests/%)
 draw-paper: all $(BUILD)/bin/paper-table
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
+
+bench: all bench-errors
+	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
+		BUILD=$(call quote,$(BUILD)) sh tests/bench/run.sh
 
 # --- install ---------------------------------------------------------------------------------
 install: all
@@ -186,6 +191,6 @@ uninstall:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always bench check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench bench-errors check check-all clean deps draw-paper install needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

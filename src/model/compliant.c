@@ -72,9 +72,9 @@ next(motion *m, ss_event *e)
 }
 
 static void
-sample(const motion *m, double u, const double q[], const double dqdt[], ss_sample *s)
+sample(const motion *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
-    (void)u;
+    (void)drive;
     s->x = m->x_ref + q[0];
     s->v = q[1];
     s->a = dqdt[1];
@@ -85,6 +85,7 @@ sample(const motion *m, double u, const double q[], const double dqdt[], ss_samp
 }
 
 const struct model compliant_model = {
-    .dim = 2, .start = start, .fastest = linear_fastest, .rhs = linear_rhs,
-    .jacobian = linear_jacobian, .guard = guard, .next = next, .sample = sample
+    .dim = 2, .start = start, .fastest = linear_fastest, .rates = linear_rates,
+    .jacobian = linear_jacobian, .derivatives = linear_derivatives, .guard = guard, .next = next,
+    .sample = sample
 };

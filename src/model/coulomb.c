@@ -5,9 +5,9 @@
 #include <float.h>
 
 static double
-spring_force(const motion *m, double u, double x)
+spring_force(const motion *m, double drive, double x)
 {
-    return motion_drive(m, u) - m->scene->stiffness * x;
+    return drive - m->scene->stiffness * x;
 }
 
 /* The force's rate of change, over Omega: its sign tells which limit is being crossed. */
@@ -21,7 +21,7 @@ force_trend(const motion *m)
 static int
 stop_or_go(motion *m, double x)
 {
-    double force = spring_force(m, m->u, x);
+    double force = spring_force(m, motion_drive(m, m->u), x);
     linear_slip(m, x, 0, fabs(force) > m->scene->friction ? sign(force) : 0);
     return m->mode;
 }
@@ -40,9 +40,9 @@ start(motion *m)
 static double
 next_turn(double angle, double from)
 {
-    const double turn = 2 * M_PI;
-    double ahead = fmod(angle - from, turn);
-    return from + (ahead <= 0 ? ahead + turn : ahead);
+    const double round = 2 * M_PI;
+    double ahead = fmod(angle - from, round);
+    return from + (ahead <= 0 ? ahead + round : ahead);
 }
 
 /* The end of a stick in closed form: k Z_e cos(theta) - k x leaves [-f_k, f_k] upwards where the
@@ -60,7 +60,7 @@ still(const motion *m, double *u_end)
     *u_end = INFINITY;
     if (m->omega == 0 || z == 0)
         return 1;
-    double theta = m->theta + m->omega * m->u, force = spring_force(m, m->u, x);
+    double theta = m->theta + m->omega * m->u, force = spring_force(m, motion_drive(m, m->u), x);
     if (force * force_trend(m) > 0
         && limit - fabs(force) <= 8 * DBL_EPSILON * (m->drive + s->stiffness * fabs(x) + limit)) {
         *u_end = m->u;
@@ -92,19 +92,19 @@ next(motion *m, ss_event *e)
 }
 
 static void
-sample(const motion *m, double u, const double q[], const double dqdt[], ss_sample *s)
+sample(const motion *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     int still = m->mode == 0;
     s->x = q[0];
     s->v = q[1];
     s->a = still ? 0 : dqdt[1];
-    s->f = still ? spring_force(m, u, q[0]) : m->f0;
+    s->f = still ? spring_force(m, drive, q[0]) : m->f0;
     s->y = 0;
     s->mode = m->mode;
 }
 
 const struct model coulomb_model = {
-    .dim = 2, .start = start, .fastest = linear_fastest, .rhs = linear_rhs,
-    .jacobian = linear_jacobian, .guard = linear_slip_guard, .still = still, .next = next,
-    .sample = sample
+    .dim = 2, .start = start, .fastest = linear_fastest, .rates = linear_rates,
+    .jacobian = linear_jacobian, .derivatives = linear_derivatives, .guard = linear_slip_guard,
+    .still = still, .next = next, .sample = sample
 };

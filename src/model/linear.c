@@ -1,7 +1,11 @@
 /* linear.c -- the equation that Coulomb friction and compliant contact share within a mode. */
 #include "model.h"
 
-#include <gsl/gsl_errno.h>
+turn
+motion_base(const motion *m, double u)
+{
+    return turn_of(m->theta + m->omega * u);
+}
 
 double
 motion_drive(const motion *m, double u)
@@ -9,19 +13,16 @@ motion_drive(const motion *m, double u)
     return m->drive * cos(m->theta + m->omega * u);
 }
 
-int
-linear_rhs(double u, const double q[], double dqdt[], void *params)
+void
+linear_rates(const motion *m, double drive, const double q[], double dqdt[])
 {
-    const motion *m = params;
     dqdt[0] = q[1];
-    dqdt[1] = (motion_drive(m, u) - m->f0 - m->k * q[0] - m->c * q[1]) / m->scene->mass;
-    return GSL_SUCCESS;
+    dqdt[1] = (drive - m->f0 - m->k * q[0] - m->c * q[1]) / m->scene->mass;
 }
 
-int
-linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params)
+void
+linear_jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[])
 {
-    const motion *m = params;
     double mass = m->scene->mass;
     (void)q;
     dfdq[0] = 0;
@@ -30,7 +31,22 @@ linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *p
     dfdq[3] = -m->c / mass;
     dfdt[0] = 0;
     dfdt[1] = -m->drive * m->omega * sin(m->theta + m->omega * u) / mass;
-    return GSL_SUCCESS;
+}
+
+/* By differentiating the equation of motion. */
+void
+linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
+                   double higher[][MAX_DIM])
+{
+    turn base = motion_base(m, u);
+    const double wave[] = { -base.si, -base.co, base.si };
+    double mass = m->scene->mass, D = m->drive * m->omega;
+    double d[ORDERS + 2] = { q[0], q[1], dqdt[1] };
+    for (int i = 0; i < ORDERS - 1; i++, D *= m->omega) {
+        d[i + 3] = (D * wave[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
+        higher[i][0] = d[i + 2];
+        higher[i][1] = d[i + 3];
+    }
 }
 
 /* The larger root of m s^2 + c s + k = 0 in modulus, or Omega. */

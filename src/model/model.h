@@ -10,7 +10,7 @@
 #include <stickslip/sim.h>
 #include "sim/instant.h"
 
-enum { MAX_DIM = 3 };
+enum { MAX_DIM = 3, ORDERS = 4 };
 
 typedef struct motion {
     const ss_scene *scene;
@@ -34,17 +34,22 @@ struct model {
     int (*start)(motion *m);
     /* Largest angular frequency or rate of decay of the mode: caps the steps [rad/s]. */
     double (*fastest)(const motion *m);
-    /* GSL's rhs and Jacobian; params is the motion, time is u. */
-    int (*rhs)(double u, const double q[], double dqdt[], void *params);
-    int (*jacobian)(double u, const double q[], double *dfdq, double dfdt[], void *params);
+    /* The state's rate of change under the force of the base. */
+    void (*rates)(const motion *m, double drive, const double q[], double dqdt[]);
+    /* Its derivatives by the state (row after row) and by time. */
+    void (*jacobian)(const motion *m, double u, const double q[], double *dfdq, double dfdt[]);
+    /* The ORDERS - 1 rates of change after dqdt of a state at u; NULL if steps are to be repeated
+     * for what lies inside them. */
+    void (*derivatives)(const motion *m, double u, const double q[], const double dqdt[],
+                        double higher[][MAX_DIM]);
     /* Not negative within the mode, and its rate of change; NULL if the model has no events. */
     double (*guard)(const motion *m, const double q[], const double dqdt[], double *slope);
     /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever). */
     int (*still)(const motion *m, double *u_end);
     /* The mode ends at m->u in state m->q: enter the next.  1 if that is an event, put into *e. */
     int (*next)(motion *m, ss_event *e);
-    /* What the state and its rate of change say at time u, except t and z. */
-    void (*sample)(const motion *m, double u, const double q[], const double dqdt[],
+    /* What state, rate of change and force of the base say, except t and z. */
+    void (*sample)(const motion *m, double drive, const double q[], const double dqdt[],
                    ss_sample *s);
 };
 
@@ -56,12 +61,31 @@ sign(double x)
     return (x > 0) - (x < 0);
 }
 
-double motion_drive(const motion *m, double u);     /* k Z_e cos(Omega t + phase) [N] */
+typedef struct turn {
+    double co, si;                  /* cosine and sine of an angle */
+} turn;
+
+static inline turn
+turn_of(double angle)
+{
+    return (turn){ cos(angle), sin(angle) };
+}
+
+static inline turn
+turn_further(turn a, turn b)
+{
+    return (turn){ a.co * b.co - a.si * b.si, a.co * b.si + a.si * b.co };
+}
+
+turn motion_base(const motion *m, double u);        /* the phase Omega t + phase */
+double motion_drive(const motion *m, double u);     /* k Z_e times its cosine [N] */
 void motion_rebase(motion *m);                      /* let u count from the present step: sim.c */
 
 /* linear.c: what Coulomb and compliant contact share. */
-int linear_rhs(double u, const double q[], double dqdt[], void *params);
-int linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params);
+void linear_rates(const motion *m, double drive, const double q[], double dqdt[]);
+void linear_jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[]);
+void linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
+                        double higher[][MAX_DIM]);
 double linear_fastest(const motion *m);
 void linear_slip(motion *m, double x, double v, int direction);
 double linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);

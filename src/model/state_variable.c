@@ -2,8 +2,6 @@
  * as the paper prints it, towards tanh(alpha v) at the rate gamma f_k).  Smooth: no events. */
 #include "model.h"
 
-#include <gsl/gsl_errno.h>
-
 static int
 start(motion *m)
 {
@@ -30,23 +28,20 @@ fastest(const motion *m)
     return fmax(sqrt(m->scene->stiffness / m->scene->mass), m->omega);
 }
 
-static int
-rhs(double u, const double q[], double dqdt[], void *params)
+static void
+rates(const motion *m, double drive, const double q[], double dqdt[])
 {
-    const motion *m = params;
     const ss_scene *s = m->scene;
     double rate, goal;
     law(s, &rate, &goal);
     dqdt[0] = q[1];
-    dqdt[1] = (motion_drive(m, u) - s->stiffness * q[0] - q[2]) / s->mass;
+    dqdt[1] = (drive - s->stiffness * q[0] - q[2]) / s->mass;
     dqdt[2] = -rate * (q[2] - goal * tanh(s->alpha * q[1]));
-    return GSL_SUCCESS;
 }
 
-static int
-jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params)
+static void
+jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[])
 {
-    const motion *m = params;
     const ss_scene *s = m->scene;
     double rate, goal, sech = 1 / cosh(s->alpha * q[1]);
     law(s, &rate, &goal);
@@ -59,13 +54,12 @@ jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params)
         dfdq[i] = row[i];
     dfdt[0] = dfdt[2] = 0;
     dfdt[1] = -m->drive * m->omega * sin(m->theta + m->omega * u) / s->mass;
-    return GSL_SUCCESS;
 }
 
 static void
-sample(const motion *m, double u, const double q[], const double dqdt[], ss_sample *s)
+sample(const motion *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
-    (void)m, (void)u;
+    (void)m, (void)drive;
     s->x = q[0];
     s->v = q[1];
     s->a = dqdt[1];
@@ -75,6 +69,6 @@ sample(const motion *m, double u, const double q[], const double dqdt[], ss_samp
 }
 
 const struct model state_variable_model = {
-    .dim = 3, .start = start, .fastest = fastest, .rhs = rhs, .jacobian = jacobian,
+    .dim = 3, .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian,
     .sample = sample
 };

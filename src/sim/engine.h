@@ -6,13 +6,21 @@
 
 typedef struct engine engine;
 
+/* Where a state is asked for.  A run of samples, each one interval after the last, may be carried on
+ * from one to the next. */
+typedef enum place {
+    ANYWHERE, FIRST_SAMPLE, NEXT_SAMPLE
+} place;
+
 struct engine_type {
     /* The motion has entered a mode: forget what belonged to the last one. */
     ss_status (*begin)(engine *e);
-    /* Take one step of at most h_max from m->u: fills h, q1, dq1. */
+    /* Take one step from m->u: fills h, q1, dq1.  It is at most h_max long, or longer where the guard
+     * cannot reach 0 within it. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
-    /* The state at m->u + s, 0 <= s <= h, within the step just taken, and its rate of change. */
-    void (*at)(engine *e, double s, double q[], double dqdt[]);
+    /* The state at m->u + s, 0 <= s <= h, within the step just taken, and its rate of change; base
+     * is the phase there. */
+    void (*at)(engine *e, place where, double s, turn base, double q[], double dqdt[]);
     /* The step is done with: it ended at m->u + h, which becomes m->u. */
     void (*accept)(engine *e);
     void (*free)(engine *e);
@@ -24,7 +32,7 @@ struct engine {
     double h;                               /* of the last step */
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
-    int lands_on_samples;                   /* at() answers at the ends only */
+    int lands_on_samples;                   /* at() answers at the nearer end */
     unsigned long steps, rhs, events;
 };
 

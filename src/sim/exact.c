@@ -8,7 +8,11 @@
  * steady motion.  C, S and G are written so that nothing cancels or overflows at critical damping,
  * far beyond it, or for w u -> 0.  P has a singularity at resonance; within a tenth of it (where
  * the damping is light, too) the motion from rest takes its place, as a divided difference of
- * exponentials, which has none.  Its error is rounding: a few ulp of each term. */
+ * exponentials, which has none.  Its error is rounding: a few ulp of each term.
+ *
+ * Steps are there for the guard's sake only.  With B a bound of its second derivative, a guard that
+ * is g at both ends of a step h is nowhere below g - B h^2 / 8: where that is positive, no event can
+ * be missed, whatever extrema there are between.  Elsewhere steps are as short as for any method. */
 #include "sim/engine.h"
 
 #include <complex.h>
@@ -24,37 +28,49 @@
  * keeps its digits. */
 enum { CYCLES = 4 };
 
+/* The longest step in units of those that any method may take. */
+#define LONGEST 10
+
 typedef struct exact {
     engine base;
+    double k_m, c_m, f_m;           /* k, c, f0 over m */
     double s, w;                    /* roots of m r^2 + c r + k: -s +- i w, or -s +- w */
     int overdamped;
     int resonant;
     double p_cos, p_sin;            /* P = p_cos cos(theta + Omega u) + p_sin sin(...) */
     double q, v;                    /* factors of C and S */
+    double curvature;               /* the guard's second derivative is at most this */
+    int in_samples;                 /* a sample has been taken since q and v were set */
+    turn swing;                     /* exp((-s + i w) u) of the last one */
+    turn swing_further;             /* the same for one sample interval */
 } exact;
 
-/* C, S, G and the first two's derivatives follow from these: C' = -(k/m) S, S' = C - 2 s S. */
-static void
-free_motion(const exact *x, double u, double *C, double *S, double *G)
+/* exp((-s + i w) u) */
+static turn
+swing_at(const exact *x, double u)
 {
-    double k_m = x->base.m->k / x->base.m->scene->mass, wu = x->w * u, sinc;
+    double decay = x->s == 0 ? 1 : exp(-x->s * u);
+    turn t = turn_of(x->w * u);
+    return (turn){ decay * t.co, decay * t.si };
+}
+
+/* C, S, G and the first two's derivatives follow from these: C' = -(k/m) S, S' = C - 2 s S.  The
+ * swing serves where the motion swings, u where it creeps. */
+static void
+free_motion(const exact *x, double u, turn swing, double *C, double *S, double *G)
+{
     if (x->overdamped) {
-        double slow = -k_m / (x->s + x->w), decay = exp(slow * u), part = -expm1(-2 * wu);
+        double slow = -x->k_m / (x->s + x->w), decay = exp(slow * u), part = -expm1(-2 * x->w * u);
         *S = decay * part / (2 * x->w);
         *C = decay * (1 - part / 2) + x->s * *S;
-        *G = (1 - *C) / k_m;
+        *G = (1 - *C) / x->k_m;
         return;
     }
-    double decay = x->s == 0 ? 1 : exp(-x->s * u);
-    sinc = x->w > 0 ? sin(wu) / x->w : u;
-    *S = decay * sinc;
-    *C = decay * cos(wu) + x->s * *S;
-    if (x->s == 0) {
-        double half = x->w > 0 ? sin(wu / 2) / (x->w / 2) : u;
-        *G = half * half / 2;               /* (1 - cos wu) / w^2 */
-    } else {
-        *G = (1 - *C) / k_m;
-    }
+    *S = x->w > 0 ? swing.si / x->w : swing.co * u;
+    *C = swing.co + x->s * *S;
+    *G = (1 - *C) / x->k_m;
+    if (x->s == 0 && swing.co > 0)          /* the same without cancellation */
+        *G = swing.si * swing.si / (1 + swing.co) / x->k_m;
 }
 
 /* (exp(z) - 1) / z */
@@ -81,22 +97,44 @@ driven_from_rest(const exact *x, double u, double *q, double *v)
 }
 
 static void
-evaluate(const exact *x, double u, double q[], double dqdt[])
+evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqdt[])
 {
     const motion *m = x->base.m;
-    double mass = m->scene->mass, f_m = m->f0 / mass, C, S, G, p, dp;
-    double phase = m->theta + m->omega * u, co = cos(phase), si = sin(phase);
-    free_motion(x, u, &C, &S, &G);
+    double C, S, G, p, dp;
+    free_motion(x, u, swing, &C, &S, &G);
     if (x->resonant) {
         driven_from_rest(x, u, &p, &dp);
     } else {
-        p = x->p_cos * co + x->p_sin * si;
-        dp = m->omega * (x->p_sin * co - x->p_cos * si);
+        p = x->p_cos * base.co + x->p_sin * base.si;
+        dp = m->omega * (x->p_sin * base.co - x->p_cos * base.si);
     }
-    q[0] = p + x->q * C + x->v * S - f_m * G;
-    q[1] = dp - x->q * m->k / mass * S + x->v * (C - m->c / mass * S) - f_m * S;
-    dqdt[0] = q[1];
-    dqdt[1] = (m->drive * co - m->f0 - m->k * q[0] - m->c * q[1]) / mass;
+    q[0] = p + x->q * C + x->v * S - x->f_m * G;
+    q[1] = dp - x->q * x->k_m * S + x->v * (C - x->c_m * S) - x->f_m * S;
+    m->model->rates(m, m->drive * base.co, q, dqdt);
+}
+
+static void
+evaluate_at(const exact *x, double u, double q[], double dqdt[])
+{
+    evaluate(x, u, motion_base(x->base.m, u), swing_at(x, u), q, dqdt);
+}
+
+/* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is that of
+ * K exp((-s + i w) u); the guard is linear in q and v, up to signs that do not raise a minimum.  So
+ * its slope, asked for with the bounds in place of q' and v', is the bound of its curvature. */
+static double
+curvature(const exact *x, double omega0)
+{
+    const motion *m = x->base.m;
+    double offset = x->q + m->f0 / m->k, P = hypot(x->p_cos, x->p_sin), slope;
+    double K = hypot(offset, (x->v + x->s * offset) / x->w), omega = m->omega;
+    const double positive[MAX_DIM] = { 1, 1 };
+    const double bound[MAX_DIM] = {
+        omega * omega * P + omega0 * omega0 * K,
+        omega * omega * omega * P + omega0 * omega0 * omega0 * K
+    };
+    m->model->guard(m, positive, bound, &slope);
+    return fabs(slope);
 }
 
 static ss_status
@@ -109,6 +147,9 @@ exact_begin(engine *e)
     double impedance = hypot(stiffness, damping);
 
     motion_rebase(m);
+    x->k_m = m->k / mass;
+    x->c_m = m->c / mass;
+    x->f_m = m->f0 / mass;
     x->s = m->c / (2 * mass);
     x->overdamped = x->s > omega0;
     x->w = sqrt(fabs(omega0 - x->s) * (omega0 + x->s));
@@ -118,15 +159,18 @@ exact_begin(engine *e)
     if (!x->resonant) {
         double in_phase = m->drive * (stiffness / impedance) / impedance;
         double late = m->drive * (damping / impedance) / impedance;
-        double co = cos(m->theta), si = sin(m->theta);
+        turn base = turn_of(m->theta);
         x->p_cos = in_phase;
         x->p_sin = late;
-        x->q -= in_phase * co + late * si;
-        x->v -= m->omega * (late * co - in_phase * si);
+        x->q -= in_phase * base.co + late * base.si;
+        x->v -= m->omega * (late * base.co - in_phase * base.si);
     }
+    x->curvature = x->resonant || x->overdamped ? INFINITY : curvature(x, omega0);
+    x->swing_further = swing_at(x, 1 / m->scene->rate);
+    x->in_samples = 0;
     e->rhs++;
     double q[MAX_DIM];
-    evaluate(x, 0, q, e->dq0);
+    evaluate_at(x, 0, q, e->dq0);
     return SS_OK;
 }
 
@@ -134,19 +178,37 @@ static ss_status
 exact_step(engine *e, double h_max, ss_error *err)
 {
     const exact *x = (exact *)e;
+    const motion *m = e->m;
+    double slope, g = m->model->guard(m, m->q, e->dq0, &slope);
+    double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);   /* B h^2 / 8 is g / 2 at most */
     (void)err;
-    e->h = h_max;
     e->steps++;
+    if (h > h_max) {
+        e->h = h;
+        e->rhs++;
+        evaluate_at(x, m->u + h, e->q1, e->dq1);
+        if (m->model->guard(m, e->q1, e->dq1, &slope) > x->curvature * h * h / 8)
+            return SS_OK;
+    }
+    e->h = h_max;
     e->rhs++;
-    evaluate(x, e->m->u + e->h, e->q1, e->dq1);
+    evaluate_at(x, m->u + h_max, e->q1, e->dq1);
     return SS_OK;
 }
 
 static void
-exact_at(engine *e, double s, double q[], double dqdt[])
+exact_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 {
+    exact *x = (exact *)e;
+    double u = e->m->u + s;
+    turn swing = where == NEXT_SAMPLE && x->in_samples ? turn_further(x->swing, x->swing_further)
+        : swing_at(x, u);
+    if (where != ANYWHERE) {
+        x->swing = swing;
+        x->in_samples = 1;
+    }
     e->rhs++;
-    evaluate((exact *)e, e->m->u + s, q, dqdt);
+    evaluate(x, u, base, swing, q, dqdt);
 }
 
 static void
