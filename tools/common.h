@@ -84,6 +84,16 @@ tool_kind tool_format(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
+/* --- long work ----------------------------------------------------------------------------- */
+
+/* From here on the first SIGINT, SIGTERM or SIGHUP does not kill at once where standard output is
+ * written: tool_progress answers 1 instead, the caller finishes its row and calls tool_end. */
+void tool_end_at_rows(void);
+/* How far the work is, 0 to 1: after a second, and if that is a terminal that data do not go to,
+ * a line on standard error shows it with the time left.  1 if the user has asked to stop.  Fit to
+ * be an ss_progress. */
+int tool_progress(double done, void *user);
+
 /* Run gnuplot on the script that write_script writes, into a picture at path (or standard output);
  * dies with gnuplot's own words if it fails. */
 typedef ss_status tool_script(FILE *out, void *user, ss_error *err);

@@ -32,8 +32,9 @@ struct model {
     size_t dim;
     /* Enter the first mode at the scene's initial state; 1 if it starts in slip. */
     int (*start)(motion *m);
-    /* Largest angular frequency or rate of decay of the mode: caps the steps [rad/s]. */
-    double (*fastest)(const motion *m);
+    /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s], and
+     * what it is in the words of a diagnosis; what may be NULL. */
+    double (*fastest)(const motion *m, const char **what);
     /* GSL's rhs and Jacobian; params is the motion, time is u. */
     int (*rhs)(double u, const double q[], double dqdt[], void *params);
     int (*jacobian)(double u, const double q[], double *dfdq, double dfdt[], void *params);
@@ -62,7 +63,7 @@ void motion_rebase(motion *m);                      /* let u count from the pres
 /* linear.c: what Coulomb and compliant contact share. */
 int linear_rhs(double u, const double q[], double dqdt[], void *params);
 int linear_jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params);
-double linear_fastest(const motion *m);
+double linear_fastest(const motion *m, const char **what);
 void linear_slip(motion *m, double x, double v, int direction);
 double linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);
 
