@@ -2,7 +2,8 @@
 #
 #   make                    libraries and tools, under build/
 #   make check              all tests; installs first what is missing for them
-#   make check-all          these, the long ones, with sanitizers and with the other compiler too
+#   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench
+#   make bench              error and cost, measured here; fails if an error exceeds its bound
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME: figure 7 from a recording)
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
@@ -53,8 +54,9 @@ HEADERS := $(wildcard include/stickslip/*.h)
 MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+BENCHES := $(patsubst tests/%.c,%,$(wildcard tests/bench/bench_*.c))
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -95,7 +97,7 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(STATIC)
+$(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
 $(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
@@ -136,14 +138,20 @@ check-all:
 			$(MAKE) --no-print-directory run-tests CC=$$cc BUILD=$(BUILD)-$$cc || exit 1; \
 		fi; \
 	done
+	@$(MAKE) --no-print-directory bench
+
+bench: $(BENCHES:%=$(BUILD)/tests/%)
+	@for b in $^; do $$b || exit 1; done
 
 paper:
 	@$(DEPS) build paper
 	@$(MAKE) --no-print-directory draw-paper
 
+# make -n runs lines that name MAKE, so the tests get it by another name.
+THIS_MAKE = $(MAKE)
 run-tests: all $(TESTS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
-		MAKE=$(call quote,$(MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
+		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
 		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
 
 draw-paper: all
@@ -178,6 +186,6 @@ uninstall:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench check check-all clean deps draw-paper install needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

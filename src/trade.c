@@ -345,7 +345,7 @@ ss_trade_cheapest(const ss_trade *trade, double accuracy)
     return best;
 }
 
-/* The rows to measure: exact once, the others at each tolerance. */
+/* The rows to measure: exact once, the others at each tolerance; none is measured yet. */
 static ss_status
 make_rows(ss_trade *trade, const ss_scene *scene)
 {
@@ -361,7 +361,7 @@ make_rows(ss_trade *trade, const ss_scene *scene)
         if (exact && scene->model == SS_STATE_VARIABLE)
             continue;
         for (int i = 1; i < TOLERANCES - 1; i++) {
-            trade->row[trade->n++] = (ss_trade_row){ .method = method,
+            trade->row[trade->n++] = (ss_trade_row){ .method = method, .status = SS_STOP,
                                                      .tol = exact ? 0 : tolerance[i] };
             if (exact)
                 break;

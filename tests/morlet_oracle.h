@@ -37,15 +37,14 @@ oracle_error(const ss_morlet_opts *opts)
     return LDBL_EPSILON * (16 + 8 * opts->center);
 }
 
-/* The largest error of a transform over its bound, INTERFACE.md's promise, over all scales; the
- * error itself goes into *floors in units of eps a^1/2 max|x|.  every: look at one coefficient in
- * so many; the largest |W| is that of all coefficients got, which is right to within accuracy. */
+/* The largest error of a transform over the bound that stickslip/morlet.h promises, over all scales.
+ * every: look at one coefficient in so many; the largest |W| is that of all coefficients got, which
+ * is right to within accuracy. */
 static double
 worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
-            const ss_morlet_opts *opts, const double *w, size_t every, double *floors)
+            const ss_morlet_opts *opts, const double *w, size_t every)
 {
     double worst = 0, x_max = 0;
-    *floors = 0;
     for (size_t i = 0; i < n; i++)
         x_max = fmax(x_max, fabs(x[i]));
     for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
@@ -62,7 +61,6 @@ worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
         }
         double bound = opts->accuracy * most + 16 * DBL_EPSILON * unit;
         worst = fmax(worst, (error - oracle_error(opts) * unit) / bound);
-        *floors = fmax(*floors, error / (DBL_EPSILON * unit));
     }
     return worst;
 }

@@ -52,6 +52,7 @@ sample_header(void)
     assert_int_equal(ss_header_add_column(head, "v", "m/s"), SS_OK);
     assert_int_equal(ss_header_add_column(head, "c", "N s"), SS_OK);
     assert_int_equal(ss_header_add_column(head, "f", ""), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "(odd", "(a b)/(c)"), SS_OK);
     assert_int_equal(ss_header_note(head, "scene", "a test: it has a colon"), SS_OK);
     return head;
 }
@@ -64,9 +65,9 @@ finds_columns_by_name_and_number(void **state)
     ss_header_add_column(head, "2", "");
     assert_int_equal(ss_header_column(head, "x"), 0);
     assert_int_equal(ss_header_column(head, "3"), 2);
-    assert_int_equal(ss_header_column(head, "2"), 4);           /* a name goes before a number */
+    assert_int_equal(ss_header_column(head, "2"), 5);           /* a name goes before a number */
     assert_int_equal(ss_header_column(head, "0"), -1);
-    assert_int_equal(ss_header_column(head, "6"), -1);
+    assert_int_equal(ss_header_column(head, "7"), -1);
     assert_int_equal(ss_header_column(head, "1x"), -1);
     assert_int_equal(ss_header_column(head, ""), -1);
     ss_header_free(head);

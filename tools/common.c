@@ -24,6 +24,7 @@ static const char *tool_name = "stickslip", *usage_text = "";
 /* The file being written: out_temporary is renamed to out_target when whole. */
 static FILE *out_file;
 static char *out_target;
+static const char *out_name;            /* what the user calls it */
 static char out_temporary[PATH_MAX];    /* "" if there is none; an array, for the signal handler */
 
 static void
@@ -44,6 +45,12 @@ remove_and_die(int number)
 
 static volatile sig_atomic_t asked_to_stop;     /* the signal, 0 if none came */
 
+int
+tool_stopping(void)
+{
+    return asked_to_stop != 0;
+}
+
 static void
 ask_to_stop(int number)
 {
@@ -55,9 +62,9 @@ static void
 catch_signals(void (*handler)(int))
 {
     static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
-    struct sigaction old, new = { .sa_handler = handler, .sa_flags = SA_RESTART };
+    struct sigaction old, new = { .sa_flags = (int)(SA_RESTART | SA_RESETHAND) };
+    new.sa_handler = handler;
     sigemptyset(&new.sa_mask);
-    new.sa_flags |= (int)SA_RESETHAND;
     for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
         if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
             sigaction(caught[i], &new, NULL);
@@ -92,7 +99,7 @@ tool_progress(double done, void *user)
     if (terminal < 0)
         terminal = tool_verbosity >= 0 && isatty(STDERR_FILENO)
             && (out_file != NULL || out_temporary[0] != '\0' || !isatty(STDOUT_FILENO));
-    if (terminal && asked_to_stop == 0) {
+    if (terminal && !tool_stopping()) {
         double now = seconds_now();
         if (began == 0)
             began = now;
@@ -105,13 +112,14 @@ tool_progress(double done, void *user)
             progress_shown = 1;
         }
     }
-    return asked_to_stop != 0;
+    return tool_stopping();
 }
 
 void
 tool_end_at_rows(void)
 {
-    catch_signals(ask_to_stop);
+    if (out_temporary[0] == '\0')
+        catch_signals(ask_to_stop);
 }
 
 void
@@ -121,7 +129,6 @@ tool_begin(char *argv[], const char *name, const char *usage)
     usage_text = usage;
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
     gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
-    atexit(remove_temporary);
 }
 
 static void
@@ -140,11 +147,20 @@ say(const char *format, va_list args)
         va_end(args); \
     } while (0)
 
+/* What the tool holds is left to the system: a leak checker has nothing to say of it. */
+static void TOOL_NORETURN
+leave(int status)
+{
+    remove_temporary();
+    fflush(stdout);
+    _exit(status);
+}
+
 void
 tool_die(const char *format, ...)
 {
     SAY(format);
-    exit(1);
+    leave(1);
 }
 
 void
@@ -152,7 +168,7 @@ tool_usage(const char *format, ...)
 {
     if (format != NULL)
         SAY(format);
-    exit(2);
+    leave(2);
 }
 
 void
@@ -174,6 +190,10 @@ tool_check(ss_status status, const ss_error *err)
 {
     if (status == SS_EIO && (ferror(stdout) || (out_file != NULL && ferror(out_file))))
         tool_die("write error: %s", strerror(errno));
+    size_t length = strlen(out_temporary);
+    if (status != SS_OK && err != NULL && length > 0
+        && strncmp(err->text, out_temporary, length) == 0)
+        tool_die("%s%s", out_name, err->text + length);
     if (status != SS_OK && status != SS_STOP)
         tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));
 }
@@ -391,6 +411,7 @@ tool_output_path(const char *path)
     close(fd);
 
     memcpy(out_temporary, name, sizeof name);
+    out_name = path;
     catch_signals(remove_and_die);
     sigprocmask(SIG_SETMASK, &before, NULL);
     return out_temporary;
@@ -427,7 +448,7 @@ tool_end(void)
     int failed = ferror(stdout);
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));
-    if (asked_to_stop != 0)             /* as a shell expects it, after a whole last row */
+    if (tool_stopping())                /* as a shell expects it, after a whole last row */
         raise(asked_to_stop);
 }
 
@@ -463,41 +484,72 @@ last_line(FILE *words, char *line, int size)
     }
 }
 
-void
-tool_gnuplot(tool_script *write_script, void *user)
+/* Start gnuplot on a script; its words go to a file, its picture comes through *picture. */
+static pid_t
+start_gnuplot(FILE *script, FILE *words, FILE **picture)
 {
-    int fd[2], status;
-    char reason[256] = "gnuplot failed";
-    ss_error err = { "" };
-    FILE *words = tmpfile();
-    if (words == NULL || pipe(fd) != 0)
+    int fd[2];
+    if (pipe(fd) != 0)
         tool_die("%s", strerror(errno));
     pid_t child = fork();
     if (child == 0) {
-        dup2(fd[0], STDIN_FILENO);
+        dup2(fileno(script), STDIN_FILENO);
+        dup2(fd[1], STDOUT_FILENO);
         dup2(fileno(words), STDERR_FILENO);
         close(fd[0]);
         close(fd[1]);
         execlp("gnuplot", "gnuplot", "-", (char *)NULL);
         _exit(127);
     }
-    close(fd[0]);
-    FILE *script = child > 0 ? fdopen(fd[1], "w") : NULL;
-    if (script == NULL)
+    close(fd[1]);
+    *picture = child > 0 ? fdopen(fd[0], "rb") : NULL;
+    if (*picture == NULL)
         tool_die("%s", strerror(errno));
-    signal(SIGPIPE, SIG_IGN);           /* if gnuplot gives up, its own words say why */
-    ss_status st = write_script(script, user, &err);
-    fclose(script);
-    signal(SIGPIPE, SIG_DFL);
+    return child;
+}
+
+/* gnuplot says nothing of a full disk, so it is we who write what it draws. */
+static void
+run_gnuplot(FILE *script, FILE *out)
+{
+    char piece[BUFSIZ], reason[256] = "gnuplot failed";
+    FILE *words = tmpfile(), *picture;
+    size_t n, drawn = 0;
+    int status;
+    if (words == NULL)
+        tool_die("%s", strerror(errno));
+    pid_t child = start_gnuplot(script, words, &picture);
+    while ((n = fread(piece, 1, sizeof piece, picture)) > 0) {
+        drawn += n;
+        fwrite(piece, 1, n, out);       /* tool_end looks for errors */
+    }
+    fclose(picture);
     if (waitpid(child, &status, 0) != child)
         tool_die("%s", strerror(errno));
-    if (st != SS_EIO)
-        tool_check(st, &err);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         tool_die("gnuplot not found; install it, or write a script with -o FILE.gp");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || st != SS_OK) {
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || drawn == 0) {
         last_line(words, reason, sizeof reason);
         tool_die("%s", reason);
     }
     fclose(words);
+}
+
+void
+tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
+{
+    ss_error err = { "" };
+    tool_kind kind = tool_output_kind(path, TOOL_PICTURES, TOOL_GP);
+    FILE *out = tool_output(path), *script = kind == TOOL_GP ? out : tmpfile();
+    if (script == NULL)
+        tool_die("%s", strerror(errno));
+    if (kind != TOOL_GP)
+        opts->format = ending[kind] + 1;
+    tool_check(write_script(script, opts, user, &err), &err);
+    if (kind == TOOL_GP)
+        return;
+    if (fflush(script) != 0 || fseek(script, 0, SEEK_SET) != 0)
+        tool_die("write error: %s", strerror(errno));
+    run_gnuplot(script, out);
+    fclose(script);
 }

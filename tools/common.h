@@ -69,6 +69,8 @@ typedef enum tool_kind {        /* what the ending of -o asks for */
     TOOL_TSV, TOOL_AU, TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF
 } tool_kind;
 
+#define TOOL_PICTURES (1u << TOOL_GP | 1u << TOOL_PNG | 1u << TOOL_SVG | 1u << TOOL_PDF)
+
 /* The kind of path's ending, among those allowed (a bit set of 1u << kind), else wrong usage that
  * names them; standard output (NULL or "-") has the fallback. */
 tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
@@ -84,19 +86,20 @@ tool_kind tool_format(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
+/* Write a script to what -o names, a .gp or standard output, or the picture that gnuplot makes of
+ * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
+typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
+void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
+
 /* --- long work ----------------------------------------------------------------------------- */
 
-/* From here on the first SIGINT, SIGTERM or SIGHUP does not kill at once where standard output is
- * written: tool_progress answers 1 instead, the caller finishes its row and calls tool_end. */
+/* Call when the output is open.  If that is a stream, the first SIGINT, SIGTERM or SIGHUP from here
+ * on does not kill at once: tool_progress answers 1 and sinks should too (tool_stopping), the row
+ * is finished, and tool_end dies of the signal. */
 void tool_end_at_rows(void);
-/* How far the work is, 0 to 1: after a second, and if that is a terminal that data do not go to,
- * a line on standard error shows it with the time left.  1 if the user has asked to stop.  Fit to
- * be an ss_progress. */
+int tool_stopping(void);
+/* How far the work is, 0 to 1: after a second, on a terminal that the data do not go to, a line on
+ * standard error shows it with the time left.  1 if the user has asked to stop; an ss_progress. */
 int tool_progress(double done, void *user);
-
-/* Run gnuplot on the script that write_script writes, into a picture at path (or standard output);
- * dies with gnuplot's own words if it fails. */
-typedef ss_status tool_script(FILE *out, void *user, ss_error *err);
-void tool_gnuplot(tool_script *write_script, void *user);
 
 #endif

@@ -23,7 +23,7 @@ static const char usage[] =
 "      --admissible       keep the second term of the wavelet\n"
 "      --detrend=NAME     subtract none, mean or linear first (none)\n"
 "      --force            also scales that the record does not resolve\n"
-"  -o, --output=FILE      .tsv, or .h5 with the signal beside; - is standard output\n"
+"  -o, --output=FILE      .tsv, or .h5 with the signal; - is standard output\n"
 "  -q, --quiet            no warnings\n"
 "  -v, --verbose          say what was chosen and what it cost\n"
 "  -h, --help             show this text and exit\n"

@@ -62,7 +62,8 @@ note_options(ss_header *head, const ss_signal *signal, size_t column, const ss_m
 {
     const ss_column *col = &signal->head->column[column];
     int failed = note_number(head, "samples", (double)signal->n)
-        || ss_header_note(head, "column", col->name) || ss_header_note(head, "unit", col->unit)
+        || ss_header_note(head, "column", col->name)
+        || (col->unit[0] != '\0' && ss_header_note(head, "unit", col->unit))
         || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
         || (opts->dense ? ss_header_note(head, "dense", "yes")
                         : note_number(head, "step", opts->step))

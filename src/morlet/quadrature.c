@@ -10,7 +10,7 @@
  * the promise is checked: max|W| - tail(R) is below the true maximum, and if tail(R) exceeds TOL
  * times that + TAIL_FLOOR, the taps out to the R which keeps this are added.  So two passes do, R
  * stays below 8.3, and no tap is computed twice.  TAIL_FLOOR is 4 eps; of the 16 eps promised the
- * other 12 are for rounding, whose largest found in tests/bench/bench_morlet is below 3.
+ * other 12 are for rounding, of which tests/bench/bench_morlet finds 3.5 at most.
  *
  * Tap.  A coefficient's centre lies tau samples, |tau| <= 1/2, from the sample c nearest to it:
  *     conj h((k - tau) d) = T_k exp(k tau d^2) exp(-(tau d)^2/2) exp(i omega_c tau d)

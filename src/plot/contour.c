@@ -194,7 +194,7 @@ put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
 static const char around[] =
     "set encoding utf8\n"
     "set multiplot\n"
-    "left = 0.145; right = 0.85\n"
+    "left = 0.16; right = 0.83\n"
     "set lmargin at screen left; set rmargin at screen right\n"
     "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror scale 0.6 front\n"
     "set title title noenhanced offset 0,-0.5\n";
@@ -202,22 +202,22 @@ static const char around[] =
 /* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */
 static const char panel_a[] =
     "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
-    "set xtics format ''; set ylabel signal_label noenhanced offset 1,0\n"
-    "set label 1 '(a)' at screen 0.008, screen 0.93\n"
+    "set xtics format ''; set label 2 signal_label at screen 0.04,graph 0.5 center rotate noenhanced\n"
+    "set label 1 '(a)' at screen 0.01, screen 0.96\n"
     "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
     "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"
     "unset title; set offsets 0,0,0,0\n";
 
 static const char panel_b[] =
-    "set bmargin at screen 0.11; set tmargin at screen top_b\n"
-    "set label 1 '(b)' at screen 0.008, screen top_b + 0.005\n"
+    "set bmargin at screen 0.12; set tmargin at screen top_b\n"
+    "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
     "set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
-    "set ylabel 'frequency / Hz' noenhanced offset 1,0\n"
+    "set label 2 'frequency / Hz' at screen 0.04,graph 0.5 center rotate\n"
     "set logscale y; set yrange [fmin:fmax]\n"
     "set palette defined (@colours) maxcolors levels\n"
     "set cbrange [-span - step/2 : -step/2]\n"
-    "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.3,0\n"
-    "set colorbox user origin screen right + 0.02, screen 0.11 size screen 0.025, screen top_b - 0.11\n";
+    "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
+    "set colorbox user origin screen right + 0.02, screen 0.12 size screen 0.025, screen top_b - 0.12\n";
 
 /* Events first, so that they stand behind the lines; then the cone, then the contours. */
 static void
@@ -228,7 +228,7 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
         script_put_tics(out, "ytics", range, 5);
         fputs(panel_a, out);
     }
-    fprintf(out, "top_b = %s\n", contour->signal != NULL ? "0.69" : "0.925");
+    fprintf(out, "top_b = %s\n", contour->signal != NULL ? "0.68" : "0.925");
     fputs(panel_b, out);
     put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
     if (contour->signal == NULL)

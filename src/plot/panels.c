@@ -7,7 +7,7 @@
 
 #define PANEL 2.1               /* height of one panel [cm] */
 #define TITLE 0.6               /* height above the panels [cm] */
-#define TIME 0.9                /* and below them */
+#define TIME 1.0                /* and below them */
 
 /* Margins in the script's own terms: panel i of n stands in its share of the height between rims,
  * its left edge where that of all others is. */
@@ -15,7 +15,7 @@ static const char layout[] =
     "set encoding utf8\n"
     "set multiplot\n"
     "set title title noenhanced offset 0,-0.5\n"
-    "set lmargin at screen 0.17; set rmargin at screen 0.97\n"
+    "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
     "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
     "set autoscale yfix; set ytics nomirror; set tics scale 0.6; set xtics format ''\n"
     "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
@@ -64,7 +64,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
             fputs("set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n", out);
         fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
                 "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
-        fprintf(out, "set ylabel label%zu noenhanced offset 1,0\n", i);
+        fprintf(out, "set label 1 label%zu at screen 0.035,graph 0.5 center rotate noenhanced\n", i);
         script_put_tics(out, "ytics", ranges[i - 1], 5);
         fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
         if (i == 1)
@@ -134,8 +134,9 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     put_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
     fputs("set encoding utf8\n"
           "set title title noenhanced offset 0,-0.5; set xlabel x_label noenhanced offset 0,0.3\n"
-          "set ylabel y_label noenhanced offset 1,0; unset key\n"
-          "set lmargin at screen 0.17; set rmargin at screen 0.96\n"
+          "set label 1 y_label at screen 0.035,graph 0.5 center rotate noenhanced; unset key\n"
+          "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+          "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
           "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour\n", out);

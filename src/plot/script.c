@@ -1,12 +1,12 @@
 /* script.c -- what all gnuplot scripts have in common: terminal, size, text that draws and does not
  * run, numbers that no locale changes, lines thinned to the picture's width.
  *
- * A picture is as wide as a journal's column, 8.5 cm, its letters 7 points high. */
+ * A picture is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
 #include "script.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include "../error.h"
 
@@ -40,21 +40,15 @@ script_decimals(double range)
 }
 
 /* Between single quotes gnuplot replaces nothing, and a quote is written twice. */
-static void
-put_quoted(FILE *out, const char *text)
+void
+script_quote(FILE *out, const char *text)
 {
+    putc('\'', out);
     for (; *text != '\0'; text++) {
         if (*text == '\'')
             putc('\'', out);
         putc(iscntrl((unsigned char)*text) ? ' ' : *text, out);
     }
-}
-
-void
-script_quote(FILE *out, const char *text)
-{
-    putc('\'', out);
-    put_quoted(out, text);
     putc('\'', out);
 }
 
@@ -82,28 +76,59 @@ script_put_tics(FILE *out, const char *axis, double range, int intervals)
         fprintf(out, "set %s autofreq\n", axis);
 }
 
+/* Text under construction; what does not fit is left out. */
+typedef struct label {
+    char text[256];
+    size_t n;
+} label;
+
 static void
-put_superscript(FILE *out, int exponent)
+add(label *l, const char *text)
+{
+    size_t length = strlen(text);
+    if (l->n + length >= sizeof l->text)
+        return;
+    memcpy(l->text + l->n, text, length + 1);
+    l->n += length;
+}
+
+static void
+add_superscript(label *l, int exponent)
 {
     static const char *const digit[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
     char text[16];
     snprintf(text, sizeof text, "%d", exponent);
     for (const char *c = text; *c != '\0'; c++)
-        fputs(*c == '-' ? "⁻" : digit[*c - '0'], out);
+        add(l, *c == '-' ? "⁻" : digit[*c - '0']);
 }
 
 /* A unit, its ^2 and ^3 raised. */
 static void
-put_unit(FILE *out, const char *unit)
+add_unit(label *l, const char *unit)
 {
     for (; *unit != '\0'; unit++) {
         const char part[2] = { *unit, '\0' };
         if (*unit == '^' && (unit[1] == '2' || unit[1] == '3') && !isdigit((unsigned char)unit[2])
             && unit[2] != '.')
-            put_superscript(out, *++unit - '0');
+            add_superscript(l, *++unit - '0');
         else
-            put_quoted(out, part);
+            add(l, part);
     }
+}
+
+/* Where a label too long for the height of a panel goes on in a second line: behind the blank,
+ * underscore or slash nearest to its middle; 0 if it need not. */
+static size_t
+line_break(const label *l)
+{
+    size_t best = 0;
+    for (size_t i = 1; l->n > 16 && i + 1 < l->n; i++) {
+        long off = labs(2 * (long)(i + 1) - (long)l->n);
+        if (strchr(" _/", l->text[i]) != NULL
+            && (best == 0 || off < labs(2 * (long)best - (long)l->n)))
+            best = i + 1;
+    }
+    return best;
 }
 
 void
@@ -111,17 +136,28 @@ script_put_label(FILE *out, const ss_column *column, int exponent)
 {
     const char *unit = column->unit;
     int brackets = unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL);
-    putc('\'', out);
-    put_quoted(out, column->name);
+    label l = { "", 0 };
+    add(&l, column->name);
     if (unit[0] != '\0' || exponent != 0)
-        fputs(brackets ? " / (" : " / ", out);
+        add(&l, brackets ? " / (" : " / ");
     if (exponent != 0) {
-        fputs("10", out);
-        put_superscript(out, exponent);
-        fputs(unit[0] != '\0' ? " " : "", out);
+        add(&l, "10");
+        add_superscript(&l, exponent);
+        add(&l, unit[0] != '\0' ? " " : "");
     }
-    put_unit(out, unit);
-    fputs(brackets ? ")'" : "'", out);
+    add_unit(&l, unit);
+    add(&l, brackets ? ")" : "");
+    size_t split = line_break(&l);
+    if (split > 0) {
+        char second[sizeof l.text];
+        memcpy(second, l.text + split, l.n - split + 1);
+        l.text[split] = '\0';
+        script_quote(out, l.text);
+        fputs(".\"\\n\".", out);
+        script_quote(out, second);
+    } else {
+        script_quote(out, l.text);
+    }
 }
 
 /* --- top and end --------------------------------------------------------------------------- */
@@ -148,9 +184,10 @@ put_terminal(FILE *out, const char *format, const char *output, double height)
     script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
     script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
-    fprintf(out, "font = 'Sans,%s'\n", pdf ? "7" : "20");
+    fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
     fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
-            terminal(format), unit, unit, pdf ? "0.5" : "2", pdf ? " fontscale 1" : "");
+            terminal(format), unit, unit, pdf ? "0.6" : "2",
+            pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
         fputs("set output ", out);
         script_quote(out, output);
@@ -183,7 +220,7 @@ script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double 
     if (format != NULL)
         put_terminal(out, format, opts->output, height);
     else
-        fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,7' fontscale 1 "
+        fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", 8.5, height);
     fputs("title = ", out);
     script_quote(out, find_title(opts, head));

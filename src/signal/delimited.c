@@ -514,8 +514,11 @@ choose_clock(struct table *t, const ss_read_opts *opts, ss_header *head, ss_erro
     for (size_t i = 0; i < t->n_columns; i++)
         if (is_called_time(&t->names->column[i], &unit))
             return take_clock(t, i, unit, head, err);
-    if (t->n_columns > 1 && take_clock(t, 0, t->names->column[0].unit, head, NULL) == SS_OK)
-        return SS_OK;
+    ss_status st = SS_EDATA;
+    if (t->n_columns > 1)
+        st = take_clock(t, 0, t->names->column[0].unit, head, NULL);
+    if (st != SS_EDATA)
+        return st == SS_OK ? SS_OK : out_of_memory(t, err);
     return ss_fail(err, SS_EDATA, "%s: no column of time; say which with --time, or give the sample "
                    "rate with --rate", t->in->name);
 }

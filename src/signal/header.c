@@ -295,6 +295,8 @@ take_columns(ss_header *head, char *p, const char **reason)
     for (int first = 1; *(p += strspn(p, " \t")) != '\0'; first = 0) {
         char *label = p, *name, *unit;
         int depth = 0, more;
+        p += strcspn(p, "/ \t");
+        p += *p == '/';
         for (; *p != '\0' && (depth > 0 || (*p != ' ' && *p != '\t')); p++)
             depth += (*p == '(') - (*p == ')' && depth > 0);
         more = *p != '\0';

@@ -5,10 +5,14 @@ PKG_CONFIG_PATH=$PWD/usr/lib/pkgconfig
 export PKG_CONFIG_PATH
 check() {
     mkdir "$1"
-    (cd "$1" && "../$1-example" && test -s contour.h5 && head -n 1 contour.gp)
+    cd "$1"
+    ../"$1-example"
+    test -s contour.h5 && test -s contour.gp
     if command -v gnuplot > /dev/null; then
-        (cd "$1" && gnuplot -e 'set terminal pngcairo; set output "contour.png"' contour.gp 2>&1 && test -s contour.png)
+        gnuplot -e 'set terminal pngcairo; set output "contour.png"' contour.gp 2> log || cat log
+        test -s contour.png
     fi
+    cd ..
 }
 
 # shellcheck disable=SC2046  # flags are a list

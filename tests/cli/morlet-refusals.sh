@@ -1,0 +1,12 @@
+# Scales that the record does not resolve are refused with the usable range, unless --force.
+ss-signal sine --duration 3 -o s.tsv
+for options in "--fmax 1000" "--fmin 0.1" "--fmin 900" "--fmax 0.2" "--octaves -12:0" \
+        "--fmin 100 --fmax 100.1" "--accuracy 1e-13 --fmax 500"; do
+    # shellcheck disable=SC2086  # options are a list
+    ss-morlet $options s.tsv -o c.tsv 2>&1 || echo "exit $?"
+done
+[ ! -e c.tsv ]
+ss-morlet --force --fmin 0.1 --fmax 2000 s.tsv | tail -n 1 | cut -f 1
+ss-signal sine --duration 0 | ss-morlet 2>&1 || echo "exit $?"
+ss-signal sine --duration 0.0005 | ss-morlet 2>&1 || echo "exit $?"
+ss-signal sine --duration 0.001 | ss-morlet --force --fmin 100 --fmax 200 | grep -vc '^#'

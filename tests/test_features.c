@@ -1,0 +1,221 @@
+/* test_features.c -- maxima and spikes on maps whose hills are known. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stickslip.h>
+
+/* A map of the transform's grid, filled with a function of time and octaves. */
+typedef double height(double t, double m);      /* dB */
+
+static ss_coefficients *
+map_of(height *h, double step)
+{
+    enum { N = 4000 };
+    ss_header *head = ss_header_new(1000, 0);
+    ss_signal *signal = NULL;
+    ss_coefficients *coef = NULL;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.octaves = 1, opts.m0 = -6, opts.m1 = -2, opts.voices = 8, opts.step = step;
+    opts.dense = step == 0, opts.force = 1;
+    ss_header_add_column(head, "a", "");
+    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+    assert_int_equal(ss_transform(&coef, signal, 0, &opts, NULL), SS_OK);
+    for (size_t i = 0; i < coef->n_scales; i++) {
+        const ss_scale *sc = &coef->scale[i];
+        for (size_t k = 0; k < sc->n; k++) {
+            coef->w[2 * (sc->offset + k)] = 0;
+            coef->w[2 * (sc->offset + k) + 1] = -pow(10, h(ss_scale_b(sc, k), sc->m) / 20);
+        }
+    }
+    ss_header_free(head);
+    ss_signal_free(signal);
+    return coef;
+}
+
+/* A hill of given height at (t, m), falling by 40 dB in 0.5 s or 2 octaves, as a cone. */
+static double
+hill(double top, double t0, double m0, double t, double m)
+{
+    return top - 40 * hypot((t - t0) / 0.5, (m - m0) / 2);
+}
+
+/* Hills at 1, 2 and 3.2 s: half way between neighbours of one height h the saddle lies at
+ * h - 40 (distance / 2) / 0.5; between unequal ones where the cones meet. */
+static double
+three_hills(double t, double m)
+{
+    double one = hill(0, 1, -4, t, m), two = hill(-10, 2, -4, t, m);
+    return fmax(fmax(one, two), hill(-3, 3.2, -4, t, m));
+}
+
+/* Saddles: 1 and 2 meet at 1.5 + 0.0625 s: -45 dB; 2 and 3 at 2.6 - 0.04375 s: -54.5 dB.  So 0 is
+ * never ended, -10 falls 35 to the first, and -3 falls 51.5. */
+static void
+prominence_is_the_fall_to_the_highest_saddle(void **state)
+{
+    static const double step[] = { 0.25, 0.1, 0 };  /* 0: dense */
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        ss_coefficients *coef = map_of(three_hills, step[i]);
+        ss_maximum *peak = NULL;
+        size_t n = 0;
+        double grid = step[i] == 0 ? 0.001 : step[i] * 0x1p-4;      /* in time, at m = -4 */
+        double blur = 80 * 2 * grid;        /* a slope of 80 dB/s, a peak or saddle off the grid */
+        assert_int_equal(ss_maxima(&peak, &n, coef, 20), SS_OK);
+        assert_int_equal(n, 3);
+        assert_true(fabs(peak[0].t - 1) <= grid && fabs(peak[1].t - 2) <= grid
+                    && fabs(peak[2].t - 3.2) <= grid);
+        for (size_t k = 0; k < 3; k++)
+            assert_true(fabs(peak[k].f / (6 / (2 * M_PI * 0x1p-4)) - 1) < 1e-12);
+        assert_true(isinf(peak[0].prominence) && peak[0].level == 0);
+        assert_true(fabs(peak[1].level + 10) <= blur && fabs(peak[2].level + 3) <= blur);
+        assert_true(fabs(peak[1].prominence - 35) <= 2 * blur);
+        assert_true(fabs(peak[2].prominence - 51.5) <= 2 * blur);
+        free(peak);
+        assert_int_equal(ss_maxima(&peak, &n, coef, 45), SS_OK);
+        assert_int_equal(n, 2);
+        free(peak);
+        ss_coefficients_free(coef);
+    }
+}
+
+static double
+slope(double t, double m)
+{
+    return 3 * t + m;
+}
+
+static double
+plateau(double t, double m)
+{
+    (void)t, (void)m;
+    return -20;
+}
+
+static double
+ridge_on_the_border(double t, double m)
+{
+    return fmax(-5 * (m + 6) - 10 * fabs(t - 2), hill(-8, 3, -4, t, m));
+}
+
+static void
+slopes_plateaus_and_borders_are_no_maxima(void **state)
+{
+    static height *const h[] = { slope, plateau };
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        ss_coefficients *coef = map_of(h[i], 0.25);
+        ss_maximum *peak = NULL;
+        size_t n = 9;
+        assert_int_equal(ss_maxima(&peak, &n, coef, 0), SS_OK);
+        assert_int_equal(n, 0);
+        free(peak);
+        ss_coefficients_free(coef);
+    }
+}
+
+/* The ridge is cut by the map's border but it is higher ground: the hill's fall is finite. */
+static void
+the_border_is_higher_ground(void **state)
+{
+    ss_coefficients *coef = map_of(ridge_on_the_border, 0);
+    ss_maximum *peak = NULL;
+    size_t n = 0;
+    (void)state;
+    assert_int_equal(ss_maxima(&peak, &n, coef, 3), SS_OK);
+    assert_int_equal(n, 1);
+    assert_true(fabs(peak[0].t - 3) < 0.01 && isfinite(peak[0].prominence));
+    free(peak);
+    ss_coefficients_free(coef);
+}
+
+static void
+silence_has_no_maxima(void **state)
+{
+    ss_coefficients *coef = map_of(plateau, 0.25);
+    ss_maximum *peak = NULL;
+    size_t n = 9, last = coef->n_scales - 1;
+    (void)state;
+    memset(coef->w, 0, 2 * (coef->scale[last].offset + coef->scale[last].n) * sizeof *coef->w);
+    assert_int_equal(ss_maxima(&peak, &n, coef, 0), SS_OK);
+    assert_int_equal(n, 0);
+    free(peak);
+    assert_int_equal(ss_spikes(&peak, &n, coef, last, 40, 0), SS_OK);
+    assert_int_equal(n, 0);
+    free(peak);
+    ss_coefficients_free(coef);
+}
+
+/* Along the row through the tops the same falls; range leaves out what is too low. */
+static void
+spikes_are_the_maxima_of_one_scale(void **state)
+{
+    ss_coefficients *coef = map_of(three_hills, 0);
+    ss_maximum *peak = NULL;
+    size_t n = 0, row = 0;
+    (void)state;
+    while (coef->scale[row].m > -4)
+        row++;
+    assert_int_equal(ss_spikes(&peak, &n, coef, row, 40, 5), SS_OK);
+    assert_int_equal(n, 3);
+    assert_true(fabs(peak[1].prominence - 35) < 0.4 && fabs(peak[2].prominence - 51.5) < 0.4);
+    free(peak);
+    assert_int_equal(ss_spikes(&peak, &n, coef, row, 5, 5), SS_OK);
+    assert_int_equal(n, 2);
+    free(peak);
+    assert_int_equal(ss_spikes(&peak, &n, coef, coef->n_scales, 5, 5), SS_EINVAL);
+    ss_coefficients_free(coef);
+}
+
+/* exp(-t^2/(2 s^2)) cos: |W| peaks in the middle; its label is within 3 %
+ * of the frequency, 1.35 % of it the convention of a^-1/2 and the rest the step of 1/16 octave. */
+static void
+finds_two_tone_bursts(void **state)
+{
+    enum { N = 6000 };
+    ss_header *head = ss_header_new(2000, 0);
+    ss_signal *signal = NULL;
+    ss_coefficients *coef = NULL;
+    ss_maximum *peak = NULL;
+    size_t n = 0, all;
+    (void)state;
+    ss_header_add_column(head, "a", "m/s^2");
+    ss_signal_new(&signal, head, N);
+    for (size_t i = 0; i < N; i++) {
+        double t = (double)i / 2000, u = (t - 1) / 0.1, v = (t - 2.2) / 0.1;
+        signal->values[i] = exp(-u * u / 2) * cos(2 * M_PI * 45 * t)
+            + 0.2 * exp(-v * v / 2) * cos(2 * M_PI * 100 * t);
+    }
+    assert_int_equal(ss_transform(&coef, signal, 0, &ss_morlet_defaults, NULL), SS_OK);
+    assert_int_equal(ss_maxima(&peak, &all, coef, 80. / 18), SS_OK);
+    for (size_t i = 0; i < all; i++)
+        if (peak[i].level > -80)        /* below is what accuracy leaves of silence */
+            peak[n++] = peak[i];
+    assert_int_equal(n, 2);
+    assert_true(fabs(peak[0].t - 1) < 0.01 && fabs(peak[1].t - 2.2) < 0.01);
+    assert_true(fabs(peak[0].f / 45 - 1) < 0.03 && fabs(peak[1].f / 100 - 1) < 0.03);
+    assert_true(isinf(peak[0].prominence) && peak[1].prominence > 40);
+    free(peak);
+    ss_coefficients_free(coef);
+    ss_header_free(head);
+    ss_signal_free(signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(prominence_is_the_fall_to_the_highest_saddle),
+        cmocka_unit_test(slopes_plateaus_and_borders_are_no_maxima),
+        cmocka_unit_test(the_border_is_higher_ground),
+        cmocka_unit_test(silence_has_no_maxima),
+        cmocka_unit_test(spikes_are_the_maxima_of_one_scale),
+        cmocka_unit_test(finds_two_tone_bursts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

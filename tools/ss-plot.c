@@ -1,0 +1,106 @@
+/* ss-plot.c -- a signal over time, one panel a column, or one column over another. */
+#include "common.h"
+
+#include <float.h>
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char usage[] =
+"usage: ss-plot [options] [FILE[:/dataset]] | gnuplot -p\n"
+"Draw a signal: one panel a column over time, or one column over another.\n"
+"  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
+"      --xy=X,Y         column Y over column X instead: a phase plane, a friction loop\n"
+"      --title=TEXT     default: scene or model of the signal\n"
+"      --from=S         from this time on the source's clock [s]\n"
+"      --to=S           up to this time [s]\n"
+"  -r, --rate=HZ        input without a clock: the sample rate\n"
+"  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
+"                       default: the script on standard output\n"
+"  -q, --quiet          no warnings\n"
+"  -v, --verbose        say what was read\n"
+"  -h, --help           show this text and exit\n"
+"      --version        show the version and exit\n";
+
+enum { OPT_XY = TOOL_OPT_FIRST, OPT_TITLE, OPT_FROM, OPT_TO };
+
+typedef struct drawing {
+    const ss_signal *signal;
+    size_t *column, n;          /* panels; or with xy the two columns */
+    int xy;
+} drawing;
+
+static ss_status
+write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+{
+    const drawing *d = user;
+    if (d->xy)
+        return ss_plot_xy(out, d->signal, d->column[0], d->column[1], opts, err);
+    return ss_plot_signal(out, d->signal, d->column, d->n, opts, err);
+}
+
+/* Cut "X,Y" in two names. */
+static void
+cut_pair(char *pair, const char *name[2])
+{
+    char *comma = strchr(pair, ',');
+    if (comma == NULL || comma == pair || comma[1] == '\0')
+        tool_usage("--xy: '%s' is not X,Y", pair);
+    *comma = '\0';
+    name[0] = pair;
+    name[1] = comma + 1;
+}
+
+int
+main(int argc, char *argv[])
+{
+    static const struct option longopts[] = {
+        { "column", required_argument, NULL, 'c' }, { "xy", required_argument, NULL, OPT_XY },
+        { "title", required_argument, NULL, OPT_TITLE },
+        { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
+        { "rate", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
+    ss_plot_opts opts = ss_plot_defaults;
+    ss_read_opts read_opts = { NULL, 0 };
+    const char *output = NULL, **name = malloc(((size_t)argc + 2) * sizeof *name);
+    drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
+
+    tool_begin(argv, "ss-plot", usage);
+    if (name == NULL || d.column == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (int c, columns = 0; (c = getopt_long(argc, argv, "c:r:o:qvh", longopts, NULL)) != -1;) {
+        columns += c == 'c';
+        d.xy |= c == OPT_XY;
+        if (d.xy && columns > 0)
+            tool_usage("--xy and --column exclude each other");
+        switch (c) {
+        case 'c': name[d.n++] = optarg; break;
+        case OPT_XY: cut_pair(optarg, name); d.n = 2; break;
+        case OPT_TITLE: opts.title = optarg; break;
+        case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
+        case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
+        case 'r': read_opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;
+        case 'o': output = optarg; break;
+        case 'q': tool_verbosity = -1; break;
+        case 'v': tool_verbosity = 1; break;
+        case 'h': tool_help();
+        case TOOL_OPT_VERSION: tool_version();
+        default: tool_usage(NULL);
+        }
+    }
+    const char *path = tool_input(argc, argv, optind);
+    tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
+    if (opts.from >= opts.to)
+        tool_usage("--from does not lie before --to");
+    ss_signal *signal = tool_read_signal(path, &read_opts);
+    d.signal = signal;
+    for (size_t i = 0; i < d.n; i++)
+        d.column[i] = tool_column(signal->head, path, name[i]);
+    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
+              signal->head->n_columns);
+    tool_draw(output, &opts, write_script, &d);
+    ss_signal_free(signal);
+    free(d.column);
+    free(name);
+    tool_end();
+    return 0;
+}
