@@ -12,12 +12,12 @@ static const char usage[] =
 "faster and more accurate.  SCENE is a file, - for standard input, or the name of\n"
 "a shipped scene.\n"
 "  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
-"  -b, --budget S        CPU time for a row at most [s] (default 10); a longer one\n"
+"  -b, --budget S        CPU time of a row at most [s] (default 10); a longer one\n"
 "                        has its estimated time and no errors\n"
 "  -t, --target TOL      write instead the options of ss-sim that are the fastest\n"
 "                        to keep x within TOL x max|x|\n"
-"  -o, --output FILE     .tsv, or the work-precision diagram as .gp, .png, .svg or\n"
-"                        .pdf (default: rows on standard output)\n"
+"  -o, --output FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
+"                        or .pdf (default: rows on standard output)\n"
 "  -q, --quiet           no progress; -v, --verbose: what was measured\n"
 "  -h, --help            show this text; --version: show the version\n";
 

@@ -63,7 +63,7 @@ const ss_trade_row *ss_trade_cheapest(const ss_trade *trade, double accuracy);
  * right-hand sides, weighed: a choice that does not change from run to run.  opts->max_steps bounds
  * every run, and opts->progress is called with 0.
  *
- * SS_ETOL if rounding or the method forbids it, SS_EBUDGET if the method would need more than 1000
+ * SS_ETOL if rounding or the method forbids it, SS_EBUDGET if the method would need more than 300
  * times the reference's steps, both with what was reached; else as ss_sim_run. */
 ss_status ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_error *err);
 

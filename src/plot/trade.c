@@ -9,7 +9,7 @@
  * each of the methods that share one. */
 static const char *const colour[] = { "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                       "#e69f00", "#56b4e9" };
-static const int point[] = { 7, 5, 9, 13, 4, 8, 12 };
+static const int point[] = { 7, 5, 9, 13, 4 };
 enum { COLOURS = sizeof colour / sizeof *colour, POINTS = sizeof point / sizeof *point };
 
 static void
@@ -46,7 +46,7 @@ put_plot(FILE *out, const ss_trade *trade)
     fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '#000000' title 'frontier'", out);
     for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
         if (trade->row[i].status == SS_OK)
-            fprintf(out, ", \\\n     $%s using 1:2 with linespoints lw 1 pt %d ps 0.5 lc rgb '%s' "
+            fprintf(out, ", \\\n     $%s using 1:2 with linespoints lw 1 pt %d ps 0.7 lc rgb '%s' "
                     "title '%s'", trade->row[i].method, point[method % POINTS],
                     colour[method % COLOURS], trade->row[i].method);
     putc('\n', out);
@@ -78,11 +78,11 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     fputs("EOD\n"
           "set encoding utf8\n"
           "set title title noenhanced offset 0,-0.5\n"
-          "set lmargin at screen 0.17; set rmargin at screen 0.96\n"
-          "set logscale xy; set format x '%g'; set format y '10^{%T}'; set offsets 0,0,0,0\n"
+          "set lmargin at screen 0.19; set rmargin at screen 0.96\n"
+          "set logscale xy; set format x '%g'; set format y '%.0e'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
           "set ylabel 'worst error of x / max|x|' noenhanced offset 0.5,0\n"
-          "set xtics nomirror scale 0.6; set ytics enhanced nomirror scale 0.6; set border lw 0.8\n"
+          "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
           "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
           "set key outside below horizontal maxrows 4 samplen 2 noenhanced\n", out);
     put_plot(out, trade);
