@@ -615,6 +615,9 @@ choose(search *s, ss_sim_opts *opts, ss_error *err)
     if (st != SS_OK)
         return st;
     s->known = known(&s->p, error_x(&s->run, &s->ref));
+    if (s->run.stats.events != s->ref.stats.events)
+        return ss_fail(err, SS_ETOL, "no accuracy can be kept: rounding alone makes %lu events or "
+                       "%lu", s->ref.stats.events, s->run.stats.events);
     if (MARGIN * s->known > s->accuracy)
         return ss_fail(err, SS_ETOL, s->p.scene.model == SS_STATE_VARIABLE
                        ? "an accuracy of %g cannot be told: %s differ by %.2g of max|x|"
