@@ -5,7 +5,7 @@
 #   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench
 #   make bench              error and cost, measured here; fails if an error exceeds its bound
 #   make paper              the paper's figures, under build/paper; installs first what is missing
-#                           (MEASURED=FILE COLUMN=NAME: figure 7 from a recording)
+#                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
@@ -154,7 +154,7 @@ run-tests: all $(TESTS:%=$(BUILD)/tests/%)
 		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
 		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
 
-draw-paper: all
+draw-paper: all $(BUILD)/bin/paper-table
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
 

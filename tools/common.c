@@ -199,17 +199,15 @@ tool_check(ss_status status, const ss_error *err)
 }
 
 void
-tool_help(void)
+tool_option(int c)
 {
-    fputs(usage_text, stdout);
-    tool_end();
-    exit(0);
-}
-
-void
-tool_version(void)
-{
-    printf("%s (libstickslip) %s\n", tool_name, ss_version());
+    switch (c) {
+    case 'q': tool_verbosity = -1; return;
+    case 'v': tool_verbosity = 1; return;
+    case 'h': fputs(usage_text, stdout); break;
+    case TOOL_OPT_VERSION: printf("%s (libstickslip) %s\n", tool_name, ss_version()); break;
+    default: tool_usage(NULL);          /* getopt has said what is wrong */
+    }
     tool_end();
     exit(0);
 }
@@ -545,7 +543,10 @@ tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void 
         tool_die("%s", strerror(errno));
     if (kind != TOOL_GP)
         opts->format = ending[kind] + 1;
-    tool_check(write_script(script, opts, user, &err), &err);
+    ss_status status = write_script(script, opts, user, &err);
+    if (status == SS_EIO)
+        tool_die("write error: %s", strerror(errno));
+    tool_check(status, &err);
     if (kind == TOOL_GP)
         return;
     if (fflush(script) != 0 || fseek(script, 0, SEEK_SET) != 0)

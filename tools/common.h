@@ -20,8 +20,6 @@ void tool_begin(char *argv[], const char *name, const char *usage);
 /* Call last, before returning 0: finishes standard output, or dies. */
 void tool_end(void);
 
-void tool_help(void) TOOL_NORETURN;                         /* --help: usage on stdout, exit 0 */
-void tool_version(void) TOOL_NORETURN;                      /* --version */
 void tool_die(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;    /* "ss-x: text", exit 1 */
 /* Wrong usage: "ss-x: text", exit 2; NULL after getopt, which has said what is wrong. */
 void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
@@ -43,6 +41,8 @@ enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_FIRST };
     { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
     { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
     { "version", no_argument, NULL, TOOL_OPT_VERSION }, { NULL, 0, NULL, 0 }
+/* What getopt_long gave, if it is none of the tool's own: -q, -v, --help, --version, or wrong usage. */
+void tool_option(int c);
 
 /* --- input --------------------------------------------------------------------------------- */
 

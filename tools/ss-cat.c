@@ -141,11 +141,7 @@ main(int argc, char *argv[])
         case OPT_TO: to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     path = tool_input(argc, argv, optind);
     if (opts.time != NULL && opts.rate > 0)

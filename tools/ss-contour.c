@@ -9,13 +9,13 @@
 
 static const char usage[] =
 "usage: ss-contour [options] [FILE] | gnuplot -p\n"
-"Draw wavelet coefficients: contours of |W| in dB below the largest, over time and\n"
-"frequency, under the signal that an HDF5 file has beside them.\n"
+"Draw wavelet coefficients: contours of |W| in dB below the largest, over time\n"
+"and frequency, under the signal that an HDF5 file has beside them.\n"
 "      --levels=N       contour lines (18)\n"
 "      --span=DB        that they span below the largest |W| (80)\n"
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
-"      --events=FILE    mark the times in the first column, as ss-sim --events writes\n"
+"      --events=FILE    mark these times, as ss-sim --events writes them\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
@@ -70,7 +70,8 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
         signal_path = path;
     if (signal == NULL)
         return NULL;
-    if (column == NULL && head->n_columns > 0 && ss_header_column(signal->head, head->column[0].name) >= 0)
+    if (column == NULL && head->n_columns > 0
+        && ss_header_column(signal->head, head->column[0].name) >= 0)
         column = head->column[0].name;
     d->opts.signal = signal;
     d->opts.column = tool_column(signal->head, signal_path, column);
@@ -141,11 +142,7 @@ main(int argc, char *argv[])
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     const char *path = tool_input(argc, argv, optind);
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);

@@ -102,11 +102,7 @@ set_option(request *req, int c)
                          break;
     case OPT_FORCE:      opts->force = 1; break;
     case 'o':            req->output = optarg; break;
-    case 'q':            tool_verbosity = -1; break;
-    case 'v':            tool_verbosity = 1; break;
-    case 'h':            tool_help();
-    case TOOL_OPT_VERSION: tool_version();
-    default:             tool_usage(NULL);
+    default:             tool_option(c);
     }
 }
 

@@ -132,11 +132,7 @@ main(int argc, char *argv[])
         case 'c': wanted[n_wanted++] = optarg; break;
         case 'o': output = optarg; break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     if (isnan(snr) == isnan(rms))
         tool_usage("one of --snr and --rms is needed");

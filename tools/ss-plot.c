@@ -10,7 +10,7 @@ static const char usage[] =
 "usage: ss-plot [options] [FILE[:/dataset]] | gnuplot -p\n"
 "Draw a signal: one panel a column over time, or one column over another.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
-"      --xy=X,Y         column Y over column X instead: a phase plane, a friction loop\n"
+"      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
@@ -80,11 +80,7 @@ main(int argc, char *argv[])
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'r': read_opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;
         case 'o': output = optarg; break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     }
     const char *path = tool_input(argc, argv, optind);

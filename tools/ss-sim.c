@@ -193,11 +193,7 @@ main(int argc, char *argv[])
         case 'l': list(); break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
         case 'o': path = optarg; break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     if (optind == argc)
         tool_usage("which scene? give a file, or one of those that --list shows");

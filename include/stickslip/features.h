@@ -24,9 +24,9 @@ typedef struct ss_maximum {
 ss_status ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                     double min_prominence);
 
-/* The maxima over time of |W| along one scale, outside the cone of influence, not lower than
- * range dB below the largest of that scale and with at least the given prominence along it: the
- * spikes that reach this high.  f is the same for all. */
+/* The maxima over time of |W| along one scale, outside the cone of influence, with at least the
+ * given prominence along it and not more than range dB below the highest of them: the spikes that
+ * reach this high.  f is the same for all. */
 ss_status ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
                     double range, double min_prominence);
 

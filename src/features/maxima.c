@@ -168,22 +168,25 @@ earlier_first(const void *a, const void *b)
     return (p->t > q->t) - (p->t < q->t);
 }
 
-/* The map's peaks in dB re top, not below lowest and at least min_prominence, in time order. */
+/* The map's peaks in dB re top, of at least min_prominence and not more than range below the
+ * highest of them, in time order.  The points stand in order of level. */
 static ss_status
-report(ss_maximum **out, size_t *n, const map *m, double top, double lowest, double min_prominence)
+report(ss_maximum **out, size_t *n, const map *m, double top, double range, double min_prominence)
 {
     ss_maximum *peak = malloc((m->n + 1) * sizeof *peak), *fitting;
     size_t count = 0;
     if (peak == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < m->n && m->point[i].level >= lowest; i++) {
+    for (size_t i = 0; i < m->n; i++) {
         const point *p = &m->point[i];
         const ss_scale *scale = &m->coef->scale[p->row];
         double fall = m->saddle[i] > 0 ? 20 * log10(p->level / m->saddle[i]) : INFINITY;
+        double level = 20 * log10(p->level / top);
+        if (count > 0 && level < peak[0].level - range)
+            break;
         if ((m->pool[i] == i || m->saddle[i] > 0) && fall > 0 && fall >= min_prominence
             && !on_border(m, i))
-            peak[count++] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f,
-                                          20 * log10(p->level / top), fall };
+            peak[count++] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f, level, fall };
     }
     qsort(peak, count, sizeof *peak, earlier_first);
     fitting = realloc(peak, (count + 1) * sizeof *peak);
@@ -200,7 +203,7 @@ ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, doub
     if (st != SS_OK)
         return st;
     flood(&m);
-    st = report(out, n, &m, m.n > 0 ? m.point[0].level : 1, 0, min_prominence);
+    st = report(out, n, &m, m.n > 0 ? m.point[0].level : 1, INFINITY, min_prominence);
     map_free(&m);
     return st;
 }
@@ -216,8 +219,7 @@ ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size
     if (st != SS_OK)
         return st;
     flood(&m);
-    st = report(out, n, &m, ss_coefficients_max(coefficients),
-                m.n > 0 ? m.point[0].level * pow(10, -range / 20) : 0, min_prominence);
+    st = report(out, n, &m, ss_coefficients_max(coefficients), range, min_prominence);
     map_free(&m);
     return st;
 }

@@ -39,16 +39,17 @@ script_decimals(double range)
     return (int)fmax(0, fmin(15, ceil(-log10(range / SCRIPT_COLUMNS)) + 1));
 }
 
-/* Between single quotes gnuplot replaces nothing, and a quote is written twice. */
+/* Between single quotes gnuplot replaces nothing; a quote itself stands between double ones.  (Two
+ * quotes for one are legal, but three in a row are read as an empty text and a new quote.) */
 void
 script_quote(FILE *out, const char *text)
 {
     putc('\'', out);
-    for (; *text != '\0'; text++) {
+    for (; *text != '\0'; text++)
         if (*text == '\'')
-            putc('\'', out);
-        putc(iscntrl((unsigned char)*text) ? ' ' : *text, out);
-    }
+            fputs("'.\"'\".'", out);
+        else
+            putc(iscntrl((unsigned char)*text) ? ' ' : *text, out);
     putc('\'', out);
 }
 

@@ -28,7 +28,7 @@ void script_put_span(FILE *out, const script_span *span);
 void script_quote(FILE *out, const char *text);
 /* A number rounded to so many decimals, whatever the locale, and what stands behind it. */
 void script_put(FILE *out, double x, int decimals, const char *behind);
-/* Decimals that tell apart a thousandth of a pixel column in a picture of this range. */
+/* Decimals that tell apart a tenth of a pixel column in a picture of this range. */
 int script_decimals(double range);
 
 /* The power of ten, a multiple of 3, that brings the n values to numbers short to read. */

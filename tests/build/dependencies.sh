@@ -1,5 +1,6 @@
 # install-deps.sh on systems that it knows, on others, and where nothing is missing.  The installers
 # and pkg-config are stand-ins.
+unset INSTALL_DEPS
 mkdir bin
 for name in apt-get dnf pacman brew sudo; do
     # shellcheck disable=SC2016  # for the script written

@@ -1,0 +1,29 @@
+# Files that others wrote, and ours as others read them.
+python=${PYTHON:-python3}
+"$python" -c 'import h5py, xarray, h5netcdf' 2> /dev/null ||
+    { echo "no Python with h5py, xarray and h5netcdf"; exit 77; }
+"$python" - <<'END'
+import h5py, numpy as np
+with h5py.File("matlab.mat", "w", userblock_size=512) as f:
+    f["y"] = np.arange(6.0).reshape(1, 6)
+    f["text"] = np.array([[97], [98]], "u2")
+    f["text"].attrs["MATLAB_class"] = np.bytes_("char")
+    f["z"] = np.array([1 + 2j])
+END
+ss-cat --rate 2 matlab.mat:/y
+for data in '' :/y :/text :/z; do ss-cat "matlab.mat$data" || echo $?; done
+ss-sim compliant-light | ss-morlet --dense -o dense.h5
+ss-sim compliant-light | ss-morlet -o stepped.h5
+"$python" - <<'END'
+import xarray as xr
+def show(path, group):
+    d = xr.open_dataset(path, engine="h5netcdf", group=group)
+    for name in sorted(d.variables):
+        print(group, name, d[name].dims, d[name].shape, d[name].attrs["units"])
+    return d
+s = show("dense.h5", "signal")
+w = show("dense.h5", "wavelet")
+show("stepped.h5", "wavelet/scale100")
+assert xr.open_dataset("dense.h5", engine="h5netcdf").attrs["scene"] == "compliant-light"
+assert (w.time.values == s.t.values).all() and "frequency" in w.coords
+END

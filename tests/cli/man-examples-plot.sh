@@ -1,0 +1,15 @@
+# The EXAMPLES of ss-plot(1), ss-contour(1) and stickslip-hdf5(5).
+command -v gnuplot > /dev/null || { echo "no gnuplot"; exit 77; }
+ss-sim compliant-light -o run.tsv
+ss-plot run.tsv -o figure1.pdf
+ss-plot --xy x,f run.tsv -o loop.png
+ss-plot -c a --from 1 --to 2 run.tsv > a.gp
+ss-sim compliant-light | ss-morlet -o run.h5
+ss-contour run.h5 -o figure6.pdf
+ss-sim --events compliant-light > events
+ss-contour --events events --from 1 --to 1.2 run.h5 > transition.gp
+{ echo 'set terminal dumb'; cat transition.gp; } | gnuplot 2> /dev/null | grep -c 'time / s'
+ss-sim compliant-light | ss-morlet --dense -o run.h5
+ss-cat run.h5:/signal/a > a.tsv
+sed -n 's/^# columns: //p' a.tsv
+ls

@@ -1,0 +1,21 @@
+# Wrong usage is exit 2, wrong data exit 1, each with a line.
+ss-sim -o run.tsv coulomb
+ss-morlet --dyadic run.tsv -o run.h5
+for options in '-o a.gif' '--xy x' '--xy x,' '--xy x,f -c a' '--from x' 'one two' '--nonsense'; do
+    # shellcheck disable=SC2086  # several words
+    ss-plot $options > /dev/null || echo $?
+done
+for options in '--levels 0' '--levels 101' '--span 0' '-o a.tsv' '--signal -' '--from 2 --to 1'; do
+    # shellcheck disable=SC2086
+    ss-contour $options < /dev/null || echo $?
+done
+ss-contour -c a - < /dev/null || echo $?
+ss-plot -c force run.tsv || echo $?
+ss-plot absent.tsv || echo $?
+ss-contour run.tsv || echo $?
+ss-contour --signal run.tsv --column force run.h5 || echo $?
+echo 'soon' | ss-contour --events - run.h5 || echo $?
+echo 'not HDF5' > text.h5
+ss-contour text.h5 || echo $?
+ss-plot run.h5:/wavelet || echo $?
+ls

@@ -1,0 +1,356 @@
+/* test_plot.c -- contour lines lie where the level says; thinning loses no spike; text from files
+ * stays text. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip.h>
+#include "plot/isoline.h"
+
+/* --- isolines ------------------------------------------------------------------------------ */
+
+enum { N = 61 };
+
+typedef struct tally {
+    size_t lines, closed, points;
+    double worst;               /* distance of a point from the level, as the test has it */
+    double (*off)(const double point[2]);
+} tally;
+
+static void
+count_line(const double (*point)[2], size_t n, void *user)
+{
+    tally *t = user;
+    int closed = point[0][0] == point[n - 1][0] && point[0][1] == point[n - 1][1];
+    for (int i = 0; i < 2 && !closed; i++) {        /* an open line ends at the border */
+        const double *end = point[i == 0 ? 0 : n - 1];
+        assert_true(end[0] == 0 || end[0] == N - 1 || end[1] == 0 || end[1] == N - 1);
+    }
+    t->lines++;
+    t->closed += closed;
+    t->points += n;
+    for (size_t i = 0; i < n && t->off != NULL; i++)
+        t->worst = fmax(t->worst, fabs(t->off(point[i])));
+}
+
+static double
+off_circle(const double point[2])
+{
+    return hypot(point[0] - 30, point[1] - 30) - 20;
+}
+
+static void
+a_cone_has_a_circle(void **state)
+{
+    double height[N * N];
+    const isoline_map map = { N, N, height };
+    tally t = { 0, 0, 0, 0, off_circle };
+    (void)state;
+    for (int i = 0; i < N * N; i++)
+        height[i] = -hypot(i % N - 30, i / N - 30);
+    assert_int_equal(isolines(&map, -20, count_line, &t), SS_OK);
+    assert_int_equal(t.lines, 1);
+    assert_int_equal(t.closed, 1);
+    if (!(t.worst <= 1.0 / (8 * 20)))               /* linear interpolation on a curve of radius 20 */
+        fail_msg("%g off the circle", t.worst);
+}
+
+/* Crossed sides of cells: each belongs to one line. */
+static size_t
+crossings(const double *height, double level)
+{
+    size_t n = 0;
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < N; i++) {
+            int above = height[j * N + i] >= level;
+            n += (size_t)(i + 1 < N && (height[j * N + i + 1] >= level) != above);
+            n += (size_t)(j + 1 < N && (height[(j + 1) * N + i] >= level) != above);
+        }
+    return n;
+}
+
+static void
+every_crossing_of_a_rough_map_is_passed_once(void **state)
+{
+    double height[N * N];
+    const isoline_map map = { N, N, height };
+    unsigned long x = 1;
+    (void)state;
+    for (int i = 0; i < N * N; i++) {               /* few heights, so that many are at the level */
+        x = (x * 1103515245 + 12345) & 0x7fffffff;
+        height[i] = (double)(x >> 16 & 7);
+    }
+    for (double level = -0.5; level < 8; level += 0.5) {
+        tally t = { 0 };
+        assert_int_equal(isolines(&map, level, count_line, &t), SS_OK);
+        if (level != floor(level))                  /* no two points of a line coincide then */
+            assert_int_equal(t.points - t.closed, crossings(height, level));
+    }
+}
+
+static void
+a_flat_map_has_no_lines(void **state)
+{
+    double height[N * N] = { 0 };
+    const isoline_map map = { N, N, height };
+    tally t = { 0 };
+    (void)state;
+    for (double level = -1; level <= 1; level++)
+        assert_int_equal(isolines(&map, level, count_line, &t), SS_OK);
+    assert_int_equal(t.lines, 0);
+}
+
+/* --- scripts ------------------------------------------------------------------------------- */
+
+static ss_signal *
+new_signal(size_t n, double rate, double start, const char *name, const char *unit)
+{
+    ss_signal *signal = NULL;
+    ss_header *head = ss_header_new(rate, start);
+    assert_int_equal(ss_header_add_column(head, name, unit), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header_free(head);
+    return signal;
+}
+
+static char *
+signal_script(const ss_signal *signal, const ss_plot_opts *opts)
+{
+    char *text = NULL;
+    size_t size;
+    ss_error err = { "" };
+    FILE *out = open_memstream(&text, &size);
+    if (ss_plot_signal(out, signal, NULL, 0, opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    fclose(out);
+    return text;
+}
+
+static void
+a_spike_of_one_sample_in_a_million_is_drawn(void **state)
+{
+    ss_signal *signal = new_signal(1000000, 1000, 5, "a", "");
+    (void)state;
+    signal->values[654321] = 7;
+    signal->values[654322] = -3;
+    char *script = signal_script(signal, &ss_plot_defaults);
+    assert_non_null(strstr(script, "\n659.3 7\n659.3 -3\n"));
+    assert_true(strlen(script) < 50000);
+    free(script);
+    ss_signal_free(signal);
+}
+
+static void
+text_of_files_stands_between_quotes(void **state)
+{
+    ss_signal *signal = new_signal(10, 10, 0, "a'`@b", "m's");
+    ss_plot_opts opts = ss_plot_defaults;
+    (void)state;
+    opts.title = "\"; system 'touch x'\n`touch y`";
+    char *script = signal_script(signal, &opts);
+    assert_non_null(strstr(script, "\ntitle = '\"; system '.\"'\".'touch x'.\"'\".' `touch y`'\n"));
+    assert_non_null(strstr(script, "\nlabel1 = 'a'.\"'\".'`@b / m'.\"'\".'s'\n"));
+    free(script);
+    ss_signal_free(signal);
+}
+
+static void
+labels_carry_powers_of_ten_and_raised_digits(void **state)
+{
+    static const struct { double value; const char *unit, *label; } row[] = {
+        { 3e-4, "m", "'a / (10⁻³ m)'" },    { 0.3, "m/s^2", "'a / (m/s²)'" },
+        { 2e7, "", "'a / 10⁶'" },           { 0, "N", "'a / N'" },
+        { 5, "s^2.5", "'a / s^2.5'" },      { 9999, "kip", "'a / kip'" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char line[64];
+        ss_signal *signal = new_signal(2, 1, 0, "a", row[i].unit);
+        signal->values[1] = row[i].value;
+        char *script = signal_script(signal, &ss_plot_defaults);
+        snprintf(line, sizeof line, "\nlabel1 = %s\n", row[i].label);
+        if (strstr(script, line) == NULL)
+            fail_msg("no %s", row[i].label);
+        free(script);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+what_lies_outside_the_record_is_refused(void **state)
+{
+    static const double span[][2] = { { 20, 21 }, { -3, -2 }, { 6, 6 }, { 7, 6 } };
+    ss_signal *signal = new_signal(10, 10, 5, "a", "");
+    (void)state;
+    for (size_t i = 0; i < sizeof span / sizeof *span; i++) {
+        ss_plot_opts opts = ss_plot_defaults;
+        ss_error err = { "" };
+        opts.from = span[i][0];
+        opts.to = span[i][1];
+        assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &opts, &err), SS_EINVAL);
+        assert_non_null(strstr(err.text, "the record goes from 5 s to 6 s"));
+    }
+    ss_signal_free(signal);
+}
+
+static void
+wrong_arguments_are_refused(void **state)
+{
+    static const size_t column[] = { 1 };
+    ss_signal *signal = new_signal(10, 10, 0, "a", "");
+    ss_plot_opts gif = ss_plot_defaults;
+    (void)state;
+    gif.output = "a.gif";
+    assert_int_equal(ss_plot_signal(stdout, signal, column, 1, &ss_plot_defaults, NULL), SS_EINVAL);
+    assert_int_equal(ss_plot_xy(stdout, signal, 0, 1, &ss_plot_defaults, NULL), SS_EINVAL);
+    assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &gif, NULL), SS_EINVAL);
+    ss_signal_free(signal);
+}
+
+static void
+a_full_disk_is_an_error(void **state)
+{
+    FILE *full = fopen("/dev/full", "w");
+    ss_signal *signal = new_signal(10, 10, 0, "a", "");
+    (void)state;
+    if (full != NULL) {
+        assert_int_equal(ss_plot_signal(full, signal, NULL, 0, &ss_plot_defaults, NULL), SS_EIO);
+        fclose(full);
+    }
+    ss_signal_free(signal);
+}
+
+/* --- contours ------------------------------------------------------------------------------ */
+
+/* A dense grid of 3 scales at 20, 40, 80 Hz, over 1 s at 1000 Hz from 2 s. */
+static ss_coefficients *
+new_coefficients(void)
+{
+    ss_coefficients *c = calloc(1, sizeof *c);
+    c->head = ss_header_new(1000, 2);
+    c->n = 1000;
+    c->center = 6;
+    c->n_scales = 3;
+    c->scale = calloc(3, sizeof *c->scale);
+    c->w = calloc(2 * 3 * 1000, sizeof *c->w);
+    for (size_t i = 0; i < 3; i++) {
+        double f = 20 << i, a = 6 / (2 * M_PI * f);
+        c->scale[i] = (ss_scale){ 0, log2(a), a, f, 1, 1000, 1000, 1000 * i };
+    }
+    return c;
+}
+
+static char *
+contour_script(const ss_coefficients *c, const ss_contour_opts *contour)
+{
+    char *text = NULL;
+    size_t size;
+    ss_error err = { "" };
+    FILE *out = open_memstream(&text, &size);
+    if (ss_plot_contour(out, c, contour, &ss_plot_defaults, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    fclose(out);
+    return text;
+}
+
+/* |W| falls by 100 dB/s from the 0.2 s where the widest cone ends: vertical lines. */
+static void
+contours_lie_where_the_level_says(void **state)
+{
+    ss_coefficients *c = new_coefficients();
+    ss_contour_opts opts = ss_contour_defaults;
+    int seen[9] = { 0 };
+    (void)state;
+    for (size_t i = 0; i < 3000; i++)
+        c->w[2 * i + 1] = -3 * pow(10, -fmax((double)(i % 1000) / 1000 - 0.2, 0) * 100 / 20);
+    opts.levels = 8;
+    opts.span = 40;
+    char *script = contour_script(c, &opts), *line = strstr(script, "$contour << EOD\n");
+    for (line = strchr(line, '\n') + 1; strncmp(line, "EOD", 3) != 0; line = strchr(line, '\n') + 1) {
+        double t, f;
+        int k;
+        if (sscanf(line, "%lf %lf %d", &t, &f, &k) != 3)
+            continue;
+        assert_in_range(k, 1, 8);
+        assert_true(f >= 20 && f <= 80);
+        seen[k]++;
+        double expected = 2.2 + k * 5 / 100.0;      /* within half a column, and rounding */
+        if (!(fabs(t - expected) <= 0.5 / 700 + 2e-5))
+            fail_msg("line %d at %g s, not %g s", k, t, expected);
+    }
+    for (int k = 1; k <= 8; k++)
+        assert_true(seen[k] >= 2);
+    free(script);
+    ss_coefficients_free(c);
+}
+
+static void
+one_large_coefficient_is_not_lost(void **state)
+{
+    ss_coefficients *c = new_coefficients();
+    (void)state;
+    c->w[2 * 1501] = 1;
+    char *script = contour_script(c, &ss_contour_defaults);
+    for (int k = 1; k <= 18; k++) {
+        char end[16];
+        snprintf(end, sizeof end, " %d\n", k);
+        assert_non_null(strstr(strstr(script, "$contour"), end));
+    }
+    free(script);
+    ss_coefficients_free(c);
+}
+
+static void
+zero_everywhere_gives_an_empty_picture(void **state)
+{
+    ss_coefficients *c = new_coefficients();
+    (void)state;
+    char *script = contour_script(c, &ss_contour_defaults);
+    assert_non_null(strstr(script, "$contour << EOD\nEOD\n"));
+    free(script);
+    ss_coefficients_free(c);
+}
+
+static void
+contour_options_out_of_range_are_refused(void **state)
+{
+    static const ss_contour_opts row[] = {
+        { 0, 80, NULL, 0, NULL, 0 },    { 101, 80, NULL, 0, NULL, 0 },
+        { 18, 0, NULL, 0, NULL, 0 },    { 18, -1, NULL, 0, NULL, 0 },
+        { 18, NAN, NULL, 0, NULL, 0 },  { 18, INFINITY, NULL, 0, NULL, 0 },
+    };
+    ss_coefficients *c = new_coefficients();
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        assert_int_equal(ss_plot_contour(stdout, c, &row[i], &ss_plot_defaults, NULL), SS_EINVAL);
+    c->n_scales = 1;
+    assert_int_equal(ss_plot_contour(stdout, c, &ss_contour_defaults, &ss_plot_defaults, NULL),
+                     SS_EINVAL);
+    ss_coefficients_free(c);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cone_has_a_circle),
+        cmocka_unit_test(every_crossing_of_a_rough_map_is_passed_once),
+        cmocka_unit_test(a_flat_map_has_no_lines),
+        cmocka_unit_test(a_spike_of_one_sample_in_a_million_is_drawn),
+        cmocka_unit_test(text_of_files_stands_between_quotes),
+        cmocka_unit_test(labels_carry_powers_of_ten_and_raised_digits),
+        cmocka_unit_test(what_lies_outside_the_record_is_refused),
+        cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(a_full_disk_is_an_error),
+        cmocka_unit_test(contours_lie_where_the_level_says),
+        cmocka_unit_test(one_large_coefficient_is_not_lost),
+        cmocka_unit_test(zero_everywhere_gives_an_empty_picture),
+        cmocka_unit_test(contour_options_out_of_range_are_refused),
+    };
+    return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
+}

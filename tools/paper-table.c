@@ -1,0 +1,158 @@
+/* paper-table.c -- what the figures of make paper show, in numbers, next to what the paper says of
+ * its own.  usage: paper-table FIGURE.h5 ... */
+#include "common.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One contour spacing: a local maximum less prominent than this may show no closed contour, and a
+ * spike less prominent along the shortest scale is none. */
+#define PROMINENCE (80.0 / 18)
+#define LOWEST (-40.0)          /* local maxima below this are noise [dB] */
+#define LOW 20.0                /* local maxima below belong to the base and its harmonics [Hz] */
+#define RANGE 20.0              /* spikes this much below the highest one do not count [dB] */
+#define LISTED 60               /* more spikes than this are noise too, and counted only */
+
+static const struct { const char *figure, *words; } paper[] = {
+    { "figure2", "a spike at each onset of sticking; no local maximum" },
+    { "figure3", "two weaker spikes an interval; no local maximum" },
+    { "figure5", "local maximum near 45 Hz at each transition, one major spike" },
+    { "figure6", "local maximum near 45 Hz at each transition, grouped spikes" },
+    { "figure7", "local maximum near 45 Hz at each transition, grouped spikes, more besides" },
+};
+
+/* "build/paper/figure2-dyadic.h5" is "figure2-dyadic". */
+static void
+name_figure(char name[64], const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(name, 64, "%s", slash != NULL ? slash + 1 : path);
+    name[strcspn(name, ".")] = '\0';
+}
+
+static const char *
+find_words(const char *name)
+{
+    for (size_t i = 0; i < sizeof paper / sizeof *paper; i++)
+        if (strncmp(name, paper[i].figure, strlen(paper[i].figure)) == 0)
+            return paper[i].words;
+    return "-";
+}
+
+/* Half a period of the base: there is one transition in it; 0 if it is not known. */
+static double
+half_cycle(const ss_header *head)
+{
+    const char *frequency = ss_header_find_note(head, "base_frequency");
+    char *end;
+    double f = frequency != NULL ? ss_number_parse(frequency, &end) : 0;
+    return f > 0 ? 1 / (2 * f) : 0;
+}
+
+/* Keep those with a level of at least lowest. */
+static size_t
+keep(ss_maximum *maximum, size_t n, double lowest)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++)
+        if (maximum[i].level >= lowest)
+            maximum[kept++] = maximum[i];
+    return kept;
+}
+
+/* Of those above the harmonics of the base: how many, where, how prominent. */
+static void
+print_ranges(const ss_maximum *maximum, size_t n)
+{
+    double f[2] = { INFINITY, 0 }, prominence[2] = { INFINITY, 0 };
+    size_t high = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (maximum[i].f < LOW)
+            continue;
+        high++;
+        f[0] = fmin(f[0], maximum[i].f);
+        f[1] = fmax(f[1], maximum[i].f);
+        prominence[0] = fmin(prominence[0], maximum[i].prominence);
+        prominence[1] = fmax(prominence[1], maximum[i].prominence);
+    }
+    printf("; above %g Hz: %zu", LOW, high);
+    if (high > 0)
+        printf(", at %.1f to %.1f Hz, prominence %.1f to %.1f dB", f[0], f[1], prominence[0],
+               prominence[1]);
+    printf("\n");
+}
+
+static void
+print_maxima(const ss_coefficients *c)
+{
+    ss_maximum *maximum = NULL;
+    size_t n = 0;
+    tool_check(ss_maxima(&maximum, &n, c, PROMINENCE), NULL);
+    n = keep(maximum, n, LOWEST);
+    printf("  local maxima: %zu", n);
+    print_ranges(maximum, n);
+    if (n > 0)
+        printf("    %8s %9s %9s %14s\n", "t/s", "f/Hz", "level/dB", "prominence/dB");
+    for (size_t i = 0; i < n; i++)
+        printf("    %8.4f %9.3f %9.2f %14.2f\n", c->head->start + maximum[i].t, maximum[i].f,
+               maximum[i].level, maximum[i].prominence);
+    free(maximum);
+}
+
+static void
+print_counts(const ss_maximum *spike, size_t n, double half, double end)
+{
+    printf("; in each half-cycle:");
+    for (size_t i = 0, k = 0; (double)i * half < end; i++) {
+        size_t first = k;
+        while (k < n && spike[k].t < (double)(i + 1) * half)
+            k++;
+        printf(" %zu", k - first);
+    }
+}
+
+static void
+print_spikes(const ss_coefficients *c)
+{
+    size_t n, shortest = c->n_scales - 1;
+    ss_maximum *spike;
+    double half = half_cycle(c->head);
+    tool_check(ss_spikes(&spike, &n, c, shortest, RANGE, PROMINENCE), NULL);
+    printf("  spikes at %.0f Hz: %zu", c->scale[shortest].f, n);
+    if (half > 0)
+        print_counts(spike, n, half, (double)c->n / c->head->rate);
+    printf("\n");
+    if (n > 0 && n <= LISTED)
+        printf("    %8s %9s %9s\n", "t/s", "", "level/dB");
+    for (size_t i = 0; i < n && n <= LISTED; i++)
+        printf("    %8.4f %9s %9.2f\n", c->head->start + spike[i].t, "", spike[i].level);
+    free(spike);
+}
+
+static void
+print_figure(const char *path)
+{
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    char name[64];
+    tool_check(ss_store_read_coefficients(&c, path, &err), &err);
+    name_figure(name, path);
+    printf("\n%s\n  the paper: %s\n", name, find_words(name));
+    print_maxima(c);
+    print_spikes(c);
+    ss_coefficients_free(c);
+}
+
+int
+main(int argc, char *argv[])
+{
+    tool_begin(argv, "paper-table", "usage: paper-table FIGURE.h5 ...\n");
+    printf("Levels in dB re the largest |W| outside the cone of influence.  Local maxima and spikes are\n"
+           "at least %.1f dB prominent (one contour spacing); local maxima from %.0f dB up, spikes\n"
+           "within %.0f dB of the highest.\n", PROMINENCE, LOWEST, RANGE);
+    for (int i = 1; i < argc; i++)
+        print_figure(argv[i]);
+    tool_end();
+    return 0;
+}
