@@ -205,7 +205,6 @@ main(int argc, char *argv[])
         tool_usage("--events are text: --format au does not apply");
     if (ss_sim_columns_parse(&o.columns, columns, &err) != SS_OK)
         tool_usage("--columns: %s", err.text);
-
     if (accuracy > 0 && opts.tol > 0)
         tool_usage("--accuracy finds the tolerance: --tol does not go with it");
 

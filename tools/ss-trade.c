@@ -116,11 +116,7 @@ main(int argc, char *argv[])
         case 'b': opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
         case 't': opts.target = tool_number("--target", optarg, 1e-14, 1); break;
         case 'o': output = optarg; break;
-        case 'q': tool_verbosity = -1; break;
-        case 'v': tool_verbosity = 1; break;
-        case 'h': tool_help();
-        case TOOL_OPT_VERSION: tool_version();
-        default: tool_usage(NULL);
+        default: tool_option(c);
         }
     if (optind == argc)
         tool_usage("which scene? give a file, or a shipped one by its name");

@@ -6,6 +6,7 @@ grep -v '^#' rows.tsv | awk -F '\t' '{ n++; c[NF]++ } $1 == "exact" { print $1, 
 ss-trade --target 1e-9 --set duration=0.2 compliant-light
 if command -v gnuplot > /dev/null; then
     ss-trade -b 0.01 --set duration=0.2 -o a.gp state-variable
-    gnuplot -e 'set terminal svg; set output "a.svg"' a.gp 2>&1 && test -s a.svg
+    gnuplot -e 'set terminal svg; set output "a.svg"' a.gp 2> log || cat log
+    test -s a.svg
     ss-trade -b 0.01 --set duration=0.2 -o b.png state-variable && test -s b.png
 fi
