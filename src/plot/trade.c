@@ -5,8 +5,8 @@
 #include <string.h>
 #include "../error.h"
 
-/* Okabe and Ito's colours, told apart by all kinds of colour vision; a point type of its own tells
- * each of the methods that share one. */
+/* Okabe and Ito's colours, told apart by all kinds of colour vision; point types and
+ * dashes tell methods that share one. */
 static const char *const colour[] = { "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                       "#e69f00", "#56b4e9" };
 static const int point[] = { 7, 5, 9, 13, 4 };
@@ -46,9 +46,9 @@ put_plot(FILE *out, const ss_trade *trade)
     fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '#000000' title 'frontier'", out);
     for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
         if (trade->row[i].status == SS_OK)
-            fprintf(out, ", \\\n     $%s using 1:2 with linespoints lw 1 pt %d ps 0.7 lc rgb '%s' "
-                    "title '%s'", trade->row[i].method, point[method % POINTS],
-                    colour[method % COLOURS], trade->row[i].method);
+            fprintf(out, ", \\\n     $%s using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
+                    "lc rgb '%s' title '%s'", trade->row[i].method, method < COLOURS ? 1 : 2,
+                    point[method % POINTS], colour[method % COLOURS], trade->row[i].method);
     putc('\n', out);
 }
 
@@ -78,7 +78,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     fputs("EOD\n"
           "set encoding utf8\n"
           "set title title noenhanced offset 0,-0.5\n"
-          "set lmargin at screen 0.19; set rmargin at screen 0.96\n"
+          "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
           "set logscale xy; set format x '%g'; set format y '%.0e'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
           "set ylabel 'worst error of x / max|x|' noenhanced offset 0.5,0\n"
