@@ -101,7 +101,7 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
-$(BUILD)/tests/test_sim: $(BUILD)/tests/oracle.o
+$(BUILD)/tests/test_sim $(BUILD)/tests/test_trade: $(BUILD)/tests/oracle.o
 
 # Objects are made again when the Makefile or the flags change, and not before the packages that
 # they need are there.

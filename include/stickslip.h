@@ -13,6 +13,7 @@
 #include <stickslip/status.h>
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
+#include <stickslip/trade.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/features.h>

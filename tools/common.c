@@ -15,6 +15,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 int tool_verbosity;
@@ -42,6 +43,85 @@ remove_and_die(int number)
     raise(number);
 }
 
+static volatile sig_atomic_t asked_to_stop;     /* the signal, 0 if none came */
+
+int
+tool_stopping(void)
+{
+    return asked_to_stop != 0;
+}
+
+static void
+ask_to_stop(int number)
+{
+    asked_to_stop = number;
+}
+
+/* Have the signals that end a tool handled, once; what nohup ignores stays ignored. */
+static void
+catch_signals(void (*handler)(int))
+{
+    static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
+    struct sigaction old, new = { .sa_flags = (int)(SA_RESTART | SA_RESETHAND) };
+    new.sa_handler = handler;
+    sigemptyset(&new.sa_mask);
+    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
+        if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+            sigaction(caught[i], &new, NULL);
+}
+
+/* --- progress ------------------------------------------------------------------------------ */
+
+static int progress_shown;
+
+static void
+clear_progress(void)
+{
+    if (progress_shown)
+        fputs("\r\033[K", stderr);
+    progress_shown = 0;
+}
+
+static double
+seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int
+tool_progress(double done, void *user)
+{
+    static double began, shown;
+    static int terminal = -1;
+    (void)user;
+    if (terminal < 0)
+        terminal = tool_verbosity >= 0 && isatty(STDERR_FILENO)
+            && (out_file != NULL || out_temporary[0] != '\0' || !isatty(STDOUT_FILENO));
+    if (terminal && !tool_stopping()) {
+        double now = seconds_now();
+        if (began == 0)
+            began = now;
+        if (now - began > 1 && now - shown > 0.2) {
+            fprintf(stderr, "\r%s: %3.0f %%", tool_name, 100 * done);
+            if (done > 0)
+                fprintf(stderr, ", %.0f s left", ceil((now - began) * (1 / done - 1)));
+            fputs("\033[K", stderr);
+            shown = now;
+            progress_shown = 1;
+        }
+    }
+    return tool_stopping();
+}
+
+void
+tool_end_at_rows(void)
+{
+    if (out_temporary[0] == '\0')
+        catch_signals(ask_to_stop);
+}
+
 void
 tool_begin(char *argv[], const char *name, const char *usage)
 {
@@ -54,6 +134,7 @@ tool_begin(char *argv[], const char *name, const char *usage)
 static void
 say(const char *format, va_list args)
 {
+    clear_progress();
     fprintf(stderr, "%s: ", tool_name);
     vfprintf(stderr, format, args);
     fputc('\n', stderr);
@@ -314,6 +395,9 @@ tool_output_path(const char *path)
     const char *base = strrchr(out_target, '/');
     base = base != NULL ? base + 1 : out_target;
     char name[PATH_MAX];
+    sigset_t all, before;               /* no signal may fall between making and knowing the file */
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, &before);
     int fits = snprintf(name, sizeof name, "%.*s.%s.XXXXXX", (int)(base - out_target), out_target,
                         base) < (int)sizeof name;
     int fd = fits ? mkstemp(name) : -1;
@@ -326,12 +410,8 @@ tool_output_path(const char *path)
 
     memcpy(out_temporary, name, sizeof name);
     out_name = path;
-    static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
-    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++) {
-        struct sigaction old;           /* nohup's SIG_IGN stays */
-        if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
-            signal(caught[i], remove_and_die);
-    }
+    catch_signals(remove_and_die);
+    sigprocmask(SIG_SETMASK, &before, NULL);
     return out_temporary;
 }
 
@@ -349,6 +429,7 @@ tool_output(const char *path)
 void
 tool_end(void)
 {
+    clear_progress();
     if (out_file != NULL) {
         int failed = ferror(out_file);
         if (fclose(out_file) != 0 || failed)
@@ -365,6 +446,8 @@ tool_end(void)
     int failed = ferror(stdout);
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));
+    if (tool_stopping())                /* as a shell expects it, after a whole last row */
+        raise(asked_to_stop);
 }
 
 tool_kind

@@ -91,4 +91,15 @@ void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
 void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
 
+/* --- long work ----------------------------------------------------------------------------- */
+
+/* Call when the output is open.  If that is a stream, the first SIGINT, SIGTERM or SIGHUP from here
+ * on does not kill at once: tool_progress answers 1 and sinks should too (tool_stopping), the row
+ * is finished, and tool_end dies of the signal. */
+void tool_end_at_rows(void);
+int tool_stopping(void);
+/* How far the work is, 0 to 1: after a second, on a terminal that the data do not go to, a line on
+ * standard error shows it with the time left.  1 if the user has asked to stop; an ss_progress. */
+int tool_progress(double done, void *user);
+
 #endif

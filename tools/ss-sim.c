@@ -14,11 +14,14 @@ static const char usage[] =
 "  -e, --events          write the events in the record, not the samples\n"
 "  -m, --method NAME     a GSL step type (default rk8pd), or exact: closed form\n"
 "  -t, --tol TOL         relative local error a step (default 1e-12)\n"
+"  -a, --accuracy TOL    global error of x over max|x| instead: finds --tol and,\n"
+"                        if none is given, --method\n"
 "      --max-steps N     give up after N integration steps\n"
 "  -l, --list            list the shipped scenes and the methods\n"
 "  -o, --output FILE     .tsv, .au or .h5; whole or absent (default: stdout)\n"
 "      --format FORM     of standard output: tsv (default) or au\n"
-"  -q, --quiet           no warnings; -v, --verbose: what was done and its cost\n"
+"  -q, --quiet           no warnings, no progress\n"
+"  -v, --verbose         what was done and its cost\n"
 "  -h, --help            show this text; --version: show the version\n";
 
 enum { OPT_MAX_STEPS = TOOL_OPT_FIRST };
@@ -42,7 +45,7 @@ stream_samples(const ss_sample *s, size_t n, void *user)
     double row[SS_SIM_COLUMNS];
     for (size_t i = 0; i < n; i++) {
         ss_sim_row(&o->columns, &s[i], row);
-        if (ss_writer_rows(o->writer, row, 1) != SS_OK)
+        if (tool_stopping() || ss_writer_rows(o->writer, row, 1) != SS_OK)
             return 1;
     }
     return 0;
@@ -110,6 +113,25 @@ choose_method(ss_sim_opts *opts, const char *name)
     opts->method = choice[tool_choice("--method", name, choice)];
 }
 
+/* What was asked for, or what keeps the accuracy if that was. */
+static void
+set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
+{
+    ss_error err = { "" };
+    if (accuracy > 0) {
+        ss_status st = ss_trade_choose(opts, scene, accuracy, &err);
+        if (st == SS_EINVAL)
+            tool_usage("--accuracy: %s", err.text);
+        tool_check(st, &err);
+        tool_note("accuracy %g: method %s, tol %g", accuracy, opts->method, opts->tol);
+        return;
+    }
+    if (opts->method == NULL)
+        opts->method = ss_sim_defaults.method;
+    if (opts->tol == 0)
+        opts->tol = ss_sim_defaults.tol;
+}
+
 /* The name by which the scene is known, without its directories. */
 static void
 note_origin(ss_header *head, const char *path, const ss_sim_opts *opts)
@@ -139,6 +161,7 @@ main(int argc, char *argv[])
         { "set", required_argument, NULL, 's' }, { "columns", required_argument, NULL, 'c' },
         { "events", no_argument, NULL, 'e' }, { "method", required_argument, NULL, 'm' },
         { "tol", required_argument, NULL, 't' },
+        { "accuracy", required_argument, NULL, 'a' },
         { "max-steps", required_argument, NULL, OPT_MAX_STEPS },
         { "list", no_argument, NULL, 'l' },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
@@ -148,20 +171,22 @@ main(int argc, char *argv[])
     int events = 0;
     tool_kind kind = TOOL_TSV;
     struct output o = { .writer = NULL };
-    ss_sim_opts opts = ss_sim_defaults;
+    double accuracy = 0;            /* 0: not asked for */
+    ss_sim_opts opts = { .progress = tool_progress };
     ss_sim_stats stats = { 0 };
     ss_error err = { "" };
 
     tool_begin(argv, "ss-sim", usage);
     if (settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "s:c:em:t:lo:qvh", longopts, NULL)) != -1;)
+    for (int c; (c = getopt_long(argc, argv, "s:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 's': settings[n_settings++] = optarg; break;
         case 'c': columns = optarg; break;
         case 'e': events = 1; break;
         case 'm': choose_method(&opts, optarg); break;
         case 't': opts.tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
+        case 'a': accuracy = tool_number("--accuracy", optarg, 1e-12, 1e-3); break;
         case OPT_MAX_STEPS:
             opts.max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, 1L << 62);
             break;
@@ -180,8 +205,11 @@ main(int argc, char *argv[])
         tool_usage("--events are text: --format au does not apply");
     if (ss_sim_columns_parse(&o.columns, columns, &err) != SS_OK)
         tool_usage("--columns: %s", err.text);
+    if (accuracy > 0 && opts.tol > 0)
+        tool_usage("--accuracy finds the tolerance: --tol does not go with it");
 
     ss_scene scene = tool_read_scene(argv[optind], settings, n_settings);
+    set_method(&opts, &scene, accuracy);
     o.head = ss_sim_header(&scene, &o.columns);
     if (o.head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
@@ -203,8 +231,9 @@ main(int argc, char *argv[])
                                  o.head), NULL);
         opts.samples = stream_samples;
     }
+    tool_end_at_rows();
     ss_status st = ss_sim_run(&scene, &opts, &stats, &err);
-    if (st == SS_STOP)
+    if (st == SS_STOP && !tool_stopping())
         tool_die("write error: %s", strerror(errno));
     if (st == SS_OK && o.signal != NULL)
         st = ss_store_write(tool_output_path(path),

@@ -8,6 +8,7 @@
 #include <stickslip/status.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
+#include <stickslip/trade.h>
 
 SS_BEGIN_DECLARATIONS
 
@@ -40,6 +41,10 @@ extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB 
 /* Contours of L = 20 log10(|W| / max|W| where edge = 0) at -k span/levels, k = 1 ... levels. */
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
                           const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
+
+/* The work-precision diagram: worst error of x over CPU time as a multiple of the fastest row's, both
+ * logarithmic, one line a method, the frontier ringed.  opts->from and to do not apply. */
+ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -34,9 +34,13 @@ typedef struct ss_event {
 
 /* Sinks receive samples (n >= 1) and events in time order, valid during the call only: an event
  * comes before the first sample that it precedes or coincides with.  A non-zero return ends the
- * run with SS_STOP.  Either may be NULL. */
+ * run with SS_STOP. */
 typedef int ss_sample_sink(const ss_sample *s, size_t n, void *user);
 typedef int ss_event_sink(const ss_event *e, void *user);
+
+/* Receives how far a run has come, from 0 to 1, every few hundred steps or samples.  A non-zero
+ * return ends the run with SS_STOP. */
+typedef int ss_progress(double done, void *user);
 
 typedef struct ss_sim_opts {
     const char *method;         /* one of ss_sim_method_name */
@@ -44,7 +48,8 @@ typedef struct ss_sim_opts {
     unsigned long max_steps;    /* 0: as many as it takes */
     ss_sample_sink *samples;
     ss_event_sink *events;
-    void *user;                 /* handed to both sinks */
+    ss_progress *progress;
+    void *user;                 /* handed to all three, any of which may be NULL */
 } ss_sim_opts;
 extern const ss_sim_opts ss_sim_defaults;       /* rk8pd at 1e-12, no sinks */
 

@@ -51,10 +51,13 @@ linear_derivatives(const motion *m, double u, const double q[], const double dqd
 
 /* The larger root of m s^2 + c s + k = 0 in modulus, or Omega. */
 double
-linear_fastest(const motion *m)
+linear_fastest(const motion *m, const char **what)
 {
     double half = m->c / (2 * m->scene->mass), omega0 = sqrt(m->k / m->scene->mass);
     double root = half <= omega0 ? omega0 : half + sqrt((half - omega0) * (half + omega0));
+    if (what != NULL)
+        *what = m->omega >= root ? "the base" : half > omega0 ? "the contact's damper"
+            : m->k > m->scene->stiffness ? "the contact" : "the spring";
     return fmax(root, m->omega);
 }
 

@@ -32,8 +32,9 @@ struct model {
     size_t dim;
     /* Enter the first mode at the scene's initial state; 1 if it starts in slip. */
     int (*start)(motion *m);
-    /* Largest angular frequency or rate of decay of the mode: caps the steps [rad/s]. */
-    double (*fastest)(const motion *m);
+    /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s], and
+     * what it is in the words of a diagnosis; what may be NULL. */
+    double (*fastest)(const motion *m, const char **what);
     /* The state's rate of change under the force of the base. */
     void (*rates)(const motion *m, double drive, const double q[], double dqdt[]);
     /* Its derivatives by the state (row after row) and by time. */
@@ -86,7 +87,7 @@ void linear_rates(const motion *m, double drive, const double q[], double dqdt[]
 void linear_jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[]);
 void linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
                         double higher[][MAX_DIM]);
-double linear_fastest(const motion *m);
+double linear_fastest(const motion *m, const char **what);
 void linear_slip(motion *m, double x, double v, int direction);
 double linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);
 

@@ -23,9 +23,12 @@ law(const ss_scene *s, double *rate, double *goal)
 
 /* The steps follow the tolerance; only base and spring cap them. */
 static double
-fastest(const motion *m)
+fastest(const motion *m, const char **what)
 {
-    return fmax(sqrt(m->scene->stiffness / m->scene->mass), m->omega);
+    double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
+    if (what != NULL)
+        *what = m->omega >= omega_n ? "the base" : "the spring";
+    return fmax(omega_n, m->omega);
 }
 
 static void

@@ -78,7 +78,7 @@ ode_step(engine *e, double h_max, ss_error *err)
     const motion *m = e->m;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
-    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * 2 * M_PI / (40 * m->model->fastest(m));
+    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * 2 * M_PI / (40 * m->model->fastest(m, NULL));
 
     for (;;) {
         double h_adjusted = h / 2;
@@ -271,7 +271,7 @@ ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
     o->tol = opts->tol;
-    o->h_next = 2 * M_PI / (40 * m->model->fastest(m));
+    o->h_next = 2 * M_PI / (40 * m->model->fastest(m, NULL));
     absolute_scales(m, scale);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
                                                    opts->tol, opts->tol, 1, 0, scale);

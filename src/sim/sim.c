@@ -23,6 +23,8 @@ enum { STEPS_PER_PERIOD = 40 };
 enum { CHATTER_EVENTS = 1000 };
 #define CHATTER_PART 1e-6
 
+enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
+
 const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
 
 #define EXACT "exact"
@@ -110,6 +112,15 @@ base_turns(const ss_scene *scene)
     return turn_of(2 * M_PI * instant_cycles(instant_sample(1, scene->rate), scene->base_frequency));
 }
 
+/* t seconds of settling and record are done. */
+static ss_status
+report(const record *r, double t)
+{
+    const ss_sim_opts *o = r->opts;
+    double all = r->scene->settle + r->scene->duration;
+    return o->progress != NULL && o->progress(fmin(t / all, 1), o->user) != 0 ? SS_STOP : SS_OK;
+}
+
 static instant
 instant_of_sample(const record *r, size_t i)
 {
@@ -151,6 +162,8 @@ write_samples(record *r, engine *e, int still, double h)
     for (size_t n = 1; r->i < r->n && s < h; r->i++, s = first + (double)n++ * r->interval) {
         if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
             ss_status st = flush(r);
+            if (st == SS_OK)
+                st = report(r, instant_of_sample(r, r->i).hi);
             if (st != SS_OK)
                 return st;
         }
@@ -225,13 +238,32 @@ change_mode(record *r, engine *e, int still, double s)
 static ss_status
 chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
 {
-    double period = 2 * M_PI / m->model->fastest(m);
+    double period = 2 * M_PI / m->model->fastest(m, NULL);
     *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
     if (*in_a_row <= CHATTER_EVENTS)
         return SS_OK;
     return ss_fail(err, SS_ECHATTER, "more than %d events in a row at t = %.9g s, each within "
                    "%.2g s of the last: the contact grazes its limit", CHATTER_EVENTS,
                    m->origin.hi, CHATTER_PART * period);
+}
+
+/* Why a run was too long for its budget, and how long it would have been. */
+static ss_status
+over_budget(const record *r, const engine *e, double cap, ss_error *err)
+{
+    const motion *m = e->m;
+    const char *what;
+    double t = m->origin.hi + m->u, all = r->scene->settle + r->scene->duration;
+    double estimate = (double)e->steps * all / t;
+    m->model->fastest(m, &what);
+    if (e->h < cap / 2)
+        return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about "
+                       "%.2g steps would do; the tolerance forces steps of %.3g s, where the "
+                       "motion of %s allows %.3g s", r->opts->max_steps, t, all, estimate, e->h,
+                       what, cap);
+    return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about %.2g "
+                   "steps would do; they are %.3g s long, 1/%d of the period of %s",
+                   r->opts->max_steps, t, all, estimate, cap, STEPS_PER_PERIOD, what);
 }
 
 static ss_status
@@ -243,21 +275,21 @@ run(record *r, engine *e, ss_error *err)
     int in_a_row = 0;
 
     for (;;) {
-        double h, cap = 2 * M_PI / (STEPS_PER_PERIOD * model->fastest(m));
+        double h, cap = 2 * M_PI / (STEPS_PER_PERIOD * model->fastest(m, NULL));
         int still = model->still != NULL && model->still(m, &h), ends = still && isfinite(h);
         ss_status st = SS_OK;
         if (still) {
             h -= m->u;
         } else {
             if (r->opts->max_steps > 0 && e->steps >= r->opts->max_steps)
-                return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s; steps "
-                               "are at most %.3g s long, 1/%d of the fastest period of the mode",
-                               r->opts->max_steps, m->origin.hi + m->u, cap, STEPS_PER_PERIOD);
+                return over_budget(r, e, cap, err);
             if (e->lands_on_samples && r->i < r->n) {
                 double s = until_sample(r, m, r->i);
                 cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
             }
             st = e->type->step(e, cap, err);
+            if (st == SS_OK && e->steps % REPORT_STEPS == 0)
+                st = report(r, m->origin.hi + m->u);
             if (st != SS_OK)
                 return st;
             h = e->h;

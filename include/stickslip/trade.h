@@ -1,0 +1,71 @@
+/* stickslip/trade.h -- the trade between accuracy and time of a scene's simulation, measured. */
+#ifndef STICKSLIP_TRADE_H
+#define STICKSLIP_TRADE_H
+
+#include <stddef.h>
+#include <stickslip/scene.h>
+#include <stickslip/sim.h>
+
+SS_BEGIN_DECLARATIONS
+
+typedef struct ss_trade_row {
+    const char *method;
+    double tol;                 /* relative local error a step; 0 for exact, which has none */
+    ss_status status;           /* SS_OK: measured; SS_EBUDGET: too long, seconds is an estimate;
+                                   SS_ETOL, SS_ECHATTER: the method gave up */
+    double error_x, error_a;    /* worst in the record over max|x| and max|a|; for a, without samples
+                                   nearer to an event than that event's own error */
+    double error_t;             /* worst of an event's time [s] */
+    size_t missed, invented;    /* events in the record */
+    unsigned long steps, rhs;
+    double seconds;             /* CPU time of one run */
+    int frontier;               /* no other row is faster and as accurate, or as fast and more so */
+} ss_trade_row;
+
+typedef struct ss_trade {
+    char reference[64];         /* "exact", or two methods that agree */
+    double known_x, known_a, known_t;   /* what the reference may itself be wrong by, as above: for
+                                   exact, twice the change when m, k and K_y move by their last bit;
+                                   else the distance of the two methods.  No row's error is given as
+                                   less */
+    size_t samples, events;     /* compared */
+    size_t n;
+    ss_trade_row *row;
+} ss_trade;
+
+typedef struct ss_trade_opts {
+    double budget;              /* [s] > 0 of CPU time a row */
+    double target;              /* > 0: give up rows slower than twice the fastest that reaches it */
+    ss_progress *progress;      /* may be NULL */
+    void *user;
+} ss_trade_opts;
+extern const ss_trade_opts ss_trade_defaults;       /* 10 s, no target */
+
+/* Run the scene with every method at tolerances 1e-2, 1e-3, ... 1e-13, here and now.  A record of
+ * more than 20000 samples is measured at a lower rate, which leaves its events as they are.  Rows
+ * of up to 0.1 s are timed five more times, in turns, and their median given.  opts may be NULL.
+ * SS_STOP if progress asks for it; else as ss_sim_run, about the reference.  To be freed with
+ * ss_trade_free. */
+ss_status ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opts,
+                           ss_error *err);
+void ss_trade_free(ss_trade *trade);                /* NULL is allowed */
+
+/* The fastest row that keeps x within accuracy of max|x|, with a margin of 2 and the right events;
+ * NULL if there is none. */
+const ss_trade_row *ss_trade_cheapest(const ss_trade *trade, double accuracy);
+
+/* Fill in opts->tol so that the worst error of x in the record is at most accuracy, 1e-12 ... 1e-3,
+ * times max|x|, by opts->method or, if that is NULL, by the cheapest.
+ *
+ * The scene is run against the reference of ss_trade, with at most 20000 samples in memory, from
+ * loose to tight tolerances until twice the larger of error and known_x is within accuracy, and
+ * there are as many events.  Cheapest is exact where there is a closed form, else the least
+ * right-hand sides, weighed: a choice that does not change from run to run.  opts->max_steps bounds
+ * every run, and opts->progress is called with 0.
+ *
+ * SS_ETOL if rounding or the method forbids it, SS_EBUDGET if the method would need more than 300
+ * times the reference's steps, both with what was reached; else as ss_sim_run. */
+ss_status ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_error *err);
+
+SS_END_DECLARATIONS
+#endif

@@ -1,0 +1,90 @@
+/* trade.c -- the work-precision diagram: error of x over CPU time, one line a method. */
+#include "script.h"
+
+#include <math.h>
+#include <string.h>
+#include "../error.h"
+
+/* Okabe and Ito's colours, told apart by all kinds of colour vision; point types and
+ * dashes tell methods that share one. */
+static const char *const colour[] = { "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                      "#e69f00", "#56b4e9" };
+static const int point[] = { 7, 5, 9, 13, 4 };
+enum { COLOURS = sizeof colour / sizeof *colour, POINTS = sizeof point / sizeof *point };
+
+static void
+put_point(FILE *out, const ss_trade_row *row, double fastest)
+{
+    fprintf(out, "%.4g %.3g\n", row->seconds / fastest, row->error_x);
+}
+
+/* The points of one method as a datablock, from row i on; what follows the last of them. */
+static size_t
+put_method(FILE *out, const ss_trade *trade, size_t i, double fastest)
+{
+    const char *method = trade->row[i].method;
+    fprintf(out, "$%s << EOD\n", method);
+    for (; i < trade->n && strcmp(trade->row[i].method, method) == 0; i++)
+        if (trade->row[i].status == SS_OK)
+            put_point(out, &trade->row[i], fastest);
+    fputs("EOD\n", out);
+    return i;
+}
+
+static size_t
+next_method(const ss_trade *trade, size_t i)
+{
+    const char *method = trade->row[i].method;
+    while (i < trade->n && strcmp(trade->row[i].method, method) == 0)
+        i++;
+    return i;
+}
+
+static void
+put_plot(FILE *out, const ss_trade *trade)
+{
+    fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '#000000' title 'frontier'", out);
+    for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
+        if (trade->row[i].status == SS_OK)
+            fprintf(out, ", \\\n     $%s using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
+                    "lc rgb '%s' title '%s'", trade->row[i].method, method < COLOURS ? 1 : 2,
+                    point[method % POINTS], colour[method % COLOURS], trade->row[i].method);
+    putc('\n', out);
+}
+
+ss_status
+ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err)
+{
+    double fastest = INFINITY;
+    ss_plot_opts titled = *opts;
+    for (size_t i = 0; i < trade->n; i++)
+        if (trade->row[i].status == SS_OK)
+            fastest = fmin(fastest, trade->row[i].seconds);
+    if (isinf(fastest))
+        return ss_fail(err, SS_EINVAL, "nothing to draw: no row was measured");
+    if (titled.title == NULL)
+        titled.title = "";
+    ss_status st = script_begin(out, &titled, NULL, 8.5, err);
+    if (st != SS_OK)
+        return st;
+    fprintf(out, "fastest = %.3g        # s of CPU time\n", fastest);
+    for (size_t i = 0; i < trade->n;)
+        i = trade->row[i].status == SS_OK ? put_method(out, trade, i, fastest)
+            : next_method(trade, i);
+    fputs("$frontier << EOD\n", out);
+    for (size_t i = 0; i < trade->n; i++)
+        if (trade->row[i].frontier)
+            put_point(out, &trade->row[i], fastest);
+    fputs("EOD\n"
+          "set encoding utf8\n"
+          "set title title noenhanced offset 0,-0.5\n"
+          "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
+          "set logscale xy; set format x '%g'; set format y '%.0e'\n"
+          "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
+          "set ylabel 'worst error of x / max|x|' noenhanced offset 0.5,0\n"
+          "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
+          "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
+          "set key outside below horizontal maxrows 4 samplen 2 noenhanced\n", out);
+    put_plot(out, trade);
+    return script_end(out);
+}

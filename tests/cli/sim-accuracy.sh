@@ -1,0 +1,13 @@
+# --accuracy finds method and tolerance, and refuses what cannot be kept.
+try() {
+    status=0
+    ss-sim "$@" > out || status=$?
+    echo "exit $status, $(grep -vc '^#' out) rows: $(grep -E '^# (integrator|tolerance)' out | tr '\n' ' ')"
+}
+try -a 1e-9 --set settle=0 --set duration=1 compliant-light
+try -a 1e-6 -m rk8pd --set settle=0 --set duration=1 compliant-light
+try -a 1e-6 -m msbdf --set settle=0 --set duration=1 coulomb
+try -a 1e-6 --max-steps 100 -m rk2 coulomb
+try -a 1e-6 -t 1e-9 coulomb
+try -a 1e-15 coulomb
+try -a 1e-6 -m exact state-variable
