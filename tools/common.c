@@ -61,7 +61,7 @@ ask_to_stop(int number)
 static void
 catch_signals(void (*handler)(int))
 {
-    static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
+    static const int caught[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT };
     struct sigaction old, new = { .sa_flags = (int)(SA_RESTART | SA_RESETHAND) };
     new.sa_handler = handler;
     sigemptyset(&new.sa_mask);
@@ -129,6 +129,7 @@ tool_begin(char *argv[], const char *name, const char *usage)
     usage_text = usage;
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
     gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
+    signal(SIGXFSZ, SIG_IGN);           /* a file over the limit is a failed write, not a signal */
 }
 
 static void
@@ -223,6 +224,8 @@ tool_number(const char *option, const char *text, double lo, double hi)
         char a[SS_NUMBER_MAX], b[SS_NUMBER_MAX];
         ss_number_format(a, lo);
         ss_number_format(b, hi);
+        if (lo == DBL_MIN)
+            tool_usage("%s: %s is out of range, it must be > 0", option, text);
         if (hi >= DBL_MAX)
             tool_usage("%s: %s is out of range, at least %s is needed", option, text, a);
         tool_usage("%s: %s is out of range %s ... %s", option, text, a, b);
@@ -258,12 +261,16 @@ tool_choice(const char *option, const char *text, const char *const choice[])
 
 /* --- input --------------------------------------------------------------------------------- */
 
+static const char *in_path = "-";
+
 const char *
 tool_input(int argc, char *argv[], int first)
 {
     if (argc - first > 1)
         tool_usage("unexpected argument '%s'", argv[first + 1]);
-    return argc > first ? argv[first] : "-";
+    if (argc > first)
+        in_path = argv[first];
+    return in_path;
 }
 
 const char *
@@ -380,8 +387,10 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
 const char *
 tool_output_path(const char *path)
 {
-    struct stat st;
+    struct stat st, in;
     int exists = stat(path, &st) == 0;
+    if (exists && stat(in_path, &in) == 0 && in.st_dev == st.st_dev && in.st_ino == st.st_ino)
+        tool_usage("--output: %s is the input; it would be lost", path);
     if (exists && S_ISDIR(st.st_mode))
         tool_die("%s: %s", path, strerror(EISDIR));
     if (exists && !S_ISREG(st.st_mode))

@@ -155,17 +155,18 @@ put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo
     }
 }
 
-/* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, or at the powers only
- * where those would not fit. */
+/* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
+ * where those would not fit, and at every digit where there are few. */
 static void
 put_frequency_tics(FILE *out, double lo, double hi)
 {
-    int sparse = hi / lo > 2e4;
+    int sparse = hi / lo > 2e4, dense = hi / lo < 8;
+    double fine = hi / lo < 2 ? 10 : 1;         /* tics a digit */
     const char *between = "set ytics (";
     for (int e = (int)floor(log10(lo)); e <= (int)floor(log10(hi)); e++)
-        for (int digit = 1; digit <= 9; digit++) {
-            double f = e < 0 ? digit / pow(10, -e) : digit * pow(10, e);
-            int major = digit == 1 || (!sparse && (digit == 2 || digit == 5));
+        for (int i = (int)fine; i < 10 * fine; i++) {
+            double f = e < 0 ? i / (fine * pow(10, -e)) : i * pow(10, e) / fine;
+            int major = dense || i == 1 || (!sparse && (i == 2 || i == 5));
             char text[SS_NUMBER_MAX];
             if (f < lo || f > hi)
                 continue;
