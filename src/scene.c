@@ -252,6 +252,11 @@ check_keys(const ss_scene *scene, const long given[KEYS], struct place last, ss_
             return fail_at(last, err, text);
         }
     }
+    if (ss_scene_samples(scene) == SIZE_MAX) {
+        long where = given[find_key("rate") - key];
+        struct place at = { last.name, where != 0 ? where : given[find_key("duration") - key] };
+        return fail_at(at, err, "duration x rate is more than 2^53 samples");
+    }
     return SS_OK;
 }
 

@@ -10,7 +10,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 
 #include <cmocka.h>
 
@@ -295,9 +294,11 @@ compare_with_closed_form(const char *method, double allow_t, double allow_x, dou
         print_message("%s: %s, release %s: events within %.1e s, x %.1e, a %.1e of their maxima\n",
                       method, with_events[i % 3], i < 3 ? "spring" : "total", worst_t,
                       worst_x / max_x, worst_a / max_a);
-        assert_true(worst_t <= allow_t);
-        assert_true(worst_x <= allow_x * max_x);
-        assert_true(worst_a <= allow_a * max_a);
+        /* and, where long double has no more digits than double, what the oracle itself rounds */
+        double oracle_error = 2000 * (double)LDBL_EPSILON;
+        assert_true(worst_t <= allow_t + oracle_error);
+        assert_true(worst_x <= (allow_x + oracle_error) * max_x);
+        assert_true(worst_a <= (allow_a + 60 * oracle_error) * max_a);
         run_free(&r);
         oracle_free(o);
     }
@@ -511,6 +512,47 @@ loses_four_f_over_k_a_cycle(void **state)
 }
 
 static void
+touching_the_limit_is_no_release(void **state)
+{
+    /* no base, no damping: after the last slip the contact comes back to its limit exactly, each of
+     * 47 periods a second, for ever; releases there would be rounding.  In truth: slip, stick, slip,
+     * stick. */
+    static const struct { const char *method; double tol; } how[] = {
+        { "exact", 1e-12 }, { "rk8pd", 1e-12 }, { "rk8pd", 1e-7 }, { "rkf45", 1e-12 },
+        { "rkf45", 1e-8 }, { "rk4", 1e-10 }, { "bsimp", 1e-10 }, { "msbdf", 1e-9 } };
+    static const ss_event_kind kind[] = { SS_SLIP, SS_STICK, SS_SLIP, SS_STICK };
+    ss_scene s = scene_named("compliant-light", 10, 20);
+    (void)state;
+    s.base_amplitude = s.contact_damping = 0;
+    s.x0 = 0.002;
+    for (int release = 0; release < 2; release++)
+        for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
+            s.release = release == 0 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+            run r = run_with(&s, how[i].method, how[i].tol);
+            if (r.n_events != 4)
+                fail_msg("%s at %g: %zu events", how[i].method, how[i].tol, r.n_events);
+            for (int k = 0; k < 4; k++)
+                assert_int_equal(r.event[k].kind, kind[k]);
+            run_free(&r);
+        }
+}
+
+static void
+a_phase_of_many_turns_is_its_remainder(void **state)
+{
+    ss_scene s = scene_named("coulomb", 1, 100), turned = s;
+    (void)state;
+    turned.phase = 1e9;
+    s.phase = atan2(sin(1e9), cos(1e9));
+    run a = run_of(&s), b = run_of(&turned);
+    assert_int_equal(a.n_events, b.n_events);
+    for (size_t i = 0; i < a.n; i++)
+        assert_true(fabs(a.sample[i].x - b.sample[i].x) <= 8 * DBL_EPSILON * s.base_amplitude);
+    run_free(&a);
+    run_free(&b);
+}
+
+static void
 is_a_linear_oscillator_without_friction(void **state)
 {
     /* at resonance from rest: x = (Omega t / 2) Z_e sin(Omega t) for m = k = Omega = 1 */
@@ -710,6 +752,13 @@ refuses_what_it_cannot_do(void **state)
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);
     s = scene_named("coulomb", 1e300, 2000);
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);
+    s = scene_named("coulomb", 10, 2000);
+    s.base_frequency = 1e300;
+    assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EBUDGET);
+    assert_non_null(strstr(err.text, "period of the base: more than 1e+12 are not tried"));
+    s = scene_named("coulomb", 10, 2000);
+    s.x0 = 1e308;
+    assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);
 }
 
 static void
@@ -721,31 +770,6 @@ a_record_of_no_length_has_no_samples(void **state)
     assert_int_equal(r.n, 0);
     assert_int_equal(r.n_events, 0);
     run_free(&r);
-}
-
-static int
-count_samples(const ss_sample *s, size_t n, void *user)
-{
-    (void)s;
-    *(size_t *)user += n;
-    return 0;
-}
-
-static void
-needs_no_memory_for_a_long_record(void **state)
-{
-    ss_scene s = scene_named("coulomb", 100, 100000);
-    size_t n = 0;
-    ss_sim_opts opts = ss_sim_defaults;
-    struct rusage before, after;
-    (void)state;
-    opts.samples = count_samples;
-    opts.user = &n;
-    getrusage(RUSAGE_SELF, &before);
-    assert_int_equal(ss_sim_run(&s, &opts, NULL, NULL), SS_OK);
-    getrusage(RUSAGE_SELF, &after);
-    assert_int_equal(n, 10000000);
-    assert_true(after.ru_maxrss - before.ru_maxrss < 1024);     /* KiB; the record has 80 MB a column */
 }
 
 static void
@@ -806,6 +830,8 @@ main(void)
         cmocka_unit_test(gives_den_hartogs_amplitudes),
         cmocka_unit_test(stops_where_den_hartog_says),
         cmocka_unit_test(loses_four_f_over_k_a_cycle),
+        cmocka_unit_test(touching_the_limit_is_no_release),
+        cmocka_unit_test(a_phase_of_many_turns_is_its_remainder),
         cmocka_unit_test(is_a_linear_oscillator_without_friction),
         cmocka_unit_test(never_moves_under_great_friction),
         cmocka_unit_test(keeps_the_phase_of_the_base_for_ever),
@@ -816,7 +842,6 @@ main(void)
         cmocka_unit_test(stops_when_a_sink_asks),
         cmocka_unit_test(refuses_what_it_cannot_do),
         cmocka_unit_test(a_record_of_no_length_has_no_samples),
-        cmocka_unit_test(needs_no_memory_for_a_long_record),
         cmocka_unit_test(simulates_into_a_signal),
         cmocka_unit_test(gives_the_columns_asked_for),
     };

@@ -23,12 +23,7 @@ figure() {      # NAME SCENE TITLE: contours on the fine grid, and on the paper'
     draw "loop-$2" ss-plot --xy x,f --title "$3" "$OUT/$1.h5"
 }
 
-figure figure2 coulomb 'Coulomb, simulated'
-figure figure3 state-variable 'State-variable, simulated'
-figure figure5 compliant-heavy 'Compliant, c = 80 N s/m, simulated'
-figure figure6 compliant-light 'Compliant, c = 25 N s/m, simulated'
-draw figure1 ss-plot --title 'Compliant, c = 25 N s/m, simulated' "$OUT/figure6.h5"
-
+# first, since only a recording can be wrong
 if [ -n "$MEASURED" ]; then
     ss-morlet ${COLUMN:+--column "$COLUMN"} --detrend mean "$MEASURED" -o "$OUT/figure7.h5"
     draw figure7 ss-contour --title "Measured${COLUMN:+: $COLUMN}" ${FROM:+--from "$FROM"} \
@@ -38,6 +33,12 @@ else
     draw figure7 ss-contour --title 'Simulated, not measured: c = 25, 40 dB noise' \
         "$OUT/figure7.h5"
 fi
+
+figure figure2 coulomb 'Coulomb, simulated'
+figure figure3 state-variable 'State-variable, simulated'
+figure figure5 compliant-heavy 'Compliant, c = 80 N s/m, simulated'
+figure figure6 compliant-light 'Compliant, c = 25 N s/m, simulated'
+draw figure1 ss-plot --title 'Compliant, c = 25 N s/m, simulated' "$OUT/figure6.h5"
 
 for n in 2 3 5 6 7; do
     set -- "$@" "$OUT/figure$n.h5"

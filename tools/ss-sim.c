@@ -1,6 +1,7 @@
 /* ss-sim -- simulate a scene; write samples or events. */
 #include <errno.h>
 #include <getopt.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include "common.h"
@@ -132,14 +133,28 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->tol = ss_sim_defaults.tol;
 }
 
-/* The name by which the scene is known, without its directories. */
+/* The name by which the scene is known, without its directories, and what was changed in it. */
 static void
-note_origin(ss_header *head, const char *path, const ss_sim_opts *opts)
+name_scene(char name[256], const char *path, const char *const settings[], size_t n)
 {
+    static const char *const of_record[] = { "settle", "duration", "rate" };
     const char *slash = strrchr(path, '/');
+    snprintf(name, 256, "%s", slash != NULL ? slash + 1 : tool_input_name(path));
+    for (size_t i = 0; i < n; i++) {
+        int physical = 1;
+        for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
+            physical &= strncmp(settings[i], of_record[k], strlen(of_record[k])) != 0;
+        if (physical)
+            snprintf(name + strlen(name), 256 - strlen(name), ", %s", settings[i]);
+    }
+}
+
+static void
+note_origin(ss_header *head, const char *name, const ss_sim_opts *opts)
+{
     char tol[SS_NUMBER_MAX];
     ss_number_format(tol, opts->tol);
-    if (ss_header_note(head, "scene", slash != NULL ? slash + 1 : tool_input_name(path)) != SS_OK
+    if (ss_header_note(head, "scene", name) != SS_OK
         || ss_header_note(head, "integrator", opts->method) != SS_OK
         || ss_header_note(head, "tolerance", tol) != SS_OK)
         tool_die("%s", ss_strerror(SS_ENOMEM));
@@ -188,7 +203,7 @@ main(int argc, char *argv[])
         case 't': opts.tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
         case 'a': accuracy = tool_number("--accuracy", optarg, 1e-12, 1e-3); break;
         case OPT_MAX_STEPS:
-            opts.max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, 1L << 62);
+            opts.max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, LONG_MAX);
             break;
         case 'l': list(); break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
@@ -213,7 +228,9 @@ main(int argc, char *argv[])
     o.head = ss_sim_header(&scene, &o.columns);
     if (o.head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    note_origin(o.head, argv[optind], &opts);
+    char name[256];
+    name_scene(name, argv[optind], settings, n_settings);
+    note_origin(o.head, name, &opts);
     if (events && scene.model == SS_STATE_VARIABLE)
         tool_warn("the state-variable model has no events");
 

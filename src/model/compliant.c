@@ -51,10 +51,30 @@ guard(const motion *m, const double q[], const double dqdt[], double *slope)
     return limit - fabs(force);
 }
 
+/* Whether a contact at its limit only touches it: it would turn round before it is m->graze beyond
+ * (sim.c says how much that is).  An undamped contact comes back to its limit exactly, each period,
+ * and whether it is then released would be the rounding's decision. */
+static int
+only_touches(const motion *m)
+{
+    const ss_scene *s = m->scene;
+    double rate[MAX_DIM], v = m->q[1];
+    linear_rates(m, motion_drive(m, m->u), m->q, rate);
+    if (s->release == SS_RELEASE_TOTAL && s->contact_damping > 0)
+        return 0;
+    return rate[1] * sign(m->q[0]) < 0
+        && v * v <= 2 * fabs(rate[1]) * m->graze;
+}
+
 static int
 next(motion *m, ss_event *e)
 {
     double x = m->x_ref + m->q[0], v = m->q[1];
+    if (m->mode == 0 && only_touches(m)) {
+        m->q[0] = sign(m->q[0]) * deflection_limit(m);
+        m->q[1] = 0;
+        return 0;
+    }
     if (m->mode == 0) {
         linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;

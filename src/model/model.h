@@ -17,6 +17,9 @@ typedef struct motion {
     const struct model *model;
     double omega;                   /* Omega [rad/s] */
     double drive;                   /* k Z_e [N] */
+    double phase;                   /* of the scene, reduced to [-pi, pi] */
+    double x_scale;                 /* what x is measured by: absolute tolerances are tol times it */
+    double graze;                   /* a contact this far beyond its limit only touches it [m] */
 
     int mode;
     double k, c, f0;                /* of the mode, see above */

@@ -239,18 +239,14 @@ ode_method_name(size_t i)
     return i < METHODS ? method[i].name : NULL;
 }
 
-/* Absolute tolerances in the scene's own measure, since x is about 1e-4 m: x by the largest of
- * Z_e, |x0|, |v0| / omega_n and f_k / k, v by that times the larger of Omega and omega_n, theta
- * by f_k. */
+/* Absolute tolerances in the scene's own measure, since x is about 1e-4 m: x by its scale, v by that
+ * times the larger of Omega and omega_n, theta by f_k. */
 static void
 absolute_scales(const motion *m, double scale[MAX_DIM])
 {
     const ss_scene *s = m->scene;
-    double omega_n = sqrt(s->stiffness / s->mass);
-    double x = fmax(fmax(s->base_amplitude, fabs(s->x0)),
-                    fmax(fabs(s->v0) / omega_n, s->friction / s->stiffness));
-    scale[0] = x > 0 ? x : 1;               /* nothing moves */
-    scale[1] = scale[0] * fmax(m->omega, omega_n);
+    scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
+    scale[1] = scale[0] * fmax(m->omega, sqrt(s->stiffness / s->mass));
     scale[2] = s->friction > 0 ? s->friction : 1;
 }
 
@@ -273,6 +269,11 @@ ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
     o->tol = opts->tol;
     o->h_next = 2 * M_PI / (40 * m->model->fastest(m, NULL));
     absolute_scales(m, scale);
+    for (size_t k = 0; k < m->model->dim; k++)
+        if (!(isfinite(scale[k]) && opts->tol * scale[k] > 0)) {
+            ode_free(&o->base);
+            return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
+        }
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
                                                    opts->tol, opts->tol, 1, 0, scale);
     int sides = m->model->derivatives == NULL && !o->multistep;

@@ -58,24 +58,46 @@ motion_rebase(motion *m)
 {
     m->origin = instant_add(m->origin, m->u);
     m->u = 0;
-    m->theta = 2 * M_PI * instant_cycles(m->origin, m->scene->base_frequency) + m->scene->phase;
+    m->theta = 2 * M_PI * instant_cycles(m->origin, m->scene->base_frequency) + m->phase;
+}
+
+/* What counts as touching the contact's limit: ten times the absolute tolerance of x, which is what
+ * an integrator's error makes of the limit in the course of a stick; in units of the limit no less
+ * than 1e-10, and no more than 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4
+ * for one of 0.1 ms in the light scene). */
+#define GRAZE_TOL 10
+#define GRAZE_LEAST 1e-10
+#define GRAZE_MOST 1e-6
+
+/* x is measured by the largest of Z_e, |x0|, |v0| / omega_n and f_k / k. */
+static void
+set_scales(motion *m, double tol)
+{
+    const ss_scene *s = m->scene;
+    double omega_n = sqrt(s->stiffness / s->mass), limit = s->friction / s->contact_stiffness;
+    m->x_scale = fmax(fmax(s->base_amplitude, fabs(s->x0)),
+                      fmax(fabs(s->v0) / omega_n, s->friction / s->stiffness));
+    if (s->model == SS_COMPLIANT)
+        m->graze = fmin(fmax(GRAZE_TOL * tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
 }
 
 static motion
-motion_of(const ss_scene *scene)
+motion_of(const ss_scene *scene, double tol)
 {
     motion m = { .scene = scene, .model = model_of(scene),
                  .omega = 2 * M_PI * scene->base_frequency,
-                 .drive = scene->stiffness * scene->base_amplitude };
+                 .drive = scene->stiffness * scene->base_amplitude,
+                 .phase = atan2(sin(scene->phase), cos(scene->phase)) };
+    set_scales(&m, tol);
     motion_rebase(&m);
     return m;
 }
 
 /* The phase of the base at t. */
 static turn
-base_at(const ss_scene *scene, instant t)
+base_at(const motion *m, instant t)
 {
-    return turn_of(2 * M_PI * instant_cycles(t, scene->base_frequency) + scene->phase);
+    return turn_of(2 * M_PI * instant_cycles(t, m->scene->base_frequency) + m->phase);
 }
 
 /* --- the record ---------------------------------------------------------------------------- */
@@ -141,7 +163,7 @@ fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
     const motion *m = e->m;
     double q[MAX_DIM], dqdt[MAX_DIM] = { 0 };
     int renew = r->i % RENEWAL == 0;
-    r->base = renew ? base_at(r->scene, instant_of_sample(r, r->i))
+    r->base = renew ? base_at(m, instant_of_sample(r, r->i))
         : turn_further(r->base, r->base_further);
     if (still)
         memcpy(q, m->q, sizeof q);
@@ -266,6 +288,21 @@ over_budget(const record *r, const engine *e, double cap, ss_error *err)
                    r->opts->max_steps, t, all, estimate, cap, STEPS_PER_PERIOD, what);
 }
 
+/* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
+#define TOO_MANY_STEPS 1e12
+
+static ss_status
+check_length(const motion *m, double length, ss_error *err)
+{
+    const char *what;
+    double steps = length * STEPS_PER_PERIOD * m->model->fastest(m, &what) / (2 * M_PI);
+    double end;
+    if (steps <= TOO_MANY_STEPS || (m->model->still != NULL && m->model->still(m, &end)))
+        return SS_OK;
+    return ss_fail(err, SS_EBUDGET, "%.3g s are %.2g steps of 1/%d of the period of %s: more than "
+                   "%.0g are not tried", length, steps, STEPS_PER_PERIOD, what, TOO_MANY_STEPS);
+}
+
 static ss_status
 run(record *r, engine *e, ss_error *err)
 {
@@ -340,12 +377,15 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate,
                  .base_further = base_turns(scene) };
-    motion m = motion_of(scene);
+    motion m = motion_of(scene, opts->tol);
     engine *e = NULL;
 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
     int slips = m.model->start(&m);
+    st = check_length(&m, scene->settle + scene->duration, err);
+    if (st != SS_OK)
+        return st;
     st = strcmp(opts->method, EXACT) == 0 ? exact_new(&e, &m, err) : ode_new(&e, &m, opts, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
