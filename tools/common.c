@@ -241,6 +241,8 @@ tool_integer(const char *option, const char *text, long lo, long hi)
     long i = strtol(text, &end, 10);
     if (end == text || *end != '\0')
         tool_usage("%s: '%s' is not a whole number", option, text);
+    if (hi == LONG_MAX && i < lo)
+        tool_usage("%s: %s is out of range, at least %ld is needed", option, text, lo);
     if (errno != 0 || i < lo || i > hi)
         tool_usage("%s: %s is out of range %ld ... %ld", option, text, lo, hi);
     return i;
