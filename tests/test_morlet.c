@@ -77,12 +77,13 @@ error_of_the_sum_is_below_its_bound(void **state)
     static const double accuracy[] = { 1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13 };
     (void)state;
     for (size_t i = 0; i < LENGTH(setup); i++)
-        for (size_t j = 0; j < LENGTH(accuracy); j++) {
+        for (size_t j = 0; j < 3 * LENGTH(accuracy); j++) {
             struct setup s = setup[i];
             ss_morlet_opts opts = ss_morlet_defaults;
+            opts.engine = (ss_engine)(j % 3);
             opts.center = s.center, opts.voices = s.voices, opts.step = s.step;
             opts.dense = s.dense, opts.admissible = s.admissible, opts.norm = s.norm;
-            opts.accuracy = accuracy[j];
+            opts.accuracy = accuracy[j / 3];
             ss_morlet *plan = plan_of(s.n, s.rate, &opts);
             for (kind which = 0; which < KINDS; which++) {
                 double *x = malloc(s.n * sizeof *x);
@@ -91,8 +92,9 @@ error_of_the_sum_is_below_its_bound(void **state)
                 size_t every = 1 + ss_morlet_total(plan) * s.n / 30000;
                 double worst = worst_error(plan, x, s.n, s.rate, &opts, w, every);
                 if (!(worst <= 1))
-                    fail_msg("center %g, %d voices, accuracy %g, %s: %g times the bound",
-                             s.center, s.voices, opts.accuracy, kind_name[which], worst);
+                    fail_msg("engine %d, center %g, %d voices, accuracy %g, %s: %g times the bound",
+                             opts.engine, s.center, s.voices, opts.accuracy, kind_name[which],
+                             worst);
                 free(x);
                 free(w);
             }
@@ -112,11 +114,15 @@ forced_scales_keep_the_bound(void **state)
     opts.m0 = -16, opts.m1 = 6;             /* 100 samples a second: 0.0015 to 6400 samples */
     opts.voices = 1, opts.step = 0.3;
     for (opts.accuracy = 1e-3; opts.accuracy > 1e-13; opts.accuracy /= 1e3)
-        for (kind which = 0; which < KINDS; which++) {
-            make(which, x, N);
+        for (kind which = 0; which < 2 * KINDS; which++) {
+            make(which / 2, x, N);
+            opts.engine = which % 2 ? SS_ENGINE_QUADRATURE : SS_ENGINE_FFT;
             ss_morlet *plan = plan_of(N, 100, &opts);
             double *w = transform(plan, x);
-            assert_true(worst_error(plan, x, N, 100, &opts, w, 29) <= 1);
+            double worst = worst_error(plan, x, N, 100, &opts, w, 29);
+            if (!(worst <= 1))
+                fail_msg("engine %d, accuracy %g, %s: %g times the bound", opts.engine,
+                         opts.accuracy, kind_name[which / 2], worst);
             ss_morlet_free(plan);
             free(w);
         }
@@ -529,7 +535,7 @@ refuses_options_out_of_range(void **state)
     ss_morlet_opts bad[] = {
         { .center = 1.9 }, { .center = NAN }, { .voices = 0 }, { .voices = 1025 }, { .step = 0 },
         { .step = INFINITY }, { .accuracy = 1e-14 }, { .accuracy = NAN }, { .norm = 2 },
-        { .detrend = 3 }, { .engine = 2 }, { .octaves = 1, .m0 = 1 }, { .step = 1e-300 } };
+        { .detrend = 3 }, { .engine = 3 }, { .octaves = 1, .m0 = 1 }, { .step = 1e-300 } };
     (void)state;
     for (size_t i = 0; i < LENGTH(bad); i++) {
         ss_morlet *plan = NULL;

@@ -28,8 +28,11 @@ typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } 
 
 typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
-    SS_ENGINE_QUADRATURE        /* the definition, wavelet truncated as far as accuracy allows */
+    SS_ENGINE_QUADRATURE,       /* the definition, wavelet truncated as far as accuracy allows */
+    SS_ENGINE_FFT               /* spectra, see below; scales of no use to it by the definition */
 } ss_engine;
+
+enum { SS_THREADS_MAX = 256 };
 
 typedef struct ss_morlet_opts {
     double center;              /* omega_c  2 ... 1000 */
@@ -47,6 +50,7 @@ typedef struct ss_morlet_opts {
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
     ss_detrend detrend;         /* what is subtracted from the record first */
     int force;                  /* 1: also scales that sampling or record do not resolve */
+    int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
 } ss_morlet_opts;
 /* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
  * the lowest usable frequency, if that is higher), fmax the highest usable one. */
