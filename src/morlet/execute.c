@@ -34,7 +34,7 @@ typedef struct work {
 } work;
 
 static ss_status
-one_scale(work *job, size_t i, ss_error *err)
+one_scale(const work *job, size_t i, double *scratch, ss_error *err)
 {
     const ss_morlet *plan = job->plan;
     const ss_scale *scale = &plan->scale[i];
@@ -43,9 +43,13 @@ one_scale(work *job, size_t i, ss_error *err)
     factor = ldexp(factor, job->rec.exponent);
     int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
     factor = fits ? factor : 1;
-    ss_status st = fft_takes(plan->fft, i)
-        ? fft_scale(plan, i, &job->rec, &job->spectra, factor, w)
-        : quadrature_scale(plan, scale, &job->rec, factor, w);
+    ss_status st = SS_OK;
+    if (!fft_takes(plan->fft, i))
+        st = quadrature_scale(plan, scale, &job->rec, factor, w);
+    else if (scratch == NULL)
+        st = SS_ENOMEM;
+    else
+        fft_scale(plan, i, &job->rec, &job->spectra, scratch, factor, w);
     if (st != SS_OK || fits)
         return st;
     return morlet_finish(w, scale->n, scale->a, plan->opts.norm, job->rec.exponent, err);
@@ -56,12 +60,13 @@ static void *
 work_on(void *user)
 {
     work *job = user;
+    double *scratch = job->plan->fft != NULL ? fft_scratch(job->plan->fft) : NULL;
     pthread_mutex_lock(&job->lock);
     while (job->next > 0) {
         size_t i = --job->next;
         ss_error err = { "" };
         pthread_mutex_unlock(&job->lock);
-        ss_status st = one_scale(job, i, &err);
+        ss_status st = one_scale(job, i, scratch, &err);
         pthread_mutex_lock(&job->lock);
         if (st != SS_OK && (job->status == SS_OK || i < job->failed)) {
             job->failed = i;
@@ -70,6 +75,8 @@ work_on(void *user)
         }
     }
     pthread_mutex_unlock(&job->lock);
+    if (scratch != NULL)
+        fft_scratch_free(scratch);
     return NULL;
 }
 

@@ -37,14 +37,7 @@
 #include "error.h"
 #include "morlet/kaiser.h"
 #include "morlet/plan.h"
-
-/* A hot loop in versions for what the machine has, where compiler and system support that. */
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) \
-    && !defined(__SANITIZE_ADDRESS__)
-#define VERSIONS __attribute__((target_clones("default", "avx2", "avx512f"), optimize("O3")))
-#else
-#define VERSIONS
-#endif
+#include "morlet/versions.h"
 
 #define REACH 8.5                   /* exp(-REACH^2/2) = 2e-16 */
 #define EDGE_MAX 0.4                /* of a kernel's band, in cycles a point */
@@ -62,7 +55,7 @@
 enum {
     SPREAD_TAPS = 16,
     TERMS = 64, ROOT = 8,           /* terms at a time, ROOT^2 */
-    BLOCK = 32, LANES = 8,          /* points at a time, in registers */
+    BLOCK = 32, LANES = 8,          /* points, and samples, at a time */
     MARGIN = 64,                    /* points before and after the circle that repeat it */
     PHASES_MAX = 128,               /* places that repeat */
     KERNELS = 40, STEPS = 4         /* kernels for bands apart by 2^(1/STEPS) */
@@ -177,7 +170,7 @@ gaussian(double v, double h, double *g, size_t n)
 }
 
 /* to += g x over n terms, of which term k of the spectrum of m points is the first. */
-static void
+VERSIONS static void
 add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, double *to,
           size_t length, size_t at)
 {
@@ -271,28 +264,36 @@ put_lattice(const double *v, size_t n, double factor, double *w)
     return most;
 }
 
-/* LANES coefficients that lie equally far after v's points: taps, rotation, store. */
-VERSIONS static double
-put_lanes(const double *restrict v, const double *restrict weight, int taps,
-          const double *restrict re, const double *restrict im, double factor, double *restrict w,
-          size_t stride, size_t n)
+/* Sums over taps for BLOCK places that lie equally far after v's points; taps are even. */
+VERSIONS static void
+sum_taps(const double *restrict v, const double *restrict weight, int taps, double *restrict s)
 {
-    double most = 0;
-    for (size_t at = 0; at < n; at += LANES) {
-        double s[2 * LANES] = { 0 }, x[LANES], y[LANES];
-        for (int i = 0; i < taps; i++)
-            for (size_t l = 0; l < 2 * LANES; l++)
-                s[l] += weight[i] * v[2 * (at + (size_t)i) + l];
-        for (size_t l = 0; l < LANES; l++) {
-            x[l] = s[2 * l] * re[at + l] - s[2 * l + 1] * im[at + l];
-            y[l] = s[2 * l] * im[at + l] + s[2 * l + 1] * re[at + l];
-        }
-        for (size_t l = 0; l < LANES && at + l < n; l++) {
-            double size = x[l] * x[l] + y[l] * y[l];
-            most = size > most ? size : most;
-            w[2 * stride * (at + l)] = x[l] * factor;
-            w[2 * stride * (at + l) + 1] = y[l] * factor;
-        }
+    for (size_t l = 0; l < 2 * BLOCK; l++)
+        s[l] = weight[0] * v[l] + weight[1] * v[l + 2];
+    for (int i = 2; i < taps; i += 2) {
+        const double *restrict u = v + 2 * i;
+        double a = weight[i], b = weight[i + 1];
+        for (size_t l = 0; l < 2 * BLOCK; l++)
+            s[l] += a * u[l] + b * u[l + 2];
+    }
+}
+
+/* The n <= BLOCK sums s, times start e, are coefficients. */
+VERSIONS static double
+put_block(double *restrict s, const double start[2], const double *restrict re,
+          const double *restrict im, double factor, double *restrict w, size_t stride, size_t n)
+{
+    double x[BLOCK], y[BLOCK], size[BLOCK], most = 0;
+    for (size_t i = 0; i < BLOCK; i++) {
+        double c = start[0] * re[i] - start[1] * im[i], d = start[0] * im[i] + start[1] * re[i];
+        x[i] = s[2 * i] * c - s[2 * i + 1] * d;
+        y[i] = s[2 * i] * d + s[2 * i + 1] * c;
+        size[i] = x[i] * x[i] + y[i] * y[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        most = size[i] > most ? size[i] : most;
+        w[2 * stride * i] = x[i] * factor;
+        w[2 * stride * i + 1] = y[i] * factor;
     }
     return most;
 }
@@ -305,28 +306,28 @@ put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker,
     const level *lev = &f->level[r->level];
     size_t phases = lev->points / r->length * lev->samples, circle = r->length * phases;
     size_t mid = (size_t)b->mid, rows = (f->n + phases - 1) / phases;
-    double *weight = table, *shift = weight + phases * (size_t)ker->taps, e[BLOCK][2], most = 0;
+    double *weight = table, *shift = weight + phases * (size_t)ker->taps, re[BLOCK], im[BLOCK], most = 0;
     for (size_t p = 0; p < phases; p++) {
         kaiser_weights(ker, (double)p / (double)phases, weight + p * (size_t)ker->taps);
         turn(mid, p, circle, shift + 2 * p);
     }
-    for (size_t i = 0; i < BLOCK; i++)
-        turn(mid, i, r->length, e[i]);
+    for (size_t i = 0; i < BLOCK; i++) {
+        double e[2];
+        turn(mid, i, r->length, e);
+        re[i] = e[0];
+        im[i] = e[1];
+    }
     for (size_t j = 0; j < rows; j += BLOCK) {
-        double start[2], re[BLOCK], im[BLOCK];
+        double start[2];
         turn(mid, j, r->length, start);
         for (size_t p = 0; p < phases && j * phases + p < f->n; p++) {
             const double *q = shift + 2 * p;
-            double c = start[0] * q[0] - start[1] * q[1], s = start[0] * q[1] + start[1] * q[0];
+            double e[2] = { start[0] * q[0] - start[1] * q[1], start[0] * q[1] + start[1] * q[0] };
+            double sum[2 * BLOCK];
             size_t first = j * phases + p, n = (f->n - first + phases - 1) / phases;
-            for (size_t i = 0; i < BLOCK; i++) {
-                re[i] = c * e[i][0] - s * e[i][1];
-                im[i] = c * e[i][1] + s * e[i][0];
-            }
-            double size = put_lanes(v + 2 * j - (ker->taps - 2), weight + p * (size_t)ker->taps,
-                                    ker->taps, re, im, factor, w + 2 * first, phases,
-                                    n < BLOCK ? n : BLOCK);
-            most = fmax(most, size);
+            sum_taps(v + 2 * j - (ker->taps - 2), weight + p * (size_t)ker->taps, ker->taps, sum);
+            most = fmax(most, put_block(sum, e, re, im, factor, w + 2 * first, phases,
+                                        n < BLOCK ? n : BLOCK));
         }
     }
     return most;
@@ -426,18 +427,16 @@ scale_kernel(const ss_morlet *plan, size_t i, double bound, kaiser *own)
     return own;
 }
 
-ss_status
-fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double factor,
-          double *w)
+void
+fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
+          double factor, double *w)
 {
-    const struct fft *f = plan->fft;
-    const route *r = &f->route[i];
-    size_t room = 2 * (r->length + 2 * MARGIN) + PHASES_MAX * (KAISER_TAPS_MAX + 2);
-    double bound = f->bound, *v = fftw_malloc(room * sizeof *v);
-    kaiser *own = malloc(sizeof *own);
-    for (int round = 0; v != NULL && own != NULL && round < 2; round++) {
-        const kaiser *ker = scale_kernel(plan, i, bound, own);
-        double most = sqrt(pass(plan, i, s->level[r->level], bound, ker, v + 2 * MARGIN, factor, w));
+    const double *x = s->level[plan->fft->route[i].level];
+    double bound = plan->fft->bound, *v = scratch + 2 * MARGIN;
+    kaiser own;
+    for (int round = 0; round < 2; round++) {
+        const kaiser *ker = scale_kernel(plan, i, bound, &own);
+        double most = sqrt(pass(plan, i, x, bound, ker, v, factor, w));
         double need = TAIL_FLOOR;
         if (rec->x_max > 0)
             need += plan->opts.accuracy * fmax(0, most / rec->x_max - bound);
@@ -445,10 +444,19 @@ fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, 
             break;
         bound = need;
     }
-    ss_status st = v == NULL || own == NULL ? SS_ENOMEM : SS_OK;
-    fftw_free(v);
-    free(own);
-    return st;
+}
+
+double *
+fft_scratch(const struct fft *fft)
+{
+    size_t room = 2 * (fft->longest + 2 * MARGIN) + PHASES_MAX * (KAISER_TAPS_MAX + 2);
+    return fftw_malloc(room * sizeof(double));
+}
+
+void
+fft_scratch_free(double *scratch)
+{
+    fftw_free(scratch);
 }
 
 /* --- the record's spectra --------------------------------------------------------------------- */
@@ -765,8 +773,9 @@ plan_all(struct fft *f, size_t n_scales)
     size_t longest = f->level[0].points > f->level[1].points ? f->level[0].points
         : f->level[1].points;
     for (size_t i = 0; i < n_scales; i++)
-        if (f->route[i].kind != BY_SUM && f->route[i].length > longest)
-            longest = f->route[i].length;
+        if (f->route[i].kind != BY_SUM && f->route[i].length > f->longest)
+            f->longest = f->route[i].length;
+    longest = longest > f->longest ? longest : f->longest;
     f->inverse = calloc(n_scales, sizeof *f->inverse);
     double *v = fftw_malloc(2 * (longest + 2 * MARGIN) * sizeof *v);
     ss_status st = SS_ENOMEM;

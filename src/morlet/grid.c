@@ -229,6 +229,12 @@ ss_morlet_total(const ss_morlet *plan)
     return plan->total;
 }
 
+ss_engine
+ss_morlet_engine(const ss_morlet *plan, size_t i)
+{
+    return fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+}
+
 void
 ss_morlet_free(ss_morlet *plan)
 {

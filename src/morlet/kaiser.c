@@ -8,6 +8,7 @@
  * with a lower cutoff than the band's edge are tried too, and the shortest is taken. */
 #include <math.h>
 #include "morlet/kaiser.h"
+#include "morlet/versions.h"
 
 /* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding. */
 static double
@@ -121,6 +122,7 @@ kaiser_prepare(kaiser *ker)
 {
     for (int i = 0; i < KAISER_FIT; i++) {
         double s = (1 + node(i, KAISER_FIT)) / 2;
+        ker->node[i] = node(i, KAISER_FIT);
         ker->fit[i] = 1 / kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge);
     }
     divided_differences(ker->fit, KAISER_FIT);
@@ -128,19 +130,21 @@ kaiser_prepare(kaiser *ker)
         prepare_part(ker, part);
 }
 
-void
+VERSIONS void
 kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n)
 {
-    double x[KAISER_FIT];
-    for (int m = 0; m < KAISER_FIT; m++)
-        x[m] = node(m, KAISER_FIT);
-    for (size_t i = 0; i < n; i++) {
-        double s = (first + (double)i) * step / ker->edge, y = 2 * s * s - 1;
-        double c = ker->fit[KAISER_FIT - 1];
-        for (int m = KAISER_FIT - 2; m >= 0; m--)
-            c = ker->fit[m] + (y - x[m]) * c;
-        g[i] *= c;
+    double y[KAISER_AT_ONCE], c[KAISER_AT_ONCE];
+    step /= ker->edge;
+    for (size_t i = 0; i < KAISER_AT_ONCE; i++) {
+        double s = (first + (double)i) * step;
+        y[i] = 2 * s * s - 1;
+        c[i] = ker->fit[KAISER_FIT - 1];
     }
+    for (int m = KAISER_FIT - 2; m >= 0; m--)
+        for (size_t i = 0; i < KAISER_AT_ONCE; i++)
+            c[i] = ker->fit[m] + (y[i] - ker->node[m]) * c[i];
+    for (size_t i = 0; i < n; i++)
+        g[i] *= c[i];
 }
 
 void

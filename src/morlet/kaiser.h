@@ -11,12 +11,13 @@ typedef struct kaiser_band {
     double reach, center, second;
 } kaiser_band;
 
-enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 20, KAISER_PARTS = 16, KAISER_NODES = 9 };
+enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 20, KAISER_PARTS = 16, KAISER_NODES = 9,
+    KAISER_AT_ONCE = 64 };
 
 typedef struct kaiser {
     int taps;                   /* even */
     double beta, edge;
-    double fit[KAISER_FIT];     /* of 1/response over (nu/edge)^2 */
+    double node[KAISER_FIT], fit[KAISER_FIT];   /* of 1/response over (nu/edge)^2 */
     double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];
 } kaiser;
 
@@ -24,7 +25,7 @@ typedef struct kaiser {
 int kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
 /* Fill in what correct and weights use. */
 void kaiser_prepare(kaiser *ker);
-/* g[i] *= 1/response at nu = (first + i) step. */
+/* g[i] *= 1/response at nu = (first + i) step, n <= KAISER_AT_ONCE. */
 void kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n);
 /* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is taps/2 - 1 - i points
  * before it. */

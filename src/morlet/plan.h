@@ -45,6 +45,8 @@ ss_status morlet_scale(ss_scale *scale, int j, double a, size_t n, double rate,
  * what they cost [s]. */
 ss_status quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                            double factor, double *w);
+ss_status quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                            double factor, const double *b, size_t n, double *w);
 double quadrature_cost(const ss_morlet *plan, const ss_scale *scale);
 
 /* Choose the scales that are transformed by FFT, all that can be or those where it is cheaper, and
@@ -59,7 +61,9 @@ typedef struct spectra {
 } spectra;
 ss_status fft_forward(const struct fft *fft, const record *rec, spectra *out);
 void fft_release(spectra *s);
-ss_status fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                    double factor, double *w);
+void fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
+               double factor, double *w);
+double *fft_scratch(const struct fft *fft);         /* for one thread; NULL: no memory */
+void fft_scratch_free(double *scratch);
 
 #endif

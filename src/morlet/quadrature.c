@@ -284,12 +284,42 @@ quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec
     return SS_OK;
 }
 
+/* As exactly as double precision allows. */
+static ss_status
+points(const ss_morlet_opts *opts, double rate, const record *rec, double a, const double *b,
+       size_t n, double *w)
+{
+    double *base;
+    kernel ker = kernel_of(opts, a, rate);
+    size_t taps = taps_for(&ker, TAIL_FLOOR, rec->n);
+    ss_status st = tables_new(&base, taps);
+    if (st != SS_OK)
+        return st;
+    tables_use(&ker, base, taps);
+    fill_tables(&ker, taps);
+    for (size_t i = 0; i < n; i++) {
+        w[2 * i] = w[2 * i + 1] = 0;
+        add_taps(&ker, rec->x, rec->n, rate, b[i], 0, taps, w + 2 * i);
+    }
+    free(base);
+    return SS_OK;
+}
+
+ss_status
+quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, double factor,
+                  const double *b, size_t n, double *w)
+{
+    ss_status st = points(&plan->opts, plan->rate, rec, scale->a, b, n, w);
+    for (size_t i = 0; st == SS_OK && i < 2 * n; i++)
+        w[i] *= factor;
+    return st;
+}
+
 ss_status
 ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a,
                 double b, double w[2], ss_error *err)
 {
     record rec;
-    double *base = NULL;
     ss_status st = morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
@@ -298,16 +328,8 @@ ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *op
                        a, b);
     if ((st = morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
         return st;
-    kernel ker = kernel_of(opts, a, rate);
-    size_t taps = taps_for(&ker, TAIL_FLOOR, n);
-    if ((st = tables_new(&base, taps)) == SS_OK) {
-        tables_use(&ker, base, taps);
-        fill_tables(&ker, taps);
-        w[0] = w[1] = 0;
-        add_taps(&ker, rec.x, n, rate, b, 0, taps, w);
+    if ((st = points(opts, rate, &rec, a, &b, 1, w)) == SS_OK)
         st = morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
-    }
-    free(base);
     free(rec.x);
     return st;
 }
