@@ -22,8 +22,8 @@
  * size near b and its decay, 1/|u|, away from it: for the cut
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
  * and for images of size e in the interpolation at most as much with 2 e in place of the
- * exponential.  A scale is computed with TOL/10 for both together; then the promise is checked as in
- * quadrature.c, and if it does not hold the scale is done again with the bound that makes it hold.
+ * exponential.  A scale is computed with TOL/1000 for both together; then the promise is checked as in
+ * quadrature.c, and if it does not hold the scale is done again with TAIL_FLOOR for both.
  *
  * FFTW's planner is not safe for threads, so making and freeing of plans takes turns; other users
  * of FFTW in the program must not plan at the same time. */
@@ -40,7 +40,7 @@
 #include "morlet/versions.h"
 
 #define REACH 8.5                   /* exp(-REACH^2/2) = 2e-16 */
-#define EDGE_MAX 0.4                /* of a kernel's band, in cycles a point */
+#define EDGE_MAX 0.32               /* of a kernel's band, in cycles a point */
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 
 /* [s], measured by tests/bench/bench_morlet: a point of an inverse FFT times log2 of its length, a
@@ -85,13 +85,13 @@ struct fft {
     double rate;
     double center, second;          /* exp(-omega_c^2/2) if admissible, else 0 */
     double log_factor;              /* the largest 1 + log(1 + n d/2) */
-    double bound;                   /* a scale is first computed with */
+    double bound[2];                /* a scale is computed with the first, again with the last */
     level level[2];
     int levels;
     route *route;
     inverse *inverse;
     size_t n_inverse, longest;
-    kaiser *kernel[KERNELS];        /* for bound; NULL: not made yet */
+    kaiser *kernel[2][KERNELS];     /* for each bound; NULL: none needed */
 };
 
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
@@ -369,13 +369,13 @@ put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale 
 
 /* --- a scale ---------------------------------------------------------------------------------- */
 
-/* A kernel for a band to edge at this bound, with tables; 0 if none is good enough. */
+/* A kernel for a band to edge <= EDGE_MAX at this bound, with tables; 0 if none is good enough. */
 static int
 kernel_for(const struct fft *f, double edge, double bound, kaiser *out)
 {
     kaiser_band shape = { .edge = edge, .reach = half_width(f, reach_for(f, bound)),
                           .center = f->center, .second = f->second };
-    if (!(edge <= EDGE_MAX) || !kaiser_choose(out, &shape, images_for(f, bound)))
+    if (!kaiser_choose(out, &shape, images_for(f, bound)))
         return 0;
     kaiser_prepare(out);
     return 1;
@@ -391,15 +391,18 @@ kernel_index(double edge, double *made_for)
     return i;
 }
 
-/* One pass over a scale at this bound. */
+/* One pass over a scale at one of the bounds.  Returns the largest |W|^2. */
 static double
-pass(const ss_morlet *plan, size_t i, const double *x, double bound, const kaiser *ker, double *v,
-     double factor, double *w)
+pass(const ss_morlet *plan, size_t i, const double *x, int round, double *v, double factor,
+     double *w)
 {
     const struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const ss_scale *scale = &plan->scale[i];
-    band b = band_of(f, &f->level[r->level], scale->a, half_width(f, reach_for(f, bound)));
+    band b = band_of(f, &f->level[r->level], scale->a, half_width(f, reach_for(f, f->bound[round])));
+    double made_for;
+    const kaiser *ker = r->kind == LATTICE ? NULL
+        : f->kernel[round][kernel_index(edge_of(&b, r->length), &made_for)];
     series(f, r, &b, x, r->kind == LATTICE ? 0 : b.mid, ker, v);
     if (r->kind == LATTICE)
         return put_lattice(v, scale->n, factor, w);
@@ -410,39 +413,17 @@ pass(const ss_morlet *plan, size_t i, const double *x, double bound, const kaise
     return put_dense(f, r, &b, ker, v, table, factor, w);
 }
 
-/* The kernel of a scale for this bound: own, unless there is one made in advance. */
-static const kaiser *
-scale_kernel(const ss_morlet *plan, size_t i, double bound, kaiser *own)
-{
-    const struct fft *f = plan->fft;
-    const route *r = &f->route[i];
-    double made_for;
-    band b = band_of(f, &f->level[r->level], plan->scale[i].a, half_width(f, reach_for(f, bound)));
-    if (r->kind == LATTICE)
-        return NULL;
-    int k = kernel_index(edge_of(&b, r->length), &made_for);
-    if (bound == f->bound)
-        return f->kernel[k];
-    kernel_for(f, edge_of(&b, r->length), bound, own);
-    return own;
-}
-
 void
 fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
           double factor, double *w)
 {
     const double *x = s->level[plan->fft->route[i].level];
-    double bound = plan->fft->bound, *v = scratch + 2 * MARGIN;
-    kaiser own;
     for (int round = 0; round < 2; round++) {
-        const kaiser *ker = scale_kernel(plan, i, bound, &own);
-        double most = sqrt(pass(plan, i, x, bound, ker, v, factor, w));
-        double need = TAIL_FLOOR;
-        if (rec->x_max > 0)
-            need += plan->opts.accuracy * fmax(0, most / rec->x_max - bound);
-        if (bound <= need || rec->x_max == 0)
+        double most = sqrt(pass(plan, i, x, round, scratch + 2 * MARGIN, factor, w));
+        double bound = plan->fft->bound[round];
+        if (rec->x_max == 0
+            || bound <= TAIL_FLOOR + plan->opts.accuracy * fmax(0, most / rec->x_max - bound))
             break;
-        bound = need;
     }
 }
 
@@ -642,32 +623,33 @@ inverse_cost(size_t length)
 
 /* The kernel for a band to this edge, made now if need be; NULL if there is none or no memory. */
 static const kaiser *
-advance_kernel(struct fft *f, double edge)
+advance_kernel(struct fft *f, int round, double edge)
 {
     double made_for;
     int k = kernel_index(edge, &made_for);
     kaiser ker;
     if (edge > EDGE_MAX)
         return NULL;
-    if (f->kernel[k] == NULL && kernel_for(f, made_for, f->bound, &ker)
-        && (f->kernel[k] = malloc(sizeof ker)) != NULL)
-        *f->kernel[k] = ker;
-    return f->kernel[k];
+    kaiser **at = &f->kernel[round][k];
+    if (*at == NULL && kernel_for(f, made_for, f->bound[round], &ker)
+        && (*at = malloc(sizeof ker)) != NULL)
+        **at = ker;
+    return *at;
 }
 
 /* With L points: about what the scale costs [s], infinity if it is not possible. */
 static double
 interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int dense, size_t length)
 {
-    double half = half_width(f, reach_for(f, f->bound));
-    double finest = half_width(f, reach_for(f, TAIL_FLOOR));
-    band b = band_of(f, lev, scale->a, half), fine = band_of(f, lev, scale->a, finest);
-    if (edge_of(&fine, length) > EDGE_MAX - 0.05)       /* where kernels reach TAIL_FLOOR */
-        return INFINITY;
-    const kaiser *ker = advance_kernel(f, edge_of(&b, length));
-    if (ker == NULL)
-        return INFINITY;
-    double tap = ker->taps * (dense ? COST_DENSE_TAP : COST_TAP);
+    const kaiser *kernel[2];
+    band b = { 0 };
+    for (int round = 1; round >= 0; round--) {
+        b = band_of(f, lev, scale->a, half_width(f, reach_for(f, f->bound[round])));
+        kernel[round] = advance_kernel(f, round, edge_of(&b, length));
+        if (kernel[round] == NULL)
+            return INFINITY;
+    }
+    double tap = kernel[0]->taps * (dense ? COST_DENSE_TAP : COST_TAP);
     return inverse_cost(length) + COST_TERM * (double)(b.hi - b.lo + 1)
         + (double)scale->n * ((dense ? COST_DENSE : COST_PLACE) + tap);
 }
@@ -697,7 +679,7 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
             if (2 * lev->points % part != 0 || points > INT_MAX || points < 8
                 || (dense && (part % 2 != 0 || phases > PHASES_MAX)))
                 continue;
-            if ((double)points * (EDGE_MAX - 0.05) * 2 < terms)
+            if ((double)points * EDGE_MAX * 2 < terms)
                 break;
             double cost = interpolation_cost(f, lev, scale, dense, points);
             if (cost < best) {
@@ -811,7 +793,8 @@ fft_new(ss_morlet *plan)
     f->center = wc;
     f->second = plan->opts.admissible ? exp(-wc * wc / 2) : 0;
     f->log_factor = 1 + log1p((double)plan->n / shortest / 2);
-    f->bound = fmax(plan->opts.accuracy / 10, TAIL_FLOOR);
+    f->bound[0] = fmax(plan->opts.accuracy / 1000, TAIL_FLOOR);
+    f->bound[1] = TAIL_FLOOR;
     choose_levels(f, plan);
     choose_routes(f, plan);
     if (any_route(f, plan->n_scales))
@@ -833,8 +816,10 @@ fft_free(struct fft *fft)
         if (fft->level[i].forward != NULL)
             fftw_destroy_plan(fft->level[i].forward);
     pthread_mutex_unlock(&planner);
-    for (int i = 0; i < KERNELS; i++)
-        free(fft->kernel[i]);
+    for (int i = 0; i < KERNELS; i++) {
+        free(fft->kernel[0][i]);
+        free(fft->kernel[1][i]);
+    }
     free(fft->inverse);
     free(fft->route);
     free(fft);

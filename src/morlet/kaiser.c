@@ -93,13 +93,18 @@ node(int i, int n)
     return cos(M_PI * (i + 0.5) / n);
 }
 
-/* From n values at nodes to coefficients. */
+static const double part_node[KAISER_NODES] = {     /* node(m, KAISER_NODES) */
+    0.98480775301220806, 0.86602540378443865, 0.64278760968653933, 0.34202014332566873, 0,
+    -0.34202014332566873, -0.64278760968653933, -0.86602540378443865, -0.98480775301220806
+};
+
+/* From n values at nodes x to coefficients. */
 static void
-divided_differences(double *c, int n)
+divided_differences(double *c, const double *x, int n)
 {
     for (int order = 1; order < n; order++)
         for (int i = n - 1; i >= order; i--)
-            c[i] = (c[i] - c[i - 1]) / (node(i, n) - node(i - order, n));
+            c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
 }
 
 static void
@@ -108,10 +113,10 @@ prepare_part(kaiser *ker, int part)
     double c[KAISER_NODES];
     for (int i = 0; i < ker->taps; i++) {
         for (int m = 0; m < KAISER_NODES; m++) {
-            double f = (part + (1 + node(m, KAISER_NODES)) / 2) / KAISER_PARTS;
+            double f = (part + (1 + part_node[m]) / 2) / KAISER_PARTS;
             c[m] = kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
         }
-        divided_differences(c, KAISER_NODES);
+        divided_differences(c, part_node, KAISER_NODES);
         for (int m = 0; m < KAISER_NODES; m++)
             ker->table[part][m][i] = c[m];
     }
@@ -125,7 +130,7 @@ kaiser_prepare(kaiser *ker)
         ker->node[i] = node(i, KAISER_FIT);
         ker->fit[i] = 1 / kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge);
     }
-    divided_differences(ker->fit, KAISER_FIT);
+    divided_differences(ker->fit, ker->node, KAISER_FIT);
     for (int part = 0; part < KAISER_PARTS; part++)
         prepare_part(ker, part);
 }
@@ -150,14 +155,11 @@ kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n
 void
 kaiser_weights(const kaiser *ker, double f, double weight[])
 {
-    static const double x[KAISER_NODES] = {     /* node(m, KAISER_NODES) */
-        0.98480775301220806, 0.86602540378443865, 0.64278760968653933, 0.34202014332566873, 0,
-        -0.34202014332566873, -0.64278760968653933, -0.86602540378443865, -0.98480775301220806 };
     int part = (int)(f * KAISER_PARTS);
     part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;
     double y = 2 * (f * KAISER_PARTS - part) - 1, basis[KAISER_NODES] = { 1 };
     for (int m = 1; m < KAISER_NODES; m++)
-        basis[m] = basis[m - 1] * (y - x[m - 1]);
+        basis[m] = basis[m - 1] * (y - part_node[m - 1]);
     for (int i = 0; i < ker->taps; i++) {
         double w = 0;
         for (int m = KAISER_NODES - 1; m >= 0; m--)
