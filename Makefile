@@ -22,6 +22,7 @@ CFLAGS     ?= -O2 -g
 BUILD      ?= build$(if $(SAN),-san)
 INSTALL    ?= install
 PKG_CONFIG ?= pkg-config
+PYTHON     ?= python3
 
 VERSION   := $(shell sed -n 's/^.define SS_VERSION "\(.*\)"/\1/p' include/stickslip/status.h)
 SOVERSION := 0
@@ -140,8 +141,10 @@ check-all:
 	done
 	@$(MAKE) --no-print-directory bench
 
-bench: $(BENCHES:%=$(BUILD)/tests/%)
-	@for b in $^; do $$b || exit 1; done
+bench: $(BENCHES:%=$(BUILD)/tests/%) $(BUILD)/$(SHARED)
+	@for b in $(BENCHES:%=$(BUILD)/tests/%); do $$b || exit 1; done
+	@! command -v $(PYTHON) > /dev/null || \
+		$(PYTHON) tests/bench/compare_morlet.py $(BUILD)/$(SHARED)
 
 paper:
 	@$(DEPS) build paper

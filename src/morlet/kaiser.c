@@ -135,10 +135,10 @@ kaiser_prepare(kaiser *ker)
         prepare_part(ker, part);
 }
 
-VERSIONS void
-kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n)
+VERSIONS static void
+correction(const kaiser *ker, double first, double step, double *restrict c)
 {
-    double y[KAISER_AT_ONCE], c[KAISER_AT_ONCE];
+    double y[KAISER_AT_ONCE];
     step /= ker->edge;
     for (size_t i = 0; i < KAISER_AT_ONCE; i++) {
         double s = (first + (double)i) * step;
@@ -148,6 +148,13 @@ kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n
     for (int m = KAISER_FIT - 2; m >= 0; m--)
         for (size_t i = 0; i < KAISER_AT_ONCE; i++)
             c[i] = ker->fit[m] + (y[i] - ker->node[m]) * c[i];
+}
+
+void
+kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n)
+{
+    double c[KAISER_AT_ONCE];
+    correction(ker, first, step, c);
     for (size_t i = 0; i < n; i++)
         g[i] *= c[i];
 }
