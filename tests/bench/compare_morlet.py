@@ -149,8 +149,9 @@ def pywavelets_run(x, scales, voices, dense):
     import pywt
     name = "cmor2-%.17g" % (OMEGA_C / (2 * math.pi))
     begin = time.perf_counter()
-    w = pywt.cwt(x, scales, name, method="fft")[0]
-    return time.perf_counter() - begin, lambda i: (w[i], 1)
+    pywt.cwt(x, scales, name, method="fft")
+    # it tabulates its wavelet at a fixed number of points, whatever the scale: no measure for noise
+    return time.perf_counter() - begin, None
 
 
 def main():
