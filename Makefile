@@ -35,7 +35,7 @@ HDF5_PC  := $(firstword $(foreach p,hdf5-serial hdf5,$(if $(call pc,modversion,$
 HOMEBREW := $(if $(HDF5_PC),,$(shell brew --prefix 2>/dev/null))
 INCLUDES := $(call pc,cflags,gsl) $(call pc,cflags,fftw3) $(call pc,cflags,$(HDF5_PC)) $(HOMEBREW:%=-I%/include)
 LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 \
-	$(call pc,libs,gsl) $(call pc,libs,fftw3) -lm
+	$(call pc,libs,gsl) $(call pc,libs,fftw3) -lpthread -lm
 CMOCKA_INCLUDES := $(call pc,cflags,cmocka)
 CMOCKA_LIBS     := $(or $(call pc,libs,cmocka),-lcmocka)
 

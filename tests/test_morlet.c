@@ -192,7 +192,7 @@ engines_agree_and_damage_is_seen(void **state)
         assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
         assert_true(difference > 0 && difference < 2e-6);
         for (size_t c = 0; c < 2 * ss_morlet_total(plan); c++)
-            w[c] *= 1.001;
+            w[c] *= 1.001;      /* of the largest, too */
         assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
         assert_true(difference > 5e-4);
         assert_int_equal(ss_morlet_compare(plan, x, w, 0, &difference, NULL), SS_EINVAL);

@@ -31,12 +31,12 @@ draw(uint64_t *state)
 }
 
 static ss_status
-recompute(compare *cmp, size_t i, double factor)
+recompute(compare *cmp, size_t i)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
     if (fft_takes(cmp->plan->fft, i) || !fft_takes(cmp->other->fft, i))
-        return quadrature_points(cmp->plan, scale, &cmp->rec, factor, cmp->b, cmp->each, cmp->want);
-    fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, factor, cmp->row);
+        return quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
+    fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, 1, cmp->row);
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
         cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
@@ -46,15 +46,18 @@ recompute(compare *cmp, size_t i, double factor)
 
 /* The largest difference of a scale relative to its largest |W|. */
 static ss_status
-compare_scale(compare *cmp, size_t i, const double *w, double *worst)
+compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *err)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
-    double most = 0, factor = cmp->plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
+    double most = 0;
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->k[c] = (size_t)(draw(&cmp->state) % scale->n);
         cmp->b[c] = ss_scale_b(scale, cmp->k[c]);
     }
-    ss_status st = recompute(cmp, i, ldexp(factor, cmp->rec.exponent));
+    ss_status st = recompute(cmp, i);
+    if (st == SS_OK)
+        st = morlet_finish(cmp->want, cmp->each, scale->a, cmp->plan->opts.norm, cmp->rec.exponent,
+                           err);
     w += 2 * scale->offset;
     for (size_t c = 0; c < scale->n; c++)
         most = fmax(most, hypot(w[2 * c], w[2 * c + 1]));
@@ -106,7 +109,7 @@ ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_
     if (st == SS_OK)
         st = prepare(&cmp, &other, err);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++)
-        st = compare_scale(&cmp, i, w, &worst);
+        st = compare_scale(&cmp, i, w, &worst, err);
     if (st == SS_OK)
         *difference = worst;
     fft_release(&cmp.spectra);

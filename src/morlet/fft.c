@@ -306,7 +306,8 @@ put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker,
     const level *lev = &f->level[r->level];
     size_t phases = lev->points / r->length * lev->samples, circle = r->length * phases;
     size_t mid = (size_t)b->mid, rows = (f->n + phases - 1) / phases;
-    double *weight = table, *shift = weight + phases * (size_t)ker->taps, re[BLOCK], im[BLOCK], most = 0;
+    double *weight = table, *shift = weight + phases * (size_t)ker->taps, most = 0;
+    double re[BLOCK], im[BLOCK];
     for (size_t p = 0; p < phases; p++) {
         kaiser_weights(ker, (double)p / (double)phases, weight + p * (size_t)ker->taps);
         turn(mid, p, circle, shift + 2 * p);
@@ -662,10 +663,12 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
     const ss_scale *scale = &plan->scale[i];
     const level *lev = &f->level[r->level];
     int dense = plan->opts.dense;
+    if (lev->points == 0)
+        return INFINITY;
     band fine = band_of(f, lev, scale->a, half_width(f, reach_for(f, TAIL_FLOOR)));
     double best = INFINITY, terms = (double)(fine.hi - fine.lo) + 1;
     size_t length = lattice_length(f, lev, scale, plan->opts.accuracy);
-    if (lev->points == 0 || terms > (double)lev->points)
+    if (terms > (double)lev->points)
         return best;
     if (length > 0) {
         r->kind = LATTICE;
@@ -705,7 +708,7 @@ choose_routes(struct fft *f, const ss_morlet *plan)
         double cost = choose_route(f, plan, i), sum = quadrature_cost(plan, &plan->scale[i]);
         if (plan->opts.engine == SS_ENGINE_AUTO && cost > sum)
             r->kind = BY_SUM;
-        else
+        else if (r->kind != BY_SUM)
             gain[r->level] += sum - cost;
     }
     for (int l = 0; l < f->levels; l++)

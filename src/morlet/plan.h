@@ -45,9 +45,11 @@ ss_status morlet_scale(ss_scale *scale, int j, double a, size_t n, double rate,
  * what they cost [s]. */
 ss_status quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                            double factor, double *w);
-ss_status quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
-                            double factor, const double *b, size_t n, double *w);
 double quadrature_cost(const ss_morlet *plan, const ss_scale *scale);
+
+/* The same at any b, by the definition, as exactly as double precision allows, for factor 1. */
+ss_status quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                            const double *b, size_t n, double *w);
 
 /* Choose the scales that are transformed by FFT, all that can be or those where it is cheaper, and
  * prepare for them: plan->fft, NULL if there are none. */

@@ -284,7 +284,7 @@ quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec
     return SS_OK;
 }
 
-/* As exactly as double precision allows. */
+/* Coefficients at any b, in units of a^1/2, as exactly as double precision allows. */
 static ss_status
 points(const ss_morlet_opts *opts, double rate, const record *rec, double a, const double *b,
        size_t n, double *w)
@@ -306,13 +306,10 @@ points(const ss_morlet_opts *opts, double rate, const record *rec, double a, con
 }
 
 ss_status
-quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, double factor,
-                  const double *b, size_t n, double *w)
+quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const double *b,
+                  size_t n, double *w)
 {
-    ss_status st = points(&plan->opts, plan->rate, rec, scale->a, b, n, w);
-    for (size_t i = 0; st == SS_OK && i < 2 * n; i++)
-        w[i] *= factor;
-    return st;
+    return points(&plan->opts, plan->rate, rec, scale->a, b, n, w);
 }
 
 ss_status
