@@ -400,7 +400,8 @@ pass(const ss_morlet *plan, size_t i, const double *x, int round, double *v, dou
     const struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const ss_scale *scale = &plan->scale[i];
-    band b = band_of(f, &f->level[r->level], scale->a, half_width(f, reach_for(f, f->bound[round])));
+    double half = half_width(f, reach_for(f, f->bound[round]));
+    band b = band_of(f, &f->level[r->level], scale->a, half);
     double made_for;
     const kaiser *ker = r->kind == LATTICE ? NULL
         : f->kernel[round][kernel_index(edge_of(&b, r->length), &made_for)];

@@ -63,8 +63,8 @@ typedef struct spectra {
 } spectra;
 ss_status fft_forward(const struct fft *fft, const record *rec, spectra *out);
 void fft_release(spectra *s);
-void fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
-               double factor, double *w);
+void fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+               double *scratch, double factor, double *w);
 double *fft_scratch(const struct fft *fft);         /* for one thread; NULL: no memory */
 void fft_scratch_free(double *scratch);
 

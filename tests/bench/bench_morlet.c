@@ -2,7 +2,8 @@
  *
  * Prints the largest error against the sum in long double, over all signals of morlet_oracle.h, as a
  * fraction of the bound promised, and the cost; then what rounding alone leaves, the cost for longer
- * records, and transforms by FFT in multiples of one FFT of the record.  Exits 1 if a bound is exceeded. */
+ * records, and transforms by FFT in multiples of one FFT of the record.  Exits 1 if a bound is
+ * exceeded. */
 #include <fftw3.h>
 #include <stdio.h>
 #include <stdlib.h>
