@@ -23,6 +23,7 @@ CFLAGS     ?= -O2 -g
 BUILD      ?= build$(if $(SAN),-san)
 INSTALL    ?= install
 PKG_CONFIG ?= pkg-config
+PYTHON     ?= python3
 
 VERSION   := $(shell sed -n 's/^.define SS_VERSION "\(.*\)"/\1/p' include/stickslip/status.h)
 SOVERSION := 0
@@ -33,9 +34,9 @@ SOVERSION := 0
 pc        = $(shell $(PKG_CONFIG) --$1 $2 2>/dev/null)
 HDF5_PC  := $(firstword $(foreach p,hdf5-serial hdf5,$(if $(call pc,modversion,$p),$p)))
 HOMEBREW := $(if $(HDF5_PC),,$(shell brew --prefix 2>/dev/null))
-INCLUDES := $(call pc,cflags,gsl) $(call pc,cflags,$(HDF5_PC)) $(HOMEBREW:%=-I%/include)
+INCLUDES := $(call pc,cflags,gsl) $(call pc,cflags,fftw3) $(call pc,cflags,$(HDF5_PC)) $(HOMEBREW:%=-I%/include)
 LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 \
-	$(call pc,libs,gsl) -lm
+	$(call pc,libs,gsl) $(call pc,libs,fftw3) -lpthread -lm
 CMOCKA_INCLUDES := $(call pc,cflags,cmocka)
 CMOCKA_LIBS     := $(or $(call pc,libs,cmocka),-lcmocka)
 
@@ -161,7 +162,9 @@ draw-paper: all $(BUILD)/bin/paper-table
 
 bench: all bench-errors
 	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
-		BUILD=$(call quote,$(BUILD)) sh tests/bench/run.sh
+		BUILD=$(call quote,$(BUILD)) PYTHON=$(call quote,$(PYTHON)) sh tests/bench/run.sh
+	@! command -v $(PYTHON) > /dev/null || \
+		$(PYTHON) tests/bench/compare_morlet.py $(BUILD)/$(SHARED)
 
 # --- install ---------------------------------------------------------------------------------
 install: all

@@ -77,22 +77,24 @@ error_of_the_sum_is_below_its_bound(void **state)
     static const double accuracy[] = { 1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13 };
     (void)state;
     for (size_t i = 0; i < LENGTH(setup); i++)
-        for (size_t j = 0; j < LENGTH(accuracy); j++) {
+        for (size_t j = 0; j < 2 * LENGTH(accuracy); j++) {
             struct setup s = setup[i];
             ss_morlet_opts opts = ss_morlet_defaults;
+            opts.engine = j % 2 ? SS_ENGINE_QUADRATURE : SS_ENGINE_FFT;
             opts.center = s.center, opts.voices = s.voices, opts.step = s.step;
             opts.dense = s.dense, opts.admissible = s.admissible, opts.norm = s.norm;
-            opts.accuracy = accuracy[j];
+            opts.accuracy = accuracy[j / 2];
             ss_morlet *plan = plan_of(s.n, s.rate, &opts);
             for (kind which = 0; which < KINDS; which++) {
                 double *x = malloc(s.n * sizeof *x);
                 make(which, x, s.n);
                 double *w = transform(plan, x);
-                size_t every = 1 + ss_morlet_total(plan) * s.n / 30000;
+                size_t every = 1 + ss_morlet_total(plan) * s.n / 10000;
                 double worst = worst_error(plan, x, s.n, s.rate, &opts, w, every);
                 if (!(worst <= 1))
-                    fail_msg("center %g, %d voices, accuracy %g, %s: %g times the bound",
-                             s.center, s.voices, opts.accuracy, kind_name[which], worst);
+                    fail_msg("engine %d, center %g, %d voices, accuracy %g, %s: %g times the bound",
+                             opts.engine, s.center, s.voices, opts.accuracy, kind_name[which],
+                             worst);
                 free(x);
                 free(w);
             }
@@ -112,14 +114,91 @@ forced_scales_keep_the_bound(void **state)
     opts.m0 = -16, opts.m1 = 6;             /* 100 samples a second: 0.0015 to 6400 samples */
     opts.voices = 1, opts.step = 0.3;
     for (opts.accuracy = 1e-3; opts.accuracy > 1e-13; opts.accuracy /= 1e3)
-        for (kind which = 0; which < KINDS; which++) {
-            make(which, x, N);
+        for (kind which = 0; which < 2 * KINDS; which++) {
+            make(which / 2, x, N);
+            opts.engine = which % 2 ? SS_ENGINE_QUADRATURE : SS_ENGINE_FFT;
             ss_morlet *plan = plan_of(N, 100, &opts);
             double *w = transform(plan, x);
-            assert_true(worst_error(plan, x, N, 100, &opts, w, 29) <= 1);
+            double worst = worst_error(plan, x, N, 100, &opts, w, 29);
+            if (!(worst <= 1))
+                fail_msg("engine %d, accuracy %g, %s: %g times the bound", opts.engine,
+                         opts.accuracy, kind_name[which / 2], worst);
             ss_morlet_free(plan);
             free(w);
         }
+}
+
+/* A record long enough that the longest scales need a circle of their own, on the grids whose
+ * translations divide the circle, are samples, or neither. */
+static void
+long_scales_by_fft_keep_the_bound(void **state)
+{
+    enum { N = 20011 };
+    static const struct { int voices; double step, rate; int dense; } row[] = {
+        { 1, 1, 1024, 0 }, { 1, 0.5, 2000, 0 }, { 3, 0.25, 2000, 0 }, { 2, 0, 44100, 1 } };
+    double *x = malloc(N * sizeof *x);
+    (void)state;
+    for (size_t i = 0; i < LENGTH(row); i++)
+        for (kind which = 0; which < KINDS; which++) {
+            ss_morlet_opts opts = ss_morlet_defaults;
+            opts.engine = SS_ENGINE_FFT;
+            opts.accuracy = which % 2 ? 1e-13 : 1e-5;
+            opts.voices = row[i].voices, opts.step = row[i].step, opts.dense = row[i].dense;
+            make(which, x, N);
+            ss_morlet *plan = plan_of(N, row[i].rate, &opts);
+            double *w = transform(plan, x);
+            size_t every = 1 + ss_morlet_total(plan) / 150;
+            for (size_t j = 0; j < ss_morlet_scales(plan); j++)
+                assert_int_equal(ss_morlet_engine(plan, j), SS_ENGINE_FFT);
+            double worst = worst_error(plan, x, N, row[i].rate, &opts, w, every);
+            if (!(worst <= 1))
+                fail_msg("row %zu, %s: %g times the bound", i, kind_name[which], worst);
+            ss_morlet_free(plan);
+            free(w);
+        }
+    free(x);
+}
+
+static void
+threads_change_nothing(void **state)
+{
+    enum { N = 3000 };
+    double x[N];
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    make(NOISE, x, N);
+    ss_morlet *one = plan_of(N, 2000, &opts);
+    opts.threads = 5;
+    ss_morlet *five = plan_of(N, 2000, &opts);
+    double *u = transform(one, x), *v = transform(five, x);
+    assert_memory_equal(u, v, 2 * ss_morlet_total(one) * sizeof *u);
+    free(u);
+    free(v);
+    ss_morlet_free(one);
+    ss_morlet_free(five);
+}
+
+static void
+engines_agree_and_damage_is_seen(void **state)
+{
+    enum { N = 3000 };
+    double x[N], difference = NAN;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    make(WEAK_BURST, x, N);
+    for (opts.engine = SS_ENGINE_AUTO; opts.engine <= SS_ENGINE_FFT; opts.engine++) {
+        ss_morlet *plan = plan_of(N, 2000, &opts);
+        double *w = transform(plan, x);
+        assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
+        assert_true(difference > 0 && difference < 2e-6);
+        for (size_t c = 0; c < 2 * ss_morlet_total(plan); c++)
+            w[c] *= 1.001;      /* of the largest, too */
+        assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
+        assert_true(difference > 5e-4);
+        assert_int_equal(ss_morlet_compare(plan, x, w, 0, &difference, NULL), SS_EINVAL);
+        free(w);
+        ss_morlet_free(plan);
+    }
 }
 
 static void
@@ -529,7 +608,8 @@ refuses_options_out_of_range(void **state)
     ss_morlet_opts bad[] = {
         { .center = 1.9 }, { .center = NAN }, { .voices = 0 }, { .voices = 1025 }, { .step = 0 },
         { .step = INFINITY }, { .accuracy = 1e-14 }, { .accuracy = NAN }, { .norm = 2 },
-        { .detrend = 3 }, { .engine = 2 }, { .octaves = 1, .m0 = 1 }, { .step = 1e-300 } };
+        { .detrend = 3 }, { .engine = 3 }, { .octaves = 1, .m0 = 1 }, { .step = 1e-300 },
+        { .threads = -1 } };
     (void)state;
     for (size_t i = 0; i < LENGTH(bad); i++) {
         ss_morlet *plan = NULL;
@@ -539,6 +619,7 @@ refuses_options_out_of_range(void **state)
         opts.step = i == 4 || i == 5 || i == 12 ? b->step : 0.25;
         opts.accuracy = i == 6 || i == 7 ? b->accuracy : 1e-6;
         opts.norm = b->norm, opts.detrend = b->detrend, opts.engine = b->engine;
+        opts.threads = 1 + b->threads;
         opts.octaves = b->octaves, opts.m0 = b->m0, opts.m1 = b->m1;
         if (ss_morlet_new(&plan, 1000, 2000, &opts, NULL) != SS_EINVAL)
             fail_msg("row %zu was accepted", i);
@@ -873,6 +954,9 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_of_the_sum_is_below_its_bound),
         cmocka_unit_test(forced_scales_keep_the_bound),
+        cmocka_unit_test(long_scales_by_fft_keep_the_bound),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(engines_agree_and_damage_is_seen),
         cmocka_unit_test(error_of_one_point_is_rounding),
         cmocka_unit_test(agrees_with_the_integral_of_what_the_sampling_resolves),
         cmocka_unit_test(sampling_error_of_an_abrupt_start_is_of_first_order),

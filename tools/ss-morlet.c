@@ -17,12 +17,14 @@ static const char usage[] =
 "      --fmin=HZ          lowest frequency (4 cycles a record)\n"
 "      --fmax=HZ          highest frequency (the highest that sampling resolves)\n"
 "      --octaves=M0:M1    scales from 2^M0 to 2^M1 seconds instead\n"
-"      --method=NAME      auto or quadrature (auto)\n"
+"      --method=NAME      auto, quadrature or fft (auto)\n"
 "      --accuracy=TOL     error relative to the largest of a scale (1e-6)\n"
 "      --norm=l2|l1       a^-1/2 or 1/a (l2)\n"
 "      --admissible       keep the second term of the wavelet\n"
 "      --detrend=NAME     subtract none, mean or linear first (none)\n"
 "      --force            also scales that the record does not resolve\n"
+"      --threads=N        work on N scales at a time (1)\n"
+"      --check            compare with the other method, say what differs\n"
 "  -o, --output=FILE      .tsv, or .h5 with the signal; - is standard output\n"
 "  -q, --quiet            no warnings\n"
 "  -v, --verbose          say what was chosen and what it cost\n"
@@ -32,7 +34,7 @@ static const char usage[] =
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
     OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE
+    OPT_FORCE, OPT_THREADS, OPT_CHECK
 };
 
 static const struct option longopts[] = {
@@ -51,11 +53,13 @@ static const struct option longopts[] = {
     { "admissible", no_argument, NULL, OPT_ADMISSIBLE },
     { "detrend", required_argument, NULL, OPT_DETREND },
     { "force", no_argument, NULL, OPT_FORCE },
+    { "threads", required_argument, NULL, OPT_THREADS },
+    { "check", no_argument, NULL, OPT_CHECK },
     TOOL_LONGOPTS
 };
 
 /* In the order of the library's enumerations. */
-static const char *const methods[] = { "auto", "quadrature", NULL };
+static const char *const methods[] = { "auto", "quadrature", "fft", NULL };
 static const char *const norms[] = { "l2", "l1", NULL };
 static const char *const detrends[] = { "none", "mean", "linear", NULL };
 
@@ -63,6 +67,7 @@ typedef struct request {
     ss_morlet_opts opts;
     const char *column, *output;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
+    int check;
 } request;
 
 static void
@@ -101,6 +106,9 @@ set_option(request *req, int c)
     case OPT_DETREND:    opts->detrend = (ss_detrend)tool_choice("--detrend", optarg, detrends);
                          break;
     case OPT_FORCE:      opts->force = 1; break;
+    case OPT_THREADS:    opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
+                         break;
+    case OPT_CHECK:      req->check = 1; break;
     case 'o':            req->output = optarg; break;
     default:             tool_option(c);
     }
@@ -132,12 +140,46 @@ check(ss_status status, const ss_error *err, const char *path)
                  err->text[0] != '\0' ? err->text : ss_strerror(status));
 }
 
+static double
+now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static void
-say_what_was_done(const ss_coefficients *coef, double seconds)
+say_what_was_done(const ss_coefficients *coef, const ss_morlet *plan, double seconds)
 {
     const ss_scale *last = &coef->scale[coef->n_scales - 1];
-    tool_note("quadrature: %zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %.3g s",
-              last->offset + last->n, coef->n, coef->n_scales, coef->scale[0].f, last->f, seconds);
+    size_t by_fft = 0;
+    for (size_t i = 0; i < coef->n_scales; i++)
+        by_fft += ss_morlet_engine(plan, i) == SS_ENGINE_FFT;
+    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %zu by fft, "
+              "%zu by quadrature, %.3g s", last->offset + last->n, coef->n, coef->n_scales,
+              coef->scale[0].f, last->f, by_fft, coef->n_scales - by_fft, seconds);
+}
+
+/* What -v and --check need the plan for. */
+static void
+report(const request *req, const ss_signal *signal, size_t column, const ss_coefficients *coef,
+       double seconds, const char *path)
+{
+    enum { EACH = 20 };                 /* coefficients of a scale */
+    ss_morlet *plan = NULL;
+    ss_error err = { "" };
+    double difference;
+    if (tool_verbosity < 1 && !req->check)
+        return;
+    check(ss_morlet_new(&plan, signal->n, signal->head->rate, &req->opts, &err), &err, path);
+    say_what_was_done(coef, plan, seconds);
+    if (req->check) {
+        check(ss_morlet_compare(plan, signal->values + column * signal->n, coef->w, EACH,
+                                &difference, &err), &err, path);
+        tool_warn("differs from the other method by at most %.2g of the largest |W| of a scale, "
+                  "at %d coefficients of each", difference, (int)EACH);
+    }
+    ss_morlet_free(plan);
 }
 
 static void
@@ -169,9 +211,9 @@ main(int argc, char *argv[])
 
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t column = tool_column(signal->head, path, req.column);
-    clock_t begin = clock();
+    double begin = now();
     check(ss_transform(&coef, signal, column, &req.opts, &err), &err, path);
-    say_what_was_done(coef, (double)(clock() - begin) / CLOCKS_PER_SEC);
+    report(&req, signal, column, coef, now() - begin, path);
     write_output(req.output, signal, coef);
     ss_coefficients_free(coef);
     ss_signal_free(signal);

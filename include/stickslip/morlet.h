@@ -28,8 +28,12 @@ typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } 
 
 typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
-    SS_ENGINE_QUADRATURE        /* the definition, wavelet truncated as far as accuracy allows */
+    SS_ENGINE_QUADRATURE,       /* the definition, wavelet truncated as far as accuracy allows */
+    SS_ENGINE_FFT               /* spectra, by FFTW; the definition for forced scales that are
+                                   narrower than two samples or longer than some ten records */
 } ss_engine;
+
+enum { SS_THREADS_MAX = 256 };
 
 typedef struct ss_morlet_opts {
     double center;              /* omega_c  2 ... 1000 */
@@ -47,6 +51,7 @@ typedef struct ss_morlet_opts {
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
     ss_detrend detrend;         /* what is subtracted from the record first */
     int force;                  /* 1: also scales that sampling or record do not resolve */
+    int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
 } ss_morlet_opts;
 /* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
  * the lowest usable frequency, if that is higher), fmax the highest usable one. */
@@ -67,17 +72,25 @@ typedef struct ss_scale {
  * lies outside the cone of influence, 2 sqrt(2) a <= n / rate. */
 typedef struct ss_morlet ss_morlet;     /* a plan: a grid for records of one length and rate */
 
-/* SS_ESCALE if scales are asked for that are not usable (unless force) or none is left. */
+/* FFTW's planner is not safe for threads: plans are made and freed one at a time here, and a
+ * program that plans with FFTW itself keeps clear of that.  SS_ESCALE if scales are asked for that are not usable (unless force) or none is left. */
 ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts,
                         ss_error *err);
 size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */
 const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* owned by the plan */
+ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that scale i is left to */
 size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients over all scales */
 
 /* Transform the plan's n samples of x, which must be finite, into w: re, im of coefficient c at
  * w[2c], w[2c + 1], 2 * ss_morlet_total doubles owned by the caller.  A plan may be executed by
  * several threads at once. */
 ss_status ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err);
+
+/* Recompute coefficients w of x, each scale's chosen at random (always the same), with the engine
+ * that did not compute them, where there are two: the largest difference relative to the largest
+ * |W| of its scale.  each: coefficients a scale, 1 ... 1e6. */
+ss_status ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_t each,
+                            double *difference, ss_error *err);
 void ss_morlet_free(ss_morlet *plan);                               /* NULL is allowed */
 
 /* W at one point by the definition, as exactly as double precision allows, in opts' convention

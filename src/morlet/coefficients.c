@@ -16,6 +16,7 @@ static const char columns[] = "# columns: m a/s b/s f/Hz re im edge";
 enum { N_COLUMNS = 7 };
 
 static const char *const norm_name[] = { "l2", "l1" };
+static const char *const engine_name[] = { "auto", "quadrature", "fft" };
 static const char *const detrend_name[] = { "none", "mean", "linear" };
 
 void
@@ -71,7 +72,7 @@ note_options(ss_header *head, const ss_signal *signal, size_t column, const ss_m
         || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
         || ss_header_note(head, "detrend", detrend_name[opts->detrend])
         || note_number(head, "accuracy", opts->accuracy)
-        || ss_header_note(head, "method", "quadrature");
+        || ss_header_note(head, "method", engine_name[opts->engine]);
     return failed ? SS_ENOMEM : SS_OK;
 }
 

@@ -14,7 +14,8 @@
 
 const ss_morlet_opts ss_morlet_defaults = {
     .center = 6, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
-    .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE
+    .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE,
+    .threads = 1
 };
 
 typedef struct range {
@@ -114,8 +115,11 @@ morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
         return ss_fail(err, SS_EINVAL, "octaves %g:%g are not ascending in -500 ... 500",
                        opts->m0, opts->m1);
     if ((unsigned)opts->norm > SS_NORM_L1 || (unsigned)opts->detrend > SS_DETREND_LINEAR
-        || (unsigned)opts->engine > SS_ENGINE_QUADRATURE)
+        || (unsigned)opts->engine > SS_ENGINE_FFT)
         return ss_fail(err, SS_EINVAL, "unknown norm, detrend or engine");
+    if (opts->threads < 1 || opts->threads > SS_THREADS_MAX)
+        return ss_fail(err, SS_EINVAL, "threads %d is out of range 1 ... %d", opts->threads,
+                       SS_THREADS_MAX);
     return SS_OK;
 }
 
@@ -197,6 +201,8 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
                          .n_scales = (size_t)(ask.hi - ask.lo) + 1 };
     plan->scale = calloc(plan->n_scales, sizeof *plan->scale);
     st = plan->scale == NULL ? SS_ENOMEM : fill_grid(plan, (int)ask.hi, err);
+    if (st == SS_OK)
+        st = fft_new(plan);
     if (st != SS_OK) {
         ss_morlet_free(plan);
         return st;
@@ -223,11 +229,18 @@ ss_morlet_total(const ss_morlet *plan)
     return plan->total;
 }
 
+ss_engine
+ss_morlet_engine(const ss_morlet *plan, size_t i)
+{
+    return fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+}
+
 void
 ss_morlet_free(ss_morlet *plan)
 {
     if (plan == NULL)
         return;
+    fft_free(plan->fft);
     free(plan->scale);
     free(plan);
 }

@@ -26,10 +26,12 @@
 #include "error.h"
 #include "morlet/plan.h"
 
+/* [s], measured by tests/bench/bench_morlet: a coefficient, and a tap of it. */
+#define COST_PLACE 60e-9
+#define COST_TAP 0.8e-9
+
 enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
-#define TAIL_FLOOR (4 * DBL_EPSILON)
-#define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 
 /* The wavelet of one scale at whole samples; tables reach from -reach to reach. */
 typedef struct kernel {
@@ -202,67 +204,6 @@ add_taps(const kernel *ker, const double *x, size_t n, double rate, double b, si
     w[1] += scale * (c * sum[1] + s * sum[0]);
 }
 
-/* --- the record ---------------------------------------------------------------------------- */
-
-/* A copy of the record, detrended, times the power of two that brings max|x| into [1/2, 1). */
-typedef struct record {
-    size_t n;
-    double *x, x_max;                   /* x_max = max|x| */
-    int exponent;                       /* the record is x 2^exponent */
-} record;
-
-static void
-normalise(record *rec)
-{
-    double most = 0;
-    int e;
-    for (size_t i = 0; i < rec->n; i++)
-        most = fmax(most, fabs(rec->x[i]));
-    rec->x_max = frexp(most, &e);
-    for (size_t i = 0; i < rec->n; i++)
-        rec->x[i] = ldexp(rec->x[i], -e);
-    rec->exponent += e;
-}
-
-/* Subtract the mean, or the line of least squares.  Sums are of differences to the first sample:
- * what is constant leaves exactly nothing. */
-static void
-subtract(record *rec, ss_detrend detrend)
-{
-    long double mean = 0, slope = 0, mid = (long double)(rec->n - 1) / 2, n = rec->n;
-    double x0 = rec->x[0];
-    for (size_t i = 0; i < rec->n; i++)
-        mean += (long double)rec->x[i] - x0;
-    mean /= n;
-    if (detrend == SS_DETREND_LINEAR && rec->n > 1) {
-        for (size_t i = 0; i < rec->n; i++)
-            slope += (i - mid) * ((long double)rec->x[i] - x0 - mean);
-        slope /= n * (n * n - 1) / 12;
-    }
-    for (size_t i = 0; i < rec->n; i++)
-        rec->x[i] = (double)((long double)rec->x[i] - x0 - mean - slope * (i - mid));
-}
-
-static ss_status
-record_new(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", i + 1,
-                           isnan(x[i]) ? "NaN" : "infinite");
-    *rec = (record){ .n = n, .x = n <= SIZE_MAX / sizeof *x ? malloc(n * sizeof *x) : NULL };
-    if (rec->x == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        rec->x[i] = x[i];
-    normalise(rec);
-    if (detrend != SS_DETREND_NONE) {
-        subtract(rec, detrend);
-        normalise(rec);
-    }
-    return SS_OK;
-}
-
 /* --- scales -------------------------------------------------------------------------------- */
 
 /* Room for tables of |k| < taps. */
@@ -289,20 +230,6 @@ most_taps(const ss_morlet_opts *opts, double a, double rate, size_t n)
 {
     kernel ker = kernel_of(opts, a, rate);
     return taps_for(&ker, TAIL_FLOOR, n);
-}
-
-/* From units of a^1/2 and a normalised record to the norm and the record's own size. */
-static ss_status
-finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
-{
-    double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
-    for (size_t i = 0; i < 2 * n; i++) {
-        w[i] = ldexp(w[i] * factor, exponent);
-        if (!isfinite(w[i]))
-            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
-                           a);
-    }
-    return SS_OK;
 }
 
 /* All coefficients of a scale in units of a^1/2, see above. */
@@ -333,25 +260,56 @@ transform_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
     }
 }
 
-ss_status
-ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err)
+double
+quadrature_cost(const ss_morlet *plan, const ss_scale *scale)
 {
-    record rec;
-    double *base = NULL;
-    ss_status st = record_new(&rec, x, plan->n, plan->opts.detrend, err);
+    kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
+    size_t taps = taps_for(&ker, fmax(plan->opts.accuracy / 10, TAIL_FLOOR), plan->n);
+    return (double)scale->n * (COST_PLACE + COST_TAP * (2 * (double)taps - 1));
+}
+
+ss_status
+quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec, double factor,
+                 double *w)
+{
+    double *base;
+    size_t room = most_taps(&plan->opts, scale->a, plan->rate, plan->n);
+    ss_status st = tables_new(&base, room);
     if (st != SS_OK)
         return st;
-    size_t room = most_taps(&plan->opts, plan->scale[0].a, plan->rate, plan->n);
-    st = tables_new(&base, room);
-    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
-        const ss_scale *scale = &plan->scale[i];
-        double *row = w + 2 * scale->offset;
-        transform_scale(plan, scale, &rec, base, room, row);
-        st = finish(row, scale->n, scale->a, plan->opts.norm, rec.exponent, err);
+    transform_scale(plan, scale, rec, base, room, w);
+    for (size_t i = 0; i < 2 * scale->n; i++)
+        w[i] *= factor;
+    free(base);
+    return SS_OK;
+}
+
+/* Coefficients at any b, in units of a^1/2, as exactly as double precision allows. */
+static ss_status
+points(const ss_morlet_opts *opts, double rate, const record *rec, double a, const double *b,
+       size_t n, double *w)
+{
+    double *base;
+    kernel ker = kernel_of(opts, a, rate);
+    size_t taps = taps_for(&ker, TAIL_FLOOR, rec->n);
+    ss_status st = tables_new(&base, taps);
+    if (st != SS_OK)
+        return st;
+    tables_use(&ker, base, taps);
+    fill_tables(&ker, taps);
+    for (size_t i = 0; i < n; i++) {
+        w[2 * i] = w[2 * i + 1] = 0;
+        add_taps(&ker, rec->x, rec->n, rate, b[i], 0, taps, w + 2 * i);
     }
     free(base);
-    free(rec.x);
-    return st;
+    return SS_OK;
+}
+
+ss_status
+quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const double *b,
+                  size_t n, double *w)
+{
+    return points(&plan->opts, plan->rate, rec, scale->a, b, n, w);
 }
 
 ss_status
@@ -359,25 +317,16 @@ ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *op
                 double b, double w[2], ss_error *err)
 {
     record rec;
-    double *base = NULL;
     ss_status st = morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
     if (!(a >= 0x1p-500 && a <= 0x1p500) || !(b >= 0 && b <= (double)(n - 1) / rate))
         return ss_fail(err, SS_EINVAL, "a = %g s, b = %g s is not a scale and a time of the record",
                        a, b);
-    if ((st = record_new(&rec, x, n, opts->detrend, err)) != SS_OK)
+    if ((st = morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
         return st;
-    kernel ker = kernel_of(opts, a, rate);
-    size_t taps = taps_for(&ker, TAIL_FLOOR, n);
-    if ((st = tables_new(&base, taps)) == SS_OK) {
-        tables_use(&ker, base, taps);
-        fill_tables(&ker, taps);
-        w[0] = w[1] = 0;
-        add_taps(&ker, rec.x, n, rate, b, 0, taps, w);
-        st = finish(w, 1, a, opts->norm, rec.exponent, err);
-    }
-    free(base);
+    if ((st = points(opts, rate, &rec, a, &b, 1, w)) == SS_OK)
+        st = morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
     free(rec.x);
     return st;
 }

@@ -1,10 +1,13 @@
 /* bench_morlet.c -- error and cost of the wavelet transform, for each accuracy.
  *
  * Prints the largest error against the sum in long double, over all signals of morlet_oracle.h, as a
- * fraction of the bound promised, and the cost; then
- * what rounding alone leaves, and the cost for longer records.  Exits 1 if a bound is exceeded. */
+ * fraction of the bound promised, and the cost; then what rounding alone leaves, the cost for longer
+ * records, and transforms by FFT in multiples of one FFT of the record.  Exits 1 if a bound is
+ * exceeded. */
+#include <fftw3.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include "../morlet_oracle.h"
 
@@ -66,6 +69,67 @@ rounding(double center)
     return worst;
 }
 
+/* Seconds for one real FFT of n samples, the best of several. */
+static double
+fft_seconds(const double *x, size_t n)
+{
+    double *in = fftw_malloc(n * sizeof *in), best = INFINITY;
+    fftw_complex *out = fftw_malloc((n / 2 + 1) * sizeof *out);
+    fftw_plan plan = fftw_plan_dft_r2c_1d((int)n, in, out, FFTW_ESTIMATE);
+    for (int i = 0; i < 10; i++) {
+        memcpy(in, x, n * sizeof *in);
+        double t = now();
+        fftw_execute(plan);
+        best = fmin(best, now() - t);
+    }
+    fftw_destroy_plan(plan);
+    fftw_free(in);
+    fftw_free(out);
+    return best;
+}
+
+static const struct work {
+    const char *name;
+    size_t n;
+    int octaves, voices, dense;
+} table[] = {
+    { "W1", 10000, 10, 16, 1 }, { "W2", 131072, 10, 32, 1 }, { "W3", 1048576, 10, 8, 1 },
+    { "W4", 1048576, 16, 1, 0 }
+};
+
+/* One sample a second; scales upwards from the shortest that 1e-13 allows. */
+static int
+run_work(const struct work *work, double accuracy)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet *plan;
+    double *x = malloc(work->n * sizeof *x), best = INFINITY, differs = 0, v = work->voices;
+    make(NOISE, x, work->n);
+    opts.engine = SS_ENGINE_FFT;
+    opts.accuracy = accuracy;
+    opts.voices = work->voices, opts.dense = work->dense, opts.step = 1, opts.force = 1;
+    opts.octaves = 1, opts.m0 = ceil(v * log2(13.8 / M_PI)) / v;
+    opts.m1 = opts.m0 + work->octaves - 1 / v;
+    double fft = fft_seconds(x, work->n), begin = now();
+    if (ss_morlet_new(&plan, work->n, 1, &opts, NULL) != SS_OK)
+        exit(2);
+    double planning = now() - begin, *w = calloc(2 * ss_morlet_total(plan), sizeof *w);
+    for (int i = 0; i < 5; i++) {
+        begin = now();
+        if (ss_morlet_execute(plan, x, w, NULL) != SS_OK)
+            exit(2);
+        best = fmin(best, now() - begin);
+    }
+    if (ss_morlet_compare(plan, x, w, 2, &differs, NULL) != SS_OK)
+        exit(2);
+    printf("%s  %8.0e  %8.3g  %8.3g  %6.4g  %8.3g  %.2g\n", work->name, accuracy, fft, best,
+           best / fft, planning, differs);
+    ss_morlet_free(plan);
+    free(x);
+    free(w);
+    return !(differs <= accuracy);
+}
+
 int
 main(void)
 {
@@ -83,9 +147,12 @@ main(void)
             double w;
             slowest = fmax(slowest, run(which, 6000, &opts, NULL, &count));
             opts.voices = 2;
-            run(which, 2003, &opts, &w, &count);
+            for (opts.engine = SS_ENGINE_QUADRATURE; opts.engine <= SS_ENGINE_FFT; opts.engine++) {
+                run(which, 1501, &opts, &w, &count);
+                worst = fmax(worst, w);
+            }
+            opts.engine = SS_ENGINE_AUTO;
             opts.voices = 16;
-            worst = fmax(worst, w);
         }
         printf("%8.0e  %11.2g  %.0f\n", accuracy[i], worst, 1e3 * slowest);
         failed |= !(worst <= 1);
@@ -102,5 +169,9 @@ main(void)
         double seconds = run(WEAK_BURST, n, &opts, NULL, &count);
         printf("%7zu  %12zu  %.3g\n", n, count, seconds);
     }
+    printf("      accuracy   1 FFT/s         s   ratio      plan  difference/max|W|\n");
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        for (size_t j = 0; j < sizeof accuracy / sizeof *accuracy; j++)
+            failed |= run_work(&table[i], accuracy[j]);
     return failed;
 }

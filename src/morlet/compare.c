@@ -1,0 +1,125 @@
+/* compare.c -- coefficients of a transform against the engine that did not compute them.
+ *
+ * What was done by FFT is done again by the definition, at a few translations of each scale that
+ * are drawn at random; what was done by the definition is done again by FFT, where that is possible,
+ * a whole scale at a time. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "error.h"
+#include "morlet/plan.h"
+
+typedef struct compare {
+    const ss_morlet *plan, *other;      /* other: by FFT alone; NULL if not needed */
+    record rec;
+    spectra spectra;
+    double *scratch, *row;              /* for a scale by FFT */
+    size_t each;                        /* coefficients of a scale */
+    double *b, *want;
+    size_t *k;
+    uint64_t state;
+} compare;
+
+/* Numbers of Vigna's splitmix64. */
+static uint64_t
+draw(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+}
+
+static ss_status
+recompute(compare *cmp, size_t i)
+{
+    const ss_scale *scale = &cmp->plan->scale[i];
+    if (fft_takes(cmp->plan->fft, i) || !fft_takes(cmp->other->fft, i))
+        return quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
+    fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, 1, cmp->row);
+    for (size_t c = 0; c < cmp->each; c++) {
+        cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
+        cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
+    }
+    return SS_OK;
+}
+
+/* The largest difference of a scale relative to its largest |W|. */
+static ss_status
+compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *err)
+{
+    const ss_scale *scale = &cmp->plan->scale[i];
+    double most = 0;
+    for (size_t c = 0; c < cmp->each; c++) {
+        cmp->k[c] = (size_t)(draw(&cmp->state) % scale->n);
+        cmp->b[c] = ss_scale_b(scale, cmp->k[c]);
+    }
+    ss_status st = recompute(cmp, i);
+    if (st == SS_OK)
+        st = morlet_finish(cmp->want, cmp->each, scale->a, cmp->plan->opts.norm, cmp->rec.exponent,
+                           err);
+    w += 2 * scale->offset;
+    for (size_t c = 0; c < scale->n; c++)
+        most = fmax(most, hypot(w[2 * c], w[2 * c + 1]));
+    for (size_t c = 0; st == SS_OK && most > 0 && c < cmp->each; c++) {
+        const double *got = w + 2 * cmp->k[c], *want = cmp->want + 2 * c;
+        *worst = fmax(*worst, hypot(got[0] - want[0], got[1] - want[1]) / most);
+    }
+    return st;
+}
+
+static ss_status
+prepare(compare *cmp, ss_morlet **other, ss_error *err)
+{
+    const ss_morlet *plan = cmp->plan;
+    ss_morlet_opts opts = plan->opts;
+    size_t longest = 0;
+    opts.engine = SS_ENGINE_FFT;
+    ss_status st = ss_morlet_new(other, plan->n, plan->rate, &opts, err);
+    if (st != SS_OK)
+        return st;
+    cmp->other = *other;
+    cmp->b = malloc(cmp->each * sizeof *cmp->b);
+    cmp->k = malloc(cmp->each * sizeof *cmp->k);
+    cmp->want = malloc(2 * cmp->each * sizeof *cmp->want);
+    if (cmp->b == NULL || cmp->k == NULL || cmp->want == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        if (!fft_takes(plan->fft, i) && fft_takes(cmp->other->fft, i) && plan->scale[i].n > longest)
+            longest = plan->scale[i].n;
+    if (longest == 0)
+        return SS_OK;
+    cmp->row = malloc(2 * longest * sizeof *cmp->row);
+    cmp->scratch = fft_scratch(cmp->other->fft);
+    if (cmp->row == NULL || cmp->scratch == NULL)
+        return SS_ENOMEM;
+    return fft_forward(cmp->other->fft, &cmp->rec, &cmp->spectra);
+}
+
+ss_status
+ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_t each,
+                  double *difference, ss_error *err)
+{
+    compare cmp = { .plan = plan, .each = each, .state = 1 };
+    ss_morlet *other = NULL;
+    double worst = 0;
+    if (each < 1 || each > 1000000)
+        return ss_fail(err, SS_EINVAL, "%zu coefficients a scale are out of range 1 ... 1e6", each);
+    ss_status st = morlet_record(&cmp.rec, x, plan->n, plan->opts.detrend, err);
+    if (st == SS_OK)
+        st = prepare(&cmp, &other, err);
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++)
+        st = compare_scale(&cmp, i, w, &worst, err);
+    if (st == SS_OK)
+        *difference = worst;
+    fft_release(&cmp.spectra);
+    if (cmp.scratch != NULL)
+        fft_scratch_free(cmp.scratch);
+    free(cmp.row);
+    free(cmp.b);
+    free(cmp.k);
+    free(cmp.want);
+    free(cmp.rec.x);
+    ss_morlet_free(other);
+    return st;
+}

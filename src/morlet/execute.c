@@ -1,0 +1,114 @@
+/* execute.c -- a plan carried out: scales by their engine, on as many threads as asked for.
+ *
+ * Every scale is computed by one thread from what all share and nobody changes, so the result does
+ * not depend on how many there are. */
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include "error.h"
+#include "morlet/plan.h"
+
+ss_status
+morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
+{
+    double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
+    for (size_t i = 0; i < 2 * n; i++) {
+        w[i] = ldexp(w[i] * factor, exponent);
+        if (!isfinite(w[i]))
+            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
+                           a);
+    }
+    return SS_OK;
+}
+
+typedef struct work {
+    const ss_morlet *plan;
+    record rec;
+    spectra spectra;
+    double *w;
+    pthread_mutex_t lock;       /* of what follows */
+    size_t next;                /* scales below it are to do */
+    size_t failed;              /* the longest scale that failed, how and why */
+    ss_status status;
+    ss_error error;
+} work;
+
+static ss_status
+one_scale(const work *job, size_t i, double *scratch, ss_error *err)
+{
+    const ss_morlet *plan = job->plan;
+    const ss_scale *scale = &plan->scale[i];
+    double *w = job->w + 2 * scale->offset;
+    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
+    factor = ldexp(factor, job->rec.exponent);
+    int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
+    factor = fits ? factor : 1;
+    ss_status st = SS_OK;
+    if (!fft_takes(plan->fft, i))
+        st = quadrature_scale(plan, scale, &job->rec, factor, w);
+    else if (scratch == NULL)
+        st = SS_ENOMEM;
+    else
+        fft_scale(plan, i, &job->rec, &job->spectra, scratch, factor, w);
+    if (st != SS_OK || fits)
+        return st;
+    return morlet_finish(w, scale->n, scale->a, plan->opts.norm, job->rec.exponent, err);
+}
+
+/* A thread: scales until none is left, the expensive short ones first. */
+static void *
+work_on(void *user)
+{
+    work *job = user;
+    double *scratch = job->plan->fft != NULL ? fft_scratch(job->plan->fft) : NULL;
+    pthread_mutex_lock(&job->lock);
+    while (job->next > 0) {
+        size_t i = --job->next;
+        ss_error err = { "" };
+        pthread_mutex_unlock(&job->lock);
+        ss_status st = one_scale(job, i, scratch, &err);
+        pthread_mutex_lock(&job->lock);
+        if (st != SS_OK && (job->status == SS_OK || i < job->failed)) {
+            job->failed = i;
+            job->status = st;
+            job->error = err;
+        }
+    }
+    pthread_mutex_unlock(&job->lock);
+    if (scratch != NULL)
+        fft_scratch_free(scratch);
+    return NULL;
+}
+
+/* The caller is one of the threads; fewer than asked for will do. */
+static void
+work_together(work *job, size_t threads)
+{
+    pthread_t thread[SS_THREADS_MAX];
+    size_t started = 0;
+    pthread_mutex_init(&job->lock, NULL);
+    while (started + 1 < threads && started + 1 < job->plan->n_scales
+           && pthread_create(&thread[started], NULL, work_on, job) == 0)
+        started++;
+    work_on(job);
+    while (started > 0)
+        pthread_join(thread[--started], NULL);
+    pthread_mutex_destroy(&job->lock);
+}
+
+ss_status
+ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err)
+{
+    work job = { .plan = plan, .w = w, .next = plan->n_scales };
+    ss_status st = morlet_record(&job.rec, x, plan->n, plan->opts.detrend, err);
+    if (st != SS_OK)
+        return st;
+    if (plan->fft == NULL || (st = fft_forward(plan->fft, &job.rec, &job.spectra)) == SS_OK) {
+        work_together(&job, (size_t)plan->opts.threads);
+        if ((st = job.status) != SS_OK && err != NULL)
+            *err = job.error;
+    }
+    fft_release(&job.spectra);
+    free(job.rec.x);
+    return st;
+}

@@ -1,0 +1,38 @@
+/* kaiser.h -- the kernel that interpolates between points of an oversampled Fourier series. */
+#ifndef KAISER_H
+#define KAISER_H
+
+#include <stddef.h>
+
+/* What the series may hold at nu cycles a point: exp(-v^2/2) with v = reach nu / edge, but beyond
+ * center not below second (the admissible wavelet's hump about v = -center). */
+typedef struct kaiser_band {
+    double edge;                /* |nu| <= edge < 1/2 */
+    double reach, center, second;
+} kaiser_band;
+
+enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 20, KAISER_PARTS = 16, KAISER_NODES = 9,
+    KAISER_AT_ONCE = 64 };
+
+typedef struct kaiser {
+    int taps;                   /* even */
+    double beta, edge;
+    double node[KAISER_FIT], fit[KAISER_FIT];   /* of 1/response over (nu/edge)^2 */
+    double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];
+} kaiser;
+
+/* The shortest kernel that keeps |error| <= bound where the series has size 1; 0 if none does. */
+int kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
+/* Fill in what correct and weights use. */
+void kaiser_prepare(kaiser *ker);
+/* g[i] *= 1/response at nu = (first + i) step, n <= KAISER_AT_ONCE. */
+void kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n);
+/* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is taps/2 - 1 - i points
+ * before it. */
+void kaiser_weights(const kaiser *ker, double f, double weight[]);
+
+/* The kernel itself, 1/response(0) times I0(beta sqrt(1 - (2 t/taps)^2)), and its response. */
+double kaiser_at(int taps, double beta, double t);
+double kaiser_response(int taps, double beta, double nu);
+
+#endif
