@@ -195,5 +195,5 @@ au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     reader->encoding = (int)encoding;
     reader->bytes_left = size == UNKNOWN_SIZE ? UINT64_MAX : size;
     reader->rows = au_rows;
-    return refuse_clock(reader, opts, err);
+    return refuse_clock(in->name, reader->head->rate, opts, err);
 }

@@ -43,8 +43,8 @@ ss_status delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *
 /* The nearest whole Hz that AU can say; the annotation has the exact rate. */
 uint32_t au_rate(double rate);
 
-/* Refuse options for input without a clock, as this one has one. */
-ss_status refuse_clock(const ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+/* Refuse options for input without a clock, as this one has one of its own rate. */
+ss_status refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
 
 /* --- headers ------------------------------------------------------------------------------- */
 

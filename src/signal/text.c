@@ -141,7 +141,7 @@ text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", in->name, in->line);
     reader->rows = text_rows;
     if (reader->head->rate > 0)
-        return refuse_clock(reader, opts, err);
+        return refuse_clock(in->name, reader->head->rate, opts, err);
     if (!(opts->rate > 0))
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# rate:' line in the header", in->name, in->line);
     reader->head->rate = opts->rate;
