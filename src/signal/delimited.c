@@ -378,8 +378,8 @@ check_mark(struct table *t, size_t column, ss_error *err)
         t->mark = mark;
     if (mark == '\0' || mark == t->mark)
         return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it have a "
-                   "%s", t->in->name, t->in->line, t->names->column[column].name, cell,
+    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it "
+                   "have a %s", t->in->name, t->in->line, t->names->column[column].name, cell,
                    mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
 }
 
@@ -398,8 +398,8 @@ take_row(struct table *t, char *text, ss_error *err)
     for (size_t i = 0; i < n; i++) {
         enum cell_kind kind = read_cell(t->cell[i], t->separator, &row[i]);
         if (kind != CELL_NUMBER)
-            return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber", name, line,
-                           t->names->column[i].name, t->cell[i],
+            return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber", name,
+                           line, t->names->column[i].name, t->cell[i],
                            kind == CELL_NOT_FINITE ? "finite " : "");
         ss_status st = check_mark(t, i, err);
         if (st != SS_OK)
@@ -544,8 +544,8 @@ choose_clock(struct table *t, const ss_read_opts *opts, ss_error *err)
         st = take_clock(t, 0, "", NULL);
     if (st != SS_EDATA)
         return st == SS_OK ? SS_OK : out_of_memory(t, err);
-    return ss_fail(err, SS_EDATA, "%s: no column of time; name it with ss-cat --time, or give the sample "
-                   "rate with ss-cat --rate", t->in->name);
+    return ss_fail(err, SS_EDATA, "%s: no column of time; name it with ss-cat --time, or give the "
+                   "sample rate with ss-cat --rate", t->in->name);
 }
 
 /* Leave the column of time out of the names, which become *head, and of the rows. */
