@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 #include <cmocka.h>
 #include <stickslip/signal.h>
@@ -63,11 +64,23 @@ finds_columns_by_name_and_number(void **state)
     ss_header *head = sample_header();
     (void)state;
     ss_header_add_column(head, "2", "");
+    ss_header_add_column(head, "Channel A", "");
+    ss_header_add_column(head, "force", "");
+    ss_header_add_column(head, "FORCE", "");
+    ss_header_add_column(head, "9 lives", "");
+    assert_int_equal(ss_header_column(head, "Channel A"), 6);   /* as its file has it */
+    assert_int_equal(ss_header_column(head, "Channel_A"), 6);
+    assert_int_equal(ss_header_column(head, "channel a"), 6);
+    assert_int_equal(ss_header_column(head, "channel"), -1);
+    assert_int_equal(ss_header_column(head, "FORCE"), 8);
+    assert_int_equal(ss_header_column(head, "Force"), -1);      /* which? */
+    assert_int_equal(ss_header_column(head, "X"), -1);          /* X and x may be two quantities */
+    assert_int_equal(ss_header_column(head, "9 lives"), 9);
     assert_int_equal(ss_header_column(head, "x"), 0);
     assert_int_equal(ss_header_column(head, "3"), 2);
     assert_int_equal(ss_header_column(head, "2"), 5);           /* a name goes before a number */
     assert_int_equal(ss_header_column(head, "0"), -1);
-    assert_int_equal(ss_header_column(head, "7"), -1);
+    assert_int_equal(ss_header_column(head, "11"), -1);
     assert_int_equal(ss_header_column(head, "1x"), -1);
     assert_int_equal(ss_header_column(head, ""), -1);
     ss_header_free(head);
@@ -87,6 +100,84 @@ cleans_names_and_units(void **state)
     assert_string_equal(head->column[2].name, "a_b_c_3");
     assert_string_equal(head->column[1].unit, "m  ");
     ss_header_free(head);
+}
+
+static void
+numbers_the_same_name_by_what_is_free(void **state)
+{
+    static const char *const given[] = { "a", "a_3", "a", "a", "a_2", "a_x", "a_99999999999999999999", "a" };
+    static const char *const got[] = { "a", "a_3", "a_2", "a_4", "a_2_2", "a_x", "a_99999999999999999999",
+                                       "a_5" };
+    ss_header *head = ss_header_new(1, 0);
+    (void)state;
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        assert_int_equal(ss_header_add_column(head, given[i], NULL), SS_OK);
+        assert_string_equal(head->column[i].name, got[i]);
+    }
+    ss_header_free(head);
+}
+
+static void
+names_thousands_of_columns_alike(void **state)
+{
+    enum { COLUMNS = 30000, SECONDS = 60 };     /* it takes 2; each name anew from 2 on, hours */
+    ss_header *head = ss_header_new(1, 0), *copy;
+    clock_t begun = clock();
+    (void)state;
+    for (int i = 0; i < COLUMNS; i++) {
+        assert_int_equal(ss_header_add_column(head, "a", NULL), SS_OK);
+        assert_true(clock() - begun < SECONDS * CLOCKS_PER_SEC);
+    }
+    copy = ss_header_copy(head);
+    assert_string_equal(copy->column[COLUMNS - 1].name, "a_30000");
+    ss_header_free(copy);
+    ss_header_free(head);
+}
+
+static void
+au_is_not_written_where_it_would_not_be_read(void **state)
+{
+    enum { CHANNELS = 4096, ROOM = 1 << 20 };
+    static char note[ROOM];
+    ss_header *head = ss_header_new(1, 0);
+    ss_writer *writer;
+    ss_signal *back;
+    (void)state;
+    for (int i = 0; i < CHANNELS; i++)
+        ss_header_add_column(head, "a", NULL);
+    FILE *f = tmpfile();
+    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head), SS_OK);
+    ss_writer_flush(writer);
+    ss_writer_free(writer);
+    rewind(f);
+    assert_int_equal(ss_signal_read(&back, f, "in", NULL, NULL), SS_OK);
+    assert_int_equal(back->head->n_columns, CHANNELS);
+    ss_signal_free(back);
+    fclose(f);
+    f = tmpfile();
+    ss_header_add_column(head, "a", NULL);
+    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head), SS_EINVAL);
+    ss_header_free(head);
+    head = ss_header_new(1, 0);
+    ss_header_add_column(head, "a", NULL);
+    memset(note, 'x', sizeof note - 1);
+    ss_header_note(head, "long", note);
+    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head), SS_EINVAL);
+    assert_int_equal(ftell(f), 0);              /* nothing was written */
+    assert_int_equal(ss_writer_new(&writer, f, SS_TSV, head), SS_OK);
+    ss_writer_free(writer);
+    ss_header_free(head);
+    fclose(f);
+}
+
+static void
+text_labels_in_latin_1_become_utf_8(void **state)
+{
+    ss_signal *s = read_text("# stickslip signal 1\n# who: J\xfcrg\n# rate: 1\n# columns: Weg/\xb5m\n1\n", NULL);
+    (void)state;
+    assert_string_equal(s->head->column[0].unit, "\xc2\xb5m");
+    assert_string_equal(ss_header_find_note(s->head, "who"), "J\xc3\xbcrg");
+    ss_signal_free(s);
 }
 
 static void
@@ -313,6 +404,8 @@ reads_every_au_encoding(void **state)
 
 /* --- malformed input ----------------------------------------------------------------------- */
 
+#define NO_CLOCK "in: no column of time; name it with ss-cat --time, or give the sample rate with " \
+    "ss-cat --rate"
 #define HEAD "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m v/(m/s)\n"
 static const struct { const char *bytes; size_t n; const char *error; } malformed[] = {
     { BYTES(""), "in: empty" },
@@ -343,14 +436,23 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
     { BYTES("t,x\n0,1\n0.1,1e999\n"), "in:3: column x: '1e999' is not a finite number" },
     { BYTES("t,x\n0,1\n0.1,1\0\n"), "in:3: a NUL byte: this is not text of 8-bit characters" },
     { BYTES("hello\nworld\n"), "in:2: no row of numbers up to here" },
-    { BYTES("t,x\n0,1\n"), "in: one row has no sample rate; give it" },
+    { BYTES("t,x\n0,1\n"), "in: one row has no sample rate; give it with ss-cat --rate" },
     { BYTES("t\n0\n1\n"), "in: no column but time" },
-    { BYTES("t,x\n0,1\n0,1\n"), "in: time stamps do not ascend" },
+    { BYTES("t,x\n0,1\n0,1\n"), "in:3: time stamps do not ascend; ss-cat --rate HZ takes "
+      "the rows as uniform" },
+    { BYTES("elapsed (s),x\n0,1\n2,1\n1,1\n0,1\n"), "in:4: time stamps do not ascend; ss-cat --rate HZ "
+      "takes the rows as uniform" },
     { BYTES("t (furlong),x\n0,1\n1,1\n"), "in: column t: unit 'furlong' is not one of time" },
-    { BYTES("x,y\n3,1\n1,1\n"),
-      "in: no column of time; say which with --time, or give the sample rate with --rate" },
+    { BYTES("x,y\n3,1\n1,1\n"), NO_CLOCK },
+    { BYTES("deflection,force\n1,1\n2,1\n3,1\n"), NO_CLOCK },  /* ascends, but is no time */
+    { BYTES("deflection (mm),force\n1,1\n2,1\n3,1\n"), NO_CLOCK },
+    { BYTES("1\n2\n3\n"), NO_CLOCK },
+    { BYTES("t;x\n0.5;1,234\n1;2\n"),
+      "in:2: column x: '1,234' has a decimal comma, numbers before it have a point" },
+    { BYTES("t;x\n0;1,5\n1;2\n1.5;2,5\n"),
+      "in:4: column t: '1.5' has a decimal point, numbers before it have a comma" },
     { BYTES("t,x\n0,1\n1,1\n2,1\n4,1\n5,1\n6,1\n"), "in:5: time stamps are not uniform: this one is "
-      "off by 1 sample periods, 0.1 is allowed" },
+      "off by 1 sample periods, 0.1 is allowed; ss-cat --rate HZ takes the rows as uniform" },
     { BYTES(".snd\0\0\0\x18"), "in: truncated AU header" },
     { BYTES(".snd\0\0\0\x17" SIZE_UNKNOWN "\0\0\0\7\0\0\0\1\0\0\0\1"),
       "in: AU header: impossible offset of the data, 23" },
@@ -420,12 +522,28 @@ static const struct table_case {
     { "time by number", "x,t,clock\n7,0,3\n8,1,5\n", "3", 0, "x[] t[]", 0.5, 3, 1 },
     { "time in its name", "time_ms,x\n0,1\n1,2\n", NULL, 0, "x[]", 1000, 0, 2 },
     { "time in minutes", "t [min],x\n0,1\n1,2\n", NULL, 0, "x[]", 1. / 60, 0, 2 },
-    { "first column ascends", "when,x\n0.25,1\n0.5,2\n0.75,3\n", NULL, 0, "x[]", 4, 0.25, 3 },
+    { "first column in seconds", "when (s),x\n0.25,1\n0.5,2\n0.75,3\n", NULL, 0, "x[]", 4, 0.25, 3 },
     { "no names", "0,1\n0.1,2\n", NULL, 0, "ch2[]", 10, 0, 2 },
     { "a rate given", "x,y\n5,1\n3,2\n4,9\n", NULL, 250, "x[] y[]", 250, 0, 9 },
     { "a rate given beats stamps", "t,y\n5,1\n3,2\n4,9\n", NULL, 250, "t[] y[]", 250, 0, 9 },
     { "one column", "Force (N)\n1.5\n\n2.5\n", NULL, 10, "Force[N]", 10, 0, 2.5 },
     { "comments and empty lines between", "t,x\n0,1\n# hello\n\n1,2\n", NULL, 0, "x[]", 1, 0, 2 },
+    { "LabVIEW", "LabVIEW Measurement\nSeparator\tTab\nMulti_Headings\tNo\n***End_of_Header***\t\n\t\n"
+      "Channels\t2\t\t\nY_Unit_Label\tNewton\tm/s^2\t\nX_Dimension\tTime\tTime\t\n"
+      "X0\t0.0E+0\t0.0E+0\t\nDelta_X\t0.001\t0.001\t\n***End_of_Header***\t\t\t\n"
+      "X_Value\tforce\taccel\tComment\r\n0.000\t1.5\t2.5\r\n0.001\t1.25\t2.25\r\n", NULL, 0,
+      "force[] accel[]", 1000, 0, 2.25 },
+    { "LabVIEW with a row of units", "X_Value\tforce\taccel\tcomment\ns\tN\tm/s^2\tComment\n0\t1\t2\n"
+      "0.5\t3\t4\n", NULL, 0, "force[N] accel[m/s^2]", 2, 0, 4 },
+    { "one empty name more", "t;x;\ns;mm;\n0;1\n0,5;2\n", NULL, 0, "x[mm]", 2, 0, 2 },
+    { "Latin-1", "t/s;Weg/\xb5m;K\xfc" "bel (m/s\xb2)\n0;1;2\n1;2;3\n", NULL, 0,
+      "Weg[\xc2\xb5m] K\xc3\xbc" "bel[m/s\xc2\xb2]", 1, 0, 3 },
+    { "Latin-1 units row", "Zeit;Weg;\xe9t\xe9\ns;\xb5m;m/s\xb2\n0;1;2\n1;2;3\n", NULL, 0,
+      "Weg[\xc2\xb5m] \xc3\xa9t\xc3\xa9[m/s\xc2\xb2]", 1, 0, 3 },
+    { "UTF-8 of two to four bytes", "t,\xc2\xb5\xe2\x82\xac\xf0\x9f\x98\x80\n0,1\n1,2\n", NULL, 0,
+      "\xc2\xb5\xe2\x82\xac\xf0\x9f\x98\x80[]", 1, 0, 2 },
+    { "nearly UTF-8", "t,\xc0\xaf\xed\xa0\x80\n0,1\n1,2\n", NULL, 0,
+      "\xc3\x80\xc2\xaf\xc3\xad\xc2\xa0\xc2\x80[]", 1, 0, 2 },
     { "the same name twice", "t,x,x\n0,1,2\n1,2,3\n", NULL, 0, "x[] x_2[]", 1, 0, 3 },
 };
 
@@ -736,6 +854,10 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_columns_by_name_and_number),
         cmocka_unit_test(cleans_names_and_units),
+        cmocka_unit_test(numbers_the_same_name_by_what_is_free),
+        cmocka_unit_test(names_thousands_of_columns_alike),
+        cmocka_unit_test(au_is_not_written_where_it_would_not_be_read),
+        cmocka_unit_test(text_labels_in_latin_1_become_utf_8),
         cmocka_unit_test(replaces_a_note_of_the_same_key),
         cmocka_unit_test(finds_the_row_of_a_time),
         cmocka_unit_test(text_and_au_come_back_the_same),

@@ -476,6 +476,148 @@ a_truncated_file_is_refused(void **state)
     ss_signal_free(signal);
 }
 
+/* Give an object of the file another number as an attribute, as anyone might. */
+static void
+put_attribute(const char *object, const char *name, double value)
+{
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), id = H5Oopen(file, object, H5P_DEFAULT);
+    hid_t space = H5Screate(H5S_SCALAR);
+    if (H5Aexists(id, name) > 0)
+        H5Adelete(id, name);
+    hid_t a = H5Acreate2(id, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(a, H5T_NATIVE_DOUBLE, &value) >= 0);
+    H5Aclose(a);
+    H5Sclose(space);
+    H5Oclose(id);
+    H5Fclose(file);
+}
+
+/* Put a 1-D dataset of n zeros in the place of one. */
+static void
+put_zeros(const char *dataset, hsize_t n)
+{
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate_simple(1, &n, NULL);
+    H5Ldelete(file, dataset, H5P_DEFAULT);
+    hid_t id = H5Dcreate2(file, dataset, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(id >= 0);
+    H5Dclose(id);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+static void
+assert_refused(const char *words)
+{
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EDATA);
+    assert_null(c);
+    if (strstr(err.text, words) == NULL)
+        fail_msg("'%s' does not say '%s'", err.text, words);
+}
+
+static void
+a_grid_that_is_not_one_is_refused(void **state)
+{
+    static const struct { const char *object, *name; double value; const char *words; } row[] = {
+        { "/wavelet", "scales", 0, ":/wavelet: attribute 'scales' is missing or out of range" },
+        { "/wavelet", "samples", 0, "attribute 'samples'" },
+        { "/wavelet", "samples", 400, ":/wavelet/scale000: the translations are not those" },
+        { "/wavelet", "rate", 0, "attribute 'rate'" },
+        { "/wavelet", "rate", -1, "attribute 'rate'" },
+        { "/wavelet", "rate", NAN, "attribute 'rate'" },
+        { "/wavelet", "rate", INFINITY, "attribute 'rate'" },
+        { "/wavelet", "rate", 1e200, "attribute 'rate'" },
+        { "/wavelet", "center", 7, "do not agree" },
+        { "/wavelet/scale001", "frequency", 1, ":/wavelet/scale001: scale, m and frequency do not" },
+        { "/wavelet/scale001", "scale", INFINITY, "attribute 'scale'" },
+        { "/wavelet/scale001", "m", 3, "do not agree" },
+        { "/wavelet/scale001", "b_num", 1e-9, "the translations are not those" },
+        { "/wavelet/scale001", "b_den", 1e9, "the translations are not those" },
+        { "/wavelet/scale001", "b_den", NAN, "attribute 'b_den'" },
+    };
+    ss_signal *signal = new_signal(500);
+    ss_coefficients *c = transform(signal, 0);
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        write_ok(&(ss_record){ .coefficients = c });
+        put_attribute(row[i].object, row[i].name, row[i].value);
+        assert_refused(row[i].words);
+    }
+    write_ok(&(ss_record){ .coefficients = c });
+    put_zeros("/wavelet/scale001/re", 0);
+    put_zeros("/wavelet/scale001/im", 0);
+    assert_refused(":/wavelet/scale001: the translations are not those");
+    ss_scale first = c->scale[0];
+    c->scale[0] = c->scale[1];                          /* the same scale twice */
+    write_ok(&(ss_record){ .coefficients = c });
+    assert_refused("the scales do not descend");
+    c->scale[0] = first;
+    ss_coefficients_free(c);
+    c = transform(signal, 1);
+    write_ok(&(ss_record){ .coefficients = c });
+    put_attribute("/wavelet", "b_num", 2);
+    assert_refused("the translations are not those");
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+static void
+a_clock_of_its_own_is_not_exchanged(void **state)
+{
+    static const ss_read_opts other = { .rate = 5 }, column = { .time = "a" };
+    ss_signal *signal = new_signal(10), *back = NULL;
+    const ss_read_opts same = { .rate = signal->head->rate };
+    ss_error err = { "" };
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal });
+    assert_int_equal(ss_store_read_signal(&back, path, NULL, &other, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "has a clock of its own"));
+    assert_int_equal(ss_store_read_signal(&back, path, NULL, &column, NULL), SS_EDATA);
+    assert_int_equal(ss_store_read_signal(&back, path, "/signal/a", &column, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "has no column of time to choose"));
+    assert_null(back);
+    assert_int_equal(ss_store_read_signal(&back, path, NULL, &same, NULL), SS_OK);
+    ss_signal_free(back);
+    ss_signal_free(signal);
+}
+
+static void
+attributes_that_are_no_notes_are_skipped(void **state)
+{
+    static const char *const name[] = { "rate", "start", "columns", "a:b" };
+    ss_signal *signal = new_signal(10), *back = NULL;
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal });
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate(H5S_SCALAR);
+    for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
+        hid_t a = H5Acreate2(file, name[i], H5T_C_S1, space, H5P_DEFAULT, H5P_DEFAULT);
+        assert_true(H5Awrite(a, H5T_C_S1, "5") >= 0);
+        H5Aclose(a);
+    }
+    H5Sclose(space);
+    H5Fclose(file);
+    assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+    assert_same_notes(signal->head, back->head);
+    ss_signal_free(back);
+    ss_signal_free(signal);
+}
+
+static void
+a_missing_signal_is_told_from_a_damaged_one(void **state)
+{
+    ss_signal *signal = new_signal(10), *back = NULL;
+    (void)state;
+    write_foreign(0);
+    assert_false(ss_store_has_signal(path));
+    assert_false(ss_store_has_signal("/dev/null"));
+    write_ok(&(ss_record){ .signal = signal });
+    put_attribute("/signal", "rate", 0);
+    assert_true(ss_store_has_signal(path));
+    assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_EDATA);
+    ss_signal_free(signal);
+}
+
 static void
 a_fifo_keeps_its_first_bytes(void **state)
 {
@@ -505,6 +647,10 @@ main(void)
         cmocka_unit_test(what_cannot_be_read_is_refused_in_clear_words),
         cmocka_unit_test(a_file_without_coefficients_says_so),
         cmocka_unit_test(a_truncated_file_is_refused),
+        cmocka_unit_test(a_grid_that_is_not_one_is_refused),
+        cmocka_unit_test(a_clock_of_its_own_is_not_exchanged),
+        cmocka_unit_test(attributes_that_are_no_notes_are_skipped),
+        cmocka_unit_test(a_missing_signal_is_told_from_a_damaged_one),
         cmocka_unit_test(a_fifo_keeps_its_first_bytes),
     };
     return cmocka_run_group_tests_name("store", tests, make_dir, remove_dir);

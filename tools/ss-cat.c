@@ -94,8 +94,11 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
     if (rows == NULL || part == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     tool_check(ss_header_select(&chosen, head, column, n, first), NULL);
-    tool_check(ss_writer_new(&writer, tool_output(output), kind == TOOL_AU ? SS_AU : SS_TSV, chosen),
-               NULL);
+    ss_status st = ss_writer_new(&writer, tool_output(output), kind == TOOL_AU ? SS_AU : SS_TSV,
+                                 chosen);
+    if (st == SS_EINVAL)
+        tool_die("AU is limited to 4096 columns and a header of 1 MiB; take fewer with --column");
+    tool_check(st, NULL);
     while (row < end) {
         size_t kept = 0;
         tool_check(ss_reader_rows(reader, rows, PIECE, &got, &err), &err);

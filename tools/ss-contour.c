@@ -66,8 +66,8 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
     const ss_header *head = d->coefficients->head;
     if (signal_path != NULL)
         signal = tool_read_signal(signal_path, NULL);
-    else if (tool_is_hdf5(path) && ss_store_read_signal(&signal, path, NULL, NULL, NULL) == SS_OK)
-        signal_path = path;
+    else if (tool_is_hdf5(path) && ss_store_has_signal(path))
+        signal = tool_read_signal(signal_path = path, NULL);
     if (signal == NULL)
         return NULL;
     if (column == NULL && head->n_columns > 0
@@ -78,14 +78,20 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
     return signal;
 }
 
-/* Times: the first field of every line that is no comment. */
+/* Times: the first field of every line that is no comment, below the line that says what they are. */
 static void
 read_events(ss_contour_opts *opts, const char *path)
 {
+    static const char magic[] = "# stickslip events 1";
     FILE *in = tool_open(path);
     char *line = NULL, *end;
     double *event = NULL;
-    size_t size = 0, room = 0, number = 0, n = 0;
+    size_t size = 0, room = 0, number = 1, n = 0;
+    ssize_t length = getline(&line, &size, in);
+    if (length >= 0)
+        line[strcspn(line, "\r\n")] = '\0';
+    if (length >= 0 ? strcmp(line, magic) != 0 : !ferror(in))
+        tool_die("%s:1: not a list of events, which begins '%s'", tool_input_name(path), magic);
     while (getline(&line, &size, in) >= 0) {
         number++;
         if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0')

@@ -17,7 +17,10 @@ typedef struct ss_maximum {
                                infinite where there is no way to a higher one */
 } ss_maximum;
 
-/* All local maxima outside the cone of influence with at least the given prominence, in time order;
+/* Coefficients must have n > 0, n_scales > 0 and translations at every scale, as all have that
+ * ss_transform makes or that are read.
+ *
+ * All local maxima outside the cone of influence with at least the given prominence, in time order;
  * *out is to be freed with free().  Translations of neighbouring scales differ: a coefficient's
  * neighbours are those of its row and, in the two rows beside, those nearest to it in time.  What is
  * highest on the border of the map (its first and last scale, or beside the cone) is no maximum. */

@@ -110,10 +110,10 @@ typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
                                    and the options as notes: samples, column, unit, center, voices,
                                    step (or dense: yes), norm, admissible, detrend, accuracy, method */
-    size_t n;                   /* samples of the record */
+    size_t n;                   /* samples of the record, > 0 */
     double center;              /* omega_c */
-    size_t n_scales;
-    ss_scale *scale;            /* long to short */
+    size_t n_scales;            /* > 0 */
+    ss_scale *scale;            /* long to short; each has n > 0 */
     double *w;                  /* re, im */
 } ss_coefficients;
 

@@ -38,7 +38,9 @@ ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
 
-/* The index of a column given by name, or by its number counted from 1; -1 if it is not there. */
+/* The index of a column given by name, or by its number counted from 1; -1 if it is not there.  Blanks
+ * and slashes in the name asked for stand for "_"; where no name matches, one that differs in the case
+ * of letters does if it is the only one, but not one letter alone: a and A are two quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
 /* The first row at time t or after it (by no more than 1e-6 sample periods before it), from 0. */
@@ -52,7 +54,8 @@ ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t 
 
 typedef struct ss_read_opts {
     const char *time;           /* delimited text: column of time by name or number; NULL: found by
-                                   its name (t, time, ...), or the first column if it ascends uniformly */
+                                   its name (t, time, ...), or the first column if its unit is one of
+                                   time, or if no column has a name and it ascends uniformly */
     double rate;                /* [Hz] for input without a clock; 0: the input must have one.  With
                                    delimited text the first row is then at 0, whatever its columns */
 } ss_read_opts;
@@ -97,7 +100,8 @@ typedef enum ss_format {
 
 typedef struct ss_writer ss_writer;
 
-/* Start a stream on out, which the writer does not own, with its header; head is copied. */
+/* Start a stream on out, which the writer does not own, with its header; head is copied.
+ * SS_EINVAL: AU is limited to 4096 columns and a header of 1 MiB. */
 ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head);
 /* Append n rows of n_columns values each, one row after the other; SS_EIO if out refuses them. */
 ss_status ss_writer_rows(ss_writer *writer, const double *rows, size_t n);

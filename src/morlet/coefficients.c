@@ -182,7 +182,6 @@ typedef struct reader {
     size_t n_parts, room, last; /* last: the part of the row before */
 } reader;
 
-
 /* The next line without its end; *more = 0 if there is none. */
 static ss_status
 next_line(reader *r, int *more)
@@ -207,8 +206,11 @@ read_note(reader *r, const char *key, const char *value)
     ss_header *head = r->coef->head;
     double *number = strcmp(key, "rate") == 0 ? &head->rate
         : strcmp(key, "start") == 0 ? &head->start : NULL;
-    if (number == NULL)
-        return ss_header_note(head, key, value);
+    if (number == NULL) {
+        ss_status st = ss_header_note(head, key, value);
+        return st != SS_EINVAL ? st : ss_fail(r->err, SS_EDATA, "%s:%zu: '%s' cannot be the key of a "
+                                              "note", r->name, r->line, key);
+    }
     *number = ss_number_parse(value, &end);
     if (end == value || *end != '\0')
         return ss_fail(r->err, SS_EDATA, "%s:%zu: %s '%s' is not a number", r->name, r->line, key,
@@ -221,6 +223,9 @@ check_magic(const reader *r, int more)
 {
     if (!more)
         return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", r->name);
+    if (strncmp(r->text, "\211HDF", 4) == 0)
+        return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
+                       r->name);
     if (strncmp(r->text, "# stickslip signal", 18) == 0)
         return ss_fail(r->err, SS_EDATA, "%s:1: a signal where coefficients are expected; "
                        "ss-morlet makes them", r->name);

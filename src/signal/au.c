@@ -9,7 +9,6 @@
 #include "error.h"
 #include "stream.h"
 
-enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 #define UNKNOWN_SIZE UINT32_C(0xffffffff)
 
 /* Bytes a value, by the encoding of the file; 0 is not supported. */
@@ -160,10 +159,10 @@ ss_status
 au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    ss_status st = input_need(in, FIXED_HEADER, err);
+    ss_status st = input_need(in, AU_FIXED_HEADER, err);
     if (st != SS_OK)
         return st;
-    if (in->hi - in->lo < FIXED_HEADER)
+    if (in->hi - in->lo < AU_FIXED_HEADER)
         return ss_fail(err, SS_EDATA, "%s: truncated AU header", in->name);
     const unsigned char *p = (unsigned char *)in->buffer + in->lo;
     uint32_t field[6];
@@ -171,13 +170,13 @@ au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         field[i] = (uint32_t)big_endian(p + 4 * i, 4);
     uint32_t offset = field[1], size = field[2], encoding = field[3], channels = field[5];
 
-    if (offset < FIXED_HEADER || offset > FIXED_HEADER + MAX_ANNOTATION)
+    if (offset < AU_FIXED_HEADER || offset > AU_FIXED_HEADER + AU_MAX_ANNOTATION)
         return ss_fail(err, SS_EDATA, "%s: AU header: impossible offset of the data, %lu", in->name,
                        (unsigned long)offset);
     if (encoding >= sizeof width / sizeof *width || width[encoding] == 0)
         return ss_fail(err, SS_EDATA, "%s: AU encoding %lu is not supported; 2 to 7 are (PCM of 8 to "
                        "32 bits, floating point)", in->name, (unsigned long)encoding);
-    if (channels < 1 || channels > MAX_CHANNELS || field[4] < 1)
+    if (channels < 1 || channels > AU_MAX_CHANNELS || field[4] < 1)
         return ss_fail(err, SS_EDATA, "%s: AU header: impossible: %lu channels at %lu Hz", in->name,
                        (unsigned long)channels, (unsigned long)field[4]);
     st = input_need(in, offset, err);
@@ -186,7 +185,7 @@ au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (in->hi - in->lo < offset)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
-    char *annotation = strndup(in->buffer + in->lo + FIXED_HEADER, offset - FIXED_HEADER);
+    char *annotation = strndup(in->buffer + in->lo + AU_FIXED_HEADER, offset - AU_FIXED_HEADER);
     st = annotation != NULL ? make_header(reader, annotation, field[4], channels) : SS_ENOMEM;
     free(annotation);
     if (st != SS_OK)
@@ -195,5 +194,5 @@ au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     reader->encoding = (int)encoding;
     reader->bytes_left = size == UNKNOWN_SIZE ? UINT64_MAX : size;
     reader->rows = au_rows;
-    return refuse_clock(reader, opts, err);
+    return refuse_clock(in->name, reader->head->rate, opts, err);
 }

@@ -10,6 +10,7 @@
 #include "stream.h"
 
 #define TOLERANCE 0.1           /* sample periods that a stamp may be off */
+#define HINT "; ss-cat --rate HZ takes the rows as uniform"
 
 /* The straight line through the stamps (least squares) and the row farthest from it. */
 struct line {
@@ -64,8 +65,11 @@ refuse(const char *file, const double *t, const unsigned long *line, size_t n, s
     qsort(step, n - 1, sizeof *step, ascending);
     double usual = step[(n - 1) / 2];
     free(step);
-    if (!(usual > 0))
-        return ss_fail(err, SS_EDATA, "%s: time stamps do not ascend", file);
+    if (!(usual > 0)) {
+        while (t[worst] > t[worst - 1])
+            worst++;
+        return ss_fail(err, SS_EDATA, "%s:%lu: time stamps do not ascend" HINT, file, line[worst]);
+    }
     for (size_t i = 1; i < n; i++)
         if (fabs(t[i] - t[i - 1] - usual) > off) {
             off = fabs(t[i] - t[i - 1] - usual);
@@ -76,7 +80,7 @@ refuse(const char *file, const double *t, const unsigned long *line, size_t n, s
         worst = l.worst;
     }
     return ss_fail(err, SS_EDATA, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
-                   "sample periods, %.1f is allowed", file, line[worst], off / usual, TOLERANCE);
+                   "sample periods, %.1f is allowed" HINT, file, line[worst], off / usual, TOLERANCE);
 }
 
 /* The decimal of fewest digits in [lo, hi]; *digits is how many that are. */
@@ -101,7 +105,7 @@ find_clock(const char *file, const double *t, const unsigned long *line, size_t 
            ss_error *err)
 {
     if (n < 2)
-        return ss_fail(err, SS_EDATA, "%s: one row has no sample rate; give it", file);
+        return ss_fail(err, SS_EDATA, "%s: one row has no sample rate; give it with ss-cat --rate", file);
     struct line l = fit(t, n);
     if (!(l.period > 0 && l.deviation <= TOLERANCE * l.period))
         return refuse(file, t, line, n, l, err);

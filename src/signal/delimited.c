@@ -15,6 +15,7 @@ enum { HEADER_LINES = 1000 };
 
 struct table {
     struct input *in;
+    char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
     size_t n_columns;           /* that of time among them */
     char **cell;                /* of the line that was split last */
@@ -22,7 +23,8 @@ struct table {
     char *above[2];             /* the last two header lines: [1] stands right above the data */
     unsigned long above_line[2];
     size_t time;                /* column of time, or NONE */
-    ss_header *names;           /* all columns, that of time among them */
+    int named;                  /* is there a row of names? */
+    ss_header *names;           /* all columns, that of time among them, and the clock */
     double *value;              /* rows, one after the other */
     unsigned long *line;        /* where each row stands */
     size_t n_rows, room;
@@ -103,10 +105,11 @@ read_cell(char *cell, char separator, double *x)
     if (comma != NULL)
         *comma = '.';
     *x = ss_number_parse(cell, &end);
-    if (end > cell && *end == '\0')
-        return isfinite(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
+    int number = end > cell && *end == '\0';
     if (comma != NULL)
         *comma = ',';
+    if (number)
+        return isfinite(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
     if (strcasecmp(word, "nan") == 0 || strcasecmp(word, "inf") == 0
         || strcasecmp(word, "infinity") == 0)
         return CELL_NOT_FINITE;
@@ -160,7 +163,7 @@ keep_above(struct table *t, const char *line)
     free(t->above[0]);
     t->above[0] = t->above[1];
     t->above_line[0] = t->above_line[1];
-    t->above[1] = strdup(line);
+    t->above[1] = utf8_text(line);
     t->above_line[1] = t->in->line;
     return t->above[1] != NULL;
 }
@@ -216,6 +219,8 @@ kind_of_row(struct table *t, const char *line)
         return ROW_OTHER;
     char *copy = strdup(line);
     size_t n = copy != NULL ? split(t, copy, t->separator) : NONE;
+    if (n == t->n_columns + 1 && strcasecmp(t->cell[n - 1], "comment") == 0)
+        n--;                                    /* LabVIEW names what few of its rows have */
     for (size_t i = 0; n == t->n_columns && i < n; i++) {
         empty += t->cell[i][0] == '\0';
         units += (size_t)is_unit(t->cell[i]);
@@ -316,10 +321,11 @@ read_names(struct table *t, ss_error *err)
                            t->above_line[1], bad + 1, t->cell[bad]);
         last = ROW_OTHER;
     }
+    t->named = last != ROW_OTHER;
     if (last == ROW_UNITS && before == ROW_NAMES)
         st = name_columns(t, t->above[0], t->above[1]);
     else
-        st = name_columns(t, last != ROW_OTHER ? t->above[1] : NULL, NULL);
+        st = name_columns(t, t->named ? t->above[1] : NULL, NULL);
     return st == SS_OK ? SS_OK : out_of_memory(t, err);
 }
 
@@ -362,6 +368,21 @@ make_room(struct table *t)
     return 1;
 }
 
+/* Numbers of one file have one decimal mark: 1,234 beside 0.5 may be either of two numbers. */
+static ss_status
+check_mark(struct table *t, size_t column, ss_error *err)
+{
+    const char *cell = t->cell[column];
+    char mark = cell[strcspn(cell, t->separator == ',' ? "." : ".,")];
+    if (t->mark == '\0')
+        t->mark = mark;
+    if (mark == '\0' || mark == t->mark)
+        return SS_OK;
+    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it "
+                   "have a %s", t->in->name, t->in->line, t->names->column[column].name, cell,
+                   mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
+}
+
 static ss_status
 take_row(struct table *t, char *text, ss_error *err)
 {
@@ -376,11 +397,13 @@ take_row(struct table *t, char *text, ss_error *err)
     double *row = t->value + t->n_rows * n;
     for (size_t i = 0; i < n; i++) {
         enum cell_kind kind = read_cell(t->cell[i], t->separator, &row[i]);
-        if (kind == CELL_NUMBER)
-            continue;
-        return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber", name, line,
-                       t->names->column[i].name, t->cell[i],
-                       kind == CELL_NOT_FINITE ? "finite " : "");
+        if (kind != CELL_NUMBER)
+            return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber", name,
+                           line, t->names->column[i].name, t->cell[i],
+                           kind == CELL_NOT_FINITE ? "finite " : "");
+        ss_status st = check_mark(t, i, err);
+        if (st != SS_OK)
+            return st;
     }
     t->line[t->n_rows++] = line;
     return SS_OK;
@@ -442,7 +465,7 @@ find_time_unit(const char *name)
 static int
 is_called_time(const ss_column *c, const char **unit)
 {
-    static const char *const word[] = { "t", "time", "timestamp", "zeit", NULL };
+    static const char *const word[] = { "t", "time", "timestamp", "zeit", "x_value", NULL };
     *unit = c->unit;
     for (int i = 0; word[i] != NULL; i++) {
         size_t n = strlen(word[i]);
@@ -470,7 +493,7 @@ stamps_of(const struct table *t, size_t column, const struct time_unit *unit)
 }
 
 static ss_status
-take_clock(struct table *t, size_t column, const char *unit_name, ss_header *head, ss_error *err)
+take_clock(struct table *t, size_t column, const char *unit_name, ss_error *err)
 {
     const struct time_unit *unit = find_time_unit(unit_name);
     if (unit == NULL)
@@ -479,8 +502,8 @@ take_clock(struct table *t, size_t column, const char *unit_name, ss_header *hea
     double *stamp = stamps_of(t, column, unit);
     if (stamp == NULL)
         return out_of_memory(t, err);
-    ss_status st = find_clock(t->in->name, stamp, t->line, t->n_rows, &head->rate, err);
-    head->start = stamp[0];
+    ss_status st = find_clock(t->in->name, stamp, t->line, t->n_rows, &t->names->rate, err);
+    t->names->start = stamp[0];
     t->time = column;
     free(stamp);
     return st;
@@ -497,41 +520,47 @@ no_such_column(const struct table *t, const char *name, ss_error *err)
 }
 
 static ss_status
-choose_clock(struct table *t, const ss_read_opts *opts, ss_header *head, ss_error *err)
+choose_clock(struct table *t, const ss_read_opts *opts, ss_error *err)
 {
-    const char *unit;
+    const char *unit, *first = t->names->column[0].unit;
     int chosen = opts->time != NULL ? ss_header_column(t->names, opts->time) : -1;
     if (opts->time != NULL && chosen < 0)
         return no_such_column(t, opts->time, err);
     if (chosen >= 0) {
         is_called_time(&t->names->column[chosen], &unit);
-        return take_clock(t, (size_t)chosen, unit, head, err);
+        return take_clock(t, (size_t)chosen, unit, err);
     }
     if (opts->rate > 0) {
-        head->rate = opts->rate;
+        t->names->rate = opts->rate;
         return SS_OK;
     }
     for (size_t i = 0; i < t->n_columns; i++)
         if (is_called_time(&t->names->column[i], &unit))
-            return take_clock(t, i, unit, head, err);
+            return take_clock(t, i, unit, err);
+    if (t->n_columns > 1 && *first != '\0' && find_time_unit(first) != NULL)
+        return take_clock(t, 0, first, err);
     ss_status st = SS_EDATA;
-    if (t->n_columns > 1)
-        st = take_clock(t, 0, t->names->column[0].unit, head, NULL);
+    if (t->n_columns > 1 && !t->named)          /* a force over its deflection ascends too */
+        st = take_clock(t, 0, "", NULL);
     if (st != SS_EDATA)
         return st == SS_OK ? SS_OK : out_of_memory(t, err);
-    return ss_fail(err, SS_EDATA, "%s: no column of time; say which with --time, or give the sample "
-                   "rate with --rate", t->in->name);
+    return ss_fail(err, SS_EDATA, "%s: no column of time; name it with ss-cat --time, or give the "
+                   "sample rate with ss-cat --rate", t->in->name);
 }
 
-/* Leave the column of time out of the names and the rows. */
+/* Leave the column of time out of the names, which become *head, and of the rows. */
 static ss_status
-drop_time(struct table *t, ss_header *head)
+drop_time(struct table *t, ss_header **head)
 {
-    size_t kept = 0;
-    ss_status st = SS_OK;
-    for (size_t c = 0; st == SS_OK && c < t->n_columns; c++)
+    size_t kept = 0, n = 0, *column = malloc(t->n_columns * sizeof *column);
+    if (column == NULL)
+        return SS_ENOMEM;
+    for (size_t c = 0; c < t->n_columns; c++)
         if (c != t->time)
-            st = ss_header_add_column(head, t->names->column[c].name, t->names->column[c].unit);
+            column[n++] = c;
+    ss_header_free(*head);
+    ss_status st = ss_header_select(head, t->names, column, n, 0);
+    free(column);
     for (size_t i = 0; i < t->n_rows * t->n_columns; i++)
         if (i % t->n_columns != t->time)
             t->value[kept++] = t->value[i];
@@ -575,10 +604,10 @@ delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st == SS_OK)
         st = read_table(&t, err);
     if (st == SS_OK)
-        st = choose_clock(&t, opts, reader->head, err);
+        st = choose_clock(&t, opts, err);
     if (st == SS_OK && t.time != NONE && t.n_columns == 1)
         st = ss_fail(err, SS_EDATA, "%s: no column but time", in->name);
-    if (st == SS_OK && drop_time(&t, reader->head) != SS_OK)
+    if (st == SS_OK && drop_time(&t, &reader->head) != SS_OK)
         st = out_of_memory(&t, err);
     if (st == SS_OK) {
         reader->values = t.value;

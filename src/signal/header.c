@@ -32,6 +32,22 @@ ss_header_free(ss_header *head)
     free(head);
 }
 
+/* Append a column of these strings, which become the header's or are freed; NULL: no memory. */
+static ss_status
+append_column(ss_header *head, char *name, char *unit)
+{
+    ss_column *more = realloc(head->column, (head->n_columns + 1) * sizeof *more);
+    if (more != NULL)
+        head->column = more;
+    if (more == NULL || name == NULL || unit == NULL) {
+        free(name);
+        free(unit);
+        return SS_ENOMEM;
+    }
+    head->column[head->n_columns++] = (ss_column){ name, unit };
+    return SS_OK;
+}
+
 static int
 copy_notes(ss_header *to, const ss_header *from)
 {
@@ -59,11 +75,15 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
     copy->has_time = head->has_time;
     if (first > 0)
         copy->start += (double)first / head->rate;
+    int ascending = 1;                          /* then all names differ already */
     for (size_t i = 0; i < n; i++) {
         ss_status st = SS_EINVAL;
-        if (column[i] < head->n_columns)
-            st = ss_header_add_column(copy, head->column[column[i]].name,
-                                      head->column[column[i]].unit);
+        ascending = ascending && (i == 0 || column[i] > column[i - 1]);
+        if (column[i] < head->n_columns) {
+            const ss_column *c = &head->column[column[i]];
+            st = ascending ? append_column(copy, strdup(c->name), strdup(c->unit))
+                           : ss_header_add_column(copy, c->name, c->unit);
+        }
         if (st != SS_OK) {
             ss_header_free(copy);
             return st;
@@ -95,6 +115,12 @@ is_blank(char c)
     return (unsigned char)c <= ' ' || c == 127;
 }
 
+static char
+clean_letter(char c)
+{
+    return is_blank(c) || c == '/' ? '_' : c;
+}
+
 static int
 find_name(const ss_header *head, const char *name)
 {
@@ -104,19 +130,48 @@ find_name(const ss_header *head, const char *name)
     return -1;
 }
 
+/* The least number from 2 on that no column has behind this name and "_"; 0: no memory.  One pass
+ * over the columns, as there are files with thousands of the same name. */
+static size_t
+free_suffix(const ss_header *head, const char *name)
+{
+    size_t length = strlen(name), room = head->n_columns + 3;
+    char *used = calloc(room, 1);
+    if (used == NULL)
+        return 0;
+    for (size_t i = 0; i < head->n_columns; i++) {
+        const char *p = head->column[i].name;
+        if (strncmp(p, name, length) != 0 || p[length] != '_')
+            continue;
+        size_t number = 0;
+        for (p += length + 1; *p >= '0' && *p <= '9' && number < room; p++)
+            number = 10 * number + (size_t)(*p - '0');
+        if (*p == '\0' && number < room)
+            used[number] = 1;
+    }
+    size_t suffix = (size_t)((char *)memchr(used + 2, 0, room - 2) - used);
+    free(used);
+    return suffix;
+}
+
 /* A name without blanks, slashes, or one that is there already. */
 static char *
 clean_name(const ss_header *head, const char *name)
 {
-    size_t size = strlen(name) + 24;
-    char *clean = malloc(size), *p = clean;
+    size_t suffix;
+    char *clean = malloc(strlen(name) + 24), *p = clean;
     if (clean == NULL)
         return NULL;
-    for (; *name != '\0'; name++)
-        *p++ = is_blank(*name) || *name == '/' ? '_' : *name;
+    while (*name != '\0')
+        *p++ = clean_letter(*name++);
     *p = '\0';
-    for (unsigned i = 2; find_name(head, clean) >= 0; i++)
-        snprintf(p, size - (size_t)(p - clean), "_%u", i);
+    if (find_name(head, clean) < 0)
+        return clean;
+    if ((suffix = free_suffix(head, clean)) == 0) {
+        free(clean);
+        return NULL;
+    }
+    sprintf(p, "_%zu", suffix);
     return clean;
 }
 
@@ -145,29 +200,47 @@ ss_header_add_column(ss_header *head, const char *name, const char *unit)
 {
     if (name == NULL || *name == '\0')
         return SS_EINVAL;
-    ss_column *more = realloc(head->column, (head->n_columns + 1) * sizeof *more);
-    if (more == NULL)
-        return SS_ENOMEM;
-    head->column = more;
-    ss_column c = { clean_name(head, name), clean_unit(unit) };
-    if (c.name == NULL || c.unit == NULL) {
-        free(c.name);
-        free(c.unit);
-        return SS_ENOMEM;
+    return append_column(head, clean_name(head, name), clean_unit(unit));
+}
+
+static int
+lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
+}
+
+/* The only column whose name is the one asked for, cleaned, in whatever case if fold; else -1. */
+static int
+find_asked(const ss_header *head, const char *asked, int fold)
+{
+    int found = -1;
+    for (size_t i = 0; i < head->n_columns; i++) {
+        const char *p = head->column[i].name, *q = asked;
+        while (*q != '\0' && (*p == clean_letter(*q) || (fold && lower(*p) == lower(*q)))) {
+            p++;
+            q++;
+        }
+        if (*p != '\0' || *q != '\0')
+            continue;
+        if (found >= 0)
+            return -1;
+        found = (int)i;
     }
-    head->column[head->n_columns++] = c;
-    return SS_OK;
+    return found;
 }
 
 int
 ss_header_column(const ss_header *head, const char *name)
 {
-    int c = find_name(head, name);
-    if (c >= 0 || *name < '0' || *name > '9')
-        return c;
     char *end;
-    unsigned long number = strtoul(name, &end, 10);
-    return *end == '\0' && number >= 1 && number <= head->n_columns ? (int)(number - 1) : -1;
+    int c = find_name(head, name);
+    if (c >= 0)
+        return c;
+    unsigned long number = *name >= '0' && *name <= '9' ? strtoul(name, &end, 10) : 0;
+    if (number >= 1 && *end == '\0')
+        return number <= head->n_columns ? (int)(number - 1) : -1;
+    c = find_asked(head, name, 0);
+    return c >= 0 || strlen(name) < 2 ? c : find_asked(head, name, 1);
 }
 
 size_t
@@ -229,6 +302,45 @@ ss_header_note(ss_header *head, const char *key, const char *value)
     free(head->note[i]);
     head->note[i] = note;
     return SS_OK;
+}
+
+/* --- as UTF-8 ------------------------------------------------------------------------------ */
+
+/* Bytes of the UTF-8 character at p; 0 if it is none. */
+static size_t
+utf8_length(const unsigned char *p)
+{
+    size_t n = p[0] < 0x80 ? 1 : p[0] < 0xc2 ? 0 : p[0] < 0xe0 ? 2 : p[0] < 0xf0 ? 3
+             : p[0] < 0xf5 ? 4 : 0;
+    for (size_t i = 1; i < n; i++)
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] >= 0xa0)
+        || (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] >= 0x90))
+        return 0;                               /* too long for its value, or not a character */
+    return n;
+}
+
+char *
+utf8_text(const char *text)
+{
+    const unsigned char *p = (const unsigned char *)text;
+    size_t n = 0;
+    while (*p != '\0' && (n = utf8_length(p)) > 0)
+        p += n;
+    if (*p == '\0')
+        return strdup(text);
+    char *copy = malloc(2 * strlen(text) + 1), *to = copy;
+    for (p = (const unsigned char *)text; copy != NULL && *p != '\0'; p++)
+        if (*p < 0x80)
+            *to++ = (char)*p;
+        else {
+            *to++ = (char)(0xc0 | *p >> 6);
+            *to++ = (char)(0x80 | (*p & 0x3f));
+        }
+    if (copy != NULL)
+        *to = '\0';
+    return copy;
 }
 
 /* --- as text ------------------------------------------------------------------------------- */

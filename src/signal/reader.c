@@ -5,14 +5,13 @@
 #include "stream.h"
 
 ss_status
-refuse_clock(const ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
 {
     char rate[SS_NUMBER_MAX];
-    double own = reader->head->rate;
     ss_number_format(rate, own);
     if (opts->time != NULL || (opts->rate > 0 && (opts->rate < own || opts->rate > own)))
         return ss_fail(err, SS_EDATA, "%s: has a clock of its own, %s Hz: no column of time or rate "
-                       "can be chosen", reader->in.name, rate);
+                       "can be chosen", name, rate);
     return SS_OK;
 }
 

@@ -40,11 +40,13 @@ ss_status text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 ss_status au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 ss_status delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 
+/* What a reader of AU believes; the annotation is the rest of the header. */
+enum { AU_FIXED_HEADER = 24, AU_MAX_ANNOTATION = 1 << 20, AU_MAX_CHANNELS = 4096 };
 /* The nearest whole Hz that AU can say; the annotation has the exact rate. */
 uint32_t au_rate(double rate);
 
-/* Refuse options for input without a clock, as this one has one. */
-ss_status refuse_clock(const ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+/* Refuse options for input without a clock, as this one has one of its own rate. */
+ss_status refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
 
 /* --- headers ------------------------------------------------------------------------------- */
 
@@ -53,6 +55,9 @@ ss_status refuse_clock(const ss_reader *reader, const ss_read_opts *opts, ss_err
 char *header_text(const ss_header *head, size_t *length);
 /* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
 ss_status header_take(ss_header *head, char *line, const char **reason);
+/* A copy to be freed, or NULL if there is no memory: text that is no valid UTF-8 is taken as Latin-1,
+ * in which older systems export, and converted. */
+char *utf8_text(const char *text);
 /* "name", "name/unit", "name/(unit)" into its two parts, in place. */
 void split_label(char *label, char **name, char **unit);
 

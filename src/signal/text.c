@@ -2,6 +2,7 @@
  *
  * Each time stamp is checked against start + n / rate, so that a row lost on the way is noticed. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include "error.h"
 #include "stream.h"
@@ -130,7 +131,9 @@ text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         st = input_line(in, &line, &length, err);
         if (st != SS_OK)
             break;
-        st = header_take(reader->head, line, &reason);
+        char *label = utf8_text(line);
+        st = label != NULL ? header_take(reader->head, label, &reason) : SS_ENOMEM;
+        free(label);
         if (st != SS_OK)
             return ss_fail(err, st, "%s:%lu: %s", in->name, in->line,
                            st == SS_EDATA ? reason : ss_strerror(st));
@@ -141,7 +144,7 @@ text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", in->name, in->line);
     reader->rows = text_rows;
     if (reader->head->rate > 0)
-        return refuse_clock(reader, opts, err);
+        return refuse_clock(in->name, reader->head->rate, opts, err);
     if (!(opts->rate > 0))
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# rate:' line in the header", in->name, in->line);
     reader->head->rate = opts->rate;

@@ -41,11 +41,16 @@ static ss_status
 write_header(ss_writer *writer)
 {
     size_t length;
-    char *text = header_text(writer->head, &length), fixed[24];
+    char *text = header_text(writer->head, &length), fixed[AU_FIXED_HEADER];
     if (text == NULL)
         return SS_ENOMEM;
+    size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* NULs, at least one */
+    if (writer->format == SS_AU && (writer->head->n_columns > AU_MAX_CHANNELS
+                                    || length + padding > AU_MAX_ANNOTATION)) {
+        free(text);
+        return SS_EINVAL;
+    }
     if (writer->format == SS_AU) {
-        size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;    /* NULs, at least one */
         uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), 0xffffffff,
                               7, au_rate(writer->head->rate),
                               (uint32_t)writer->head->n_columns };

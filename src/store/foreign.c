@@ -169,9 +169,10 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
 }
 
 ss_status
-h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, double rate)
+h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss_read_opts *opts)
 {
     array shape;
+    double rate = opts != NULL ? opts->rate : 0;
     ss_header *head = NULL;
     hid_t id = H5Dopen2(file->id, dataset, H5P_DEFAULT);
     if (id < 0)
@@ -179,6 +180,8 @@ h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, double rate
     const char *wrong = refuse_type(id);
     if (wrong == NULL)
         wrong = get_shape(id, &shape);
+    if (wrong == NULL && opts != NULL && opts->time != NULL)
+        wrong = "an array has no column of time to choose; give its rate in Hz";
     ss_status status = wrong != NULL ? h5_fail(file, SS_EDATA, 0, dataset, wrong)
                        : make_header(file, id, dataset, &shape, rate, &head);
     if (status == SS_OK)

@@ -12,8 +12,9 @@ h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const ch
     char where[256] = "";
     if (group > 0 && name[0] != '/')
         H5Iget_name(group, where, sizeof where);
-    return ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, name[0] != '\0' ? ":" : "",
-                   where, where[0] != '\0' && strcmp(where, "/") != 0 ? "/" : "", name, text);
+    const char *colon = name[0] != '\0' || where[0] != '\0' ? ":" : "";
+    const char *slash = name[0] != '\0' && where[0] != '\0' && strcmp(where, "/") != 0 ? "/" : "";
+    return ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, colon, where, slash, name, text);
 }
 
 ss_status
@@ -113,9 +114,9 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *head)
 {
     (void)info;
     char *value = strcmp(name, H5_VERSION_NOTE) != 0 ? h5_get_text(root, name) : NULL;
-    herr_t stop = value != NULL && ss_header_note(head, name, value) != SS_OK;
+    ss_status status = value != NULL ? ss_header_note(head, name, value) : SS_OK;
     free(value);
-    return stop;
+    return status != SS_OK && status != SS_EINVAL;      /* others may write what is no note of ours */
 }
 
 ss_status

@@ -32,7 +32,8 @@ ss_status h5_read_values(h5_file *file, hid_t group, const char *name, double *v
 ss_status h5_read_notes(h5_file *file, ss_header *head);
 
 /* The dataset at a path, whatever wrote it (foreign.c). */
-ss_status h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, double rate);
+ss_status h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,
+                          const ss_read_opts *opts);
 /* Fail with the list of datasets that the file has. */
 ss_status h5_fail_listing(h5_file *file);
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "../error.h"
+#include "../signal/stream.h"
 
 /* A required attribute of a group, lo <= value <= hi. */
 static ss_status
@@ -212,6 +213,22 @@ get_coefficients(h5_file *file, hid_t group, double *w, size_t n)
     return status;
 }
 
+/* Is scale i one of this record's grid, and shorter than the one before? */
+static ss_status
+check_scale(h5_file *file, hid_t group, const ss_coefficients *c, size_t i)
+{
+    const ss_scale *s = &c->scale[i];
+    double last = (double)(c->n - 1) / c->head->rate;
+    const char *wrong = !(fabs(s->a / exp2(s->m) - 1) < 1e-12)
+                        || !(fabs(s->f * 2 * M_PI * s->a / c->center - 1) < 1e-12)
+                        ? "scale, m and frequency do not agree"
+                        : i > 0 && !(s->a < s[-1].a)
+                        ? "the scales do not descend"
+                        : s->n == 0 || !(ss_scale_b(s, s->n - 1) <= last && ss_scale_b(s, s->n) > last)
+                        ? "the translations are not those that the record has room for" : NULL;
+    return wrong == NULL ? SS_OK : h5_fail(file, SS_EDATA, group, "", wrong);
+}
+
 static ss_status
 get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *total)
 {
@@ -230,7 +247,8 @@ get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *tot
         && (status = get_number(file, group, "frequency", 1e-300, 1e300, &scale->f)) == SS_OK
         && (status = get_lattice(file, group, scale)) == SS_OK
         && (status = get_size(file, group, "re", &n)) == SS_OK
-        && (status = add_room(c, scale, n, total)) == SS_OK) {
+        && (status = add_room(c, scale, n, total)) == SS_OK
+        && (status = check_scale(file, group, c, i)) == SS_OK) {
         scale->j = (int)j;
         status = get_coefficients(file, group, c->w + 2 * scale->offset, n);
     }
@@ -257,10 +275,11 @@ get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
         scale->a = row[n + i];
         scale->f = row[2 * n + i];
         scale->j = (int)row[3 * n + i];
-        if (!(scale->a > 0 && scale->f > 0 && fabs(row[3 * n + i]) <= 1e6))
+        if (!(scale->a >= 1e-300 && scale->f >= 1e-300 && fabs(row[3 * n + i]) <= 1e6))
             status = h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
-        else if ((status = get_lattice(file, group, scale)) == SS_OK)
-            status = add_room(c, scale, c->n, total);
+        else if ((status = get_lattice(file, group, scale)) == SS_OK
+                 && (status = add_room(c, scale, c->n, total)) == SS_OK)
+            status = check_scale(file, group, c, i);
     }
     free(row);
     return status == SS_OK ? get_coefficients(file, group, c->w, *total) : status;
@@ -269,14 +288,15 @@ get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
 static ss_status
 read_grid(h5_file *file, hid_t group, ss_coefficients *c)
 {
-    double samples, scales, dense;
+    double rate, samples, scales, dense;
     size_t total = 0;
     ss_status status;
     if ((status = get_header(file, group, &c->head)) != SS_OK
         || (status = add_grid_column(group, c->head)) != SS_OK
-        || (status = get_number(file, group, "samples", 0, H5_MAX_VALUES, &samples)) != SS_OK
-        || (status = get_number(file, group, "scales", 0, 1e6, &scales)) != SS_OK
-        || (status = get_number(file, group, "center", 1e-300, 1e300, &c->center)) != SS_OK
+        || (status = get_number(file, group, "rate", 1e-100, 1e100, &rate)) != SS_OK
+        || (status = get_number(file, group, "samples", 1, H5_MAX_VALUES, &samples)) != SS_OK
+        || (status = get_number(file, group, "scales", 1, 1e6, &scales)) != SS_OK
+        || (status = get_number(file, group, "center", 2, 1000, &c->center)) != SS_OK
         || (status = get_number(file, group, "dense", 0, 1, &dense)) != SS_OK)
         return status;
     c->n = (size_t)samples;
@@ -317,6 +337,19 @@ finish(h5_file *file, ss_status status)
     return status;
 }
 
+int
+ss_store_has_signal(const char *path)
+{
+    h5_file file = { -1, path, NULL };
+    int has = 0;
+    H5E_BEGIN_TRY {
+        if (h5_open(&file) == SS_OK)
+            has = H5Lexists(file.id, "signal", H5P_DEFAULT) > 0;
+        finish(&file, SS_OK);
+    } H5E_END_TRY
+    return has;
+}
+
 ss_status
 ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
                      const ss_read_opts *opts, ss_error *err)
@@ -327,9 +360,12 @@ ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
     H5E_BEGIN_TRY {
         status = h5_open(&file);
         if (status == SS_OK && dataset != NULL && dataset[0] != '\0')
-            status = h5_read_foreign(&signal, &file, dataset, opts != NULL ? opts->rate : 0);
-        else if (status == SS_OK && H5Lexists(file.id, "signal", H5P_DEFAULT) > 0)
+            status = h5_read_foreign(&signal, &file, dataset, opts);
+        else if (status == SS_OK && H5Lexists(file.id, "signal", H5P_DEFAULT) > 0) {
             status = read_signal(&file, &signal);
+            if (status == SS_OK && opts != NULL)
+                status = refuse_clock(path, signal->head->rate, opts, err);
+        }
         else if (status == SS_OK)
             status = h5_fail_listing(&file);
         status = finish(&file, status);

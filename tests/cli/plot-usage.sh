@@ -14,7 +14,10 @@ ss-plot -c force run.tsv || echo $?
 ss-plot absent.tsv || echo $?
 ss-contour run.tsv || echo $?
 ss-contour --signal run.tsv --column force run.h5 || echo $?
-echo 'soon' | ss-contour --events - run.h5 || echo $?
+printf '# stickslip events 1\nsoon\n' | ss-contour --events - run.h5 || echo $?
+ss-contour --events run.tsv run.h5 || echo $?
+ss-contour --events - run.h5 < /dev/null || echo $?
+ss-contour < run.h5 || echo $?
 echo 'not HDF5' > text.h5
 ss-contour text.h5 || echo $?
 ss-plot run.h5:/wavelet || echo $?
