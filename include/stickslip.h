@@ -6,7 +6,8 @@
  * 139-143, called "the paper" in all comments.
  *
  * SI units throughout.  No function prints, exits or keeps global state; all may be called from
- * several threads at once on objects of their own.  SPDX-License-Identifier: GPL-3.0-or-later */
+ * several threads at once on objects of their own, but for those of store.h: HDF5 in its serial
+ * build is not safe for threads.  SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STICKSLIP_H
 #define STICKSLIP_H
 

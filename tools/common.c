@@ -116,9 +116,9 @@ tool_progress(double done, void *user)
 }
 
 void
-tool_end_at_rows(void)
+tool_end_at_rows(const char *path)
 {
-    if (out_temporary[0] == '\0')
+    if (path == NULL || strcmp(path, "-") == 0)
         catch_signals(ask_to_stop);
 }
 

@@ -27,23 +27,46 @@ static const char usage[] =
 
 enum { OPT_MAX_STEPS = TOOL_OPT_FIRST };
 
-/* What the sinks need: a stream to write to, or a record to fill. */
-struct output {
+/* What was asked for. */
+typedef struct request {
+    const char *scene_path, *path;      /* path: of the output, NULL or "-" for standard output */
+    const char **settings;
+    size_t n_settings;
+    const char *columns;
+    int events;
+    tool_kind kind;
+    double accuracy;                    /* 0: not asked for */
+    ss_sim_opts opts;
+} request;
+
+/* What the sinks need: a stream to write to, begun when the first of it is there, so that a run that
+ * fails at once writes nothing; or a record to fill. */
+typedef struct output {
+    const request *req;
     ss_sim_columns columns;
     ss_header *head;
-    ss_writer *writer;              /* samples as a stream */
-    FILE *events_out;               /* events as text */
-    ss_signal *signal;              /* for HDF5 */
+    FILE *events_out;                   /* events as text */
+    ss_writer *writer;                  /* samples as a stream */
+    ss_signal *signal;                  /* for HDF5 */
     size_t n_samples;
     ss_event *events;
     size_t n_events, room;
-};
+} output;
+
+static void
+begin_samples(output *o)
+{
+    ss_format format = o->req->kind == TOOL_AU ? SS_AU : SS_TSV;
+    if (o->writer == NULL)
+        tool_check(ss_writer_new(&o->writer, tool_output(o->req->path), format, o->head), NULL);
+}
 
 static int
 stream_samples(const ss_sample *s, size_t n, void *user)
 {
-    struct output *o = user;
+    output *o = user;
     double row[SS_SIM_COLUMNS];
+    begin_samples(o);
     for (size_t i = 0; i < n; i++) {
         ss_sim_row(&o->columns, &s[i], row);
         if (tool_stopping() || ss_writer_rows(o->writer, row, 1) != SS_OK)
@@ -52,10 +75,22 @@ stream_samples(const ss_sample *s, size_t n, void *user)
     return 0;
 }
 
+static void
+begin_events(output *o)
+{
+    if (o->events_out != NULL)
+        return;
+    o->events_out = tool_output(o->req->path);
+    fprintf(o->events_out, "# stickslip events 1\n");
+    for (size_t i = 0; i < o->head->n_notes; i++)
+        fprintf(o->events_out, "# %s\n", o->head->note[i]);
+    fprintf(o->events_out, "# columns: t/s kind x/m v/(m/s) direction\n");
+}
+
 static int
 keep_samples(const ss_sample *s, size_t n, void *user)
 {
-    struct output *o = user;
+    output *o = user;
     double row[SS_SIM_COLUMNS];
     for (size_t i = 0; i < n; i++, o->n_samples++) {
         ss_sim_row(&o->columns, &s[i], row);
@@ -68,7 +103,8 @@ keep_samples(const ss_sample *s, size_t n, void *user)
 static int
 print_event(const ss_event *e, void *user)
 {
-    const struct output *o = user;
+    output *o = user;
+    begin_events(o);
     char t[SS_NUMBER_MAX], x[SS_NUMBER_MAX], v[SS_NUMBER_MAX];
     ss_number_format(t, e->t);
     ss_number_format(x, e->x);
@@ -80,7 +116,7 @@ print_event(const ss_event *e, void *user)
 static int
 keep_event(const ss_event *e, void *user)
 {
-    struct output *o = user;
+    output *o = user;
     if (o->n_events == o->room) {
         o->room = o->room > 0 ? 2 * o->room : 64;
         o->events = realloc(o->events, o->room * sizeof *o->events);
@@ -135,24 +171,26 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
 
 /* The name by which the scene is known, without its directories, and what was changed in it. */
 static void
-name_scene(char name[256], const char *path, const char *const settings[], size_t n)
+name_scene(char name[256], const request *req)
 {
     static const char *const of_record[] = { "settle", "duration", "rate" };
-    const char *slash = strrchr(path, '/');
-    snprintf(name, 256, "%s", slash != NULL ? slash + 1 : tool_input_name(path));
-    for (size_t i = 0; i < n; i++) {
+    const char *slash = strrchr(req->scene_path, '/');
+    snprintf(name, 256, "%s", slash != NULL ? slash + 1 : tool_input_name(req->scene_path));
+    for (size_t i = 0; i < req->n_settings; i++) {
         int physical = 1;
         for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
-            physical &= strncmp(settings[i], of_record[k], strlen(of_record[k])) != 0;
+            physical &= strncmp(req->settings[i], of_record[k], strlen(of_record[k])) != 0;
         if (physical)
-            snprintf(name + strlen(name), 256 - strlen(name), ", %s", settings[i]);
+            snprintf(name + strlen(name), 256 - strlen(name), ", %s", req->settings[i]);
     }
 }
 
 static void
-note_origin(ss_header *head, const char *name, const ss_sim_opts *opts)
+note_origin(ss_header *head, const request *req)
 {
-    char tol[SS_NUMBER_MAX];
+    const ss_sim_opts *opts = &req->opts;
+    char name[256], tol[SS_NUMBER_MAX];
+    name_scene(name, req);
     ss_number_format(tol, opts->tol);
     if (ss_header_note(head, "scene", name) != SS_OK
         || ss_header_note(head, "integrator", opts->method) != SS_OK
@@ -161,16 +199,7 @@ note_origin(ss_header *head, const char *name, const ss_sim_opts *opts)
 }
 
 static void
-print_events_header(FILE *out, const ss_header *head)
-{
-    fprintf(out, "# stickslip events 1\n");
-    for (size_t i = 0; i < head->n_notes; i++)
-        fprintf(out, "# %s\n", head->note[i]);
-    fprintf(out, "# columns: t/s kind x/m v/(m/s) direction\n");
-}
-
-int
-main(int argc, char *argv[])
+parse(request *req, int argc, char *argv[])
 {
     static const struct option longopts[] = {
         { "set", required_argument, NULL, 's' }, { "columns", required_argument, NULL, 'c' },
@@ -180,93 +209,96 @@ main(int argc, char *argv[])
         { "max-steps", required_argument, NULL, OPT_MAX_STEPS },
         { "list", no_argument, NULL, 'l' },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
-    const char *columns = "t,x,v,a,f", *path = NULL;
-    const char **settings = calloc((size_t)argc, sizeof *settings);
-    size_t n_settings = 0;
-    int events = 0;
-    tool_kind kind = TOOL_TSV;
-    struct output o = { .writer = NULL };
-    double accuracy = 0;            /* 0: not asked for */
-    ss_sim_opts opts = { .progress = tool_progress };
-    ss_sim_stats stats = { 0 };
-    ss_error err = { "" };
+    ss_sim_opts *opts = &req->opts;
 
-    tool_begin(argv, "ss-sim", usage);
-    if (settings == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
     for (int c; (c = getopt_long(argc, argv, "s:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
         switch (c) {
-        case 's': settings[n_settings++] = optarg; break;
-        case 'c': columns = optarg; break;
-        case 'e': events = 1; break;
-        case 'm': choose_method(&opts, optarg); break;
-        case 't': opts.tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
-        case 'a': accuracy = tool_number("--accuracy", optarg, 1e-12, 1e-3); break;
+        case 's': req->settings[req->n_settings++] = optarg; break;
+        case 'c': req->columns = optarg; break;
+        case 'e': req->events = 1; break;
+        case 'm': choose_method(opts, optarg); break;
+        case 't': opts->tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
+        case 'a': req->accuracy = tool_number("--accuracy", optarg, 1e-12, 1e-3); break;
         case OPT_MAX_STEPS:
-            opts.max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, LONG_MAX);
+            opts->max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, LONG_MAX);
             break;
         case 'l': list(); break;
-        case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
-        case 'o': path = optarg; break;
+        case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
+        case 'o': req->path = optarg; break;
         default: tool_option(c);
         }
     if (optind == argc)
         tool_usage("which scene? give a file, or one of those that --list shows");
-    if (optind + 1 != argc)
-        tool_usage("unexpected argument '%s'", argv[optind + 1]);
-    kind = tool_output_kind(path, events ? 1u << TOOL_TSV
-                            : 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
-    if (events && kind != TOOL_TSV)
+    req->scene_path = tool_input(argc, argv, optind);
+    req->kind = tool_output_kind(req->path, req->events ? 1u << TOOL_TSV
+                                 : 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, req->kind);
+    if (req->events && req->kind != TOOL_TSV)
         tool_usage("--events are text: --format au does not apply");
-    if (ss_sim_columns_parse(&o.columns, columns, &err) != SS_OK)
-        tool_usage("--columns: %s", err.text);
-    if (accuracy > 0 && opts.tol > 0)
+    if (req->accuracy > 0 && opts->tol > 0)
         tool_usage("--accuracy finds the tolerance: --tol does not go with it");
+}
 
-    ss_scene scene = tool_read_scene(argv[optind], settings, n_settings);
-    set_method(&opts, &scene, accuracy);
+/* Put what the run has made where it belongs. */
+static void
+finish(output *o, int has_events)
+{
+    ss_error err = { "" };
+    if (o->signal != NULL) {
+        ss_record record = { .signal = o->signal, .events = o->events, .n_events = o->n_events,
+                             .has_events = has_events };
+        tool_check(ss_store_write(tool_output_path(o->req->path), &record, &err), &err);
+    } else if (o->req->events) {
+        begin_events(o);
+    } else {
+        begin_samples(o);
+        tool_check(ss_writer_flush(o->writer), NULL);
+    }
+    ss_writer_free(o->writer);
+    ss_signal_free(o->signal);
+    ss_header_free(o->head);
+    free(o->events);
+}
+
+int
+main(int argc, char *argv[])
+{
+    request req = { .columns = "t,x,v,a,f", .kind = TOOL_TSV, .opts.progress = tool_progress };
+    output o = { .req = &req };
+    ss_sim_stats stats = { 0 };
+    ss_error err = { "" };
+
+    tool_begin(argv, "ss-sim", usage);
+    req.settings = calloc((size_t)argc, sizeof *req.settings);
+    if (req.settings == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    parse(&req, argc, argv);
+    if (ss_sim_columns_parse(&o.columns, req.columns, &err) != SS_OK)
+        tool_usage("--columns: %s", err.text);
+    ss_scene scene = tool_read_scene(req.scene_path, req.settings, req.n_settings);
+    set_method(&req.opts, &scene, req.accuracy);
     o.head = ss_sim_header(&scene, &o.columns);
     if (o.head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    char name[256];
-    name_scene(name, argv[optind], settings, n_settings);
-    note_origin(o.head, name, &opts);
-    if (events && scene.model == SS_STATE_VARIABLE)
+    note_origin(o.head, &req);
+    if (req.events && scene.model == SS_STATE_VARIABLE)
         tool_warn("the state-variable model has no events");
 
-    opts.user = &o;
-    if (events) {
-        o.events_out = tool_output(path);
-        print_events_header(o.events_out, o.head);
-        opts.events = print_event;
-    } else if (kind == TOOL_H5) {
+    req.opts.user = &o;
+    if (req.kind == TOOL_H5)
         tool_check(ss_signal_new(&o.signal, o.head, ss_scene_samples(&scene)), NULL);
-        opts.samples = keep_samples;
-        opts.events = keep_event;
-    } else {
-        tool_check(ss_writer_new(&o.writer, tool_output(path), kind == TOOL_AU ? SS_AU : SS_TSV,
-                                 o.head), NULL);
-        opts.samples = stream_samples;
-    }
-    tool_end_at_rows();
-    ss_status st = ss_sim_run(&scene, &opts, &stats, &err);
+    if (req.events || req.kind == TOOL_H5)
+        req.opts.events = req.events ? print_event : keep_event;
+    if (!req.events)
+        req.opts.samples = req.kind == TOOL_H5 ? keep_samples : stream_samples;
+    tool_end_at_rows(req.path);
+    ss_status st = ss_sim_run(&scene, &req.opts, &stats, &err);
     if (st == SS_STOP && !tool_stopping())
         tool_die("write error: %s", strerror(errno));
-    if (st == SS_OK && o.signal != NULL)
-        st = ss_store_write(tool_output_path(path),
-                            &(ss_record){ .signal = o.signal, .events = o.events,
-                                          .n_events = o.n_events,
-                                          .has_events = scene.model != SS_STATE_VARIABLE }, &err);
-    if (st == SS_OK && o.writer != NULL && ss_writer_flush(o.writer) != SS_OK)
-        tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
-    tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", opts.method, opts.tol,
-              stats.steps, stats.rhs, stats.events);
-    ss_writer_free(o.writer);
-    ss_signal_free(o.signal);
-    ss_header_free(o.head);
-    free(o.events);
-    free(settings);
+    tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req.opts.method,
+              req.opts.tol, stats.steps, stats.rhs, stats.events);
+    finish(&o, scene.model != SS_STATE_VARIABLE);
+    free(req.settings);
     tool_end();
     return 0;
 }
