@@ -93,9 +93,9 @@ void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, 
 
 /* --- long work ----------------------------------------------------------------------------- */
 
-/* Call before long work, with what -o names.  If that is standard output, the first SIGINT, SIGTERM or SIGHUP from here
- * on does not kill at once: tool_progress answers 1 and sinks should too (tool_stopping), the row
- * is finished, and tool_end dies of the signal. */
+/* Call before long work, with what -o names.  If that is standard output, the first SIGINT, SIGTERM
+ * or SIGHUP from here on does not kill at once: tool_progress answers 1 and sinks should too
+ * (tool_stopping), the row is finished, and tool_end dies of the signal. */
 void tool_end_at_rows(const char *path);
 int tool_stopping(void);
 /* How far the work is, 0 to 1: after a second, on a terminal that the data do not go to, a line on
