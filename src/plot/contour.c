@@ -196,7 +196,7 @@ put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
 static const char around[] =
     "set encoding utf8\n"
     "set multiplot\n"
-    "left = 0.16; right = 0.83\n"
+    "left = 0.175; right = 0.835\n"
     "set lmargin at screen left; set rmargin at screen right\n"
     "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3\n"
     "set title title noenhanced offset 0,-0.5\n";
@@ -204,7 +204,7 @@ static const char around[] =
 /* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */
 static const char panel_a[] =
     "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
-    "set xtics format ''; set label 2 signal_label at screen 0.04,graph 0.5 center rotate noenhanced\n"
+    "set xtics format ''; set label 2 signal_label at screen 0.03,graph 0.5 center rotate noenhanced\n"
     "set label 1 '(a)' at screen 0.01, screen 0.96\n"
     "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
     "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"
@@ -214,7 +214,7 @@ static const char panel_b[] =
     "set bmargin at screen 0.12; set tmargin at screen top_b\n"
     "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
     "set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
-    "set label 2 'frequency / Hz' at screen 0.04,graph 0.5 center rotate\n"
+    "set label 2 'frequency / Hz' at screen 0.03,graph 0.5 center rotate\n"
     "set logscale y; set yrange [fmin:fmax]\n"
     "set palette defined (@colours) maxcolors levels\n"
     "set cbrange [-span - step/2 : -step/2]\n"
