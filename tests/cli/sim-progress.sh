@@ -1,6 +1,6 @@
 # Progress is for terminals: a log has none of it, a terminal shows a line after a second.
 timeout -s INT 2 ss-sim --set duration=1e6 coulomb > /dev/null || true
-command -v script > /dev/null && script --version 2> /dev/null | grep -q util-linux || exit 0
+script -qec true /dev/null < /dev/null > log 2>&1 || { echo "no pseudo-terminal to be had"; exit 77; }
 script -qec 'timeout -s INT 3 ss-sim --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
 tr '\r' '\n' < log | grep -q 'ss-sim:  *[0-9]* %, [0-9]* s left' || echo "no progress"
 script -qec 'timeout -s INT 3 ss-sim -q --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
