@@ -348,6 +348,21 @@ tool_is_hdf5(const char *path)
     return ss_store_is_hdf5(path) || (access(path, F_OK) != 0 && strstr(path, ":/") != NULL);
 }
 
+void
+tool_name_scene(char *name, size_t size, const char *path, const char *const settings[], size_t n)
+{
+    static const char *const of_record[] = { "settle", "duration", "rate" };
+    const char *slash = strrchr(path, '/');
+    snprintf(name, size, "%s", slash != NULL ? slash + 1 : tool_input_name(path));
+    for (size_t i = 0; i < n; i++) {
+        int physical = 1;
+        for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
+            physical &= strncmp(settings[i], of_record[k], strlen(of_record[k])) != 0;
+        if (physical)
+            snprintf(name + strlen(name), size - strlen(name), ", %s", settings[i]);
+    }
+}
+
 size_t
 tool_column(const ss_header *head, const char *path, const char *name)
 {

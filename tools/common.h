@@ -57,6 +57,9 @@ ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read a scene given by path, by the bare name of a shipped one, or "-", with settings
  * "key=value" in place of its own; dies, a setting at fault being wrong usage. */
 ss_scene tool_read_scene(const char *path, const char *const settings[], size_t n);
+/* The name by which it is known, without its directories, and what was changed in its physics. */
+void tool_name_scene(char *name, size_t size, const char *path, const char *const settings[],
+                     size_t n);
 /* 1 if path holds HDF5 or names a dataset in it, which cannot be read row by row, else 0. */
 int tool_is_hdf5(const char *path);
 /* The index of a column by name or number, or die with the list of those that are there; name

@@ -169,28 +169,12 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->tol = ss_sim_defaults.tol;
 }
 
-/* The name by which the scene is known, without its directories, and what was changed in it. */
-static void
-name_scene(char name[256], const request *req)
-{
-    static const char *const of_record[] = { "settle", "duration", "rate" };
-    const char *slash = strrchr(req->scene_path, '/');
-    snprintf(name, 256, "%s", slash != NULL ? slash + 1 : tool_input_name(req->scene_path));
-    for (size_t i = 0; i < req->n_settings; i++) {
-        int physical = 1;
-        for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
-            physical &= strncmp(req->settings[i], of_record[k], strlen(of_record[k])) != 0;
-        if (physical)
-            snprintf(name + strlen(name), 256 - strlen(name), ", %s", req->settings[i]);
-    }
-}
-
 static void
 note_origin(ss_header *head, const request *req)
 {
     const ss_sim_opts *opts = &req->opts;
     char name[256], tol[SS_NUMBER_MAX];
-    name_scene(name, req);
+    tool_name_scene(name, sizeof name, req->scene_path, req->settings, req->n_settings);
     ss_number_format(tol, opts->tol);
     if (ss_header_note(head, "scene", name) != SS_OK
         || ss_header_note(head, "integrator", opts->method) != SS_OK

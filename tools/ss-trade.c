@@ -127,8 +127,8 @@ main(int argc, char *argv[])
         tool_usage("--target writes options, not a picture");
 
     ss_scene scene = tool_read_scene(argv[optind], settings, n_settings);
-    const char *slash = strrchr(argv[optind], '/');
-    const char *name = slash != NULL ? slash + 1 : tool_input_name(argv[optind]);
+    char name[256];
+    tool_name_scene(name, sizeof name, argv[optind], settings, n_settings);
     opts.progress = tool_progress;
     tool_check(ss_trade_measure(&trade, &scene, &opts, &err), &err);
     tool_note("%zu rows against %s, which knows x within %.2g of its maximum", trade->n,

@@ -83,6 +83,7 @@ turn_further(turn a, turn b)
 
 turn motion_base(const motion *m, double u);        /* the phase Omega t + phase */
 double motion_drive(const motion *m, double u);     /* k Z_e times its cosine [N] */
+double motion_step_cap(const motion *m);            /* the longest step in the present mode: sim.c */
 void motion_rebase(motion *m);                      /* let u count from the present step: sim.c */
 
 /* linear.c: what Coulomb and compliant contact share. */

@@ -21,8 +21,8 @@ struct engine_type {
     /* The state at m->u + s, 0 <= s <= h, within the step just taken, and its rate of change; base
      * is the phase there. */
     void (*at)(engine *e, place where, double s, turn base, double q[], double dqdt[]);
-    /* The step is done with: it ended at m->u + h, which becomes m->u. */
-    void (*accept)(engine *e);
+    /* The motion has come to the end of the step: count u from a new origin if it is time to. */
+    void (*go_on)(engine *e);
     void (*free)(engine *e);
 };
 

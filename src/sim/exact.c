@@ -17,7 +17,6 @@
 
 #include <complex.h>
 #include <stdlib.h>
-#include <string.h>
 #include "error.h"
 
 /* |k - m Omega^2 + i c Omega| below this part of k is treated as resonance: from there on, P costs
@@ -212,13 +211,9 @@ exact_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 }
 
 static void
-exact_accept(engine *e)
+exact_go_on(engine *e)
 {
-    motion *m = e->m;
-    memcpy(m->q, e->q1, sizeof m->q);
-    memcpy(e->dq0, e->dq1, sizeof e->dq0);
-    m->u += e->h;
-    if (m->u * m->omega > CYCLES * 2 * M_PI)
+    if (e->m->u * e->m->omega > CYCLES * 2 * M_PI)
         exact_begin(e);
 }
 
@@ -229,7 +224,7 @@ exact_free(engine *e)
 }
 
 static const struct engine_type exact_type = {
-    .begin = exact_begin, .step = exact_step, .at = exact_at, .accept = exact_accept,
+    .begin = exact_begin, .step = exact_step, .at = exact_at, .go_on = exact_go_on,
     .free = exact_free
 };
 

@@ -8,7 +8,6 @@
  * start by one-step methods; multistep ones, whose memory that would spoil, land on every sample. */
 #include "sim/engine.h"
 
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <stdlib.h>
@@ -78,7 +77,7 @@ ode_step(engine *e, double h_max, ss_error *err)
     const motion *m = e->m;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
-    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * 2 * M_PI / (40 * m->model->fastest(m, NULL));
+    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * motion_step_cap(m);
 
     for (;;) {
         double h_adjusted = h / 2;
@@ -191,14 +190,10 @@ ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 }
 
 static void
-ode_accept(engine *e)
+ode_go_on(engine *e)
 {
-    motion *m = e->m;
-    memcpy(m->q, e->q1, sizeof m->q);
-    memcpy(e->dq0, e->dq1, sizeof e->dq0);
-    m->u += e->h;
     if (!((ode *)e)->multistep)             /* GSL's multistep methods must see time go on */
-        motion_rebase(m);
+        motion_rebase(e->m);
 }
 
 static void
@@ -213,7 +208,7 @@ ode_free(engine *e)
 }
 
 static const struct engine_type ode_type = {
-    .begin = ode_begin, .step = ode_step, .at = ode_at, .accept = ode_accept, .free = ode_free
+    .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on, .free = ode_free
 };
 
 /* GSL's methods; the address of each is known at run time only. */
@@ -267,7 +262,7 @@ ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
     o->tol = opts->tol;
-    o->h_next = 2 * M_PI / (40 * m->model->fastest(m, NULL));
+    o->h_next = motion_step_cap(m);
     absolute_scales(m, scale);
     for (size_t k = 0; k < m->model->dim; k++)
         if (!(isfinite(scale[k]) && opts->tol * scale[k] > 0)) {

@@ -6,7 +6,6 @@
  * the samples.) */
 #include <stickslip/sim.h>
 
-#include <float.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +16,12 @@
 /* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
  * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and a guard has at most one extremum a step. */
 enum { STEPS_PER_PERIOD = 40 };
+
+double
+motion_step_cap(const motion *m)
+{
+    return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
+}
 
 /* Chatter: so many events in a row, each within so small a part of the fastest period of the last,
  * are the rounding of one grazing contact and no motion. */
@@ -257,6 +262,17 @@ change_mode(record *r, engine *e, int still, double s)
     return st == SS_OK ? e->type->begin(e) : st;
 }
 
+/* The step is done with, and no event was in it. */
+static void
+accept(engine *e)
+{
+    motion *m = e->m;
+    memcpy(m->q, e->q1, sizeof m->q);
+    memcpy(e->dq0, e->dq1, sizeof e->dq0);
+    m->u += e->h;
+    e->type->go_on(e);
+}
+
 static ss_status
 chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
 {
@@ -295,8 +311,8 @@ static ss_status
 check_length(const motion *m, double length, ss_error *err)
 {
     const char *what;
-    double steps = length * STEPS_PER_PERIOD * m->model->fastest(m, &what) / (2 * M_PI);
-    double end;
+    double steps = length / motion_step_cap(m), end;
+    m->model->fastest(m, &what);
     if (steps <= TOO_MANY_STEPS || (m->model->still != NULL && m->model->still(m, &end)))
         return SS_OK;
     return ss_fail(err, SS_EBUDGET, "%.3g s are %.2g steps of 1/%d of the period of %s: more than "
@@ -312,7 +328,7 @@ run(record *r, engine *e, ss_error *err)
     int in_a_row = 0;
 
     for (;;) {
-        double h, cap = 2 * M_PI / (STEPS_PER_PERIOD * model->fastest(m, NULL));
+        double h, cap = motion_step_cap(m);
         int still = model->still != NULL && model->still(m, &h), ends = still && isfinite(h);
         ss_status st = SS_OK;
         if (still) {
@@ -346,7 +362,7 @@ run(record *r, engine *e, ss_error *err)
                 return st;
             lasted = 0;
         } else {
-            e->type->accept(e);
+            accept(e);
         }
     }
 }
