@@ -12,7 +12,7 @@
 #include <stickslip.h>
 #include "plot/isoline.h"
 
-/* --- isolines ------------------------------------------------------------------------------ */
+/* --- ss_isolines ------------------------------------------------------------------------------ */
 
 enum { N = 61 };
 
@@ -53,7 +53,7 @@ a_cone_has_a_circle(void **state)
     (void)state;
     for (int i = 0; i < N * N; i++)
         height[i] = -hypot(i % N - 30, i / N - 30);
-    assert_int_equal(isolines(&map, -20, count_line, &t), SS_OK);
+    assert_int_equal(ss_isolines(&map, -20, count_line, &t), SS_OK);
     assert_int_equal(t.lines, 1);
     assert_int_equal(t.closed, 1);
     if (!(t.worst <= 1.0 / (8 * 20)))               /* linear interpolation on a curve of radius 20 */
@@ -87,7 +87,7 @@ every_crossing_of_a_rough_map_is_passed_once(void **state)
     }
     for (double level = -0.5; level < 8; level += 0.5) {
         tally t = { 0 };
-        assert_int_equal(isolines(&map, level, count_line, &t), SS_OK);
+        assert_int_equal(ss_isolines(&map, level, count_line, &t), SS_OK);
         if (level != floor(level))                  /* no two points of a line coincide then */
             assert_int_equal(t.points - t.closed, crossings(height, level));
     }
@@ -101,7 +101,7 @@ a_flat_map_has_no_lines(void **state)
     tally t = { 0 };
     (void)state;
     for (double level = -1; level <= 1; level++)
-        assert_int_equal(isolines(&map, level, count_line, &t), SS_OK);
+        assert_int_equal(ss_isolines(&map, level, count_line, &t), SS_OK);
     assert_int_equal(t.lines, 0);
 }
 

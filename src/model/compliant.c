@@ -32,7 +32,7 @@ start(motion *m)
         microstick(m, s->x0, 0);
         return 0;
     }
-    linear_slip(m, s->x0, s->v0, sign(s->v0));
+    ss_linear_slip(m, s->x0, s->v0, sign(s->v0));
     return 1;
 }
 
@@ -41,7 +41,7 @@ static double
 guard(const motion *m, const double q[], const double dqdt[], double *slope)
 {
     if (m->mode != 0)
-        return linear_slip_guard(m, q, dqdt, slope);
+        return ss_linear_slip_guard(m, q, dqdt, slope);
     double limit = deflection_limit(m), ratio = m->scene->contact_damping
         / m->scene->contact_stiffness;
     if (m->scene->release == SS_RELEASE_SPRING)
@@ -59,7 +59,7 @@ only_touches(const motion *m)
 {
     const ss_scene *s = m->scene;
     double rate[MAX_DIM], v = m->q[1];
-    linear_rates(m, motion_drive(m, m->u), m->q, rate);
+    ss_linear_rates(m, ss_motion_drive(m, m->u), m->q, rate);
     if (s->release == SS_RELEASE_TOTAL && s->contact_damping > 0)
         return 0;
     return rate[1] * sign(m->q[0]) < 0
@@ -76,11 +76,11 @@ next(motion *m, ss_event *e)
         return 0;
     }
     if (m->mode == 0) {
-        linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
+        ss_linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;
         e->direction = m->mode;
     } else if (m->scene->friction == 0) {       /* nothing to stick to: v passes through 0 */
-        linear_slip(m, x, 0, -m->mode);
+        ss_linear_slip(m, x, 0, -m->mode);
         e->kind = SS_REVERSE;
         e->direction = m->mode;
     } else {
@@ -104,8 +104,9 @@ sample(const motion *m, double drive, const double q[], const double dqdt[], ss_
         : m->f0;
 }
 
-const struct model compliant_model = {
-    .dim = 2, .start = start, .fastest = linear_fastest, .rates = linear_rates,
-    .jacobian = linear_jacobian, .derivatives = linear_derivatives, .guard = guard, .next = next,
+const struct model ss_compliant_model = {
+    .dim = 2, .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
+    .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .guard = guard,
+    .next = next,
     .sample = sample
 };

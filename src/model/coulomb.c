@@ -21,8 +21,8 @@ force_trend(const motion *m)
 static int
 stop_or_go(motion *m, double x)
 {
-    double force = spring_force(m, motion_drive(m, m->u), x);
-    linear_slip(m, x, 0, fabs(force) > m->scene->friction ? sign(force) : 0);
+    double force = spring_force(m, ss_motion_drive(m, m->u), x);
+    ss_linear_slip(m, x, 0, fabs(force) > m->scene->friction ? sign(force) : 0);
     return m->mode;
 }
 
@@ -32,7 +32,7 @@ start(motion *m)
     const ss_scene *s = m->scene;
     if (s->v0 == 0)
         return stop_or_go(m, s->x0) != 0;
-    linear_slip(m, s->x0, s->v0, sign(s->v0));
+    ss_linear_slip(m, s->x0, s->v0, sign(s->v0));
     return 1;
 }
 
@@ -60,7 +60,7 @@ still(const motion *m, double *u_end)
     *u_end = INFINITY;
     if (m->omega == 0 || z == 0)
         return 1;
-    double theta = m->theta + m->omega * m->u, force = spring_force(m, motion_drive(m, m->u), x);
+    double theta = m->theta + m->omega * m->u, force = spring_force(m, ss_motion_drive(m, m->u), x);
     if (force * force_trend(m) > 0
         && limit - fabs(force) <= 8 * DBL_EPSILON * (m->drive + s->stiffness * fabs(x) + limit)) {
         *u_end = m->u;
@@ -80,7 +80,7 @@ next(motion *m, ss_event *e)
     double x = m->q[0];
     int before = m->mode;
     if (before == 0) {                  /* the force has reached its limit and grows */
-        linear_slip(m, x, 0, sign(force_trend(m)));
+        ss_linear_slip(m, x, 0, sign(force_trend(m)));
         e->kind = SS_SLIP;
         e->direction = m->mode;
         return 1;
@@ -103,8 +103,9 @@ sample(const motion *m, double drive, const double q[], const double dqdt[], ss_
     s->mode = m->mode;
 }
 
-const struct model coulomb_model = {
-    .dim = 2, .start = start, .fastest = linear_fastest, .rates = linear_rates,
-    .jacobian = linear_jacobian, .derivatives = linear_derivatives, .guard = linear_slip_guard,
+const struct model ss_coulomb_model = {
+    .dim = 2, .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
+    .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives,
+    .guard = ss_linear_slip_guard,
     .still = still, .next = next, .sample = sample
 };

@@ -57,7 +57,7 @@ struct model {
                    ss_sample *s);
 };
 
-extern const struct model coulomb_model, state_variable_model, compliant_model;
+extern const struct model ss_coulomb_model, ss_state_variable_model, ss_compliant_model;
 
 static inline int
 sign(double x)
@@ -81,18 +81,18 @@ turn_further(turn a, turn b)
     return (turn){ a.co * b.co - a.si * b.si, a.co * b.si + a.si * b.co };
 }
 
-turn motion_base(const motion *m, double u);        /* the phase Omega t + phase */
-double motion_drive(const motion *m, double u);     /* k Z_e times its cosine [N] */
-double motion_step_cap(const motion *m);            /* the longest step in the present mode: sim.c */
-void motion_rebase(motion *m);                      /* let u count from the present step: sim.c */
+turn ss_motion_base(const motion *m, double u);        /* the phase Omega t + phase */
+double ss_motion_drive(const motion *m, double u);     /* k Z_e times its cosine [N] */
+double ss_motion_step_cap(const motion *m);         /* the longest step in the present mode: sim.c */
+void ss_motion_rebase(motion *m);                   /* let u count from the present step: sim.c */
 
 /* linear.c: what Coulomb and compliant contact share. */
-void linear_rates(const motion *m, double drive, const double q[], double dqdt[]);
-void linear_jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[]);
-void linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
-                        double higher[][MAX_DIM]);
-double linear_fastest(const motion *m, const char **what);
-void linear_slip(motion *m, double x, double v, int direction);
-double linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);
+void ss_linear_rates(const motion *m, double drive, const double q[], double dqdt[]);
+void ss_linear_jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[]);
+void ss_linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
+                           double higher[][MAX_DIM]);
+double ss_linear_fastest(const motion *m, const char **what);
+void ss_linear_slip(motion *m, double x, double v, int direction);
+double ss_linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope);
 
 #endif

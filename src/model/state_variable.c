@@ -71,7 +71,7 @@ sample(const motion *m, double drive, const double q[], const double dqdt[], ss_
     s->mode = sign(q[1]);
 }
 
-const struct model state_variable_model = {
+const struct model ss_state_variable_model = {
     .dim = 3, .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian,
     .sample = sample
 };

@@ -304,7 +304,7 @@ read_options(reader *r)
     coef->center = r->opts.center;
     r->opts.voices = (int)voices;
     ss_error why = { "" };
-    if (morlet_check(coef->n, coef->head->rate, &r->opts, &why) != SS_OK)
+    if (ss_morlet_check(coef->n, coef->head->rate, &r->opts, &why) != SS_OK)
         return ss_fail(r->err, SS_EDATA, "%s: %s", r->name, why.text);
     unit = ss_header_find_note(coef->head, "unit");
     return ss_header_add_column(coef->head, column, unit != NULL ? unit : "");
@@ -344,7 +344,7 @@ new_part(reader *r, int j, const double number[])
     }
     part *p = &r->part[r->n_parts];
     *p = (part){ .n = 0 };
-    if (morlet_scale(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
+    if (ss_morlet_scale_at(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
         != SS_OK)
         return ss_fail(r->err, SS_EDATA, "%s:%zu: %s", r->name, r->line, why.text);
     r->last = r->n_parts++;

@@ -34,9 +34,9 @@ static ss_status
 recompute(compare *cmp, size_t i)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
-    if (fft_takes(cmp->plan->fft, i) || !fft_takes(cmp->other->fft, i))
-        return quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
-    fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, 1, cmp->row);
+    if (ss_fft_takes(cmp->plan->fft, i) || !ss_fft_takes(cmp->other->fft, i))
+        return ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
+    ss_fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, 1, cmp->row);
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
         cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
@@ -56,8 +56,8 @@ compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *
     }
     ss_status st = recompute(cmp, i);
     if (st == SS_OK)
-        st = morlet_finish(cmp->want, cmp->each, scale->a, cmp->plan->opts.norm, cmp->rec.exponent,
-                           err);
+        st = ss_morlet_finish(cmp->want, cmp->each, scale->a, cmp->plan->opts.norm,
+                              cmp->rec.exponent, err);
     w += 2 * scale->offset;
     for (size_t c = 0; c < scale->n; c++)
         most = fmax(most, hypot(w[2 * c], w[2 * c + 1]));
@@ -85,15 +85,16 @@ prepare(compare *cmp, ss_morlet **other, ss_error *err)
     if (cmp->b == NULL || cmp->k == NULL || cmp->want == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < plan->n_scales; i++)
-        if (!fft_takes(plan->fft, i) && fft_takes(cmp->other->fft, i) && plan->scale[i].n > longest)
+        if (!ss_fft_takes(plan->fft, i) && ss_fft_takes(cmp->other->fft, i)
+            && plan->scale[i].n > longest)
             longest = plan->scale[i].n;
     if (longest == 0)
         return SS_OK;
     cmp->row = malloc(2 * longest * sizeof *cmp->row);
-    cmp->scratch = fft_scratch(cmp->other->fft);
+    cmp->scratch = ss_fft_scratch(cmp->other->fft);
     if (cmp->row == NULL || cmp->scratch == NULL)
         return SS_ENOMEM;
-    return fft_forward(cmp->other->fft, &cmp->rec, &cmp->spectra);
+    return ss_fft_forward(cmp->other->fft, &cmp->rec, &cmp->spectra);
 }
 
 ss_status
@@ -105,16 +106,16 @@ ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_
     double worst = 0;
     if (each < 1 || each > 1000000)
         return ss_fail(err, SS_EINVAL, "%zu coefficients a scale are out of range 1 ... 1e6", each);
-    ss_status st = morlet_record(&cmp.rec, x, plan->n, plan->opts.detrend, err);
+    ss_status st = ss_morlet_record(&cmp.rec, x, plan->n, plan->opts.detrend, err);
     if (st == SS_OK)
         st = prepare(&cmp, &other, err);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++)
         st = compare_scale(&cmp, i, w, &worst, err);
     if (st == SS_OK)
         *difference = worst;
-    fft_release(&cmp.spectra);
+    ss_fft_release(&cmp.spectra);
     if (cmp.scratch != NULL)
-        fft_scratch_free(cmp.scratch);
+        ss_fft_scratch_free(cmp.scratch);
     free(cmp.row);
     free(cmp.b);
     free(cmp.k);

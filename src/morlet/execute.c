@@ -9,7 +9,7 @@
 #include "morlet/plan.h"
 
 ss_status
-morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
+ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
 {
     double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
     for (size_t i = 0; i < 2 * n; i++) {
@@ -44,15 +44,15 @@ one_scale(const work *job, size_t i, double *scratch, ss_error *err)
     int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
     factor = fits ? factor : 1;
     ss_status st = SS_OK;
-    if (!fft_takes(plan->fft, i))
-        st = quadrature_scale(plan, scale, &job->rec, factor, w);
+    if (!ss_fft_takes(plan->fft, i))
+        st = ss_quadrature_scale(plan, scale, &job->rec, factor, w);
     else if (scratch == NULL)
         st = SS_ENOMEM;
     else
-        fft_scale(plan, i, &job->rec, &job->spectra, scratch, factor, w);
+        ss_fft_scale(plan, i, &job->rec, &job->spectra, scratch, factor, w);
     if (st != SS_OK || fits)
         return st;
-    return morlet_finish(w, scale->n, scale->a, plan->opts.norm, job->rec.exponent, err);
+    return ss_morlet_finish(w, scale->n, scale->a, plan->opts.norm, job->rec.exponent, err);
 }
 
 /* A thread: scales until none is left, the expensive short ones first. */
@@ -60,7 +60,7 @@ static void *
 work_on(void *user)
 {
     work *job = user;
-    double *scratch = job->plan->fft != NULL ? fft_scratch(job->plan->fft) : NULL;
+    double *scratch = job->plan->fft != NULL ? ss_fft_scratch(job->plan->fft) : NULL;
     pthread_mutex_lock(&job->lock);
     while (job->next > 0) {
         size_t i = --job->next;
@@ -76,7 +76,7 @@ work_on(void *user)
     }
     pthread_mutex_unlock(&job->lock);
     if (scratch != NULL)
-        fft_scratch_free(scratch);
+        ss_fft_scratch_free(scratch);
     return NULL;
 }
 
@@ -100,15 +100,15 @@ ss_status
 ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err)
 {
     work job = { .plan = plan, .w = w, .next = plan->n_scales };
-    ss_status st = morlet_record(&job.rec, x, plan->n, plan->opts.detrend, err);
+    ss_status st = ss_morlet_record(&job.rec, x, plan->n, plan->opts.detrend, err);
     if (st != SS_OK)
         return st;
-    if (plan->fft == NULL || (st = fft_forward(plan->fft, &job.rec, &job.spectra)) == SS_OK) {
+    if (plan->fft == NULL || (st = ss_fft_forward(plan->fft, &job.rec, &job.spectra)) == SS_OK) {
         work_together(&job, (size_t)plan->opts.threads);
         if ((st = job.status) != SS_OK && err != NULL)
             *err = job.error;
     }
-    fft_release(&job.spectra);
+    ss_fft_release(&job.spectra);
     free(job.rec.x);
     return st;
 }

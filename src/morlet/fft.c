@@ -221,7 +221,7 @@ series(const struct fft *f, const route *r, const band *b, const double *x, ptrd
         for (size_t i = 0; i < n; i++)
             g[i] *= scale;
         if (ker != NULL)
-            kaiser_correct(ker, (double)(k - b->mid), 1 / (double)length, g, n);
+            ss_kaiser_correct(ker, (double)(k - b->mid), 1 / (double)length, g, n);
         ptrdiff_t at = (k - origin) % length;
         add_terms(x, lev->points, k, g, n, v, r->length, (size_t)(at < 0 ? at + length : at));
         k += (ptrdiff_t)n;
@@ -309,7 +309,7 @@ put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker,
     double *weight = table, *shift = weight + phases * (size_t)ker->taps, most = 0;
     double re[BLOCK], im[BLOCK];
     for (size_t p = 0; p < phases; p++) {
-        kaiser_weights(ker, (double)p / (double)phases, weight + p * (size_t)ker->taps);
+        ss_kaiser_weights(ker, (double)p / (double)phases, weight + p * (size_t)ker->taps);
         turn(mid, p, circle, shift + 2 * p);
     }
     for (size_t i = 0; i < BLOCK; i++) {
@@ -350,7 +350,7 @@ put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale 
         double part = (double)((uint64_t)c * r->length % circle) / (double)circle
             + tau * per_sample;
         ptrdiff_t j = (ptrdiff_t)whole + (ptrdiff_t)floor(part);
-        kaiser_weights(ker, part - floor(part), weight);
+        ss_kaiser_weights(ker, part - floor(part), weight);
         const double *p = v + 2 * j - (ker->taps - 2);
         for (int k = 0; k < ker->taps; k++) {
             re += weight[k] * p[2 * k];
@@ -376,9 +376,9 @@ kernel_for(const struct fft *f, double edge, double bound, kaiser *out)
 {
     kaiser_band shape = { .edge = edge, .reach = half_width(f, reach_for(f, bound)),
                           .center = f->center, .second = f->second };
-    if (!kaiser_choose(out, &shape, images_for(f, bound)))
+    if (!ss_kaiser_choose(out, &shape, images_for(f, bound)))
         return 0;
-    kaiser_prepare(out);
+    ss_kaiser_prepare(out);
     return 1;
 }
 
@@ -416,8 +416,8 @@ pass(const ss_morlet *plan, size_t i, const double *x, int round, double *v, dou
 }
 
 void
-fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
-          double factor, double *w)
+ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
+             double factor, double *w)
 {
     const double *x = s->level[plan->fft->route[i].level];
     for (int round = 0; round < 2; round++) {
@@ -430,14 +430,14 @@ fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, 
 }
 
 double *
-fft_scratch(const struct fft *fft)
+ss_fft_scratch(const struct fft *fft)
 {
     size_t room = 2 * (fft->longest + 2 * MARGIN) + PHASES_MAX * (KAISER_TAPS_MAX + 2);
     return fftw_malloc(room * sizeof(double));
 }
 
 void
-fft_scratch_free(double *scratch)
+ss_fft_scratch_free(double *scratch)
 {
     fftw_free(scratch);
 }
@@ -474,8 +474,8 @@ spread_record(const level *lev, const record *rec, double *y)
     if (kernel == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < width; i++)
-        kernel[i] = kaiser_at(SPREAD_TAPS, SPREAD_BETA,
-                              (double)i / (double)lev->samples - SPREAD_TAPS / 2);
+        kernel[i] = ss_kaiser_at(SPREAD_TAPS, SPREAD_BETA,
+                                 (double)i / (double)lev->samples - SPREAD_TAPS / 2);
     spread(lev, rec->x, rec->n, kernel, y);
     free(kernel);
     return SS_OK;
@@ -487,7 +487,7 @@ undo_spreading(const level *lev, double *x)
 {
     for (size_t k = 0; k <= lev->points / 8; k++) {
         double nu = (double)k / (double)lev->points;
-        double c = 1 / kaiser_response(SPREAD_TAPS, SPREAD_BETA, nu);
+        double c = 1 / ss_kaiser_response(SPREAD_TAPS, SPREAD_BETA, nu);
         x[2 * k] *= c;
         x[2 * k + 1] *= c;
     }
@@ -513,7 +513,7 @@ forward_level(const level *lev, const record *rec, double **out)
 }
 
 ss_status
-fft_forward(const struct fft *fft, const record *rec, spectra *out)
+ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 {
     ss_status st = SS_OK;
     for (int i = 0; st == SS_OK && i < fft->levels; i++)
@@ -523,7 +523,7 @@ fft_forward(const struct fft *fft, const record *rec, spectra *out)
 }
 
 void
-fft_release(spectra *s)
+ss_fft_release(spectra *s)
 {
     fftw_free(s->level[0]);
     fftw_free(s->level[1]);
@@ -706,7 +706,7 @@ choose_routes(struct fft *f, const ss_morlet *plan)
         r->level = reach > f->level[0].reach;
         if (r->level == 1 && (f->levels == 1 || reach > f->level[1].reach))
             continue;
-        double cost = choose_route(f, plan, i), sum = quadrature_cost(plan, &plan->scale[i]);
+        double cost = choose_route(f, plan, i), sum = ss_quadrature_cost(plan, &plan->scale[i]);
         if (plan->opts.engine == SS_ENGINE_AUTO && cost > sum)
             r->kind = BY_SUM;
         else if (r->kind != BY_SUM)
@@ -784,7 +784,7 @@ any_route(const struct fft *f, size_t n_scales)
 }
 
 ss_status
-fft_new(ss_morlet *plan)
+ss_fft_new(ss_morlet *plan)
 {
     if (plan->opts.engine == SS_ENGINE_QUADRATURE || plan->n > INT_MAX / 2)
         return SS_OK;
@@ -803,13 +803,13 @@ fft_new(ss_morlet *plan)
     choose_routes(f, plan);
     if (any_route(f, plan->n_scales))
         return plan_all(f, plan->n_scales);
-    fft_free(f);
+    ss_fft_free(f);
     plan->fft = NULL;
     return SS_OK;
 }
 
 void
-fft_free(struct fft *fft)
+ss_fft_free(struct fft *fft)
 {
     if (fft == NULL)
         return;
@@ -830,7 +830,7 @@ fft_free(struct fft *fft)
 }
 
 int
-fft_takes(const struct fft *fft, size_t i)
+ss_fft_takes(const struct fft *fft, size_t i)
 {
     return fft != NULL && fft->route[i].kind != BY_SUM;
 }

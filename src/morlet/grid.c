@@ -92,7 +92,7 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
 }
 
 ss_status
-morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
+ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
 {
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "the record is empty");
@@ -153,8 +153,8 @@ count_translations(ss_scale *scale, size_t n, double rate, ss_error *err)
 }
 
 ss_status
-morlet_scale(ss_scale *scale, int j, double a, size_t n, double rate, const ss_morlet_opts *opts,
-             ss_error *err)
+ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
+                   const ss_morlet_opts *opts, ss_error *err)
 {
     int v = opts->voices, octave = j >= 0 ? j / v : -((v - 1 - j) / v);     /* rounded down */
     if (isnan(a))       /* octaves apart by exactly 2 */
@@ -172,8 +172,8 @@ fill_grid(ss_morlet *plan, int j_long, ss_error *err)
 {
     for (size_t i = 0; i < plan->n_scales; i++) {
         ss_scale *scale = &plan->scale[i];
-        ss_status st = morlet_scale(scale, j_long - (int)i, NAN, plan->n, plan->rate, &plan->opts,
-                                    err);
+        ss_status st = ss_morlet_scale_at(scale, j_long - (int)i, NAN, plan->n, plan->rate,
+                                          &plan->opts, err);
         if (st != SS_OK)
             return st;
         scale->offset = plan->total;
@@ -187,7 +187,7 @@ fill_grid(ss_morlet *plan, int j_long, ss_error *err)
 ss_status
 ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
 {
-    ss_status st = morlet_check(n, rate, opts, err);
+    ss_status st = ss_morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
     range use = usable(n, rate, opts), ask = asked(n, rate, opts, use);
@@ -202,7 +202,7 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
     plan->scale = calloc(plan->n_scales, sizeof *plan->scale);
     st = plan->scale == NULL ? SS_ENOMEM : fill_grid(plan, (int)ask.hi, err);
     if (st == SS_OK)
-        st = fft_new(plan);
+        st = ss_fft_new(plan);
     if (st != SS_OK) {
         ss_morlet_free(plan);
         return st;
@@ -232,7 +232,7 @@ ss_morlet_total(const ss_morlet *plan)
 ss_engine
 ss_morlet_engine(const ss_morlet *plan, size_t i)
 {
-    return fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+    return ss_fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
 }
 
 void
@@ -240,7 +240,7 @@ ss_morlet_free(ss_morlet *plan)
 {
     if (plan == NULL)
         return;
-    fft_free(plan->fft);
+    ss_fft_free(plan->fft);
     free(plan->scale);
     free(plan);
 }

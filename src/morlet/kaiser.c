@@ -23,14 +23,14 @@ bessel_i0(double y)
 }
 
 double
-kaiser_at(int taps, double beta, double t)
+ss_kaiser_at(int taps, double beta, double t)
 {
     double s = 2 * t / taps, y = beta * beta / 4 * (1 - s * s);
     return y < 0 ? 0 : bessel_i0(y) * beta / (taps * sinh(beta));
 }
 
 double
-kaiser_response(int taps, double beta, double nu)
+ss_kaiser_response(int taps, double beta, double nu)
 {
     double x = M_PI * taps * nu, z2 = beta * beta - x * x, z = sqrt(fabs(z2));
     double r = z < 1e-4 ? 1 : z2 > 0 ? sinh(z) / z : sin(z) / z;
@@ -69,7 +69,7 @@ worst_image(const kaiser_band *band, int taps, double beta)
 }
 
 int
-kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
+ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
 {
     int fewest = 2 * (int)(-log(bound) / (2 * M_PI));   /* exp(-pi J) is out of reach */
     for (int taps = fewest > 4 ? fewest : 4; taps <= KAISER_TAPS_MAX; taps += 2)
@@ -114,7 +114,7 @@ prepare_part(kaiser *ker, int part)
     for (int i = 0; i < ker->taps; i++) {
         for (int m = 0; m < KAISER_NODES; m++) {
             double f = (part + (1 + part_node[m]) / 2) / KAISER_PARTS;
-            c[m] = kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
+            c[m] = ss_kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
         }
         divided_differences(c, part_node, KAISER_NODES);
         for (int m = 0; m < KAISER_NODES; m++)
@@ -123,12 +123,12 @@ prepare_part(kaiser *ker, int part)
 }
 
 void
-kaiser_prepare(kaiser *ker)
+ss_kaiser_prepare(kaiser *ker)
 {
     for (int i = 0; i < KAISER_FIT; i++) {
         double s = (1 + node(i, KAISER_FIT)) / 2;
         ker->node[i] = node(i, KAISER_FIT);
-        ker->fit[i] = 1 / kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge);
+        ker->fit[i] = 1 / ss_kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge);
     }
     divided_differences(ker->fit, ker->node, KAISER_FIT);
     for (int part = 0; part < KAISER_PARTS; part++)
@@ -151,7 +151,7 @@ correction(const kaiser *ker, double first, double step, double *restrict c)
 }
 
 void
-kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n)
+ss_kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n)
 {
     double c[KAISER_AT_ONCE];
     correction(ker, first, step, c);
@@ -160,7 +160,7 @@ kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n
 }
 
 void
-kaiser_weights(const kaiser *ker, double f, double weight[])
+ss_kaiser_weights(const kaiser *ker, double f, double weight[])
 {
     int part = (int)(f * KAISER_PARTS);
     part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;

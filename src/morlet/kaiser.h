@@ -22,17 +22,17 @@ typedef struct kaiser {
 } kaiser;
 
 /* The shortest kernel that keeps |error| <= bound where the series has size 1; 0 if none does. */
-int kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
+int ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
 /* Fill in what correct and weights use. */
-void kaiser_prepare(kaiser *ker);
+void ss_kaiser_prepare(kaiser *ker);
 /* g[i] *= 1/response at nu = (first + i) step, n <= KAISER_AT_ONCE. */
-void kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n);
+void ss_kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n);
 /* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is taps/2 - 1 - i points
  * before it. */
-void kaiser_weights(const kaiser *ker, double f, double weight[]);
+void ss_kaiser_weights(const kaiser *ker, double f, double weight[]);
 
 /* The kernel itself, 1/response(0) times I0(beta sqrt(1 - (2 t/taps)^2)), and its response. */
-double kaiser_at(int taps, double beta, double t);
-double kaiser_response(int taps, double beta, double nu);
+double ss_kaiser_at(int taps, double beta, double t);
+double ss_kaiser_response(int taps, double beta, double nu);
 
 #endif

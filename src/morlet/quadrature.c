@@ -261,7 +261,7 @@ transform_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
 }
 
 double
-quadrature_cost(const ss_morlet *plan, const ss_scale *scale)
+ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale)
 {
     kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
     size_t taps = taps_for(&ker, fmax(plan->opts.accuracy / 10, TAIL_FLOOR), plan->n);
@@ -269,8 +269,8 @@ quadrature_cost(const ss_morlet *plan, const ss_scale *scale)
 }
 
 ss_status
-quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec, double factor,
-                 double *w)
+ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec, double factor,
+                    double *w)
 {
     double *base;
     size_t room = most_taps(&plan->opts, scale->a, plan->rate, plan->n);
@@ -306,8 +306,8 @@ points(const ss_morlet_opts *opts, double rate, const record *rec, double a, con
 }
 
 ss_status
-quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const double *b,
-                  size_t n, double *w)
+ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                     const double *b, size_t n, double *w)
 {
     return points(&plan->opts, plan->rate, rec, scale->a, b, n, w);
 }
@@ -317,16 +317,16 @@ ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *op
                 double b, double w[2], ss_error *err)
 {
     record rec;
-    ss_status st = morlet_check(n, rate, opts, err);
+    ss_status st = ss_morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
     if (!(a >= 0x1p-500 && a <= 0x1p500) || !(b >= 0 && b <= (double)(n - 1) / rate))
         return ss_fail(err, SS_EINVAL, "a = %g s, b = %g s is not a scale and a time of the record",
                        a, b);
-    if ((st = morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
+    if ((st = ss_morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
         return st;
     if ((st = points(opts, rate, &rec, a, &b, 1, w)) == SS_OK)
-        st = morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
+        st = ss_morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
     free(rec.x);
     return st;
 }

@@ -39,7 +39,7 @@ subtract(record *rec, ss_detrend detrend)
 }
 
 ss_status
-morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
+ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
 {
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i]))

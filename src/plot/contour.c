@@ -77,8 +77,9 @@ put_point(const line_sink *sink, const double point[2])
     size_t row = (size_t)fmin(point[1], (double)(sink->c->n_scales - 2));
     double part = point[1] - (double)row;
     double f = scale[row].f * pow(scale[row + 1].f / scale[row].f, part);
-    script_put(sink->out, sink->span->from + point[0] / COLUMNS * range, script_decimals(range), " ");
-    script_put(sink->out, f, 3 - (int)floor(log10(f)), "");
+    ss_script_put(sink->out, sink->span->from + point[0] / COLUMNS * range,
+                  ss_script_decimals(range), " ");
+    ss_script_put(sink->out, f, 3 - (int)floor(log10(f)), "");
     fprintf(sink->out, " %d\n", sink->level);
 }
 
@@ -124,7 +125,7 @@ put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     fputs("$contour << EOD\n", out);
     for (int k = 1; status == SS_OK && k <= contour->levels; k++) {
         sink.level = k;
-        status = isolines(&map, -k * contour->span / contour->levels, put_line, &sink);
+        status = ss_isolines(&map, -k * contour->span / contour->levels, put_line, &sink);
     }
     fputs("EOD\n", out);
     free(level);
@@ -139,7 +140,7 @@ put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo
 {
     enum { POINTS = 100 };
     double start = c->head->start, length = (double)(c->n - 1) / c->head->rate;
-    int decimals = script_decimals(span->to - span->from);
+    int decimals = ss_script_decimals(span->to - span->from);
     for (int end = 0; end < 2; end++) {
         fputs(end == 0 ? "$cone_left << EOD\n" : "$cone_right << EOD\n", out);
         for (int i = -1; i <= POINTS + 1; i++) {
@@ -148,8 +149,8 @@ put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo
             if (i < 0 || i > POINTS)            /* close the polygon beyond the end of the record */
                 edge = -1;
             double t = end == 0 ? start + edge : start + length - edge;
-            script_put(out, fmin(fmax(t, span->from), span->to), decimals, " ");
-            script_put(out, f, 6, "\n");
+            ss_script_put(out, fmin(fmax(t, span->from), span->to), decimals, " ");
+            ss_script_put(out, f, 6, "\n");
         }
         fputs("EOD\n", out);
     }
@@ -180,11 +181,11 @@ put_frequency_tics(FILE *out, double lo, double hi)
 static void
 put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
 {
-    int decimals = script_decimals(span->to - span->from);
+    int decimals = ss_script_decimals(span->to - span->from);
     fputs("$events << EOD\n", out);
     for (size_t i = 0; i < contour->n_events; i++)
         for (int end = 0; end < 2; end++) {
-            script_put(out, contour->event[i], decimals, end == 0 ? " 0\n" : " 1\n\n");
+            ss_script_put(out, contour->event[i], decimals, end == 0 ? " 0\n" : " 1\n\n");
             if (contour->event[i] < span->from || contour->event[i] > span->to)
                 break;                          /* half a line draws nothing */
         }
@@ -227,7 +228,7 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
 {
     fputs(around, out);
     if (contour->signal != NULL) {
-        script_put_tics(out, "ytics", range, 5);
+        ss_script_put_tics(out, "ytics", range, 5);
         fputs(panel_a, out);
     }
     fprintf(out, "top_b = %s\n", contour->signal != NULL ? "0.68" : "0.925");
@@ -268,14 +269,14 @@ put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, 
     const ss_signal *signal = contour->signal;
     const double *x = signal->values + contour->column * signal->n;
     script_span span;
-    ss_status status = script_find_span(&span, signal->head, signal->n, opts, err);
+    ss_status status = ss_script_find_span(&span, signal->head, signal->n, opts, err);
     if (status != SS_OK)
         return status;
-    int exponent = script_exponent(x + span.first, span.n);
+    int exponent = ss_script_exponent(x + span.first, span.n);
     fputs("signal_label = ", out);
-    script_put_label(out, &signal->head->column[contour->column], exponent);
+    ss_script_put_label(out, &signal->head->column[contour->column], exponent);
     putc('\n', out);
-    *range = script_put_trace(out, "$signal", x, signal->head, &span, exponent);
+    *range = ss_script_put_trace(out, "$signal", x, signal->head, &span, exponent);
     return SS_OK;
 }
 
@@ -287,9 +288,9 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
     script_span span;
     ss_status status = check(c, contour, err);
     if (status == SS_OK)
-        status = script_find_span(&span, c->head, c->n, opts, err);
+        status = ss_script_find_span(&span, c->head, c->n, opts, err);
     if (status == SS_OK)
-        status = script_begin(out, opts, c->head, contour->signal != NULL ? 8.5 : 6.5, err);
+        status = ss_script_begin(out, opts, c->head, contour->signal != NULL ? 8.5 : 6.5, err);
     if (status != SS_OK)
         return status;
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
@@ -297,12 +298,13 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
     drawn.from = span.from;
     drawn.to = span.to;
-    script_put_span(out, &span);
+    ss_script_put_span(out, &span);
     fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ", contour->levels);
-    script_put(out, contour->span, 6, "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
+    ss_script_put(out, contour->span, 6,
+                  "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
     fputs("fmin = ", out);
-    script_put(out, fmin, 6, "    # Hz\nfmax = ");
-    script_put(out, fmax, 6, "  # Hz\n");
+    ss_script_put(out, fmin, 6, "    # Hz\nfmax = ");
+    ss_script_put(out, fmax, 6, "  # Hz\n");
     fputs("colours = \"0 '#7ad151', 0.3 '#22a884', 0.55 '#2a788e', 0.8 '#414487', 1 '#440154'\"\n"
           "cone_colour = '#e4e4e4'; event_colour = '#d55e00'\n", out);
     if (contour->signal != NULL)
@@ -316,5 +318,5 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
     if (status != SS_OK)
         return status;
     put_panels(out, c, contour, range);
-    return script_end(out);
+    return ss_script_end(out);
 }

@@ -123,7 +123,7 @@ start_at(tracer *t, place p, isoline_sink *sink, void *user)
 }
 
 ss_status
-isolines(const isoline_map *map, double level, isoline_sink *sink, void *user)
+ss_isolines(const isoline_map *map, double level, isoline_sink *sink, void *user)
 {
     size_t sides = 2 * map->nx * map->ny;
     tracer t = { map, level, calloc(sides, 1), malloc((sides + 2) * sizeof *t.point) };

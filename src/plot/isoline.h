@@ -14,6 +14,6 @@ typedef struct isoline_map {
 typedef void isoline_sink(const double (*point)[2], size_t n, void *user);
 
 /* Hand every line at this level to the sink, those that end at the border first. */
-ss_status isolines(const isoline_map *map, double level, isoline_sink *sink, void *user);
+ss_status ss_isolines(const isoline_map *map, double level, isoline_sink *sink, void *user);
 
 #endif

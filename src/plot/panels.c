@@ -35,25 +35,25 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
                            head->n_columns);
     if (panels == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
-    ss_status status = script_find_span(&span, head, signal->n, opts, err);
+    ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
     if (status == SS_OK)
-        status = script_begin(out, opts, head, height, err);
+        status = ss_script_begin(out, opts, head, height, err);
     if (status != SS_OK)
         return status;
     double *ranges = malloc(panels * sizeof *ranges);
     if (ranges == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
-    script_put_span(out, &span);
+    ss_script_put_span(out, &span);
     fputs("colour = '#0072b2'\n", out);
     for (size_t i = 0; i < panels; i++) {
         size_t c = n > 0 ? column[i] : i;
         const double *x = signal->values + c * signal->n;
-        int exponent = script_exponent(x + span.first, span.n);
+        int exponent = ss_script_exponent(x + span.first, span.n);
         char name[32];
         snprintf(name, sizeof name, "$panel%zu", i + 1);
-        ranges[i] = script_put_trace(out, name, x, head, &span, exponent);
+        ranges[i] = ss_script_put_trace(out, name, x, head, &span, exponent);
         fprintf(out, "label%zu = ", i + 1);
-        script_put_label(out, &head->column[c], exponent);
+        ss_script_put_label(out, &head->column[c], exponent);
         putc('\n', out);
     }
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
@@ -65,14 +65,14 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
                 "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
         fprintf(out, "set label 1 label%zu at screen 0.035,graph 0.5 center rotate noenhanced\n", i);
-        script_put_tics(out, "ytics", ranges[i - 1], 5);
+        ss_script_put_tics(out, "ytics", ranges[i - 1], 5);
         fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
         if (i == 1)
             fputs("unset title\n", out);
     }
     free(ranges);
     fputs("unset multiplot\n", out);
-    return script_end(out);
+    return ss_script_end(out);
 }
 
 /* --- one over the other -------------------------------------------------------------------- */
@@ -93,8 +93,8 @@ static void
 put_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, double y_unit)
 {
     double x_range = range(x, n, x_unit), y_range = range(y, n, y_unit);
-    script_put_tics(out, "xtics", x_range, 6);
-    script_put_tics(out, "ytics", y_range, 6);
+    ss_script_put_tics(out, "xtics", x_range, 6);
+    ss_script_put_tics(out, "ytics", y_range, 6);
     double near_x = x_range / (2 * SCRIPT_COLUMNS), near_y = y_range / (2 * SCRIPT_COLUMNS);
     size_t last = 0;
     fputs("$path << EOD\n", out);
@@ -102,8 +102,8 @@ put_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, d
         if (i > 0 && i + 1 < n && fabs(x[i] - x[last]) / x_unit <= near_x
             && fabs(y[i] - y[last]) / y_unit <= near_y)
             continue;
-        script_put(out, x[i] / x_unit, script_decimals(x_range), " ");
-        script_put(out, y[i] / y_unit, script_decimals(y_range), "\n");
+        ss_script_put(out, x[i] / x_unit, ss_script_decimals(x_range), " ");
+        ss_script_put(out, y[i] / y_unit, ss_script_decimals(y_range), "\n");
         last = i;
     }
     fputs("EOD\n", out);
@@ -118,18 +118,18 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     if (x >= head->n_columns || y >= head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1,
                        head->n_columns);
-    ss_status status = script_find_span(&span, head, signal->n, opts, err);
+    ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
     if (status == SS_OK)
-        status = script_begin(out, opts, head, 6.5, err);
+        status = ss_script_begin(out, opts, head, 6.5, err);
     if (status != SS_OK)
         return status;
     const double *of_x = signal->values + x * signal->n + span.first;
     const double *of_y = signal->values + y * signal->n + span.first;
-    int exponent[2] = { script_exponent(of_x, span.n), script_exponent(of_y, span.n) };
+    int exponent[2] = { ss_script_exponent(of_x, span.n), ss_script_exponent(of_y, span.n) };
     fputs("colour = '#0072b2'\nx_label = ", out);
-    script_put_label(out, &head->column[x], exponent[0]);
+    ss_script_put_label(out, &head->column[x], exponent[0]);
     fputs("\ny_label = ", out);
-    script_put_label(out, &head->column[y], exponent[1]);
+    ss_script_put_label(out, &head->column[y], exponent[1]);
     putc('\n', out);
     put_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
     fputs("set encoding utf8\n"
@@ -140,5 +140,5 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
           "set tics nomirror out scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour\n", out);
-    return script_end(out);
+    return ss_script_end(out);
 }

@@ -18,7 +18,7 @@ const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN };
 /* --- numbers and text ---------------------------------------------------------------------- */
 
 void
-script_put(FILE *out, double x, int decimals, const char *behind)
+ss_script_put(FILE *out, double x, int decimals, const char *behind)
 {
     char text[SS_NUMBER_MAX];
     double unit = pow(10, decimals < 0 ? -decimals : decimals);
@@ -32,7 +32,7 @@ script_put(FILE *out, double x, int decimals, const char *behind)
 }
 
 int
-script_decimals(double range)
+ss_script_decimals(double range)
 {
     if (!(range > 0))
         return 6;
@@ -42,7 +42,7 @@ script_decimals(double range)
 /* Between single quotes gnuplot replaces nothing; a quote itself stands between double ones.  (Two
  * quotes for one are legal, but three in a row are read as an empty text and a new quote.) */
 void
-script_quote(FILE *out, const char *text)
+ss_script_quote(FILE *out, const char *text)
 {
     putc('\'', out);
     for (; *text != '\0'; text++)
@@ -54,7 +54,7 @@ script_quote(FILE *out, const char *text)
 }
 
 int
-script_exponent(const double *x, size_t n)
+ss_script_exponent(const double *x, size_t n)
 {
     double largest = 0;
     for (size_t i = 0; i < n; i++)
@@ -65,14 +65,14 @@ script_exponent(const double *x, size_t n)
 }
 
 void
-script_put_tics(FILE *out, const char *axis, double range, int intervals)
+ss_script_put_tics(FILE *out, const char *axis, double range, int intervals)
 {
     double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
     int step = share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10;
     if (range > 0)
         fprintf(out, "set %s ", axis);
     if (range > 0)
-        script_put(out, step * power, power < 1 ? (int)round(-log10(power)) : 0, "\n");
+        ss_script_put(out, step * power, power < 1 ? (int)round(-log10(power)) : 0, "\n");
     else
         fprintf(out, "set %s autofreq\n", axis);
 }
@@ -133,7 +133,7 @@ line_break(const label *l)
 }
 
 void
-script_put_label(FILE *out, const ss_column *column, int exponent)
+ss_script_put_label(FILE *out, const ss_column *column, int exponent)
 {
     const char *unit = column->unit;
     int brackets = unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL);
@@ -153,11 +153,11 @@ script_put_label(FILE *out, const ss_column *column, int exponent)
         char second[sizeof l.text];
         memcpy(second, l.text + split, l.n - split + 1);
         l.text[split] = '\0';
-        script_quote(out, l.text);
+        ss_script_quote(out, l.text);
         fputs(".\"\\n\".", out);
-        script_quote(out, second);
+        ss_script_quote(out, second);
     } else {
-        script_quote(out, l.text);
+        ss_script_quote(out, l.text);
     }
 }
 
@@ -182,16 +182,16 @@ put_terminal(FILE *out, const char *format, const char *output, double height)
     double per_cm = pdf ? 1 : PIXELS_PER_CM;
     const char *unit = pdf ? " cm" : "";
     fputs("width = ", out);
-    script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    ss_script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
-    script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    ss_script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
     fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
             terminal(format), unit, unit, pdf ? "0.6" : "2",
             pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
         fputs("set output ", out);
-        script_quote(out, output);
+        ss_script_quote(out, output);
         putc('\n', out);
     }
 }
@@ -208,8 +208,8 @@ find_title(const ss_plot_opts *opts, const ss_header *head)
 }
 
 ss_status
-script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
-             ss_error *err)
+ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
+                ss_error *err)
 {
     const char *format = opts->format, *dot;
     if (format == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
@@ -224,23 +224,23 @@ script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double 
         fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", 8.5, height);
     fputs("title = ", out);
-    script_quote(out, find_title(opts, head));
+    ss_script_quote(out, find_title(opts, head));
     putc('\n', out);
     return SS_OK;
 }
 
 void
-script_put_span(FILE *out, const script_span *span)
+ss_script_put_span(FILE *out, const script_span *span)
 {
-    int decimals = script_decimals(span->to - span->from);
+    int decimals = ss_script_decimals(span->to - span->from);
     fputs("from = ", out);
-    script_put(out, span->from, decimals, "         # s\n");
+    ss_script_put(out, span->from, decimals, "         # s\n");
     fputs("to = ", out);
-    script_put(out, span->to, decimals, "           # s\n");
+    ss_script_put(out, span->to, decimals, "           # s\n");
 }
 
 ss_status
-script_end(FILE *out)
+ss_script_end(FILE *out)
 {
     fputs("unset output\n", out);
     return ferror(out) || fflush(out) != 0 ? SS_EIO : SS_OK;
@@ -249,8 +249,8 @@ script_end(FILE *out)
 /* --- time ---------------------------------------------------------------------------------- */
 
 ss_status
-script_find_span(script_span *span, const ss_header *head, size_t n, const ss_plot_opts *opts,
-                 ss_error *err)
+ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss_plot_opts *opts,
+                    ss_error *err)
 {
     double end = head->start + (double)n / head->rate, rate = head->rate;
     span->from = isnan(opts->from) ? head->start : opts->from;
@@ -273,13 +273,13 @@ static void
 put_sample(FILE *out, const double *x, size_t i, const ss_header *head, const int decimals[2],
            double unit)
 {
-    script_put(out, head->start + (double)i / head->rate, decimals[0], " ");
-    script_put(out, x[i] / unit, decimals[1], "\n");
+    ss_script_put(out, head->start + (double)i / head->rate, decimals[0], " ");
+    ss_script_put(out, x[i] / unit, decimals[1], "\n");
 }
 
 double
-script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
-                 const script_span *span, int exponent)
+ss_script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
+                    const script_span *span, int exponent)
 {
     double unit = pow(10, exponent), lo = INFINITY, hi = -INFINITY;
     size_t end = span->first + span->n;
@@ -287,7 +287,8 @@ script_put_trace(FILE *out, const char *name, const double *x, const ss_header *
         lo = fmin(lo, x[i] / unit);
         hi = fmax(hi, x[i] / unit);
     }
-    const int decimals[2] = { script_decimals(span->to - span->from), script_decimals(hi - lo) };
+    const int decimals[2] = { ss_script_decimals(span->to - span->from),
+                              ss_script_decimals(hi - lo) };
     size_t columns = span->n > 2 * SCRIPT_COLUMNS ? SCRIPT_COLUMNS : span->n;
     fprintf(out, "%s << EOD\n", name);
     for (size_t c = 0, i = span->first; c < columns; c++) {

@@ -15,36 +15,36 @@ typedef struct script_span {
 } script_span;
 
 /* SS_EINVAL if nothing lies in the span asked for. */
-ss_status script_find_span(script_span *span, const ss_header *head, size_t n,
-                           const ss_plot_opts *opts, ss_error *err);
+ss_status ss_script_find_span(script_span *span, const ss_header *head, size_t n,
+                              const ss_plot_opts *opts, ss_error *err);
 
 /* Top of the script: terminal, size, title and what the caller's own variables follow. */
-ss_status script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
-                       ss_error *err);
+ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
+                          ss_error *err);
 /* The named variables from and to, in the lines at the top. */
-void script_put_span(FILE *out, const script_span *span);
+void ss_script_put_span(FILE *out, const script_span *span);
 
 /* Text from outside as a gnuplot string constant that does nothing but stand there. */
-void script_quote(FILE *out, const char *text);
+void ss_script_quote(FILE *out, const char *text);
 /* A number rounded to so many decimals, whatever the locale, and what stands behind it. */
-void script_put(FILE *out, double x, int decimals, const char *behind);
+void ss_script_put(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that tell apart a tenth of a pixel column in a picture of this range. */
-int script_decimals(double range);
+int ss_script_decimals(double range);
 
 /* The power of ten, a multiple of 3, that brings the n values to numbers short to read. */
-int script_exponent(const double *x, size_t n);
+int ss_script_exponent(const double *x, size_t n);
 /* "name / (10^-3 unit)" as a string constant. */
-void script_put_label(FILE *out, const ss_column *column, int exponent);
+void ss_script_put_label(FILE *out, const ss_column *column, int exponent);
 
 /* set AXIS STEP: so many intervals at most over the range, of 1, 2 or 5 times a power of ten. */
-void script_put_tics(FILE *out, const char *axis, double range, int intervals);
+void ss_script_put_tics(FILE *out, const char *axis, double range, int intervals);
 
 /* A datablock of time and x 10^-exponent: the smallest and largest of each pixel column, so that
  * no spike is lost.  span as found; x points at the whole record.  The range of what was put. */
-double script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
+double ss_script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
                       const script_span *span, int exponent);
 
 /* SS_EIO if a write failed. */
-ss_status script_end(FILE *out);
+ss_status ss_script_end(FILE *out);
 
 #endif

@@ -64,7 +64,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
         return ss_fail(err, SS_EINVAL, "nothing to draw: no row was measured");
     if (titled.title == NULL)
         titled.title = "";
-    ss_status st = script_begin(out, &titled, NULL, 8.5, err);
+    ss_status st = ss_script_begin(out, &titled, NULL, 8.5, err);
     if (st != SS_OK)
         return st;
     fprintf(out, "fastest = %.3g        # s of CPU time\n", fastest);
@@ -86,5 +86,5 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
           "set key outside below horizontal maxrows 4 samplen 2 noenhanced\n", out);
     put_plot(out, trade);
-    return script_end(out);
+    return ss_script_end(out);
 }

@@ -77,7 +77,7 @@ au_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
     for (; *n < max && reader->bytes_left > 0; ++*n) {
         if (*n > 0 && in->hi - in->lo < frame)
             break;
-        ss_status st = input_need(in, frame, err);
+        ss_status st = ss_input_need(in, frame, err);
         if (st != SS_OK)
             return st;
         size_t there = in->hi - in->lo;
@@ -126,7 +126,7 @@ read_annotation(ss_header **out, char *text)
         size_t length = strcspn(line, "\n");
         next = line + length + (line[length] == '\n');
         line[length] = '\0';
-        st = header_take(head, line, &reason);
+        st = ss_header_take(head, line, &reason);
     }
     if (st != SS_OK) {
         ss_header_free(head);
@@ -150,16 +150,16 @@ make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
         ss_header_free(head);
         st = number_channels(reader->head, channels);
     }
-    if (!(reader->head->rate > 0) || au_rate(reader->head->rate) != rate)
+    if (!(reader->head->rate > 0) || ss_au_rate(reader->head->rate) != rate)
         reader->head->rate = rate;
     return st;
 }
 
 ss_status
-au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    ss_status st = input_need(in, AU_FIXED_HEADER, err);
+    ss_status st = ss_input_need(in, AU_FIXED_HEADER, err);
     if (st != SS_OK)
         return st;
     if (in->hi - in->lo < AU_FIXED_HEADER)
@@ -179,7 +179,7 @@ au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (channels < 1 || channels > AU_MAX_CHANNELS || field[4] < 1)
         return ss_fail(err, SS_EDATA, "%s: AU header: impossible: %lu channels at %lu Hz", in->name,
                        (unsigned long)channels, (unsigned long)field[4]);
-    st = input_need(in, offset, err);
+    st = ss_input_need(in, offset, err);
     if (st != SS_OK)
         return st;
     if (in->hi - in->lo < offset)
@@ -194,5 +194,5 @@ au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     reader->encoding = (int)encoding;
     reader->bytes_left = size == UNKNOWN_SIZE ? UINT64_MAX : size;
     reader->rows = au_rows;
-    return refuse_clock(in->name, reader->head->rate, opts, err);
+    return ss_refuse_clock(in->name, reader->head->rate, opts, err);
 }

@@ -101,8 +101,8 @@ roundest(double lo, double hi, int *digits)
 }
 
 ss_status
-find_clock(const char *file, const double *t, const unsigned long *line, size_t n, double *rate,
-           ss_error *err)
+ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n, double *rate,
+              ss_error *err)
 {
     if (n < 2)
         return ss_fail(err, SS_EDATA, "%s: one row has no sample rate; give it with ss-cat --rate", file);

@@ -163,7 +163,7 @@ keep_above(struct table *t, const char *line)
     free(t->above[0]);
     t->above[0] = t->above[1];
     t->above_line[0] = t->above_line[1];
-    t->above[1] = utf8_text(line);
+    t->above[1] = ss_utf8_text(line);
     t->above_line[1] = t->in->line;
     return t->above[1] != NULL;
 }
@@ -244,7 +244,7 @@ split_name(char *cell, char **name, char **unit)
     char closing = n > 0 ? cell[n - 1] : '\0';
     char *opening = closing == ')' ? strchr(cell, '(') : closing == ']' ? strchr(cell, '[') : NULL;
     if (opening == NULL || opening == cell) {
-        split_label(cell, name, unit);
+        ss_split_label(cell, name, unit);
         *name = trim(*name);
         *unit = trim(*unit);
         return;
@@ -337,7 +337,7 @@ next_line(struct table *t, char **line, int *comment, ss_error *err)
 {
     size_t length;
     do {
-        ss_status st = input_line(t->in, line, &length, err);
+        ss_status st = ss_input_line(t->in, line, &length, err);
         if (st != SS_OK || *line == NULL)
             return st;
         if (strlen(*line) != length)
@@ -502,7 +502,7 @@ take_clock(struct table *t, size_t column, const char *unit_name, ss_error *err)
     double *stamp = stamps_of(t, column, unit);
     if (stamp == NULL)
         return out_of_memory(t, err);
-    ss_status st = find_clock(t->in->name, stamp, t->line, t->n_rows, &t->names->rate, err);
+    ss_status st = ss_find_clock(t->in->name, stamp, t->line, t->n_rows, &t->names->rate, err);
     t->names->start = stamp[0];
     t->time = column;
     free(stamp);
@@ -592,11 +592,11 @@ free_table(struct table *t)
 }
 
 ss_status
-delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+ss_delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
     struct table t = { .in = in, .time = NONE, .names = ss_header_new(0, 0) };
-    ss_status st = input_need(in, 3, err);
+    ss_status st = ss_input_need(in, 3, err);
     if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
         in->lo += 3;                            /* a byte-order mark */
     if (st == SS_OK && t.names == NULL)

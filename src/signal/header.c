@@ -322,7 +322,7 @@ utf8_length(const unsigned char *p)
 }
 
 char *
-utf8_text(const char *text)
+ss_utf8_text(const char *text)
 {
     const unsigned char *p = (const unsigned char *)text;
     size_t n = 0;
@@ -358,7 +358,7 @@ write_label(FILE *out, const ss_column *c)
 }
 
 char *
-header_text(const ss_header *head, size_t *length)
+ss_header_text(const ss_header *head, size_t *length)
 {
     char *text = NULL, number[SS_NUMBER_MAX];
     FILE *out = open_memstream(&text, length);
@@ -384,7 +384,7 @@ header_text(const ss_header *head, size_t *length)
 }
 
 void
-split_label(char *label, char **name, char **unit)
+ss_split_label(char *label, char **name, char **unit)
 {
     char *slash = strchr(label, '/');
     *name = label;
@@ -414,7 +414,7 @@ take_columns(ss_header *head, char *p, const char **reason)
         more = *p != '\0';
         *p = '\0';
         p += more;
-        split_label(label, &name, &unit);
+        ss_split_label(label, &name, &unit);
         if (first && strcmp(name, "t") == 0 && strcmp(unit, "s") == 0) {
             head->has_time = 1;
             continue;
@@ -429,7 +429,7 @@ take_columns(ss_header *head, char *p, const char **reason)
 }
 
 ss_status
-header_take(ss_header *head, char *line, const char **reason)
+ss_header_take(ss_header *head, char *line, const char **reason)
 {
     char *key = line + 1, *colon = strchr(line, ':'), *end;
     if (colon == NULL)

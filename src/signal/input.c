@@ -12,7 +12,7 @@
 enum { PIECE = 65536 };
 
 ss_status
-input_open(struct input *in, FILE *file, const char *name, ss_error *err)
+ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err)
 {
     memset(in, 0, sizeof *in);
     in->file = file;
@@ -26,7 +26,7 @@ input_open(struct input *in, FILE *file, const char *name, ss_error *err)
 }
 
 void
-input_close(struct input *in)
+ss_input_close(struct input *in)
 {
     free((char *)in->name);
     free(in->buffer);
@@ -79,7 +79,7 @@ fill(struct input *in, ss_error *err)
 }
 
 ss_status
-input_need(struct input *in, size_t n, ss_error *err)
+ss_input_need(struct input *in, size_t n, ss_error *err)
 {
     while (in->hi - in->lo < n && !in->ended) {
         ss_status st = fill(in, err);
@@ -101,13 +101,13 @@ find_newline(struct input *in)
 }
 
 int
-input_has_line(struct input *in)
+ss_input_has_line(struct input *in)
 {
     return find_newline(in) != NULL;
 }
 
 ss_status
-input_line(struct input *in, char **line, size_t *length, ss_error *err)
+ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
 {
     char *newline;
     *line = NULL;

@@ -5,7 +5,7 @@
 #include "stream.h"
 
 ss_status
-refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
+ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
 {
     char rate[SS_NUMBER_MAX];
     ss_number_format(rate, own);
@@ -20,7 +20,7 @@ static ss_status
 open_kind(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    ss_status st = input_need(in, 11, err);
+    ss_status st = ss_input_need(in, 11, err);
     const char *p = in->buffer + in->lo;
     size_t n = in->hi - in->lo;
     if (st != SS_OK)
@@ -28,14 +28,14 @@ open_kind(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (n == 0)
         return ss_fail(err, SS_EDATA, "%s: empty", in->name);
     if (n >= 4 && memcmp(p, ".snd", 4) == 0)
-        return au_open(reader, opts, err);
+        return ss_au_open(reader, opts, err);
     if (n >= 11 && memcmp(p, STREAM_MAGIC, 11) == 0)
-        return text_open(reader, opts, err);
+        return ss_text_open(reader, opts, err);
     if (n >= 4 && memcmp(p, "\211HDF", 4) == 0)
         return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
     if (n >= 4 && (memcmp(p, "RIFF", 4) == 0 || memcmp(p, "fLaC", 4) == 0))
         return ss_fail(err, SS_EDATA, "%s: a sound file; convert it: sox FILE -t au -", in->name);
-    return delimited_open(reader, opts, err);
+    return ss_delimited_open(reader, opts, err);
 }
 
 ss_status
@@ -47,7 +47,7 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
     if (reader == NULL)
         return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     reader->head = ss_header_new(0, 0);
-    ss_status st = input_open(&reader->in, in, name, err);
+    ss_status st = ss_input_open(&reader->in, in, name, err);
     if (st == SS_OK && reader->head == NULL)
         st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     if (st == SS_OK)
@@ -78,7 +78,7 @@ ss_reader_free(ss_reader *reader)
 {
     if (reader == NULL)
         return;
-    input_close(&reader->in);
+    ss_input_close(&reader->in);
     ss_header_free(reader->head);
     free(reader->values);
     free(reader);

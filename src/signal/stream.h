@@ -16,14 +16,14 @@ struct input {
     int ended;
     unsigned long line;         /* of the line read last, from 1 */
 };
-ss_status input_open(struct input *in, FILE *file, const char *name, ss_error *err);
-void input_close(struct input *in);
+ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err);
+void ss_input_close(struct input *in);
 /* Have n bytes in the buffer, or all that there are until the end. */
-ss_status input_need(struct input *in, size_t n, ss_error *err);
+ss_status ss_input_need(struct input *in, size_t n, ss_error *err);
 /* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0
  * and *line = NULL at the end of the stream. */
-ss_status input_line(struct input *in, char **line, size_t *length, ss_error *err);
-int input_has_line(struct input *in);           /* is a whole line in the buffer? */
+ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error *err);
+int ss_input_has_line(struct input *in);           /* is a whole line in the buffer? */
 
 typedef ss_status read_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
 struct ss_reader {
@@ -36,33 +36,33 @@ struct ss_reader {
     double *values;             /* delimited text: all rows, one after the other */
     size_t n_rows;
 };
-ss_status text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
-ss_status au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
-ss_status delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+ss_status ss_text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+ss_status ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+ss_status ss_delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 
 /* What a reader of AU believes; the annotation is the rest of the header. */
 enum { AU_FIXED_HEADER = 24, AU_MAX_ANNOTATION = 1 << 20, AU_MAX_CHANNELS = 4096 };
 /* The nearest whole Hz that AU can say; the annotation has the exact rate. */
-uint32_t au_rate(double rate);
+uint32_t ss_au_rate(double rate);
 
 /* Refuse options for input without a clock, as this one has one of its own rate. */
-ss_status refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
+ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
 
 /* --- headers ------------------------------------------------------------------------------- */
 
 #define STREAM_MAGIC "# stickslip signal 1"
 /* The lines of a header, to be freed, or NULL if there is no memory. */
-char *header_text(const ss_header *head, size_t *length);
+char *ss_header_text(const ss_header *head, size_t *length);
 /* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
-ss_status header_take(ss_header *head, char *line, const char **reason);
+ss_status ss_header_take(ss_header *head, char *line, const char **reason);
 /* A copy to be freed, or NULL if there is no memory: text that is no valid UTF-8 is taken as Latin-1,
  * in which older systems export, and converted. */
-char *utf8_text(const char *text);
+char *ss_utf8_text(const char *text);
 /* "name", "name/unit", "name/(unit)" into its two parts, in place. */
-void split_label(char *label, char **name, char **unit);
+void ss_split_label(char *label, char **name, char **unit);
 
 /* Time stamps t of n rows, of which row i stands in line line[i]: a uniform clock? */
-ss_status find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
-                     double *rate, ss_error *err);
+ss_status ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
+                        double *rate, ss_error *err);
 
 #endif

@@ -89,8 +89,8 @@ text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
     char *line;
     size_t length;
-    while (*n < max && (*n == 0 || input_has_line(&reader->in))) {
-        ss_status st = input_line(&reader->in, &line, &length, err);
+    while (*n < max && (*n == 0 || ss_input_has_line(&reader->in))) {
+        ss_status st = ss_input_line(&reader->in, &line, &length, err);
         if (st != SS_OK || line == NULL)
             return st;
         if (line[0] == '#' || line[strspn(line, " \t")] == '\0')
@@ -115,24 +115,24 @@ refuse_magic(const ss_reader *reader, const char *line, ss_error *err)
 
 /* The header ends before the first line that is no comment. */
 ss_status
-text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+ss_text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
     const char *reason = "";
     char *line;
     size_t length;
-    ss_status st = input_line(in, &line, &length, err);
+    ss_status st = ss_input_line(in, &line, &length, err);
     if (st == SS_OK && strcmp(line, STREAM_MAGIC) != 0)
         return refuse_magic(reader, line, err);
     reader->head->rate = 0;
-    while (st == SS_OK && (st = input_need(in, 1, err)) == SS_OK) {
+    while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK) {
         if (in->lo == in->hi || in->buffer[in->lo] != '#')
             break;
-        st = input_line(in, &line, &length, err);
+        st = ss_input_line(in, &line, &length, err);
         if (st != SS_OK)
             break;
-        char *label = utf8_text(line);
-        st = label != NULL ? header_take(reader->head, label, &reason) : SS_ENOMEM;
+        char *label = ss_utf8_text(line);
+        st = label != NULL ? ss_header_take(reader->head, label, &reason) : SS_ENOMEM;
         free(label);
         if (st != SS_OK)
             return ss_fail(err, st, "%s:%lu: %s", in->name, in->line,
@@ -144,7 +144,7 @@ text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", in->name, in->line);
     reader->rows = text_rows;
     if (reader->head->rate > 0)
-        return refuse_clock(in->name, reader->head->rate, opts, err);
+        return ss_refuse_clock(in->name, reader->head->rate, opts, err);
     if (!(opts->rate > 0))
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# rate:' line in the header", in->name, in->line);
     reader->head->rate = opts->rate;

@@ -32,7 +32,7 @@ put_big_endian(char *p, uint64_t x, size_t n)
 }
 
 uint32_t
-au_rate(double rate)
+ss_au_rate(double rate)
 {
     return rate < 1 ? 1 : rate < UINT32_MAX ? (uint32_t)rint(rate) : UINT32_MAX;
 }
@@ -41,7 +41,7 @@ static ss_status
 write_header(ss_writer *writer)
 {
     size_t length;
-    char *text = header_text(writer->head, &length), fixed[AU_FIXED_HEADER];
+    char *text = ss_header_text(writer->head, &length), fixed[AU_FIXED_HEADER];
     if (text == NULL)
         return SS_ENOMEM;
     size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* NULs, at least one */
@@ -52,7 +52,7 @@ write_header(ss_writer *writer)
     }
     if (writer->format == SS_AU) {
         uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), 0xffffffff,
-                              7, au_rate(writer->head->rate),
+                              7, ss_au_rate(writer->head->rate),
                               (uint32_t)writer->head->n_columns };
         for (int i = 0; i < 6; i++)
             put_big_endian(fixed + 4 * i, field[i], 4);

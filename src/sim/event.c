@@ -76,8 +76,8 @@ close_bracket(guard_fn *guard, void *user, double lo, double hi, guard_value at_
  *         rounding made of its first slope
  * cost:   about 8 guards an event, 150 at most; a few for a minimum that stays above 0 */
 int
-event_find(guard_fn *guard, void *user, double h, guard_value at_0, guard_value at_h,
-           double *s_event)
+ss_event_find(guard_fn *guard, void *user, double h, guard_value at_0, guard_value at_h,
+              double *s_event)
 {
     double hi = h;
     int falls = at_0.g > 0 && at_0.slope < 0;

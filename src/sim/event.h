@@ -9,7 +9,7 @@ typedef struct guard_value {
 /* The guard and its rate of change at time s after the start of the step. */
 typedef guard_value guard_fn(double s, void *user);
 
-int event_find(guard_fn *guard, void *user, double h, guard_value at_0, guard_value at_h,
-               double *s_event);
+int ss_event_find(guard_fn *guard, void *user, double h, guard_value at_0, guard_value at_h,
+                  double *s_event);
 
 #endif

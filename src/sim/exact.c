@@ -115,7 +115,7 @@ evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqd
 static void
 evaluate_at(const exact *x, double u, double q[], double dqdt[])
 {
-    evaluate(x, u, motion_base(x->base.m, u), swing_at(x, u), q, dqdt);
+    evaluate(x, u, ss_motion_base(x->base.m, u), swing_at(x, u), q, dqdt);
 }
 
 /* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is that of
@@ -145,7 +145,7 @@ exact_begin(engine *e)
     double stiffness = m->k - mass * m->omega * m->omega, damping = m->c * m->omega;
     double impedance = hypot(stiffness, damping);
 
-    motion_rebase(m);
+    ss_motion_rebase(m);
     x->k_m = m->k / mass;
     x->c_m = m->c / mass;
     x->f_m = m->f0 / mass;
@@ -229,7 +229,7 @@ static const struct engine_type exact_type = {
 };
 
 ss_status
-exact_new(engine **out, motion *m, ss_error *err)
+ss_exact_new(engine **out, motion *m, ss_error *err)
 {
     if (m->scene->model == SS_STATE_VARIABLE)
         return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");

@@ -37,7 +37,7 @@ rhs(double u, const double q[], double dqdt[], void *params)
     ode *o = params;
     const motion *m = o->base.m;
     o->base.rhs++;
-    m->model->rates(m, motion_drive(m, u), q, dqdt);
+    m->model->rates(m, ss_motion_drive(m, u), q, dqdt);
     return GSL_SUCCESS;
 }
 
@@ -77,7 +77,7 @@ ode_step(engine *e, double h_max, ss_error *err)
     const motion *m = e->m;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
-    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * motion_step_cap(m);
+    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * ss_motion_step_cap(m);
 
     for (;;) {
         double h_adjusted = h / 2;
@@ -193,7 +193,7 @@ static void
 ode_go_on(engine *e)
 {
     if (!((ode *)e)->multistep)             /* GSL's multistep methods must see time go on */
-        motion_rebase(e->m);
+        ss_motion_rebase(e->m);
 }
 
 static void
@@ -229,7 +229,7 @@ method[] = {
 enum { METHODS = sizeof method / sizeof *method };
 
 const char *
-ode_method_name(size_t i)
+ss_ode_method_name(size_t i)
 {
     return i < METHODS ? method[i].name : NULL;
 }
@@ -246,7 +246,7 @@ absolute_scales(const motion *m, double scale[MAX_DIM])
 }
 
 ss_status
-ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
+ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
 {
     size_t i = 0;
     double scale[MAX_DIM];
@@ -262,7 +262,7 @@ ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
     o->tol = opts->tol;
-    o->h_next = motion_step_cap(m);
+    o->h_next = ss_motion_step_cap(m);
     absolute_scales(m, scale);
     for (size_t k = 0; k < m->model->dim; k++)
         if (!(isfinite(scale[k]) && opts->tol * scale[k] > 0)) {

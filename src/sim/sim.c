@@ -18,7 +18,7 @@
 enum { STEPS_PER_PERIOD = 40 };
 
 double
-motion_step_cap(const motion *m)
+ss_motion_step_cap(const motion *m)
 {
     return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
 }
@@ -37,7 +37,7 @@ const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
 const char *
 ss_sim_method_name(size_t i)
 {
-    return i == 0 ? EXACT : ode_method_name(i - 1);
+    return i == 0 ? EXACT : ss_ode_method_name(i - 1);
 }
 
 const char *
@@ -50,8 +50,8 @@ ss_event_kind_name(ss_event_kind kind)
 static const struct model *
 model_of(const ss_scene *scene)
 {
-    static const struct model *const model[] = { &coulomb_model, &state_variable_model,
-                                                 &compliant_model };
+    static const struct model *const model[] = { &ss_coulomb_model, &ss_state_variable_model,
+                                                 &ss_compliant_model };
     return model[scene->model];
 }
 
@@ -59,7 +59,7 @@ model_of(const ss_scene *scene)
 
 /* Let u count from the instant of the present step, with the phase there. */
 void
-motion_rebase(motion *m)
+ss_motion_rebase(motion *m)
 {
     m->origin = instant_add(m->origin, m->u);
     m->u = 0;
@@ -94,7 +94,7 @@ motion_of(const ss_scene *scene, double tol)
                  .drive = scene->stiffness * scene->base_amplitude,
                  .phase = atan2(sin(scene->phase), cos(scene->phase)) };
     set_scales(&m, tol);
-    motion_rebase(&m);
+    ss_motion_rebase(&m);
     return m;
 }
 
@@ -223,7 +223,7 @@ guard_at(double s, void *user)
     const motion *m = e->m;
     double q[MAX_DIM], dqdt[MAX_DIM];
     guard_value at;
-    e->type->at(e, ANYWHERE, s, motion_base(m, m->u + s), q, dqdt);
+    e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
     at.g = m->model->guard(m, q, dqdt, &at.slope);
     return at;
 }
@@ -238,7 +238,7 @@ ends_within(engine *e, double *s_event)
         return 0;
     at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
     at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
-    return event_find(guard_at, e, e->h, at_0, at_h, s_event);
+    return ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
 }
 
 /* The mode has ended s after m->u: enter the next one. */
@@ -249,11 +249,11 @@ change_mode(record *r, engine *e, int still, double s)
     ss_event event;
     if (!still) {
         double q[MAX_DIM], dqdt[MAX_DIM];
-        e->type->at(e, ANYWHERE, s, motion_base(m, m->u + s), q, dqdt);
+        e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
         memcpy(m->q, q, sizeof q);
     }
     m->u += s;
-    motion_rebase(m);
+    ss_motion_rebase(m);
     ss_status st = SS_OK;
     if (m->model->next(m, &event)) {
         e->events++;
@@ -311,7 +311,7 @@ static ss_status
 check_length(const motion *m, double length, ss_error *err)
 {
     const char *what;
-    double steps = length / motion_step_cap(m), end;
+    double steps = length / ss_motion_step_cap(m), end;
     m->model->fastest(m, &what);
     if (steps <= TOO_MANY_STEPS || (m->model->still != NULL && m->model->still(m, &end)))
         return SS_OK;
@@ -328,7 +328,7 @@ run(record *r, engine *e, ss_error *err)
     int in_a_row = 0;
 
     for (;;) {
-        double h, cap = motion_step_cap(m);
+        double h, cap = ss_motion_step_cap(m);
         int still = model->still != NULL && model->still(m, &h), ends = still && isfinite(h);
         ss_status st = SS_OK;
         if (still) {
@@ -402,7 +402,8 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     st = check_length(&m, scene->settle + scene->duration, err);
     if (st != SS_OK)
         return st;
-    st = strcmp(opts->method, EXACT) == 0 ? exact_new(&e, &m, err) : ode_new(&e, &m, opts, err);
+    st = strcmp(opts->method, EXACT) == 0 ? ss_exact_new(&e, &m, err)
+                                         : ss_ode_new(&e, &m, opts, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)

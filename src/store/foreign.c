@@ -23,7 +23,7 @@ refuse_type(hid_t id)
 {
     hid_t type = H5Dget_type(id);
     H5T_class_t class = H5Tget_class(type);
-    char *matlab = h5_get_text(id, "MATLAB_class");
+    char *matlab = ss_h5_get_text(id, "MATLAB_class");
     int text = class == H5T_STRING || (matlab != NULL && strcmp(matlab, "char") == 0);
     int pair = class == H5T_COMPOUND && H5Tget_nmembers(type) == 2
                && (H5Tget_member_index(type, "imag") >= 0 || H5Tget_member_index(type, "i") >= 0);
@@ -81,12 +81,12 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
 }
 
 ss_status
-h5_fail_listing(h5_file *file)
+ss_h5_fail_listing(h5_file *file)
 {
     char list[310] = "";        /* room for the dots behind 300 */
     H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, list);
     if (list[0] == '\0')
-        return h5_fail(file, SS_EDATA, 0, "", "no /signal in it, nor any array of real numbers");
+        return ss_h5_fail(file, SS_EDATA, 0, "", "no /signal in it, nor any array of real numbers");
     return ss_fail(file->err, SS_EDATA, "%s: no /signal in it; choose one as %s:/PATH from%s",
                    file->path, file->path, list);
 }
@@ -95,7 +95,7 @@ h5_fail_listing(h5_file *file)
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
-find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
     *start = 0;
     if (*rate > 0)
@@ -108,14 +108,14 @@ find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *s
         slash[slash == parent] = '\0';
     hid_t group = slash != NULL ? H5Gopen2(file->id, parent, H5P_DEFAULT) : -1;
     free(parent);
-    int found = h5_get_number(id, "rate", rate);
+    int found = ss_h5_get_number(id, "rate", rate);
     if (found)
-        h5_get_number(id, "start", start);
-    else if (group >= 0 && (found = h5_get_number(group, "rate", rate)))
-        h5_get_number(group, "start", start);
+        ss_h5_get_number(id, "start", start);
+    else if (group >= 0 && (found = ss_h5_get_number(group, "rate", rate)))
+        ss_h5_get_number(group, "start", start);
     H5Gclose(group);
     if (!found || !(*rate > 0) || !isfinite(*rate) || !isfinite(*start))
-        return h5_fail(file, SS_EDATA, 0, dataset, "has no clock; give its rate in Hz");
+        return ss_h5_fail(file, SS_EDATA, 0, dataset, "has no clock; give its rate in Hz");
     return SS_OK;
 }
 
@@ -126,14 +126,14 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 {
     double start;
     char name[128];
-    ss_status status = find_clock(file, id, dataset, &rate, &start);
+    ss_status status = ss_find_clock(file, id, dataset, &rate, &start);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);
     if (*out == NULL)
         return SS_ENOMEM;
     const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
-    char *unit = h5_get_text(id, "units");
+    char *unit = ss_h5_get_text(id, "units");
     for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
         int length = snprintf(name, sizeof name, "%.100s", base);
         if (shape->columns > 1)
@@ -153,7 +153,7 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
         return SS_ENOMEM;
     ss_status status = SS_OK;
     if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw) < 0)
-        status = h5_fail(file, SS_EIO, 0, dataset, "cannot be read");
+        status = ss_h5_fail(file, SS_EIO, 0, dataset, "cannot be read");
     for (size_t i = 0; status == SS_OK && i < n; i++) {
         size_t row = shape->transposed ? i % shape->rows : i / shape->columns;
         size_t column = shape->transposed ? i / shape->rows : i % shape->columns;
@@ -161,7 +161,7 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
         if (!isfinite(raw[i])) {
             char text[64];
             snprintf(text, sizeof text, "value %zu is not finite", i + 1);
-            status = h5_fail(file, SS_EDATA, 0, dataset, text);
+            status = ss_h5_fail(file, SS_EDATA, 0, dataset, text);
         }
     }
     free(raw);
@@ -169,20 +169,20 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
 }
 
 ss_status
-h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss_read_opts *opts)
+ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss_read_opts *opts)
 {
     array shape;
     double rate = opts != NULL ? opts->rate : 0;
     ss_header *head = NULL;
     hid_t id = H5Dopen2(file->id, dataset, H5P_DEFAULT);
     if (id < 0)
-        return h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
+        return ss_h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
     const char *wrong = refuse_type(id);
     if (wrong == NULL)
         wrong = get_shape(id, &shape);
     if (wrong == NULL && opts != NULL && opts->time != NULL)
         wrong = "an array has no column of time to choose; give its rate in Hz";
-    ss_status status = wrong != NULL ? h5_fail(file, SS_EDATA, 0, dataset, wrong)
+    ss_status status = wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
                        : make_header(file, id, dataset, &shape, rate, &head);
     if (status == SS_OK)
         status = ss_signal_new(out, head, shape.rows);

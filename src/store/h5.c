@@ -7,7 +7,7 @@
 #include "../error.h"
 
 ss_status
-h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
+ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
 {
     char where[256] = "";
     if (group > 0 && name[0] != '/')
@@ -18,19 +18,19 @@ h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const ch
 }
 
 ss_status
-h5_open(h5_file *file)
+ss_h5_open(h5_file *file)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, access);
     H5Pclose(access);
     if (file->id < 0)
-        return h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
+        return ss_h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
     return SS_OK;
 }
 
 int
-h5_get_number(hid_t object, const char *name, double *value)
+ss_h5_get_number(hid_t object, const char *name, double *value)
 {
     hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
     if (id < 0)
@@ -72,7 +72,7 @@ read_text(hid_t id, hid_t type)
 }
 
 char *
-h5_get_text(hid_t object, const char *name)
+ss_h5_get_text(hid_t object, const char *name)
 {
     char *text = NULL;
     hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
@@ -88,21 +88,21 @@ h5_get_text(hid_t object, const char *name)
 }
 
 ss_status
-h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n)
+ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n)
 {
     hid_t id = H5Dopen2(group, name, H5P_DEFAULT);
     if (id < 0)
-        return h5_fail(file, SS_EDATA, group, name, "no such dataset");
+        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
     hid_t type = H5Dget_type(id), space = H5Dget_space(id);
     H5T_class_t class = H5Tget_class(type);
     hssize_t points = H5Sget_simple_extent_npoints(space);
     ss_status status = SS_OK;
     if (class != H5T_INTEGER && class != H5T_FLOAT)
-        status = h5_fail(file, SS_EDATA, group, name, "not real numbers");
+        status = ss_h5_fail(file, SS_EDATA, group, name, "not real numbers");
     else if (points < 0 || (size_t)points != n)
-        status = h5_fail(file, SS_EDATA, group, name, "not of the length that the others have");
+        status = ss_h5_fail(file, SS_EDATA, group, name, "not of the length that the others have");
     else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-        status = h5_fail(file, SS_EIO, group, name, "cannot be read");
+        status = ss_h5_fail(file, SS_EIO, group, name, "cannot be read");
     H5Sclose(space);
     H5Tclose(type);
     H5Dclose(id);
@@ -113,14 +113,14 @@ static herr_t
 read_note(hid_t root, const char *name, const H5A_info_t *info, void *head)
 {
     (void)info;
-    char *value = strcmp(name, H5_VERSION_NOTE) != 0 ? h5_get_text(root, name) : NULL;
+    char *value = strcmp(name, H5_VERSION_NOTE) != 0 ? ss_h5_get_text(root, name) : NULL;
     ss_status status = value != NULL ? ss_header_note(head, name, value) : SS_OK;
     free(value);
     return status != SS_OK && status != SS_EINVAL;      /* others may write what is no note of ours */
 }
 
 ss_status
-h5_read_notes(h5_file *file, ss_header *head)
+ss_h5_read_notes(h5_file *file, ss_header *head)
 {
     hid_t root = H5Gopen2(file->id, "/", H5P_DEFAULT), how = H5Gget_create_plist(root);
     unsigned tracked = 0;
@@ -130,6 +130,6 @@ h5_read_notes(h5_file *file, ss_header *head)
     H5Pclose(how);
     H5Gclose(root);
     if (stopped < 0)
-        return h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
+        return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
     return stopped > 0 ? SS_ENOMEM : SS_OK;
 }

@@ -16,11 +16,11 @@
 static ss_status
 get_number(h5_file *file, hid_t group, const char *name, double lo, double hi, double *value)
 {
-    if (h5_get_number(group, name, value) && *value >= lo && *value <= hi)
+    if (ss_h5_get_number(group, name, value) && *value >= lo && *value <= hi)
         return SS_OK;
     char text[128];
     snprintf(text, sizeof text, "attribute '%s' is missing or out of range", name);
-    return h5_fail(file, SS_EDATA, group, "", text);
+    return ss_h5_fail(file, SS_EDATA, group, "", text);
 }
 
 /* Rate, start and whether the text form has a column of time, from a group into a new header. */
@@ -37,7 +37,7 @@ get_header(h5_file *file, hid_t group, ss_header **head)
     if (*head == NULL)
         return SS_ENOMEM;
     (*head)->has_time = has_time != 0;
-    return h5_read_notes(file, *head);
+    return ss_h5_read_notes(file, *head);
 }
 
 /* The number of values of a 1-D or 2-D dataset. */
@@ -46,13 +46,13 @@ get_size(h5_file *file, hid_t group, const char *name, size_t *n)
 {
     hid_t id = H5Dopen2(group, name, H5P_DEFAULT);
     if (id < 0)
-        return h5_fail(file, SS_EDATA, group, name, "no such dataset");
+        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
     hid_t space = H5Dget_space(id);
     hssize_t points = H5Sget_simple_extent_npoints(space);
     H5Sclose(space);
     H5Dclose(id);
     if (points < 0 || points > H5_MAX_VALUES)
-        return h5_fail(file, SS_EDATA, group, name, "more values than can be read at once");
+        return ss_h5_fail(file, SS_EDATA, group, name, "more values than can be read at once");
     *n = (size_t)points;
     return SS_OK;
 }
@@ -87,8 +87,8 @@ add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
 {
     hid_t id = H5Dopen2(group, link, H5P_DEFAULT);
     if (id < 0)
-        return h5_fail(file, SS_EDATA, group, link, "not a dataset");
-    char *name = h5_get_text(id, "column"), *unit = h5_get_text(id, "units");
+        return ss_h5_fail(file, SS_EDATA, group, link, "not a dataset");
+    char *name = ss_h5_get_text(id, "column"), *unit = ss_h5_get_text(id, "units");
     ss_status status = ss_header_add_column(head, name != NULL ? name : link,
                                             unit != NULL ? unit : "");
     free(name);
@@ -104,7 +104,7 @@ check_finite(h5_file *file, hid_t group, const char *name, const double *x, size
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i])) {
             snprintf(text, sizeof text, "value %zu is not finite", i + 1);
-            return h5_fail(file, SS_EDATA, group, name, text);
+            return ss_h5_fail(file, SS_EDATA, group, name, text);
         }
     return SS_OK;
 }
@@ -124,7 +124,7 @@ read_columns(h5_file *file, hid_t group, ss_header *head, char *link[], hsize_t 
     for (hsize_t i = 0; status == SS_OK && i < n_links; i++) {
         if (strcmp(link[i], "t") == 0)
             continue;
-        status = h5_read_values(file, group, link[i], values, n);
+        status = ss_h5_read_values(file, group, link[i], values, n);
         if (status == SS_OK)
             status = check_finite(file, group, link[i], values, n);
         values += n;
@@ -140,7 +140,7 @@ read_signal(h5_file *file, ss_signal **out)
     ss_header *head = NULL;
     ss_status status = get_header(file, group, &head);
     if (status == SS_OK && H5Gget_info(group, &info) < 0)
-        status = h5_fail(file, SS_EIO, 0, "/signal", "cannot be read");
+        status = ss_h5_fail(file, SS_EIO, 0, "/signal", "cannot be read");
     H5_index_t order = link_order(group);
     char **link = calloc(info.nlinks + 1, sizeof *link);
     if (link == NULL)
@@ -163,7 +163,7 @@ read_signal(h5_file *file, ss_signal **out)
 static ss_status
 add_grid_column(hid_t group, ss_header *head)
 {
-    char *name = h5_get_text(group, "column"), *unit = h5_get_text(group, "column_units");
+    char *name = ss_h5_get_text(group, "column"), *unit = ss_h5_get_text(group, "column_units");
     ss_status status = SS_OK;
     if (name != NULL && name[0] != '\0')
         status = ss_header_add_column(head, name, unit != NULL ? unit : "");
@@ -203,7 +203,7 @@ get_coefficients(h5_file *file, hid_t group, double *w, size_t n)
     ss_status status = part != NULL ? SS_OK : SS_ENOMEM;
     for (int i = 0; status == SS_OK && i < 2; i++) {
         const char *name = i == 0 ? "re" : "im";
-        status = h5_read_values(file, group, name, part, n);
+        status = ss_h5_read_values(file, group, name, part, n);
         if (status == SS_OK)
             status = check_finite(file, group, name, part, n);
         for (size_t k = 0; status == SS_OK && k < n; k++)
@@ -226,7 +226,7 @@ check_scale(h5_file *file, hid_t group, const ss_coefficients *c, size_t i)
                         ? "the scales do not descend"
                         : s->n == 0 || !(ss_scale_b(s, s->n - 1) <= last && ss_scale_b(s, s->n) > last)
                         ? "the translations are not those that the record has room for" : NULL;
-    return wrong == NULL ? SS_OK : h5_fail(file, SS_EDATA, group, "", wrong);
+    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, "", wrong);
 }
 
 static ss_status
@@ -240,7 +240,7 @@ get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *tot
     snprintf(name, sizeof name, "scale%03zu", i);
     hid_t group = H5Gopen2(parent, name, H5P_DEFAULT);
     if (group < 0)
-        return h5_fail(file, SS_EDATA, parent, name, "no such group");
+        return ss_h5_fail(file, SS_EDATA, parent, name, "no such group");
     if ((status = get_number(file, group, "j", -1e6, 1e6, &j)) == SS_OK
         && (status = get_number(file, group, "m", -1e4, 1e4, &scale->m)) == SS_OK
         && (status = get_number(file, group, "scale", 1e-300, 1e300, &scale->a)) == SS_OK
@@ -265,7 +265,7 @@ get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
     double *row = malloc((4 * n + 1) * sizeof *row);
     ss_status status = row != NULL ? SS_OK : SS_ENOMEM;
     for (size_t k = 0; status == SS_OK && k < 4; k++) {
-        status = h5_read_values(file, group, name[k], row + k * n, n);
+        status = ss_h5_read_values(file, group, name[k], row + k * n, n);
         if (status == SS_OK)
             status = check_finite(file, group, name[k], row + k * n, n);
     }
@@ -276,7 +276,7 @@ get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
         scale->f = row[2 * n + i];
         scale->j = (int)row[3 * n + i];
         if (!(scale->a >= 1e-300 && scale->f >= 1e-300 && fabs(row[3 * n + i]) <= 1e6))
-            status = h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
+            status = ss_h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
         else if ((status = get_lattice(file, group, scale)) == SS_OK
                  && (status = add_room(c, scale, c->n, total)) == SS_OK)
             status = check_scale(file, group, c, i);
@@ -315,7 +315,8 @@ static ss_status
 read_coefficients(h5_file *file, ss_coefficients **out)
 {
     if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
-        return h5_fail(file, SS_EDATA, 0, "", "no /wavelet in it; ss-morlet -o FILE.h5 makes one");
+        return ss_h5_fail(file, SS_EDATA, 0, "",
+                          "no /wavelet in it; ss-morlet -o FILE.h5 makes one");
     *out = calloc(1, sizeof **out);
     if (*out == NULL)
         return SS_ENOMEM;
@@ -343,7 +344,7 @@ ss_store_has_signal(const char *path)
     h5_file file = { -1, path, NULL };
     int has = 0;
     H5E_BEGIN_TRY {
-        if (h5_open(&file) == SS_OK)
+        if (ss_h5_open(&file) == SS_OK)
             has = H5Lexists(file.id, "signal", H5P_DEFAULT) > 0;
         finish(&file, SS_OK);
     } H5E_END_TRY
@@ -358,16 +359,16 @@ ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
     ss_signal *signal = NULL;
     ss_status status;
     H5E_BEGIN_TRY {
-        status = h5_open(&file);
+        status = ss_h5_open(&file);
         if (status == SS_OK && dataset != NULL && dataset[0] != '\0')
-            status = h5_read_foreign(&signal, &file, dataset, opts);
+            status = ss_h5_read_foreign(&signal, &file, dataset, opts);
         else if (status == SS_OK && H5Lexists(file.id, "signal", H5P_DEFAULT) > 0) {
             status = read_signal(&file, &signal);
             if (status == SS_OK && opts != NULL)
-                status = refuse_clock(path, signal->head->rate, opts, err);
+                status = ss_refuse_clock(path, signal->head->rate, opts, err);
         }
         else if (status == SS_OK)
-            status = h5_fail_listing(&file);
+            status = ss_h5_fail_listing(&file);
         status = finish(&file, status);
     } H5E_END_TRY
     if (status == SS_OK)
@@ -384,7 +385,7 @@ ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *er
     ss_coefficients *coefficients = NULL;
     ss_status status;
     H5E_BEGIN_TRY {
-        status = h5_open(&file);
+        status = ss_h5_open(&file);
         if (status == SS_OK)
             status = read_coefficients(&file, &coefficients);
         status = finish(&file, status);

@@ -32,7 +32,7 @@ typedef struct variable {
 static ss_status
 fail_write(h5_file *file, hid_t group, const char *name)
 {
-    return h5_fail(file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
+    return ss_h5_fail(file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
 }
 
 static int
@@ -457,7 +457,7 @@ write_out(h5_file *file, const void *bytes, size_t size)
     struct stat st;
     FILE *out = fopen(file->path, "wb");
     if (out == NULL)
-        return h5_fail(file, SS_EIO, 0, "", strerror(errno));
+        return ss_h5_fail(file, SS_EIO, 0, "", strerror(errno));
     int failed = fwrite(bytes, 1, size, out) != size, why = errno;
     if (fclose(out) != 0 && !failed) {
         failed = 1;
@@ -465,7 +465,7 @@ write_out(h5_file *file, const void *bytes, size_t size)
     }
     if (failed && stat(file->path, &st) == 0 && S_ISREG(st.st_mode))
         unlink(file->path);
-    return failed ? h5_fail(file, SS_EIO, 0, "", strerror(why)) : SS_OK;
+    return failed ? ss_h5_fail(file, SS_EIO, 0, "", strerror(why)) : SS_OK;
 }
 
 static ss_status

@@ -11,3 +11,6 @@ echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#'
     sort -u > declared
 diff declared shown
 readelf -d "$library" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p'
+
+# A program that links the static library meets no other name either.
+nm -g --defined-only "$BUILD/libstickslip.a" | awk 'NF == 3 && $3 !~ /^_?ss_|^_/ { print "libstickslip.a:", $3 }'
