@@ -10,8 +10,8 @@ for path in include/stickslip.h include/stickslip/sim.h lib/libstickslip.a lib/p
 done
 for tool in "$SRC"/tools/ss-*.c; do
     name=$(basename "$tool" .c)
-    [ "$(root/usr/bin/"$name" --version)" = "$(cd "$BUILD/bin" && "./$name" --version)" ] ||
-        echo "$name: not the one that was built"
+    root/usr/bin/"$name" --version > installed
+    "$BUILD/bin/$name" --version | diff - installed || echo "$name: not the one that was built"
     [ -f "root/usr/share/man/man1/$name.1" ] || echo "not installed: $name.1"
 done
 make_ uninstall
