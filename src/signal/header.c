@@ -419,6 +419,10 @@ take_columns(ss_header *head, char *p, const char **reason)
             head->has_time = 1;
             continue;
         }
+        if (head->n_columns == MAX_COLUMNS) {
+            *reason = "more than 32768 columns";
+            return SS_EDATA;
+        }
         ss_status st = ss_header_add_column(head, name, unit);
         *reason = "a column without a name";
         if (st != SS_OK)
@@ -453,5 +457,8 @@ ss_header_take(ss_header *head, char *line, const char **reason)
         *reason = "columns are named twice";
         return head->n_columns > 0 ? SS_EDATA : take_columns(head, value, reason);
     }
+    *reason = "more than 4096 notes";
+    if (head->n_notes == MAX_NOTES)
+        return SS_EDATA;
     return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "../error.h"
+#include "../signal/stream.h"
 
 typedef struct array {
     size_t rows, columns;
@@ -33,9 +34,7 @@ refuse_type(hid_t id)
         return "holds text, not numbers";
     if (pair)
         return "holds complex numbers; a signal is real";
-    if (class != H5T_INTEGER && class != H5T_FLOAT)
-        return "does not hold real numbers";
-    return NULL;
+    return ss_h5_refuse_values(id);
 }
 
 static const char *
@@ -51,11 +50,11 @@ get_shape(hid_t id, array *shape)
         return rank > 2 ? "has more than two dimensions" : "is a single value, not an array";
     if (dims[0] == 0 || dims[1] == 0)
         return "is empty";
-    if (dims[0] > H5_MAX_VALUES / dims[1])
-        return "has more values than can be read at once";
     shape->transposed = dims[0] < dims[1];
     shape->rows = (size_t)(shape->transposed ? dims[1] : dims[0]);
     shape->columns = (size_t)(shape->transposed ? dims[0] : dims[1]);
+    if (shape->columns > MAX_COLUMNS)
+        return "has more than 32768 columns";
     return NULL;
 }
 
@@ -68,7 +67,7 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
     char *list = user;
     if (info->type != H5O_TYPE_DATASET)
         return 0;
-    hid_t id = H5Dopen2(root, name, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(root, name);
     if (id >= 0 && refuse_type(id) == NULL && get_shape(id, &shape) == NULL) {
         size_t length = strlen(list), room = 300 - length;
         if (snprintf(list + length, room, " /%s", name) >= (int)room) {
@@ -95,7 +94,7 @@ ss_h5_fail_listing(h5_file *file)
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
-ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+get_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
     *start = 0;
     if (*rate > 0)
@@ -106,7 +105,7 @@ ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double
     char *slash = strrchr(parent, '/');
     if (slash != NULL)
         slash[slash == parent] = '\0';
-    hid_t group = slash != NULL ? H5Gopen2(file->id, parent, H5P_DEFAULT) : -1;
+    hid_t group = slash != NULL ? ss_h5_open_group(file->id, parent) : -1;
     free(parent);
     int found = ss_h5_get_number(id, "rate", rate);
     if (found)
@@ -126,7 +125,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 {
     double start;
     char name[128];
-    ss_status status = ss_find_clock(file, id, dataset, &rate, &start);
+    ss_status status = get_clock(file, id, dataset, &rate, &start);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);
@@ -174,7 +173,7 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
     array shape;
     double rate = opts != NULL ? opts->rate : 0;
     ss_header *head = NULL;
-    hid_t id = H5Dopen2(file->id, dataset, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(file->id, dataset);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
     const char *wrong = refuse_type(id);
