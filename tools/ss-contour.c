@@ -84,16 +84,17 @@ read_events(ss_contour_opts *opts, const char *path)
 {
     static const char magic[] = "# stickslip events 1";
     FILE *in = tool_open(path);
-    char *line = NULL, *end;
+    char line[4096] = "", *end;
     double *event = NULL;
-    size_t size = 0, room = 0, number = 1, n = 0;
-    ssize_t length = getline(&line, &size, in);
-    if (length >= 0)
+    size_t room = 0, number = 1, n = 0;
+    if (fgets(line, sizeof line, in) != NULL)
         line[strcspn(line, "\r\n")] = '\0';
-    if (length >= 0 ? strcmp(line, magic) != 0 : !ferror(in))
+    if (strcmp(line, magic) != 0 && !ferror(in))
         tool_die("%s:1: not a list of events, which begins '%s'", tool_input_name(path), magic);
-    while (getline(&line, &size, in) >= 0) {
+    while (fgets(line, sizeof line, in) != NULL) {
         number++;
+        if (strchr(line, '\n') == NULL && !feof(in))
+            tool_die("%s:%zu: line too long", tool_input_name(path), number);
         if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0')
             continue;
         if (n == room) {
@@ -108,7 +109,6 @@ read_events(ss_contour_opts *opts, const char *path)
     }
     if (ferror(in))
         tool_die("%s: %s", tool_input_name(path), strerror(errno));
-    free(line);
     if (in != stdin)
         fclose(in);
     opts->event = event;
