@@ -106,6 +106,10 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
+# The library's allocations in this test go through it.  Only the linkers of ELF have that.
+WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc fftw_free
+$(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
+
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_trade: $(BUILD)/tests/oracle.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.

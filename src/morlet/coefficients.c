@@ -248,14 +248,12 @@ read_header(reader *r)
         if (strncmp(r->text, "# ", 2) != 0 || strncmp(r->text, columns, 10) == 0)
             return ss_fail(r->err, SS_EDATA, "%s:%lu: expected '%s'", r->in.name, r->in.line,
                            columns);
-        char *note = ss_utf8_text(r->text + 2), *colon = note != NULL ? strstr(note, ": ") : NULL;
-        if (colon != NULL) {            /* else a comment of someone's */
-            *colon = '\0';
-            st = read_note(r, note, colon + 2);
-        }
-        free(note);
-        if (note == NULL || st != SS_OK)
-            return note == NULL ? SS_ENOMEM : st;
+        char *colon = strstr(r->text, ": ");
+        if (colon == NULL)
+            continue;                   /* a comment of someone's */
+        *colon = '\0';
+        if ((st = read_note(r, r->text + 2, colon + 2)) != SS_OK)
+            return st;
     }
     if (st == SS_OK && !more)
         return ss_fail(r->err, SS_EDATA, "%s: ends before '%s'", r->in.name, columns);

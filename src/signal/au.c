@@ -185,9 +185,7 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (in->hi - in->lo < offset)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
-    char *raw = strndup(in->buffer + in->lo + AU_FIXED_HEADER, offset - AU_FIXED_HEADER);
-    char *annotation = raw != NULL ? ss_utf8_text(raw) : NULL;
-    free(raw);
+    char *annotation = strndup(in->buffer + in->lo + AU_FIXED_HEADER, offset - AU_FIXED_HEADER);
     st = annotation != NULL ? make_header(reader, annotation, field[4], channels) : SS_ENOMEM;
     free(annotation);
     if (st != SS_OK)

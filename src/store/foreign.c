@@ -19,12 +19,18 @@ typedef struct array {
 
 /* --- what can be read ---------------------------------------------------------------------- */
 
+static const char no_memory[] = "out of memory";        /* a reason that is not the file's fault */
+
 static const char *
 refuse_type(hid_t id)
 {
     hid_t type = H5Dget_type(id);
     H5T_class_t class = H5Tget_class(type);
-    char *matlab = ss_h5_get_text(id, "MATLAB_class");
+    char *matlab;
+    if (ss_h5_get_text(id, "MATLAB_class", &matlab) != SS_OK) {
+        H5Tclose(type);
+        return no_memory;
+    }
     int text = class == H5T_STRING || (matlab != NULL && strcmp(matlab, "char") == 0);
     int pair = class == H5T_COMPOUND && H5Tget_nmembers(type) == 2
                && (H5Tget_member_index(type, "imag") >= 0 || H5Tget_member_index(type, "i") >= 0);
@@ -132,12 +138,13 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
     if (*out == NULL)
         return SS_ENOMEM;
     const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
-    char *unit = ss_h5_get_text(id, "units");
+    char *unit;
+    status = ss_h5_get_text(id, "units", &unit);
     for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
         int length = snprintf(name, sizeof name, "%.100s", base);
         if (shape->columns > 1)
             snprintf(name + length, sizeof name - (size_t)length, "%zu", c + 1);
-        status = ss_header_add_column(*out, name, unit != NULL ? unit : "");
+        status = ss_header_add_column(*out, name, unit);
     }
     free(unit);
     return status;
@@ -181,7 +188,8 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
         wrong = get_shape(id, &shape);
     if (wrong == NULL && opts != NULL && opts->time != NULL)
         wrong = "an array has no column of time to choose; give its rate in Hz";
-    ss_status status = wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
+    ss_status status = wrong == no_memory ? SS_ENOMEM
+                       : wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
                        : make_header(file, id, dataset, &shape, rate, &head);
     if (status == SS_OK)
         status = ss_signal_new(out, head, shape.rows);

@@ -131,44 +131,49 @@ ss_h5_get_number(hid_t object, const char *name, double *value)
 }
 
 /* A string of either storage, fixed or variable, as a new C string. */
-static char *
-read_text(hid_t id, hid_t type)
+static ss_status
+read_text(hid_t id, hid_t type, char **text)
 {
-    char *text = NULL, *variable = NULL;
+    char *variable = NULL;
     hid_t memory = H5Tcopy(H5T_C_S1);
+    ss_status status = SS_OK;
     H5Tset_cset(memory, H5Tget_cset(type));
     if (H5Tis_variable_str(type) > 0) {
         H5Tset_size(memory, H5T_VARIABLE);
-        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL)
-            text = strdup(variable);
+        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL
+            && (*text = strdup(variable)) == NULL)
+            status = SS_ENOMEM;
         H5free_memory(variable);
     } else if (H5Tget_size(type) < H5_MAX_TEXT) {
         size_t size = H5Tget_size(type) + 1;
         H5Tset_size(memory, size);
-        text = calloc(size, 1);
-        if (text != NULL && H5Aread(id, memory, text) < 0) {
-            free(text);
-            text = NULL;
+        *text = calloc(size, 1);
+        if (*text == NULL)
+            status = SS_ENOMEM;
+        else if (H5Aread(id, memory, *text) < 0) {
+            free(*text);
+            *text = NULL;
         }
     }
     H5Tclose(memory);
-    return text;
+    return status;
 }
 
-char *
-ss_h5_get_text(hid_t object, const char *name)
+ss_status
+ss_h5_get_text(hid_t object, const char *name, char **text)
 {
-    char *text = NULL;
+    ss_status status = SS_OK;
     hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
+    *text = NULL;
     if (id < 0)
-        return NULL;
+        return SS_OK;
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
     if (H5Tget_class(type) == H5T_STRING && H5Sget_simple_extent_npoints(space) == 1)
-        text = read_text(id, type);
+        status = read_text(id, type, text);
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(id);
-    return text;
+    return status;
 }
 
 ss_status
@@ -197,10 +202,12 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
 {
     ss_header *head = user;
     (void)info;
-    if (head->n_notes == MAX_NOTES)
+    char *value = NULL;
+    if (head->n_notes == MAX_NOTES || strcmp(name, H5_VERSION_NOTE) == 0)
         return 0;
-    char *value = strcmp(name, H5_VERSION_NOTE) != 0 ? ss_h5_get_text(root, name) : NULL;
-    ss_status status = value != NULL ? ss_header_note(head, name, value) : SS_OK;
+    ss_status status = ss_h5_get_text(root, name, &value);
+    if (value != NULL)
+        status = ss_header_note(head, name, value);
     free(value);
     return status != SS_OK && status != SS_EINVAL;      /* others may write what is no note of ours */
 }

@@ -32,7 +32,8 @@ const char *ss_h5_refuse_values(hid_t dataset);
 
 /* Attributes of an object.  A missing one, or one of another kind, gives 0. */
 int ss_h5_get_number(hid_t object, const char *name, double *value);
-char *ss_h5_get_text(hid_t object, const char *name);      /* to be freed, or NULL */
+/* The same of text: *text is NULL, or to be freed.  SS_ENOMEM is the only failure. */
+ss_status ss_h5_get_text(hid_t object, const char *name, char **text);
 
 /* Read a whole dataset of real numbers, of n values in all, as doubles. */
 ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n);

@@ -86,9 +86,12 @@ add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
     hid_t id = ss_h5_open_dataset(group, link);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, link, "not a dataset");
-    char *name = ss_h5_get_text(id, "column"), *unit = ss_h5_get_text(id, "units");
-    ss_status status = ss_header_add_column(head, name != NULL ? name : link,
-                                            unit != NULL ? unit : "");
+    char *name = NULL, *unit = NULL;
+    ss_status status = ss_h5_get_text(id, "column", &name);
+    if (status == SS_OK)
+        status = ss_h5_get_text(id, "units", &unit);
+    if (status == SS_OK)
+        status = ss_header_add_column(head, name != NULL && *name != '\0' ? name : link, unit);
     free(name);
     free(unit);
     H5Dclose(id);
@@ -178,10 +181,12 @@ ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset, const ss_
 static ss_status
 add_grid_column(hid_t group, ss_header *head)
 {
-    char *name = ss_h5_get_text(group, "column"), *unit = ss_h5_get_text(group, "column_units");
-    ss_status status = SS_OK;
-    if (name != NULL && name[0] != '\0')
-        status = ss_header_add_column(head, name, unit != NULL ? unit : "");
+    char *name = NULL, *unit = NULL;
+    ss_status status = ss_h5_get_text(group, "column", &name);
+    if (status == SS_OK)
+        status = ss_h5_get_text(group, "column_units", &unit);
+    if (status == SS_OK && name != NULL && name[0] != '\0')
+        status = ss_header_add_column(head, name, unit);
     free(name);
     free(unit);
     return status;
