@@ -23,6 +23,5 @@ main(int argc, char *argv[])
 {
     for (int i = 1; i < argc; i++)
         replay(argv[i]);
-    printf("%d\n", argc - 1);
     return 0;
 }
