@@ -95,7 +95,7 @@ ss_h5_fail_listing(h5_file *file)
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
-ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
     *start = 0;
     if (*rate > 0)
@@ -126,7 +126,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 {
     double start;
     char name[128];
-    ss_status status = ss_find_clock(file, id, dataset, &rate, &start);
+    ss_status status = find_clock(file, id, dataset, &rate, &start);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);
