@@ -60,7 +60,7 @@ main(int argc, char *argv[])
         { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
         { "rate", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
-    ss_read_opts read_opts = { NULL, 0 };
+    ss_read_opts read_opts = { .rate = 0 };
     const char *output = NULL, **name = malloc(((size_t)argc + 2) * sizeof *name);
     drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
 
