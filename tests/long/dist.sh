@@ -4,4 +4,4 @@ git -C "$SRC" rev-parse HEAD > /dev/null 2>&1 || { echo "no git repository"; exi
 tar xzf made/libstickslip-*.tar.gz
 cd libstickslip-*/
 "$MAKE" -s INSTALL_DEPS=0 > log 2>&1 || cat log
-build/bin/ss-sim coulomb --events | grep -c slip
+build/bin/ss-sim coulomb --events | awk '$2 == "slip"' | wc -l
