@@ -933,6 +933,19 @@ fills_gaps_and_says_where(void **state)
 }
 
 static void
+knows_what_is_near_a_gap(void **state)
+{
+    (void)state;
+    static const ss_span gap[] = { { 1, 2 }, { 5, 6 }, { 6.5, 6.75 } };
+    static const struct { double t, margin; int near_it; } row[] = {
+        { 0, 0.5, 0 }, { 0.6, 0.5, 1 }, { 1, 0, 1 }, { 1.5, 0, 1 }, { 2, 0, 0 }, { 2.4, 0.5, 1 },
+        { 3.5, 1, 0 }, { 3.5, 2, 1 }, { 6.2, 0.1, 0 }, { 6.2, 0.25, 1 }, { 100, 10, 0 }, { 100, 1e3, 1 } };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        assert_int_equal(ss_near_gap(gap, 3, row[i].t, row[i].margin), row[i].near_it);
+    assert_int_equal(ss_near_gap(NULL, 0, 1, 1e9), 0);
+}
+
+static void
 reads_no_gaps_from_a_damaged_note(void **state)
 {
     (void)state;
@@ -985,6 +998,7 @@ main(void)
         cmocka_unit_test(interpolates_uneven_stamps_to_a_uniform_clock),
         cmocka_unit_test(resamples_a_signal_at_its_own_samples),
         cmocka_unit_test(fills_gaps_and_says_where),
+        cmocka_unit_test(knows_what_is_near_a_gap),
         cmocka_unit_test(reads_no_gaps_from_a_damaged_note),
     };
     return cmocka_run_group_tests_name("signal", tests, NULL, NULL);

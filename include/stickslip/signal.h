@@ -81,6 +81,8 @@ typedef struct ss_span {
 /* Where samples were missing, in time order: the note "gaps: from:to from:to ...", from the first
  * sample missing to the first that is there again.  *out is to be freed with free(). */
 ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
+/* 1 if t lies in one of the n gaps, in time order, or nearer than margin to one, else 0. */
+int ss_near_gap(const ss_span *gap, size_t n, double t, double margin);
 
 typedef struct ss_reader ss_reader;
 

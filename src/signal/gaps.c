@@ -101,3 +101,17 @@ ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
     }
     return SS_OK;
 }
+
+int
+ss_near_gap(const ss_span *gap, size_t n, double t, double margin)
+{
+    size_t lo = 0, hi = n;                      /* the last gap that begins before t + margin */
+    while (lo < hi) {
+        size_t middle = lo + (hi - lo) / 2;
+        if (gap[middle].from < t + margin)
+            lo = middle + 1;
+        else
+            hi = middle;
+    }
+    return lo > 0 && gap[lo - 1].to > t - margin;
+}
