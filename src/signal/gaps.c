@@ -108,7 +108,7 @@ ss_near_gap(const ss_span *gap, size_t n, double t, double margin)
     size_t lo = 0, hi = n;                      /* the last gap that begins before t + margin */
     while (lo < hi) {
         size_t middle = lo + (hi - lo) / 2;
-        if (gap[middle].from < t + margin)
+        if (gap[middle].from <= t || gap[middle].from < t + margin)
             lo = middle + 1;
         else
             hi = middle;
