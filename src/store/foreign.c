@@ -3,6 +3,7 @@
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
  * or its group, which our own files have. */
+#include "../signal/stream.h"
 #include "h5.h"
 
 #include <math.h>
@@ -100,7 +101,7 @@ ss_h5_fail_listing(h5_file *file)
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
-get_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
     *start = 0;
     if (*rate > 0)
@@ -131,7 +132,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 {
     double start;
     char name[128];
-    ss_status status = get_clock(file, id, dataset, &rate, &start);
+    ss_status status = find_clock(file, id, dataset, &rate, &start);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);
@@ -151,7 +152,8 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 }
 
 static ss_status
-read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, double *values)
+read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, int gaps,
+           double *values)
 {
     size_t n = shape->rows * shape->columns;
     double *raw = malloc(n * sizeof *raw);
@@ -164,7 +166,9 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
         size_t row = shape->transposed ? i % shape->rows : i / shape->columns;
         size_t column = shape->transposed ? i / shape->rows : i % shape->columns;
         values[column * shape->rows + row] = raw[i];
-        if (!isfinite(raw[i])) {
+        if (!isfinite(raw[i]) && gaps)
+            values[column * shape->rows + row] = NAN;
+        else if (!isfinite(raw[i])) {
             char text[64];
             snprintf(text, sizeof text, "value %zu is not finite", i + 1);
             status = ss_h5_fail(file, SS_EDATA, 0, dataset, text);
@@ -179,6 +183,7 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
 {
     array shape;
     double rate = opts != NULL ? opts->rate : 0;
+    int gaps = opts != NULL && opts->gaps != SS_GAPS_REFUSE;
     ss_header *head = NULL;
     hid_t id = ss_h5_open_dataset(file->id, dataset);
     if (id < 0)
@@ -194,7 +199,10 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
     if (status == SS_OK)
         status = ss_signal_new(out, head, shape.rows);
     if (status == SS_OK)
-        status = read_array(file, id, dataset, &shape, (*out)->values);
+        status = read_array(file, id, dataset, &shape, gaps, (*out)->values);
+    if (status == SS_OK && gaps)
+        status = ss_fill_gaps((*out)->values, shape.rows, 1, shape.rows, (*out)->head, opts->gaps,
+                              dataset, file->err);
     ss_header_free(head);
     H5Dclose(id);
     return status;

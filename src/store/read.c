@@ -350,6 +350,8 @@ ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
         return ss_h5_fail(file, SS_EDATA, 0, "/wavelet", "not a group of this file");
     ss_status status = read_grid(file, group, *out);
     H5Gclose(group);
+    if (status == SS_OK)
+        status = ss_header_gaps(&(*out)->gap, &(*out)->n_gaps, (*out)->head);
     return status;
 }
 

@@ -42,7 +42,7 @@ read_coefficients(h5_file *file)
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    static const ss_read_opts opts = { NULL, 1000 };
+    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT };
     ss_error err = { "" };
     h5_file file = { -1, "in", &err };
     if (size == 0)
