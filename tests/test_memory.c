@@ -189,13 +189,17 @@ read_streams(int variant)
         "time (ms);\"x\";f\ns;m;N\n0,0;1,5;2\n1,0;2,5;3\n2,0;3;4\n",
         "# x y\n 0 1\n 0.25 2\n 0.5 4\n",
         "\"t\",\"Kraft \xe4\"\n0,1\n1,2\n",
-        "1\t2\n2\tx\n",             /* these are malformed, and memory fails before that is found */
+        "1\t2\n2\tx\n",             /* two are malformed, and memory fails before that is found */
         "t;x\n0;1\n0,1;2\n7;3\n",
+        "t;x\n0;1\n1;\n2;3\n4;5\n",
+        "t;x\n0;1\n1;2\n1,5;3\n3;4\n4;5\n",
     };
+    static const ss_read_opts gaps = { .gaps = SS_GAPS_SPLIT }, uneven = { .resample = 7 };
     ss_signal *back = NULL;
+    const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : NULL;
     const char *from = variant < 2 ? text[variant] : table[variant - 2];
     FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : strlen(from), "r");
-    ss_status st = ss_signal_read(&back, in, "in", NULL, &err);
+    ss_status st = ss_signal_read(&back, in, "in", opts, &err);
     fclose(in);
     ss_signal_free(back);
     return st == SS_EDATA ? SS_OK : st;
@@ -364,7 +368,7 @@ static const struct row {
     int variants;
     size_t shrinks;             /* the last allocations, that only give memory back */
 } row[] = {
-    { "headers", headers, 1, 0 }, { "reading streams", read_streams, 7, 0 },
+    { "headers", headers, 1, 0 }, { "reading streams", read_streams, 9, 0 },
     { "writing streams", write_streams, 2, 0 }, { "signals", signals, 7, 0 },
     { "simulations", simulations, 3, 0 }, { "closed forms", closed_forms, 2, 0 },
     { "trades", trades, 2, 0 }, { "transforms", transforms, 6, 0 }, { "comparisons", comparisons, 2, 0 },
