@@ -181,7 +181,7 @@ lint:
 
 # Lines of src/ that the tests run, with gcc's gcov; what they do not is in $(BUILD)-coverage/report.
 coverage:
-	@$(MAKE) --no-print-directory run-tests BUILD=$(BUILD)-coverage CC=gcc CFLAGS='-O1 -g --coverage'
+	@$(MAKE) --no-print-directory run-tests BUILD=$(BUILD)-coverage CC=gcc CFLAGS='-O1 -g --coverage' LDFLAGS=--coverage
 	@BUILD=$(BUILD)-coverage sh tests/coverage.sh
 
 paper:
