@@ -169,9 +169,10 @@ bench-errors: $(BENCHES:%=$(BUILD)/tests/%)
 # Objects instrumented for libFuzzer are a tree of their own.
 FUZZ_SECONDS ?= 60
 FUZZ_CC      ?= clang
-FUZZ_FLAGS   := -O1 -fsanitize=fuzzer-no-link -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all
+FUZZ_FLAGS   := -fsanitize=fuzzer-no-link -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all
 fuzz:
-	@$(MAKE) --no-print-directory fuzzers CC=$(FUZZ_CC) SANFLAGS='$(FUZZ_FLAGS)' BUILD=$(BUILD)-fuzz
+	@$(MAKE) --no-print-directory fuzzers CC=$(FUZZ_CC) SANFLAGS='$(FUZZ_FLAGS)' CFLAGS='-O1 -g' \
+		BUILD=$(BUILD)-fuzz
 	@FUZZ_SECONDS=$(FUZZ_SECONDS) BUILD=$(BUILD)-fuzz sh tests/fuzz/run.sh $(FUZZERS)
 
 fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
