@@ -45,6 +45,8 @@ ss_status
 ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
 {
     struct stat st;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
     if (ss_store_is_hdf5(path))
         return ss_store_read_signal(out, path, NULL, opts, err);
     const char *colon = strstr(path, ":/");

@@ -493,6 +493,8 @@ ss_store_write(const char *path, const ss_record *record, ss_error *err)
 {
     h5_file file = { -1, path, err };
     ss_status status;
+    if (path == NULL || record == NULL)
+        return SS_FAIL_NULL(err);
     H5E_BEGIN_TRY {
         status = write_record(&file, record);
     } H5E_END_TRY
