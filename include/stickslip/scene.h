@@ -66,6 +66,10 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 /* Write every key that the model has, one a line, in the fewest digits that read back the same. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 
+/* The number of a scene that a key names, and its unit unless that is NULL; NULL if the scene's model
+ * has no such number, and err says so. */
+double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
+
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
 
