@@ -110,9 +110,13 @@ enum { SS_SWEEP_THREADS_MAX = 256 };
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
 
+/* SS_EINVAL if no point can be worked out so: an axis that the model does not have or that belongs to
+ * the record, a measure, a range. */
+ss_status ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
+
 /* Every point is worked out from the scene alone, so that rows are the same whatever the threads
- * and shards.  A point that fails is a row with its reason; SS_ENOMEM, SS_EINVAL for options, or
- * SS_STOP end the sweep. */
+ * and shards.  A point that fails is a row with its reason; SS_ENOMEM,
+ * SS_EINVAL as from ss_sweep_check, or SS_STOP end the sweep. */
 ss_status ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
 /* --- as text ---------------------------------------------------------------------------------- */

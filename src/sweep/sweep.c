@@ -52,9 +52,9 @@ ss_axis_value(const ss_axis *axis, size_t i)
         return axis->from;
     if (i + 1 >= axis->n)
         return axis->to;
-    double part = (double)i / (double)(axis->n - 1);
-    return axis->log ? axis->from * pow(axis->to / axis->from, part)
-        : axis->from + (axis->to - axis->from) * part;
+    double n = (double)(axis->n - 1), done = (double)i;
+    return axis->log ? axis->from * pow(axis->to / axis->from, done / n)
+        : (axis->from * (n - done) + axis->to * done) / n;
 }
 
 ss_status
@@ -72,12 +72,15 @@ ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
     return SS_OK;
 }
 
-static ss_status
-check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
+ss_status
+ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
     static const char *const of_record[] = { "settle", "duration", "rate" };
     ss_scene copy = *scene;
+    size_t all;
     ss_status st = ss_steady_check(&opts->steady, scene->model, err);
+    if (st == SS_OK)
+        st = ss_sweep_points(opts, &all, err);
     for (size_t i = 0; st == SS_OK && i < opts->n_axes; i++) {
         const char *key = opts->axis[i].key;
         if (ss_scene_number(&copy, key, NULL, err) == NULL)
@@ -235,11 +238,10 @@ ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
     sweep w = { .scene = scene, .opts = opts, .room = (size_t)opts->threads * BATCHES_A_THREAD };
     size_t all;
-    ss_status st = check(scene, opts, err);
-    if (st == SS_OK)
-        st = ss_sweep_points(opts, &all, err);
+    ss_status st = ss_sweep_check(scene, opts, err);
     if (st != SS_OK)
         return st;
+    ss_sweep_points(opts, &all, NULL);
     size_t of_shard = all > opts->shard ? (all - opts->shard - 1) / opts->shards + 1 : 0;
     w.n = of_shard > opts->first ? of_shard - opts->first : 0;
     w.ring = calloc(w.room, sizeof *w.ring);
