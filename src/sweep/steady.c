@@ -322,15 +322,18 @@ newton_step(finder *f, motion *at, tangent *t, double *off)
     motion moved = *at;
     double d[3], r[3] = { end->x_ref - at->x_ref, end->q[0] - at->q[0], end->q[1] - at->q[1] };
     double missed = distance(f, state_of(end), state_of(at));
-    *off = INFINITY;
+    int allowed = 0, halvings = 0;
     ss_tangent_solve(t, unit, r, d);
-    if (end->mode == at->mode && isfinite(d[0] + d[1] + d[2]) && move(&moved, d)) {
+    if (end->mode == at->mode && isfinite(d[0] + d[1] + d[2]))
+        for (; !(allowed = move(&moved, d)) && halvings < 8; halvings++) {
+            moved = *at;
+            for (int i = 0; i < 3; i++)
+                d[i] /= 2;
+        }
+    *off = missed <= ROUNDING ? missed : INFINITY;
+    if (allowed && halvings == 0)
         *off = fmax(missed, distance(f, state_of(&moved), state_of(at)));
-        *at = moved;
-    } else {
-        *at = *end;                     /* no step to be had: simulate on */
-        *off = missed <= ROUNDING ? missed : INFINITY;
-    }
+    *at = allowed ? moved : *end;       /* no step to be had: simulate on */
     at->origin = (instant){ 0, 0 };
     at->u = 0;
     return SS_OK;
