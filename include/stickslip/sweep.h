@@ -23,8 +23,8 @@ typedef enum ss_measure {
     SS_PERIOD,          /* in forcing cycles; 0: aperiodic */
     SS_CYCLES,          /* from the scene's initial state until it is periodic */
     SS_MICROSLIPS,      /* slips followed by one in the same direction, a half-cycle */
-    SS_TRANSITION,      /* frequency of a between its extrema within sticks, or where
-                           |alpha v| < 1 [Hz] */
+    SS_TRANSITION,      /* from the times between extrema of a in transitions that have three or
+                           more of them: microsticks, or where |alpha v| < 1 [Hz] */
     SS_X_PHASE,         /* x and v at the start of a forcing cycle, which tell basins apart [m] */
     SS_V_PHASE,         /* [m/s] */
     SS_FLOQUET,         /* modulus of the largest Floquet multiplier of the period */

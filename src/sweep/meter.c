@@ -116,21 +116,46 @@ take_extremum_of_a(meter *r, const motion *m, const point *p)
     double t = r->time + p->s;
     if (!in_transition(m, p))
         return;
-    if (r->has_last) {
-        r->spacing += t - r->t_last;
-        r->spacings++;
-    } else if (r->in_first) {
-        r->t_first = t;
-        r->has_first = 1;
-    }
-    r->t_last = t;
-    r->has_last = 1;
+    if (r->now.n++ == 0)
+        r->now.first = t;
+    r->now.last = t;
+}
+
+/* Fewer than three extrema are no oscillation: the base alone makes two. */
+static void
+count_ring(meter *r, const ring *of)
+{
+    if (of->n < 3)
+        return;
+    r->spacing += of->last - of->first;
+    r->spacings += of->n - 1;
 }
 
 static void
 leave_transition(meter *r)
 {
-    r->has_last = r->in_first = 0;
+    if (r->in_first)
+        r->begun_in = r->now;
+    else
+        count_ring(r, &r->now);
+    r->in_first = 0;
+    r->now.n = 0;
+}
+
+/* The transition at the end goes on in that at the start if the cycles close. */
+static void
+end_transition(meter *r, int closes)
+{
+    ring joined = r->now;
+    if (r->in_first || r->begun_in.n == 0 || !closes) {
+        count_ring(r, &r->now);
+        count_ring(r, &r->begun_in);
+        return;
+    }
+    joined.first = r->now.n > 0 ? r->now.first : r->begun_in.first + r->time;
+    joined.last = r->begun_in.last + r->time;
+    joined.n += r->begun_in.n;
+    count_ring(r, &joined);
 }
 
 static double
@@ -217,10 +242,7 @@ ss_meter_end(meter *r, int cycles, int closes, double value[])
 {
     if (closes && r->first_slip != 0 && r->first_slip == r->slip)
         r->microslips++;
-    if (closes && r->has_first && r->has_last) {
-        r->spacing += r->t_first + r->time - r->t_last;
-        r->spacings++;
-    }
+    end_transition(r, closes);
     const double of[SS_MEASURES] = {
         [SS_STOPS] = (double)r->stops / cycles,
         [SS_STICK_FRACTION] = r->stick / r->time,

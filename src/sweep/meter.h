@@ -5,14 +5,20 @@
 #include <stickslip/sweep.h>
 #include "sim/walk.h"
 
+/* Extrema of a within one transition. */
+typedef struct ring {
+    size_t n;
+    double first, last;             /* times */
+} ring;
+
 typedef struct meter {
     unsigned wanted;
     int needs_course;               /* more than the ends of the legs is looked at */
     double time, stick, x_lo, x_hi, v_max, a_max, energy;
     size_t stops, microslips;
     int slip, first_slip;           /* direction of the last; of the first, if its last is unknown */
-    double t_first, t_last;         /* extrema of a within sticks; t_first: in the one begun in */
-    int has_first, has_last, in_first;
+    ring now, begun_in;             /* begun_in: of the transition that the meter began in */
+    int in_first;
     double spacing;
     size_t spacings;
 } meter;

@@ -226,12 +226,18 @@ has_period(const finder *f, int p)
     return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
 }
 
+/* The state within tol of its limit is within 2 tol of itself after any multiple of its period, so
+ * what is that near for fewer cycles has only not come to the shorter period yet. */
 static int
 find_period(const finder *f)
 {
-    for (int p = 1; p <= f->opts->max_period; p++)
+    for (int p = 1; p <= f->opts->max_period; p++) {
         if (has_period(f, p))
             return p;
+        if (f->taken > (unsigned long)p
+            && distance(f, state_before(f, 0), state_before(f, p)) <= 10 * f->opts->tol)
+            return 0;
+    }
     return 0;
 }
 
@@ -389,7 +395,7 @@ complete(const finder *f, const ss_steady *out)
     for (int i = 0; i < SS_MEASURES; i++)
         if ((o->measures & 1u << i) && isnan(out->value[i]))
             return ss_fail(f->err, SS_EDATA, i == SS_TRANSITION
-                           ? "%s: a has no two extrema in one transition" : "%s: not a number",
+                           ? "%s: no oscillation, a has no three extrema in one" : "%s: not a number",
                            measure[i].name);
     return SS_OK;
 }
