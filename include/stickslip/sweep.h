@@ -127,6 +127,7 @@ typedef struct ss_sweep_table {
     char **name;                /* of the columns: "index", "friction", ..., without units */
     char **unit;
     double *value;              /* column after column */
+    char *scene;                /* what the header calls it; NULL if it does not */
 } ss_sweep_table;
 
 /* Read what ss-sweep writes, rows in any order.  SS_EDATA with file and line; SS_EIO. */

@@ -36,6 +36,7 @@ ss_sweep_table_free(ss_sweep_table *t)
     free(t->name);
     free(t->unit);
     free(t->value);
+    free(t->scene);
     free(t);
 }
 
@@ -117,13 +118,16 @@ take_row(reader *r, char *line, ss_error *err)
 static ss_status
 take_line(reader *r, char *line, ss_error *err)
 {
-    static const char columns[] = "# columns: ";
+    static const char columns[] = "# columns: ", scene[] = "# scene: ";
     line[strcspn(line, "\r\n")] = '\0';
     if (++r->line == 1 && strcmp(line, "# stickslip sweep 1") != 0)
         return ss_fail(err, SS_EDATA, "%s:1: not a sweep: it does not begin with "
                        "'# stickslip sweep 1'", r->name);
     if (strncmp(line, columns, strlen(columns)) == 0)
         return take_columns(r, line + strlen(columns), err);
+    if (strncmp(line, scene, strlen(scene)) == 0 && r->table->scene == NULL
+        && (r->table->scene = strdup(line + strlen(scene))) == NULL)
+        return no_memory(err);
     return line[0] == '#' || line[0] == '\0' ? SS_OK : take_row(r, line, err);
 }
 
