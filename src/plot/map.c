@@ -430,7 +430,7 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
     put_label(out, "x_label", t, map->x);
     put_label(out, "y_label", t, map->y);
     fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
-          "fine = ',' . (exists('font') ? sprintf('%d', 0.8*word(substr(font, 6, 9), 1)) : '8')\n",
+          "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : '8')\n",
           out);
     if (has_region)
         put_regions(out, g, t->value + region * t->n, r);
