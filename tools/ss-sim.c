@@ -163,8 +163,10 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         tool_note("accuracy %g: method %s, tol %g", accuracy, opts->method, opts->tol);
         return;
     }
-    if (opts->method == NULL)
-        opts->method = ss_sim_defaults.method;
+    if (opts->method == NULL) {
+        opts->method = ss_sim_method_for(scene);
+        tool_note("method %s, chosen for this scene", opts->method);
+    }
     if (opts->tol == 0)
         opts->tol = ss_sim_defaults.tol;
 }

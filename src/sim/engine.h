@@ -37,7 +37,7 @@ struct engine {
 };
 
 const char *ss_ode_method_name(size_t i);      /* NULL after the last */
-ss_status ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err);
+ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 
 #endif

@@ -246,14 +246,14 @@ absolute_scales(const motion *m, double scale[MAX_DIM])
 }
 
 ss_status
-ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
+ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
 {
     size_t i = 0;
     double scale[MAX_DIM];
-    while (i < METHODS && strcmp(opts->method, method[i].name) != 0)
+    while (i < METHODS && strcmp(name, method[i].name) != 0)
         i++;
     if (i == METHODS)
-        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", opts->method);
+        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
     ode *o = calloc(1, sizeof *o);
     if (o == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
@@ -261,16 +261,16 @@ ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
                         .lands_on_samples = method[i].multistep && m->model->guard == NULL };
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
-    o->tol = opts->tol;
+    o->tol = tol;
     o->h_next = ss_motion_step_cap(m);
     absolute_scales(m, scale);
     for (size_t k = 0; k < m->model->dim; k++)
-        if (!(isfinite(scale[k]) && opts->tol * scale[k] > 0)) {
+        if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {
             ode_free(&o->base);
             return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
         }
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
-                                                   opts->tol, opts->tol, 1, 0, scale);
+                                                   tol, tol, 1, 0, scale);
     int sides = m->model->derivatives == NULL && !o->multistep;
     if (sides)
         o->side = gsl_odeiv2_step_alloc(*method[i].type, m->model->dim);

@@ -30,7 +30,7 @@ enum { CHATTER_EVENTS = 1000 };
 
 enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
 
-const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
+const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
 
 #define EXACT "exact"
 
@@ -53,6 +53,13 @@ model_of(const ss_scene *scene)
     static const struct model *const model[] = { &ss_coulomb_model, &ss_state_variable_model,
                                                  &ss_compliant_model };
     return model[scene->model];
+}
+
+const char *
+ss_sim_method_for(const ss_scene *scene)
+{
+    const struct model *model = model_of(scene);
+    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
 }
 
 /* --- the motion ---------------------------------------------------------------------------- */
@@ -340,6 +347,8 @@ run(record *r, engine *e, ss_error *err)
                 double s = until_sample(r, m, r->i);
                 cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
             }
+            if (model->sight != NULL)
+                cap = fmin(cap, model->sight(m, e->dq0));
             st = e->type->step(e, cap, err);
             if (st == SS_OK && e->steps % REPORT_STEPS == 0)
                 st = report(r, m->origin.hi + m->u);
@@ -402,14 +411,15 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     st = check_length(&m, scene->settle + scene->duration, err);
     if (st != SS_OK)
         return st;
-    st = strcmp(opts->method, EXACT) == 0 ? ss_exact_new(&e, &m, err)
-                                         : ss_ode_new(&e, &m, opts, err);
+    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
+    st = strcmp(method, EXACT) == 0 ? ss_exact_new(&e, &m, err)
+                                    : ss_ode_new(&e, &m, method, opts->tol, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)
         st = run(&r, e, err);
     if (stats != NULL && e != NULL)
-        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events };
+        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, m.touches };
     if (e != NULL)
         e->type->free(e);
     return st;
