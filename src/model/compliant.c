@@ -72,7 +72,7 @@ excess(const motion *m)
     ss_linear_rates(m, ss_motion_drive(m, m->u), m->q, rate);
     if (!(rate[1] * sign(m->q[0]) < 0))
         return INFINITY;
-    return fabs(m->q[0]) - deflection_limit(m) + v * v / (2 * fabs(rate[1]));
+    return fabs(m->q[0]) - deflection_limit(m) + v / (2 * fabs(rate[1])) * v;  /* v^2 may underflow */
 }
 
 /* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most (sim.c says
@@ -90,7 +90,7 @@ only_touches(motion *m)
         return 0;
     m->q[0] -= sign(m->q[0]) * beyond;
     m->slack = m->graze;                /* it passes its peak without being asked again */
-    m->touches++;
+    m->unresolved++;
     return 1;
 }
 

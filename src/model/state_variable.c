@@ -38,16 +38,31 @@ fastest(const motion *m, const char **what)
  * swing far more than they decay hold bsimp up, too: at alpha = 1e9 it costs 1.6 times rk8pd's work
  * for a damping of 0.02, and a hundredth of it for 0.07. */
 #define STIFF_RATIO 3000
-#define STIFF_DAMPING 0.05
+#define STIFF_DAMPING 0.03
+
+/* The larger |s|; *damping of the roots, over 1 if they do not swing. */
+static double
+front_rate(const ss_scene *s, double *damping)
+{
+    double g, goal;
+    law(s, &g, &goal);
+    double swing = sqrt(g) * sqrt(goal * s->alpha / s->mass);
+    *damping = g / 2 / swing;
+    return g / 2 > swing ? g / 2 + sqrt((g / 2 - swing) * (g / 2 + swing)) : swing;
+}
+
+static double
+quickest(const ss_scene *s)
+{
+    double damping;
+    return front_rate(s, &damping);
+}
 
 static int
 stiff(const ss_scene *s)
 {
-    double g, goal, slow = fmax(sqrt(s->stiffness / s->mass), 2 * M_PI * s->base_frequency);
-    law(s, &g, &goal);
-    double swing = sqrt(g) * sqrt(goal * s->alpha / s->mass);
-    double root = g / 2 > swing ? g / 2 + sqrt((g / 2 - swing) * (g / 2 + swing)) : swing;
-    return root > STIFF_RATIO * slow && g / 2 > STIFF_DAMPING * swing;
+    double slow = fmax(sqrt(s->stiffness / s->mass), 2 * M_PI * s->base_frequency), damping;
+    return front_rate(s, &damping) > STIFF_RATIO * slow && damping > STIFF_DAMPING;
 }
 
 static void
@@ -104,7 +119,8 @@ sample(const motion *m, double drive, const double q[], const double dqdt[], ss_
 }
 
 const struct model ss_state_variable_model = {
-    .dim = 3, .start = start, .fastest = fastest, .sight = sight, .stiff = stiff, .rates = rates,
+    .dim = 3, .start = start, .fastest = fastest, .quickest = quickest,
+    .sight = sight, .stiff = stiff, .rates = rates,
     .jacobian = jacobian,
     .sample = sample
 };

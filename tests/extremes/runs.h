@@ -69,6 +69,15 @@ max_x(const run *r)
     return max;
 }
 
+/* What the library measures x by: its absolute tolerances are relative to this. */
+static double
+scale_of(const ss_scene *s)
+{
+    double omega = sqrt(s->stiffness / s->mass);
+    return fmax(fmax(s->base_amplitude, fabs(s->x0)),
+                fmax(fabs(s->v0) / omega, s->friction / s->stiffness));
+}
+
 /* The largest difference of x between samples, b's multiplied by factor. */
 static double
 difference(const run *a, const run *b, double factor)
