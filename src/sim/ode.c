@@ -76,7 +76,8 @@ all_finite(const double q[], size_t n)
 
 /* The state at the start of the step, to be stepped from.  GSL's bsimp gives up a step over which a
  * part of it grows 300-fold, and takes 0 for 1 in whatever unit: there this, in the part's scale,
- * stands for 0.  It is about the tightest tolerance, and lets the first step be over STEP_FLOOR. */
+ * stands for 0.  It is about the tightest tolerance, and lets the first step be over STEP_FLOOR.
+ * (Modes without friction of their own start with steps long enough to do without.) */
 #define BSIMP_ZERO 0x1p-46
 
 static void
@@ -288,9 +289,10 @@ ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
             ode_free(&o->base);
             return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
         }
-    if (*method[i].type == gsl_odeiv2_step_bsimp) {
-        o->least[0] = m->x_scale > 0 ? BSIMP_ZERO * scale[0] : 0;
-        o->least[1] = m->x_scale > 0 ? BSIMP_ZERO * scale[1] : 0;
+    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
+        && m->scene->model == SS_STATE_VARIABLE) {
+        o->least[0] = BSIMP_ZERO * scale[0];
+        o->least[1] = BSIMP_ZERO * scale[1];
         o->least[2] = BSIMP_ZERO * m->scene->friction;
     }
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
