@@ -25,11 +25,13 @@
 #define CENTER 6.0
 #define VOICES 4
 #define HIGHEST 0.6             /* of Nyquist */
-#define REACH 1.5               /* octaves looked at from the first row with a spike on */
+#define REACH 2.0               /* octaves looked at from the first row with a spike on */
 #define CLEAR 2.0               /* scales that two spikes are apart at least */
 #define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
 #define MARGIN 6.0              /* scales by which the record is continued */
-#define FIT 3.0                 /* scales on either side that the fit of a break sees */
+#define QUIET 3.0               /* scales from a spike on that it is not heard */
+#define LEAST 0.1               /* part of a row that its noise is read from at least */
+#define FIT 2.0                 /* scales on either side that the fit of a break sees */
 
 const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7 };
 
@@ -99,9 +101,33 @@ summit(const double *level, double t, double step)
     return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
 }
 
+/* The rms of |W| in the n levels, which are sorted, one every step from t on, by the median of those
+ * that are farther than quiet from all spikes found so far: all that there are, if these are less
+ * than LEAST of them. */
+static double
+noise_of(const ss_spikes_found *found, double *level, size_t n, double t, double step, double quiet)
+{
+    size_t left = 0, i = 0;
+    for (size_t k = 0; k < n; k++) {
+        double at = t + (double)k * step;
+        while (i < found->n && found->spike[i].t + quiet < at)
+            i++;
+        if (i < found->n && found->spike[i].t - quiet <= at)
+            continue;
+        double swap = level[left];
+        level[left++] = level[k];
+        level[k] = swap;
+    }
+    if ((double)left < LEAST * (double)n)
+        left = n;
+    qsort(level, left, sizeof *level, by_value);
+    return level[left / 2] / sqrt(M_LN2);
+}
+
 /* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
 static ss_status
-fill_row(row *r, const ss_scale *scale, double *level, double margin, double length)
+fill_row(row *r, const ss_spikes_found *found, const ss_scale *scale, double *level, double margin,
+         double length)
 {
     double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
     size_t first = (size_t)ceil((margin + cone) / step);
@@ -114,8 +140,8 @@ fill_row(row *r, const ss_scale *scale, double *level, double margin, double len
             r->peak[r->n++] = summit(level + k - 1, ss_scale_b(scale, k) - margin, step);
     for (size_t i = 0; i < r->n; i++)
         r->top = fmax(r->top, r->peak[i].level);
-    qsort(level + first, last - first + 1, sizeof *level, by_value);
-    r->rms = level[first + (last - first) / 2] / sqrt(M_LN2);
+    r->rms = noise_of(found, level + first, last - first + 1, ss_scale_b(scale, first) - margin,
+                      step, QUIET * r->a);
     return SS_OK;
 }
 
@@ -141,7 +167,8 @@ compute_row(row *r, const search *s, double f, ss_error *err)
         for (size_t k = 0; k < scale->n; k++)
             w[k] = hypot(w[2 * k], w[2 * k + 1]);
         *r = (row){ .a = a, .f = scale->f };
-        st = fill_row(r, scale, w, (double)margin / s->rate, (double)(s->n - 1) / s->rate);
+        st = fill_row(r, s->found, scale, w, (double)margin / s->rate,
+                      (double)(s->n - 1) / s->rate);
         /* what rounding of the samples alone gives, as white noise */
         r->rms = hypot(r->rms, s->opts->precision * s->x_max / sqrt(s->rate));
     }
@@ -223,10 +250,8 @@ add_spike(search *s, size_t i, const peak *p)
         found->spike = more;
         s->room = room;
     }
-    double slope = slope_of(s, i, p);
     found->spike[found->n++] = (ss_spike){
-        .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms,
-        .slope = slope, .kind = kind_of(slope) };
+        .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms };
     return SS_OK;
 }
 
@@ -304,10 +329,7 @@ search_rows(search *s, double f, ss_error *err)
         s->n_rows = i + 1;
         if (s->row[i].top > s->threshold * s->row[i].rms && last == rows - 1)
             last = i + (size_t)(REACH * VOICES) < last ? i + (size_t)(REACH * VOICES) : last;
-    }
-    for (size_t i = 0; i + 1 < s->n_rows; i++) {
-        ss_status st = take_row(s, i);
-        if (st != SS_OK)
+        if (i > 0 && (st = take_row(s, i - 1)) != SS_OK)
             return st;
     }
     return SS_OK;
@@ -333,18 +355,28 @@ refined(const search *s, size_t i)
 }
 
 static void
+classify(search *s, ss_spike *spike)
+{
+    for (size_t i = 0; i < s->n_rows; i++)
+        if (s->row[i].f == spike->f)
+            spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY));
+    spike->kind = kind_of(spike->slope);
+}
+
+static void
 finish(search *s)
 {
     ss_spikes_found *found = s->found;
     found->threshold = s->threshold;
+    for (size_t i = 0; i < found->n; i++)
+        classify(s, &found->spike[i]);
     for (size_t i = 0; i < found->n; i++)
         found->spike[i].t = refined(s, i);
     qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
     for (size_t i = 0; i < found->n; i++)
         found->f = fmax(found->f, found->spike[i].f);
     for (size_t i = 0; i < s->n_rows && found->n > 0; i++)
-        if (s->row[i].f == found->f)
-            found->floor = 20 * log10(s->threshold * s->row[i].rms / s->row[i].top);
+        found->floor = fmin(found->floor, 20 * log10(s->threshold * s->row[i].rms / s->row[i].top));
 }
 
 static ss_status
