@@ -9,11 +9,12 @@
 SS_BEGIN_DECLARATIONS
 
 /* What |W| (a^-1/2 norm) does over the octave above the shortest scale that shows the spike:
- * a^-1/2 for a glitch of one sample (-3 dB an octave), a^1/2 for a jump (+3, +2 at the shortest scales of
- * a sampled one), a^3/2 for a kink (+9; 4 to 15 where jump, kink and curvature come together), and
- * faster than any power for what is smooth (30 to 50 in the state-variable scene). */
+ * a^-1/2 for a glitch of one sample (-3 dB an octave; 0 for two samples), a^1/2 for a jump (+3; +2 at the
+ * shortest scales of a sampled one), a^3/2 for a kink (+9; 4 to 15 where jump, kink and curvature
+ * come together), and faster than any power for what is smooth (30 to 50 in the state-variable
+ * scene). */
 typedef enum ss_spike_kind {
-    SS_SPIKE_GLITCH,            /* slope below -0.5 dB an octave */
+    SS_SPIKE_GLITCH,            /* slope below -1.5 dB an octave */
     SS_SPIKE_JUMP,              /* below 4 */
     SS_SPIKE_KINK,              /* below 22 */
     SS_SPIKE_BEND               /* 22 and more: smooth, no event */
@@ -40,8 +41,11 @@ typedef struct ss_spikes_found {
     ss_spike *spike;            /* in time order */
     double threshold;           /* |W| over the rms of the noise, from false_alarms */
     double f;                   /* label of the shortest scale at which there is a spike; 0: none */
-    double floor;               /* [dB] the threshold at that scale re the strongest spike there: weaker
-                                   ones would not be seen; 0 where there is none */
+    double floor;               /* [dB] the threshold re the clearest spike, where that is clearest (bends
+                                   count if the shortest scale shows them): weaker ones would not be
+                                   seen; 0 where there is none */
+    int conclusive;             /* 1: floor <= -6, spikes half as strong as the strongest would be seen;
+                                   0: there is too much noise to count or to group them */
 } ss_spikes_found;
 
 /* All spikes of the n samples of x, which must be finite.  Two that lie closer than twice the

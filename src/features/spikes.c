@@ -29,6 +29,7 @@
 #define CLEAR 2.0               /* scales that two spikes are apart at least */
 #define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
 #define MARGIN 6.0              /* scales by which the record is continued */
+#define CONCLUSIVE 6.0          /* dB that the clearest spike is above the threshold at least */
 #define QUIET 3.0               /* scales from a spike on that it is not heard */
 #define LEAST 0.1               /* part of a row that its noise is read from at least */
 #define FIT 2.0                 /* scales on either side that the fit of a break sees */
@@ -207,10 +208,12 @@ stands_out(const search *s, const row *r, const peak *p)
     return p != NULL && p->level > s->threshold * r->rms;
 }
 
-/* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most. */
+/* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most; what
+ * it has above the noise where that is most, into *clearest. */
 static double
-slope_of(const search *s, size_t i, const peak *p)
+slope_of(const search *s, size_t i, const peak *p, double *clearest)
 {
+    *clearest = p->level / s->row[i].rms;
     double sum = 0, weight = 0, base = log(p->level);
     size_t last = i;
     double level[VOICES + 1] = { 0 };
@@ -219,6 +222,7 @@ slope_of(const search *s, size_t i, const peak *p)
         if (next == NULL)
             break;
         p = next;
+        *clearest = fmax(*clearest, p->level / s->row[k].rms);
         level[k - i] = 20 * (log(p->level) - base) / M_LN10;
         last = k;
     }
@@ -233,7 +237,7 @@ slope_of(const search *s, size_t i, const peak *p)
 static ss_spike_kind
 kind_of(double slope)
 {
-    return slope < -0.5 ? SS_SPIKE_GLITCH : slope < 4 ? SS_SPIKE_JUMP
+    return slope < -1.5 ? SS_SPIKE_GLITCH : slope < 4 ? SS_SPIKE_JUMP
         : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
 }
 
@@ -357,10 +361,13 @@ refined(const search *s, size_t i)
 static void
 classify(search *s, ss_spike *spike)
 {
+    double clearest = 0;
     for (size_t i = 0; i < s->n_rows; i++)
         if (s->row[i].f == spike->f)
-            spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY));
+            spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
     spike->kind = kind_of(spike->slope);
+    if (spike->kind != SS_SPIKE_BEND || spike->f == s->row[0].f)
+        s->found->floor = fmin(s->found->floor, 20 * log10(s->threshold / clearest));
 }
 
 static void
@@ -375,8 +382,7 @@ finish(search *s)
     qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
     for (size_t i = 0; i < found->n; i++)
         found->f = fmax(found->f, found->spike[i].f);
-    for (size_t i = 0; i < s->n_rows && found->n > 0; i++)
-        found->floor = fmin(found->floor, 20 * log10(s->threshold * s->row[i].rms / s->row[i].top));
+    found->conclusive = found->floor <= -CONCLUSIVE;
 }
 
 static ss_status
