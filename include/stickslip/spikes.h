@@ -1,5 +1,5 @@
 /* stickslip/spikes.h -- where a signal is not smooth: jumps, kinks and glitches, from the maxima of
- * |W| over time that persist across its shortest usable scales. */
+ * |W| over time that persist across its shortest usable scales; single events; drops of a force. */
 #ifndef STICKSLIP_SPIKES_H
 #define STICKSLIP_SPIKES_H
 
@@ -65,6 +65,20 @@ ss_spike_group ss_spikes_within(const ss_spikes_found *found, double onset, doub
                                 double range);
 
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
+
+/* --- drops ----------------------------------------------------------------------------------- */
+
+/* A fall of a force that a stick has loaded. */
+typedef struct ss_drop {
+    double t, end;              /* [s] from the first sample, of the turning points */
+    double height;              /* > 0 */
+} ss_drop;
+
+/* All falls of x by more than height, in time order; *out is to be freed with free().  A fall ends where
+ * x has risen again by a quarter of height, so a slow drift is none.  Single wrong samples are left
+ * out of account; white noise moves heights by some 3 % of that. */
+ss_status ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
+                        double height, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -234,11 +234,14 @@ slope_of(const search *s, size_t i, const peak *p, double *clearest)
     return weight > 0 ? sum / weight * VOICES : 0;
 }
 
+/* What falls towards longer scales without standing out at the shortest ones is a pulse of some
+ * length: smooth. */
 static ss_spike_kind
-kind_of(double slope)
+kind_of(double slope, size_t i)
 {
-    return slope < -1.5 ? SS_SPIKE_GLITCH : slope < 4 ? SS_SPIKE_JUMP
-        : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
+    if (slope < -1.5)
+        return i < VOICES ? SS_SPIKE_GLITCH : SS_SPIKE_BEND;
+    return slope < 4 ? SS_SPIKE_JUMP : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
 }
 
 static ss_status
@@ -361,12 +364,13 @@ refined(const search *s, size_t i)
 static void
 classify(search *s, ss_spike *spike)
 {
-    double clearest = 0;
-    for (size_t i = 0; i < s->n_rows; i++)
-        if (s->row[i].f == spike->f)
-            spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
-    spike->kind = kind_of(spike->slope);
-    if (spike->kind != SS_SPIKE_BEND || spike->f == s->row[0].f)
+    double clearest;
+    size_t i = 0;
+    while (s->row[i].f != spike->f)
+        i++;
+    spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
+    spike->kind = kind_of(spike->slope, i);
+    if (spike->kind != SS_SPIKE_BEND || i == 0)
         s->found->floor = fmin(s->found->floor, 20 * log10(s->threshold / clearest));
 }
 
