@@ -24,21 +24,25 @@
 #define LEAST 0.1               /* part of a row that its noise is read from at least */
 
 /* The step of the converter that the samples came through, 0 if none is seen: the smallest change, if
- * nearly all others are multiples of it. */
+ * nearly all others are multiples of it.  Few or few different changes are a signal of steps. */
 static double
 converter_step(const double *x, size_t n)
 {
-    double step = INFINITY;
+    double step = INFINITY, lo = x[0], hi = x[0];
     size_t changes = 0, fit = 0;
     for (size_t i = 1; i < n; i++)
         if (x[i] != x[i - 1])
             step = fmin(step, fabs(x[i] - x[i - 1]));
     for (size_t i = 1; i < n; i++) {
         double steps = fabs(x[i] - x[i - 1]) / step;
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
         changes += steps > 0;
         fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* by chance a fifth of them */
     }
-    return changes > 0 && (double)fit >= 0.9 * (double)changes ? step : 0;
+    if (changes < n / 20 || hi - lo < 8 * step || (double)fit < 0.9 * (double)changes)
+        return 0;
+    return step;
 }
 
 ss_status
