@@ -49,7 +49,7 @@ ss_status
 ss_row_source_init(row_source *source, const double *x, size_t n, double rate, double precision,
                    ss_error *err)
 {
-    double most = 0;
+    double lo = INFINITY, hi = -INFINITY;
     if (n == 0 || n > SIZE_MAX / 64)
         return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
     if (!(rate >= 1e-100 && rate <= 1e100))
@@ -57,30 +57,32 @@ ss_row_source_init(row_source *source, const double *x, size_t n, double rate, d
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
-        most = fmax(most, fabs(x[i] - x[0]));
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
     }
-    if (!isfinite(most))
+    if (!isfinite(hi - lo))
         return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
-    *source = (row_source){ .x = x, .n = n, .rate = rate, .constant = most == 0 };
-    if (most > 0)
-        source->rounding = fmax(precision * most, converter_step(x, n) / sqrt(12)) / sqrt(rate);
+    *source = (row_source){ .x = x, .n = n, .rate = rate, .constant = hi == lo };
+    if (hi > lo)
+        source->rounding = fmax(precision * (hi - lo), converter_step(x, n) / sqrt(12)) / sqrt(rate);
     return SS_OK;
 }
 
-/* The record with margin samples more at either end, an odd continuation; past the other end of
- * a record that is too short for that, its last value stays. */
+/* The record less its first value, with margin samples more at either end, an odd continuation; past
+ * the other end of a record that is too short for that, its last value stays. */
 static double *
 continued(const double *x, size_t n, size_t margin)
 {
     double *y = malloc((n + 2 * margin) * sizeof *y);
     if (y == NULL)
         return NULL;
+    double start = x[0], end = x[n - 1] - start;
     for (size_t i = 0; i < n; i++)
-        y[margin + i] = x[i];
+        y[margin + i] = x[i] - start;
     for (size_t i = 1; i <= margin; i++) {
         size_t k = i < n ? i : n - 1;
-        y[margin - i] = 2 * x[0] - x[k];
-        y[margin + n - 1 + i] = 2 * x[n - 1] - x[n - 1 - k];
+        y[margin - i] = start - x[k];
+        y[margin + n - 1 + i] = 2 * end - (x[n - 1 - k] - start);
     }
     return y;
 }
@@ -151,7 +153,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *lo
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_morlet *plan = NULL;
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
-    opts.octaves = 1;
+    opts.octaves = 1, opts.engine = SS_ENGINE_QUADRATURE;
     opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
     double a = exp2(opts.m0), rate = source->rate;
     size_t margin = (size_t)ceil(MARGIN * a * rate), n = source->n + 2 * margin;
