@@ -27,7 +27,21 @@ ss_coefficients_free(ss_coefficients *coefficients)
     ss_header_free(coefficients->head);
     free(coefficients->scale);
     free(coefficients->w);
+    free(coefficients->gap);
     free(coefficients);
+}
+
+static int
+is_edge(const ss_coefficients *c, const ss_scale *scale, size_t k)
+{
+    return ss_scale_edge(scale, k, c->n, c->head->rate)
+        || ss_near_gap(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
+}
+
+int
+ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k)
+{
+    return is_edge(coefficients, &coefficients->scale[i], k);
 }
 
 double
@@ -40,8 +54,7 @@ ss_coefficients_max(const ss_coefficients *coefficients)
         for (size_t k = 0; k < scale->n; k++) {
             double level = hypot(w[2 * k], w[2 * k + 1]);
             all = fmax(all, level);
-            if (level > outside
-                && !ss_scale_edge(scale, k, coefficients->n, coefficients->head->rate))
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k))
                 outside = level;
         }
     }
@@ -81,7 +94,8 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
      const ss_morlet_opts *opts, ss_error *err)
 {
     ss_status st = ss_header_select(&coef->head, signal->head, &column, 1, 0);
-    if (st != SS_OK || (st = note_options(coef->head, signal, column, opts)) != SS_OK)
+    if (st != SS_OK || (st = note_options(coef->head, signal, column, opts)) != SS_OK
+        || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
         return st;
     coef->n = signal->n;
     coef->center = opts->center;
@@ -140,7 +154,7 @@ write_scale(const ss_coefficients *coef, const ss_scale *scale, FILE *out)
         fprintf(out, "%s\t", f);
         put(out, w[2 * k], '\t');
         put(out, w[2 * k + 1], '\t');
-        fputs(ss_scale_edge(scale, k, coef->n, coef->head->rate) ? "1\n" : "0\n", out);
+        fputs(is_edge(coef, scale, k) ? "1\n" : "0\n", out);
     }
 }
 
@@ -403,7 +417,7 @@ read_row(reader *r)
     if (!(fabs(number[2] - b) <= 1e-12 * b))
         return ss_fail(r->err, SS_EDATA, "%s:%zu: b is %.9g s where the grid has %.9g s", r->name,
                        r->line, number[2], b);
-    if (number[6] != ss_scale_edge(&p->scale, p->n, r->coef->n, r->coef->head->rate))
+    if (number[6] != is_edge(r->coef, &p->scale, p->n))
         return ss_fail(r->err, SS_EDATA, "%s:%zu: edge is %g, not what the cone of influence gives",
                        r->name, r->line, number[6]);
     return append(p, number[4], number[5]);
@@ -466,6 +480,7 @@ read_all(reader *r)
     if (r->coef == NULL || (r->coef->head = ss_header_new(0, 0)) == NULL)
         return SS_ENOMEM;
     if ((st = read_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK
         || (st = read_rows(r)) != SS_OK)
         return st;
     return assemble(r);
