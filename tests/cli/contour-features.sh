@@ -16,7 +16,7 @@ grep -c '\$spans using\|\$spikes using\|\$maxima using' none.gp || true
 if command -v gnuplot > /dev/null; then
     for plot in all none; do
         gnuplot -e 'set terminal dumb' $plot.gp > picture 2> complaints
-        cat complaints
+        grep valid complaints || true      # an empty block would be complained of
     done
 fi
 for text in '# stickslip events 1' '0.1 0.2 3' '0.1 x'; do
