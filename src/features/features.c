@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "maxima.h"
 #include "period.h"
 #include "ringdown.h"
 
@@ -59,6 +60,14 @@ find_noise(search *s)
     return SS_OK;
 }
 
+/* Nine tenths of the noise lie below, and a saddle there is made by noise. */
+static double
+noise_floor(const search *s)
+{
+    double shortest = s->coef->scale[s->coef->n_scales - 1].a;
+    return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
+}
+
 /* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it. */
 static void
 drop_noise(search *s)
@@ -96,7 +105,7 @@ same_kind(const ss_maximum *m, double f)
 
 /* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than two do. */
 static double
-find_recurrent(const search *s)
+find_recurrent(const search *s, double prominence)
 {
     double best = 0, best_level = 0;
     size_t most = 1;
@@ -104,7 +113,7 @@ find_recurrent(const search *s)
         double level = 0;
         size_t count = 0;
         for (size_t k = 0; k < s->n_found; k++)
-            if (same_kind(&s->found[k], s->found[i].f)) {
+            if (s->found[k].prominence >= prominence && same_kind(&s->found[k], s->found[i].f)) {
                 count++;
                 level += s->found[k].level;
             }
@@ -262,13 +271,17 @@ find_ringing(search *s, double label)
     if (st == SS_OK)
         st = new_transitions(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
-    if (ringing < 2 || 2 * ringing < out->n)
-        out->n = out->recurring = 0;            /* once or twice is chance */
+    if (ringing < 2 || 2 * ringing < out->n) {          /* that is chance */
+        free(out->transition);
+        out->transition = NULL;
+        out->n = out->recurring = 0;
+    }
     if (st == SS_OK && out->recurring > 0)
         st = read_raw(s);
     if (st == SS_OK && out->n > 0)
         st = refine(s, swell, true_frequency(s, label));
-    qsort(out->transition, out->n, sizeof *out->transition, earlier);
+    if (out->n > 0)
+        qsort(out->transition, out->n, sizeof *out->transition, earlier);
     free(swell);
     return st;
 }
@@ -321,14 +334,17 @@ find_all(search *s)
                                                 / (period.value * period.value) };
     st = find_noise(s);
     if (st == SS_OK)
-        st = ss_maxima(&s->found, &s->n_found, s->coef, fmin(SLIGHT, s->opts->threshold));
+        st = ss_maxima_above(&s->found, &s->n_found, s->coef,
+                             fmin(SLIGHT, s->opts->threshold), noise_floor(s));
     if (st != SS_OK)
         return st;
     drop_noise(s);
     st = keep_prominent(s);
-    double f = find_recurrent(s);
-    if (st == SS_OK && f > 0)
-        st = find_ringing(s, f);
+    for (int slight = 0; slight < 2 && st == SS_OK && s->out->n == 0; slight++) {
+        double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
+        if (f > 0)
+            st = find_ringing(s, f);
+    }
     if (st == SS_OK)
         find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
     return st;

@@ -37,6 +37,8 @@
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
 #define MISFIT 1e-3             /* of the oscillation's amplitude: the line's own error is taken for noise */
 #define START 0.03              /* s / w that the fit starts from */
+#define COARSE 1e-4             /* tolerance of fits while the windows still grow */
+#define FINE 1e-8
 enum { FEW = 4 };               /* windows that a jackknife needs */
 enum { COLUMNS = 5, PLACES = 16 };  /* PLACES: of the core, a period */
 
@@ -230,9 +232,10 @@ total(const ss_window *window, size_t n)
     return sum;
 }
 
-/* Fit k->w and k->s to n windows, from where they stand.  *ok: they have converged. */
+/* Fit k->w and k->s to n windows, from where they stand, to a relative tolerance.  *ok: they have
+ * converged. */
 static ss_status
-fit(work *k, const ss_window *window, size_t n, int *ok)
+fit(work *k, const ss_window *window, size_t n, double tol, int *ok)
 {
     enum { STEPS = 50 };
     double w = k->w, s = k->s;
@@ -253,7 +256,7 @@ fit(work *k, const ss_window *window, size_t n, int *ok)
     double start[2] = { w, s };
     gsl_vector_view at = gsl_vector_view_array(start, 2);
     if (gsl_multifit_nlinear_init(&at.vector, &problem, space) == GSL_SUCCESS) {
-        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, 1e-8, 0, 0, NULL, NULL, &info, space);
+        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, tol, 0, 0, NULL, NULL, &info, space);
         w = gsl_vector_get(space->x, 0);
         s = gsl_vector_get(space->x, 1);
         /* no progress: it stands at the minimum already */
@@ -580,7 +583,7 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
         if (length(window[i]) <= k->columns + 2)
             continue;
         k->w = w, k->s = s;
-        st = fit(k, &window[i], 1, &ok);
+        st = fit(k, &window[i], 1, FINE, &ok);
         if (st != SS_OK || !ok)
             continue;
         normal h = normal_of(k, window[i]);
@@ -600,7 +603,7 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
     int ok = 0, more = 1;
     for (size_t i = 0; i < n; i++)
         core[i] = window[i] = place_core(k, anchor[i]);
-    ss_status st = fit(k, core, n, &ok);
+    ss_status st = fit(k, core, n, COARSE, &ok);
     if (st == SS_OK && ok)
         st = find_noise(k, core, n);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
@@ -611,7 +614,7 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
         more = 0;
         for (size_t i = 0; i < n; i++)
             more |= length(window[i]) == longest;
-        st = fit(k, window, n, &ok);
+        st = fit(k, window, n, COARSE, &ok);
         if (st == SS_OK && ok)
             st = find_noise(k, window, n);
     }
@@ -621,7 +624,7 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
         window[i] = trim(k, window[i]);
     size_t longest;
     do {
-        st = fit(k, window, n, &ok);
+        st = fit(k, window, n, FINE, &ok);
         if (st == SS_OK && ok)
             st = find_noise(k, window, n);
         if (st == SS_OK && ok)
