@@ -183,7 +183,7 @@ read_transition(ss_overlay *o, const lines *l)
     }
 }
 
-/* Rows are transitions; a note "spike" has the time of one first. */
+/* Rows are transitions; a note "spike" has its time and its kind: jumps and kinks are drawn. */
 static void
 read_features(drawing *d, const char *path)
 {
@@ -196,8 +196,11 @@ read_features(drawing *d, const char *path)
         if (l.text[0] != '#')
             read_transition(o, &l);
         else if (strncmp(l.text, note, sizeof note - 1) == 0) {
+            double t = take_number(&l, &text, "the time of a spike");
+            if (strncmp(text, "jump", 4) != 0 && strncmp(text, "kink", 4) != 0)
+                continue;
             o->spike = make_room(o->spike, o->n_spikes, sizeof *o->spike);
-            o->spike[o->n_spikes++] = take_number(&l, &text, "the time of a spike");
+            o->spike[o->n_spikes++] = t;
         }
     }
     d->opts.overlay = o;
