@@ -227,8 +227,9 @@ put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
     visible seen = { 0, 0, 0 };
     fputs("$spans << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spans; i++) {
+        double shortest = (span->to - span->from) / COLUMNS * 2;        /* to be seen at all */
         double from = fmax(overlay->span[i][0], span->from);
-        double to = fmin(overlay->span[i][1], span->to);
+        double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
         if (!(from <= to))
             continue;
         ss_script_put(out, from, decimals, " ");
