@@ -38,6 +38,8 @@
 #define MISFIT 1e-3             /* of the oscillation's amplitude: the line's own error is taken for noise */
 #define ROUGH 0.02              /* a core is described badly if more of its oscillation's amplitude is left */
 #define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
+#define LASTS 0.15              /* and of the amplitude at its start, at its end: what is gone rang no two periods */
+#define APART 3.0               /* periods: transitions nearer than that have no room for two and a slip */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 #define FINE 1e-8
@@ -603,13 +605,21 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
     return st;
 }
 
-/* Are the cores, which any stick that can be used has room for, described badly already?  Then it
- * is not noise nor the end of a stick that stops the growth, but that the oscillation is not quite a
- * damped sinusoid. */
+/* Are the cores described badly, even when they are placed and fitted in turns?  Then it is not the
+ * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor noise,
+ * but that the oscillation is not quite a damped sinusoid. */
 static int
-is_rough(work *k, const ss_window *core, size_t n, double white)
+is_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white)
 {
+    enum { TURNS = 3 };
     size_t rough = 0, used = 0;
+    int ok = 1;
+    for (int turn = 0; turn < TURNS && ok; turn++) {
+        for (size_t i = 0; i < n; i++)
+            core[i] = place(k, anchor[i], CORE);
+        if (fit(k, core, n, COARSE, &ok) != SS_OK)
+            return 0;
+    }
     for (size_t i = 0; i < n; i++) {
         if (length(core[i]) == 0)
             continue;
@@ -635,7 +645,8 @@ fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *
             continue;
         st = fit_one(k, win, own, &fitted);
         if (st != SS_OK || !(fabs(log(own[0].value / k->w)) < M_LN2 / 2)
-            || !(fitted.ring > EXPLAINED * (fitted.ring + fitted.rss)))
+            || !(fitted.ring > EXPLAINED * (fitted.ring + fitted.rss))
+            || !(exp(-own[1].value * (double)length(win)) > LASTS))
             continue;
         memcpy(each + 2 * i, own, sizeof own);
         window[i] = win;
@@ -772,14 +783,14 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
            ss_value *each, double white)
 {
     size_t strict = 0, used = 0;
+    if (n < 2 || (double)(anchor[n - 1] - anchor[0]) < APART * period(k) * (double)(n - 1))
+        return SS_OK;
     ss_window *core = malloc((n + 1) * sizeof *core);
     if (core == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < n; i++) {
-        core[i] = place(k, anchor[i], CORE);
+    for (size_t i = 0; i < n; i++)
         strict += length(window[i]) > 0;
-    }
-    int rough = 2 * strict < n && is_rough(k, core, n, white);
+    int rough = 2 * strict < n && is_rough(k, anchor, core, n, white);
     free(core);
     if (!rough)
         return SS_OK;
