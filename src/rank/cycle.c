@@ -12,6 +12,8 @@
 #include <gsl/gsl_fft_real.h>
 #include "error.h"
 
+enum { GRID = 64 };             /* steps to either side in the search of the period */
+
 static size_t
 bins_of(double samples)
 {
@@ -79,10 +81,11 @@ double
 ss_cycle_period(const double *x, size_t n, double rate, double period, double part)
 {
     double best = period;
-    for (double width = part; width > 1e-6; width /= 8) {   /* ever finer about the best */
+    /* jumps repeat within a bin or two only: the first steps are no wider than that over 8 cycles */
+    for (double width = part; width > 1e-6; width /= GRID) {
         double middle = best, most = -1;
-        for (int i = -8; i <= 8; i++) {
-            double p = middle * (1 + width * i / 8), power = repeating(x, n, p * rate);
+        for (int i = -GRID; i <= GRID; i++) {
+            double p = middle * (1 + width * i / GRID), power = repeating(x, n, p * rate);
             if (power > most)
                 most = power, best = p;
         }
