@@ -6,6 +6,7 @@
 #include <stickslip/status.h>
 #include <stickslip/scene.h>
 #include <stickslip/signal.h>
+#include <stickslip/features.h>
 
 SS_BEGIN_DECLARATIONS
 
@@ -74,6 +75,27 @@ double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double fact
  * order[0 ... n-1]; 1 if it is another than theirs. */
 int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
                      size_t *order);
+
+/* --- the scene that fits ------------------------------------------------------------------- */
+
+typedef struct ss_fit {
+    int told;                   /* 0: cannot tell, the scene is the one given */
+    char why[256];              /* why not */
+    ss_scene scene;             /* settled, in step with the record from its first sample */
+    ss_value friction, base_amplitude;              /* with standard errors */
+    ss_value contact_stiffness, contact_damping;
+    ss_value base_frequency;
+    double residual;            /* rms of record less scene over that of the record about its mean */
+    double residual_started;    /* the same if the motion may start from any state: what is left then
+                                   is noise, or not this model */
+} ss_fit;
+
+/* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column of
+ * SI units, whose values must be finite; m, k and the release rule are taken from the scene.  Errors
+ * are those of white noise of the residual's size.  That nothing can be told is an answer: SS_OK.
+ * opts may be NULL; its spread is not used.  SS_EINVAL for another model. */
+ss_status ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
+                       const ss_rank_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

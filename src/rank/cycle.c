@@ -7,10 +7,12 @@
 #include "rank/cycle.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_fft_real.h>
 #include "error.h"
+#include "features/period.h"
 
 enum { GRID = 64 };             /* steps to either side in the search of the period */
 
@@ -91,6 +93,35 @@ ss_cycle_period(const double *x, size_t n, double rate, double period, double pa
         }
     }
     return best;
+}
+
+ss_status
+ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, double rate,
+              double frequency)
+{
+    ss_value samples = { rate / frequency, 0 };
+    ss_error err = { "" };
+    if (!(frequency > 0)) {
+        ss_status st = ss_period_find(x, n, &samples);
+        if (st != SS_OK)
+            return st;
+    }
+    c->period = 0;
+    if (isnan(samples.value)) {
+        snprintf(why, size, "nothing repeats in the record");
+        return SS_OK;
+    }
+    double period = samples.value / rate;
+    if (!(frequency > 0))
+        period = ss_cycle_period(x, n, rate, period, 0.01);
+    if (ss_cycle_fold(c, x, n, rate, period, &err) != SS_OK) {
+        snprintf(why, size, "%s", err.text);
+        c->period = 0;
+    } else if (!(c->power > c->noise)) {
+        snprintf(why, size, "what repeats is no more than the noise");
+        c->period = 0;
+    }
+    return SS_OK;
 }
 
 double

@@ -16,7 +16,6 @@
 #include <stickslip/sim.h>
 #include <stickslip/spikes.h>
 #include "error.h"
-#include "features/period.h"
 #include "rank/candidate.h"
 
 /* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the spread
@@ -362,36 +361,6 @@ check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts
     return SS_OK;
 }
 
-/* The mean cycle, if there is one that says anything; else why not. */
-static ss_status
-find_cycle(cycle *goal, char *why, size_t size, const double *x, size_t n, double rate,
-           double frequency)
-{
-    ss_value samples = { rate / frequency, 0 };
-    ss_error err = { "" };
-    if (!(frequency > 0)) {
-        ss_status st = ss_period_find(x, n, &samples);
-        if (st != SS_OK)
-            return st;
-    }
-    goal->period = 0;
-    if (isnan(samples.value)) {
-        snprintf(why, size, "nothing repeats in the record");
-        return SS_OK;
-    }
-    double period = samples.value / rate;
-    if (!(frequency > 0))
-        period = ss_cycle_period(x, n, rate, period, 0.01);
-    if (ss_cycle_fold(goal, x, n, rate, period, &err) != SS_OK) {
-        snprintf(why, size, "%s", err.text);
-        goal->period = 0;
-    } else if (!(goal->power > goal->noise)) {
-        snprintf(why, size, "what repeats is no more than the noise");
-        goal->period = 0;
-    }
-    return SS_OK;
-}
-
 static ss_status
 rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
 {
@@ -450,8 +419,8 @@ ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene
     for (size_t i = 0; i < n; i++)
         r->row[i].scene = i;
     *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
-    st = find_cycle(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n, signal->n,
-                    signal->head->rate, opts->forcing_frequency);
+    st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n, signal->n,
+                       signal->head->rate, opts->forcing_frequency);
     r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
     if (st == SS_OK && w->goal.period > 0)
         st = rank_all(r, signal, scene, w, err);
