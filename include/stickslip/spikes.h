@@ -1,5 +1,5 @@
 /* stickslip/spikes.h -- where a signal is not smooth: jumps, kinks and glitches, from the maxima of
- * |W| over time that persist across its shortest usable scales. */
+ * |W| over time that persist across its shortest usable scales; single events; drops of a force. */
 #ifndef STICKSLIP_SPIKES_H
 #define STICKSLIP_SPIKES_H
 
@@ -65,6 +65,42 @@ ss_spike_group ss_spikes_within(const ss_spikes_found *found, double onset, doub
                                 double range);
 
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
+
+/* --- single events --------------------------------------------------------------------------- */
+
+typedef struct ss_burst {
+    double t;                   /* [s] from the first sample */
+    double level;               /* [dB] re the strongest, <= 0 */
+    double snr;                 /* |W| over the rms of the noise */
+} ss_burst;
+
+typedef struct ss_bursts {
+    size_t n;
+    ss_burst *burst;            /* in time order */
+    double f;                   /* label of the scale that shows them best [Hz] */
+    double next;                /* [dB] of the strongest one left out re the strongest; -infinity: none
+                                   that is above the noise */
+} ss_bursts;
+
+/* The events of a record that is quiet for most of the time, of whatever length and shape: maxima
+ * of |W| at the scale where they stand out most, not more than range dB below the strongest. */
+ss_status ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
+                         ss_error *err);
+void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
+
+/* --- drops ----------------------------------------------------------------------------------- */
+
+/* A fall of a force that a stick has loaded. */
+typedef struct ss_drop {
+    double t, end;              /* [s] from the first sample, of the turning points */
+    double height;              /* > 0 */
+} ss_drop;
+
+/* All falls of x by more than height, in time order; *out is to be freed with free().  A fall ends where
+ * x has risen again by a quarter of height, so a slow drift is none.  Single wrong samples are left
+ * out of account; white noise moves heights by some 3 % of that. */
+ss_status ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
+                        double height, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -2,8 +2,8 @@
  *
  * Left of the break a cubic, right of it the same plus truncated powers 1 to 3 (a kink), or 0 to 3 (a
  * jump).  All but the place of the break is linear: the residual is what an orthogonal projection
- * leaves, and the place is where it is least, by a scan and then by golden section.  Between two
- * samples a jump has no place (any gives the same samples), so it is put half way. */
+ * leaves, and the place is where it is least.  Between two samples a jump has no place (any gives the
+ * same samples), so it is put half way. */
 #include "features/breakpoint.h"
 
 #include <math.h>
@@ -11,8 +11,10 @@
 
 enum { DEGREE = 3, TERMS = 2 * DEGREE + 2, SAMPLES = 128 };
 
+#define ROUNDING 1e-6           /* re the range of the samples: better no fit needs to be */
+
 typedef struct piece {
-    const double *x;            /* samples first ... first + n - 1 */
+    double x[SAMPLES];          /* samples first ... first + n - 1, brought into [0, 1] */
     size_t n;
     double first, unit;         /* of the time axis: half the length, so that powers stay near 1 */
 } piece;
@@ -55,33 +57,76 @@ residual(const piece *p, double at, int lowest)
     return sum;
 }
 
-/* Where in [lo, hi] the residual is least, as far as steps of a quarter of a sample tell, and then
- * to a hundredth. */
+/* Where in [lo, hi] the residual of a kink is least: scanned in steps of a quarter of a sample, then by
+ * golden section, then by the parabola through the last three. */
 static double
-least(const piece *p, double lo, double hi, int lowest, double *sum)
+least_kink(const piece *p, double lo, double hi, double *sum)
 {
-    const double step = lowest == 0 ? 1 : 0.25, golden = (sqrt(5) - 1) / 2;
-    double best = lo, at[2];
+    const double step = 0.25, golden = (sqrt(5) - 1) / 2;
+    double best = lo;
     *sum = INFINITY;
     for (double t = lo; t <= hi; t += step) {
-        double s = residual(p, t, lowest);
+        double s = residual(p, t, 1);
         if (s < *sum) {
             *sum = s;
             best = t;
         }
     }
-    if (lowest == 0)
-        return best;
     lo = fmax(lo, best - step), hi = fmin(hi, best + step);
-    while (hi - lo > 0.01) {
-        at[0] = hi - golden * (hi - lo), at[1] = lo + golden * (hi - lo);
-        if (residual(p, at[0], lowest) < residual(p, at[1], lowest))
-            hi = at[1];
-        else
-            lo = at[0];
+    double t0 = hi - golden * (hi - lo), t1 = lo + golden * (hi - lo);
+    double s0 = residual(p, t0, 1), s1 = residual(p, t1, 1), s_lo = INFINITY, s_hi = INFINITY;
+    while (hi - lo > 0.01)
+        if (s0 < s1) {
+            hi = t1, s_hi = s1, t1 = t0, s1 = s0;
+            s0 = residual(p, t0 = hi - golden * (hi - lo), 1);
+        } else {
+            lo = t0, s_lo = s0, t0 = t1, s0 = s1;
+            s1 = residual(p, t1 = lo + golden * (hi - lo), 1);
+        }
+    best = s0 < s1 ? t0 : t1;
+    *sum = fmin(s0, s1);
+    double other = s0 < s1 ? t1 : t0, s_other = fmax(s0, s1), end = s0 < s1 ? lo : hi;
+    double s_end = s0 < s1 ? s_lo : s_hi;
+    double u = (best - other) * (*sum - s_end), v = (best - end) * (*sum - s_other);
+    double t = best - 0.5 * ((best - other) * u - (best - end) * v) / (u - v);
+    if (t > lo && t < hi) {
+        double s = residual(p, t, 1);
+        if (s < *sum) {
+            *sum = s;
+            best = t;
+        }
     }
-    *sum = residual(p, (lo + hi) / 2, lowest);
-    return (lo + hi) / 2;
+    return best;
+}
+
+/* The same of a jump, which has its place half way between two samples. */
+static double
+least_jump(const piece *p, double lo, double hi, double *sum)
+{
+    double best = lo;
+    *sum = INFINITY;
+    for (double t = floor(lo) + 0.5; t <= hi; t++) {
+        double s = residual(p, t, 0);
+        if (s < *sum) {
+            *sum = s;
+            best = t;
+        }
+    }
+    return best;
+}
+
+/* 0: all samples are the same. */
+static int
+fill(piece *p, const double *x)
+{
+    double lo = x[0], hi = x[0];
+    for (size_t i = 0; i < p->n; i++) {
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
+    }
+    for (size_t i = 0; i < p->n && hi > lo; i++)
+        p->x[i] = (x[i] - lo) / (hi - lo);
+    return hi > lo;
 }
 
 double
@@ -91,8 +136,14 @@ ss_breakpoint(const double *x, size_t first, size_t last, double at, double reac
     double hi = fmin(at + reach, (double)last - BREAKPOINT_SIDE + 0.5);
     if (last - first + 1 > SAMPLES || !(lo <= hi))
         return at;
-    piece p = { x + first, last - first + 1, (double)first, (double)(last - first + 1) / 2 };
-    double at_kink = least(&p, lo, hi, 1, &kink);
-    double at_jump = least(&p, floor(lo) + 0.5, hi, 0, &jump);
+    piece p = { .n = last - first + 1, .first = (double)first };
+    p.unit = (double)p.n / 2;
+    if (!fill(&p, x + first))
+        return at;
+    double at_kink = least_kink(&p, lo, hi, &kink);
+    double at_jump = least_jump(&p, lo, hi, &jump);
+    double rounding = (double)p.n * ROUNDING * ROUNDING;
+    kink += rounding;
+    jump += rounding;
     return (double)p.n * log(kink / jump) > log((double)p.n) ? at_jump : at_kink;
 }

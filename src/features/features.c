@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "maxima.h"
 #include "period.h"
 #include "ringdown.h"
 
@@ -15,8 +16,8 @@ static const ss_value unknown = { NAN, NAN };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 #define CENTER 6.0
-/* |W| of a maximum over the rms of the noise there: 4.4 dB of prominence are 3 sigma at this level. */
-#define ABOVE_NOISE 7.5
+#define SIGMAS 3.0
+#define SLIGHT 0.5              /* [dB] maxima less prominent than this do not show an oscillation */
 #define BAND 0.25               /* [octaves] maxima this near to each other in frequency are of one kind */
 #define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
 
@@ -27,6 +28,8 @@ typedef struct search {
     double rate;
     const ss_features_opts *opts;
     ss_coefficients *coef;
+    ss_maximum *found;          /* maxima, slight ones too */
+    size_t n_found;
     ss_features *out;
 } search;
 
@@ -57,19 +60,41 @@ find_noise(search *s)
     return SS_OK;
 }
 
-/* Leave out the maxima that noise makes. */
+/* Nine tenths of the noise lie below, and a saddle there is made by noise. */
+static double
+noise_floor(const search *s)
+{
+    double shortest = s->coef->scale[s->coef->n_scales - 1].a;
+    return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
+}
+
+/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it. */
 static void
 drop_noise(search *s)
 {
-    double top = ss_coefficients_max(s->coef), floor = ABOVE_NOISE * s->out->noise / sqrt(s->rate);
+    double top = ss_coefficients_max(s->coef), noise = s->out->noise / sqrt(s->rate);
     size_t kept = 0;
-    for (size_t i = 0; i < s->out->n_maxima; i++) {
-        ss_maximum m = s->out->maximum[i];
+    for (size_t i = 0; i < s->n_found; i++) {
+        ss_maximum m = s->found[i];
         double scale = s->opts->norm == SS_NORM_L1 ? sqrt(CENTER / (2 * M_PI * m.f)) : 1;
-        if (top * pow(10, m.level / 20) * scale >= floor)
-            s->out->maximum[kept++] = m;
+        double fall = top * pow(10, m.level / 20) * (1 - pow(10, -m.prominence / 20));
+        if (fall * scale >= SIGMAS * noise)
+            s->found[kept++] = m;
     }
-    s->out->n_maxima = kept;
+    s->n_found = kept;
+}
+
+/* Those above the threshold are what is reported. */
+static ss_status
+keep_prominent(search *s)
+{
+    s->out->maximum = malloc((s->n_found + 1) * sizeof *s->out->maximum);
+    if (s->out->maximum == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < s->n_found; i++)
+        if (s->found[i].prominence >= s->opts->threshold)
+            s->out->maximum[s->out->n_maxima++] = s->found[i];
+    return SS_OK;
 }
 
 static int
@@ -80,21 +105,21 @@ same_kind(const ss_maximum *m, double f)
 
 /* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than two do. */
 static double
-find_recurrent(const ss_features *out)
+find_recurrent(const search *s, double prominence)
 {
     double best = 0, best_level = 0;
     size_t most = 1;
-    for (size_t i = 0; i < out->n_maxima; i++) {
+    for (size_t i = 0; i < s->n_found; i++) {
         double level = 0;
         size_t count = 0;
-        for (size_t k = 0; k < out->n_maxima; k++)
-            if (same_kind(&out->maximum[k], out->maximum[i].f)) {
+        for (size_t k = 0; k < s->n_found; k++)
+            if (s->found[k].prominence >= prominence && same_kind(&s->found[k], s->found[i].f)) {
                 count++;
-                level += out->maximum[k].level;
+                level += s->found[k].level;
             }
         if (count > most || (count == most && most > 1 && level > best_level)) {
             most = count;
-            best = out->maximum[i].f;
+            best = s->found[i].f;
             best_level = level;
         }
     }
@@ -141,23 +166,30 @@ new_transitions(ss_features *out, size_t n)
     return SS_OK;
 }
 
-/* Give every swell the nearest maximum of the kind, not further than the wavelet reaches. */
-static void
-match_maxima(ss_features *out, const ss_maximum *swell, double f)
+/* Give every swell the nearest maximum of the kind, not further than the wavelet reaches, where it
+ * is above the threshold; how many have one at all. */
+static size_t
+match_maxima(search *s, const ss_maximum *swell, double f)
 {
+    ss_features *out = s->out;
     double reach = CENTER / (M_PI * f);
-    out->recurring = 0;
+    size_t ringing = 0;
     for (size_t i = 0; i < out->n; i++) {
-        ss_transition *tr = &out->transition[i];
-        for (size_t k = 0; k < out->n_maxima; k++) {
-            const ss_maximum *m = &out->maximum[k];
+        const ss_maximum *best = NULL;
+        for (size_t k = 0; k < s->n_found; k++) {
+            const ss_maximum *m = &s->found[k];
             double distance = fabs(m->t - swell[i].t);
             if (same_kind(m, f) && distance <= reach
-                && !(distance > fabs(tr->maximum.t - swell[i].t)))
-                tr->maximum = *m;
+                && (best == NULL || distance < fabs(best->t - swell[i].t)))
+                best = m;
         }
-        out->recurring += !isnan(tr->maximum.f);
+        ringing += best != NULL;
+        if (best == NULL || best->prominence < s->opts->threshold)
+            continue;
+        out->transition[i].maximum = *best;
+        out->recurring++;
     }
+    return ringing;
 }
 
 /* The median of the labels; its error has the step of the grid in it, and their scatter. */
@@ -205,7 +237,9 @@ refine(search *s, const ss_maximum *swell, double f)
     if (anchor != NULL && window != NULL && each != NULL) {
         for (size_t i = 0; i < n; i++)
             anchor[i] = (size_t)(swell[i].t * s->rate);
-        st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate, window, all, each);
+        st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate,
+                             isnan(out->forcing_frequency.value) ? 0
+                             : 2 * M_PI * out->forcing_frequency.value / s->rate, window, all, each);
     }
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -236,15 +270,18 @@ find_ringing(search *s, double label)
                              s->opts->threshold);
     if (st == SS_OK)
         st = new_transitions(out, n);
-    if (st == SS_OK)
-        match_maxima(out, swell, label);
-    if (st == SS_OK && (out->recurring < 2 || 2 * out->recurring < out->n))
-        out->n = out->recurring = 0;            /* once or twice is chance */
-    if (st == SS_OK && out->n > 0)
+    size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
+    if (ringing < 2 || 2 * ringing < out->n) {          /* that is chance */
+        free(out->transition);
+        out->transition = NULL;
+        out->n = out->recurring = 0;
+    }
+    if (st == SS_OK && out->recurring > 0)
         st = read_raw(s);
     if (st == SS_OK && out->n > 0)
-        st = refine(s, swell, true_frequency(s, out->frequency_raw.value));
-    qsort(out->transition, out->n, sizeof *out->transition, earlier);
+        st = refine(s, swell, true_frequency(s, label));
+    if (out->n > 0)
+        qsort(out->transition, out->n, sizeof *out->transition, earlier);
     free(swell);
     return st;
 }
@@ -297,13 +334,17 @@ find_all(search *s)
                                                 / (period.value * period.value) };
     st = find_noise(s);
     if (st == SS_OK)
-        st = ss_maxima(&s->out->maximum, &s->out->n_maxima, s->coef, s->opts->threshold);
+        st = ss_maxima_above(&s->found, &s->n_found, s->coef,
+                             fmin(SLIGHT, s->opts->threshold), noise_floor(s));
     if (st != SS_OK)
         return st;
     drop_noise(s);
-    double f = find_recurrent(s->out);
-    if (f > 0)
-        st = find_ringing(s, f);
+    st = keep_prominent(s);
+    for (int slight = 0; slight < 2 && st == SS_OK && s->out->n == 0; slight++) {
+        double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
+        if (f > 0)
+            st = find_ringing(s, f);
+    }
     if (st == SS_OK)
         find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
     return st;
@@ -362,6 +403,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         ss_fail(err, st, "%s", ss_strerror(st));
     ss_coefficients_free(s.coef);
     free(s.x);
+    free(s.found);
     if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* too short for anything to be in it */
         st = SS_OK;
     if (st == SS_OK)

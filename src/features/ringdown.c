@@ -17,6 +17,7 @@
 #include "ringdown.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <stdlib.h>
@@ -25,17 +26,21 @@
 /* In periods of the oscillation. */
 #define CORE 1.25               /* longer ones would not fit into a stick of two, wherever they lie */
 #define LEAST 2.0               /* shorter windows cannot tell the oscillation from line and decay */
-#define MOST 32.0               /* longer ones know no more, as the oscillation has decayed */
+#define MOST 16.0               /* longer ones know no more, as the oscillation has decayed */
 #define BLOCK 0.125             /* a step of growth */
 #define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
 #define TRIM_END 0.4
 
 #define GROWTH 1.25             /* of the longest window from one fit to the next */
 #define CHANCE 1e-3             /* of ending the growth at a block that belongs to the stick */
+#define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
+#define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
 #define MISFIT 1e-3             /* of the oscillation's amplitude: the line's own error is taken for noise */
 #define START 0.03              /* s / w that the fit starts from */
+#define COARSE 1e-4             /* tolerance of fits while the windows still grow */
+#define FINE 1e-8
 enum { FEW = 4 };               /* windows that a jackknife needs */
-enum { COLUMNS = 4, PLACES = 16 };  /* PLACES: of the core, a period */
+enum { COLUMNS = 5, PLACES = 16 };  /* PLACES: of the core, a period */
 
 typedef struct work {
     const double *x;
@@ -43,7 +48,9 @@ typedef struct work {
     double w, s;                /* per sample */
     double noise;               /* variance */
     size_t room;                /* samples of the longest window */
-    double *q[COLUMNS];         /* orthonormal: 1, t, cos, sin */
+    double forcing;             /* Omega per sample: 1, cos, sin of it are the slow part; 0: 1 and t */
+    size_t columns;             /* of the slow part and of the oscillation */
+    double *q[COLUMNS];         /* orthonormal; the oscillation's are the last two */
     double *r;                  /* the residual */
     double *j;                  /* its derivatives by w and by s */
     size_t n_windows;
@@ -124,31 +131,38 @@ ring_columns(const work *k, double *c, double *s, size_t n)
     }
 }
 
-/* Fill q and r for a window of at least COLUMNS samples, by modified Gram-Schmidt. */
+/* The slow part: what is not of unit size is made so. */
+static void
+slow_columns(const work *k, size_t n)
+{
+    double middle = 0.5 * (double)(n - 1);
+    for (size_t i = 0; i < n; i++) {
+        double t = (double)i - middle;
+        k->q[0][i] = 1;
+        k->q[1][i] = k->forcing > 0 ? sin(k->forcing * t) : t;
+        if (k->forcing > 0)
+            k->q[2][i] = cos(k->forcing * t);
+    }
+}
+
+/* Fill q and r for a window of more samples than columns, by modified Gram-Schmidt. */
 static linear
 project(work *k, ss_window win)
 {
-    size_t n = length(win);
-    double z[COLUMNS], norm[COLUMNS], cross;
-    for (size_t i = 0; i < n; i++) {
-        k->q[0][i] = 1;
-        k->q[1][i] = (double)i - 0.5 * (double)(n - 1);
+    size_t n = length(win), c = k->columns - 2, s = c + 1;
+    double z[COLUMNS], norm[COLUMNS], cross = 0;
+    slow_columns(k, n);
+    ring_columns(k, k->q[c], k->q[s], n);
+    for (size_t j = 0; j < k->columns; j++) {
+        for (size_t l = 0; l < j; l++)
+            cross = take_out(k->q[j], k->q[l], n);      /* the last one: of sin along cos */
+        norm[j] = normalise(k->q[j], n);
     }
-    ring_columns(k, k->q[2], k->q[3], n);
-    normalise(k->q[0], n);
-    normalise(k->q[1], n);
-    for (int j = 2; j < COLUMNS; j++) {
-        take_out(k->q[j], k->q[0], n);
-        take_out(k->q[j], k->q[1], n);
-    }
-    norm[2] = normalise(k->q[2], n);
-    cross = take_out(k->q[3], k->q[2], n);
-    norm[3] = normalise(k->q[3], n);
     memcpy(k->r, k->x + win.first, n * sizeof *k->r);
-    for (int j = 0; j < COLUMNS; j++)
+    for (size_t j = 0; j < k->columns; j++)
         z[j] = take_out(k->r, k->q[j], n);
-    double b = z[3] / norm[3];
-    return (linear){ dot(k->r, k->r, n), z[2] * z[2] + z[3] * z[3], (z[2] - cross * b) / norm[2], b };
+    double b = z[s] / norm[s];
+    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s], (z[c] - cross * b) / norm[c], b };
 }
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
@@ -183,7 +197,7 @@ window_jacobian(work *k, ss_window win, double *j_w, double *j_s)
         j_w[i] = fit.a * s - fit.b * c;
         j_s[i] = fit.a * c + fit.b * s;
     }
-    for (int j = 0; j < COLUMNS; j++) {
+    for (size_t j = 0; j < k->columns; j++) {
         take_out(j_w, k->q[j], n);
         take_out(j_s, k->q[j], n);
     }
@@ -218,9 +232,10 @@ total(const ss_window *window, size_t n)
     return sum;
 }
 
-/* Fit k->w and k->s to n windows, from where they stand.  *ok: they have converged. */
+/* Fit k->w and k->s to n windows, from where they stand, to a relative tolerance.  *ok: they have
+ * converged. */
 static ss_status
-fit(work *k, const ss_window *window, size_t n, int *ok)
+fit(work *k, const ss_window *window, size_t n, double tol, int *ok)
 {
     enum { STEPS = 50 };
     double w = k->w, s = k->s;
@@ -241,7 +256,7 @@ fit(work *k, const ss_window *window, size_t n, int *ok)
     double start[2] = { w, s };
     gsl_vector_view at = gsl_vector_view_array(start, 2);
     if (gsl_multifit_nlinear_init(&at.vector, &problem, space) == GSL_SUCCESS) {
-        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, 1e-8, 0, 0, NULL, NULL, &info, space);
+        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, tol, 0, 0, NULL, NULL, &info, space);
         w = gsl_vector_get(space->x, 0);
         s = gsl_vector_get(space->x, 1);
         /* no progress: it stands at the minimum already */
@@ -266,10 +281,10 @@ find_noise(work *k, const ss_window *window, size_t n)
     if (variance == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
-        if (length(window[i]) <= COLUMNS)
+        if (length(window[i]) <= k->columns)
             continue;
         linear fitted = project(k, window[i]);
-        double freedom = (double)(length(window[i]) - COLUMNS);
+        double freedom = (double)(length(window[i]) - k->columns);
         variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
         ring[used++] = fitted.ring / (double)length(window[i]);
     }
@@ -290,7 +305,7 @@ place_core(work *k, size_t anchor)
     size_t size = periods(k, CORE), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1);
     ss_window best = { 0, 0 };
-    size = size > COLUMNS + 2 ? size : COLUMNS + 2;
+    size = size > k->columns + 2 ? size : k->columns + 2;
     double most = 0, least = INFINITY;
     for (int pass = 0; pass < 2; pass++)
         for (size_t first = anchor > before ? anchor - before : 0;
@@ -336,9 +351,11 @@ grow(work *k, ss_window win, size_t room, int backwards)
 static ss_window
 grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
 {
+    if (length(core) >= longest)
+        return core;
     size_t most = longest - length(core), left = core.first - low;
     if (length(core) == 0 || project(k, core).rss > k->noise
-                             * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core) - COLUMNS)))
+                             * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core) - k->columns)))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, left < most ? left : most, 1);
     size_t right = high - win.end;
@@ -346,43 +363,137 @@ grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
     return grow(k, win, right < most ? right : most, 0);
 }
 
-/* The length at which all windows together show what does not belong to the stick, each not. */
-static size_t
-common_length(work *k, const ss_window *window, size_t n)
+/* --- micro-slips too weak for any one window ----------------------------------------------- */
+
+/* A micro-slip changes the oscillation by a complex gain, and about equally in all sticks, at about
+ * the same distance from their starts.  So at each distance the gain is tried as a third parameter
+ * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
+ * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well. */
+enum { PARAMETERS = 4 };        /* w, s, real and imaginary part of the gain */
+typedef struct score {
+    double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
+} score;
+
+/* Add a window's at the places first, first + step, ... */
+static void
+add_scores(work *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
 {
-    size_t step = periods(k, BLOCK), at = periods(k, CORE);
-    for (;; at += step) {
-        double rise = 0;
-        size_t q = 0;
-        for (size_t i = 0; i < n; i++) {
-            ss_window win = window[i];
-            if (length(win) < at + step)
-                continue;
-            win.end = win.first + at;
-            double rss = project(k, win).rss;
-            win.end += step;
-            rise += project(k, win).rss - rss;
-            q += step;
+    size_t n = length(win);
+    double *j[PARAMETERS];
+    for (int p = 0; p < PARAMETERS; p++)
+        j[p] = k->j + (size_t)p * k->room;
+    linear fitted = project(k, win);
+    window_jacobian(k, win, j[0], j[1]);
+    for (size_t l = 0; l < n_places; l++, to++) {
+        size_t at = first + l * step;
+        int used = at < n ? PARAMETERS : 2;
+        if (at < n) {
+            ring_columns(k, j[2], j[3], n);
+            for (size_t i = 0; i < n; i++) {
+                double c = i < at ? 0 : j[2][i], s = i < at ? 0 : j[3][i];
+                j[2][i] = fitted.a * c + fitted.b * s;
+                j[3][i] = fitted.b * c - fitted.a * s;
+            }
+            for (int p = 2; p < PARAMETERS; p++)
+                for (size_t q = 0; q < k->columns; q++)
+                    take_out(j[p], k->q[q], n);
         }
-        if (q == 0 || !belong(k, rise, q))
-            return q == 0 ? k->room : at;
+        for (int p = 0; p < used; p++) {
+            for (int q = 0; q < used; q++)
+                to->h[p * PARAMETERS + q] += dot(j[p], j[q], n);
+            to->g[p] += dot(j[p], k->r, n);
+        }
     }
 }
 
-/* Keep off both ends, but not below the least length; empty if the window has not got it. */
-static ss_window
-trim(const work *k, ss_window win, size_t longest)
+/* g' H^-1 g; destroys H. */
+static double
+statistic(score *at)
 {
-    size_t least = periods(k, LEAST);
-    if (length(win) > longest)
-        win.end = win.first + longest;
+    double y[PARAMETERS], sum = 0;
+    gsl_matrix_view h = gsl_matrix_view_array(at->h, PARAMETERS, PARAMETERS);
+    gsl_vector_view v = gsl_vector_view_array(y, PARAMETERS);
+    memcpy(y, at->g, sizeof y);
+    if (gsl_linalg_cholesky_decomp1(&h.matrix) != GSL_SUCCESS)
+        return 0;                       /* no window reaches there */
+    gsl_linalg_cholesky_svx(&h.matrix, &v.vector);
+    for (int p = 0; p < PARAMETERS; p++)
+        sum += at->g[p] * y[p];
+    return sum;
+}
+
+/* Where the gain changes most, if it does at all; *at is k->room if not. */
+static ss_status
+find_break(work *k, const ss_window *window, size_t n, size_t *at)
+{
+    size_t step = periods(k, BLOCK), longest = 0;
+    for (size_t i = 0; i < n; i++)
+        longest = length(window[i]) > longest ? length(window[i]) : longest;
+    size_t n_places = longest / step;
+    score *place = calloc(n_places + 1, sizeof *place);
+    if (place == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        if (length(window[i]) > 0)
+            add_scores(k, window[i], step, step, n_places, place);
+    double most = 1;
+    *at = k->room;
+    for (size_t l = 0; l < n_places; l++) {
+        double chance = (double)((l + 1) * step) < LEAST * period(k) ? BREAK_EARLY : BREAK;
+        double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
+        double over = statistic(&place[l]) / limit;
+        if (over > most) {
+            most = over;
+            *at = (l + 1) * step;
+        }
+    }
+    free(place);
+    return SS_OK;
+}
+
+/* Empty the window whose gain, taken by itself, changes most at a place. */
+static void
+drop_worst(work *k, ss_window *window, size_t n, size_t at)
+{
+    size_t worst = n;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        score s = { { 0 }, { 0 } };
+        if (length(window[i]) <= at)
+            continue;
+        add_scores(k, window[i], at, 1, 1, &s);
+        double found = statistic(&s);
+        if (found > most) {
+            most = found;
+            worst = i;
+        }
+    }
+    if (worst < n)
+        window[worst].end = window[worst].first;
+}
+
+/* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
+static ss_window
+cut(const work *k, ss_window win, size_t longest)
+{
+    size_t least = periods(k, LEAST), end = periods(k, TRIM_END);
+    if (length(win) <= longest)
+        return win;
+    win.end = win.first + longest;
+    win.end -= end < longest - least ? end : longest - least;
+    return win;
+}
+
+/* Keep off both ends as growth found them. */
+static ss_window
+trim(const work *k, ss_window win)
+{
+    size_t least = periods(k, LEAST), start = periods(k, TRIM_START);
     if (length(win) < least)
         return (ss_window){ win.first, win.first };
-    size_t spare = length(win) - least, start = periods(k, TRIM_START), end = periods(k, TRIM_END);
-    start = start < spare ? start : spare;
-    spare -= start;
-    end = end < spare ? end : spare;
-    return (ss_window){ win.first + start, win.end - end };
+    size_t spare = length(win) - least;
+    win.first += start < spare ? start : spare;
+    return cut(k, win, length(win) - 1);
 }
 
 /* Windows about the cores, as the w, s and noise at hand show them. */
@@ -439,7 +550,7 @@ jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
         all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
         all.rss += h.rss;
     }
-    errors_of_fit(&all, all.rss / (double)(samples - COLUMNS * used - 2), value);
+    errors_of_fit(&all, all.rss / (double)(samples - k->columns * used - 2), value);
     for (int pass = 0; pass < 2 && used >= FEW; pass++)
         for (size_t i = 0; i < used; i++) {
             normal h = each[i];
@@ -469,16 +580,16 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
     ss_status st = SS_OK;
     int ok;
     for (size_t i = 0; i < n && st == SS_OK; i++) {
-        if (length(window[i]) <= COLUMNS + 2)
+        if (length(window[i]) <= k->columns + 2)
             continue;
         k->w = w, k->s = s;
-        st = fit(k, &window[i], 1, &ok);
+        st = fit(k, &window[i], 1, FINE, &ok);
         if (st != SS_OK || !ok)
             continue;
         normal h = normal_of(k, window[i]);
         each[2 * i].value = k->w;
         each[2 * i + 1].value = k->s;
-        errors_of_fit(&h, h.rss / (double)(length(window[i]) - COLUMNS - 2), each + 2 * i);
+        errors_of_fit(&h, h.rss / (double)(length(window[i]) - k->columns - 2), each + 2 * i);
     }
     k->w = w, k->s = s;
     return st;
@@ -492,7 +603,7 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
     int ok = 0, more = 1;
     for (size_t i = 0; i < n; i++)
         core[i] = window[i] = place_core(k, anchor[i]);
-    ss_status st = fit(k, core, n, &ok);
+    ss_status st = fit(k, core, n, COARSE, &ok);
     if (st == SS_OK && ok)
         st = find_noise(k, core, n);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
@@ -503,46 +614,95 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
         more = 0;
         for (size_t i = 0; i < n; i++)
             more |= length(window[i]) == longest;
-        st = fit(k, window, n, &ok);
+        st = fit(k, window, n, COARSE, &ok);
         if (st == SS_OK && ok)
             st = find_noise(k, window, n);
     }
     if (st != SS_OK || !ok)
         return st;
-    size_t longest = common_length(k, window, n);
     for (size_t i = 0; i < n; i++)
-        window[i] = trim(k, window[i], longest);
-    st = fit(k, window, n, &ok);
-    if (st != SS_OK || !ok)
-        return st;
+        window[i] = trim(k, window[i]);
+    size_t longest;
+    do {
+        st = fit(k, window, n, FINE, &ok);
+        if (st == SS_OK && ok)
+            st = find_noise(k, window, n);
+        if (st == SS_OK && ok)
+            st = find_break(k, window, n, &longest);
+        if (st != SS_OK || !ok)
+            return st;
+        if (longest < periods(k, LEAST))
+            drop_worst(k, window, n, longest);
+        else
+            for (size_t i = 0; i < n; i++)
+                window[i] = cut(k, window[i], longest);
+    } while (longest < k->room);
     value[0].value = k->w;
     value[1].value = k->s;
     st = jackknife(k, window, n, value);
     return st == SS_OK ? fit_each(k, window, n, each) : st;
 }
 
-ss_status
-ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
-                ss_window *window, ss_value value[2], ss_value *each)
+static ss_status
+fit_with(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
 {
-    work k = { .x = x, .n = n, .w = w, .s = START * w };
-    k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
-    double *memory = malloc((COLUMNS + 3) * k.room * sizeof *memory);
-    ss_window *core = malloc((n_anchors + 1) * sizeof *core);
-    ss_status st = SS_ENOMEM;
+    ss_window *core = malloc((n + 1) * sizeof *core);
+    if (core == NULL)
+        return SS_ENOMEM;
     value[0] = value[1] = nothing;
-    for (size_t i = 0; i < n_anchors; i++) {
+    for (size_t i = 0; i < n; i++) {
         window[i] = (ss_window){ anchor[i], anchor[i] };
         each[2 * i] = each[2 * i + 1] = nothing;
     }
-    if (memory != NULL && core != NULL) {
-        for (int j = 0; j < COLUMNS; j++)
-            k.q[j] = memory + (size_t)j * k.room;
-        k.r = memory + COLUMNS * k.room;
-        k.j = memory + (COLUMNS + 1) * k.room;
-        st = fit_all(&k, anchor, n_anchors, core, window, value, each);
-    }
-    free(memory);
+    ss_status st = fit_all(k, anchor, n, core, window, value, each);
     free(core);
+    return st;
+}
+
+/* With either slow part; the one whose w is known better is kept. */
+static ss_status
+fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
+         ss_value *each, double forcing)
+{
+    double w = k->w;
+    ss_status st = fit_with(k, anchor, n, window, value, each);
+    if (st != SS_OK || !(forcing > 0))
+        return st;
+    ss_window *other = malloc((n + 1) * sizeof *other);
+    ss_value *other_each = malloc(2 * (n + 1) * sizeof *other_each), other_value[2];
+    st = SS_ENOMEM;
+    if (other != NULL && other_each != NULL) {
+        k->w = w;
+        k->s = START * w;
+        k->forcing = forcing;
+        k->columns = COLUMNS;
+        st = fit_with(k, anchor, n, other, other_value, other_each);
+        if (st == SS_OK && !(other_value[0].error >= value[0].error)
+            && !isnan(other_value[0].error)) {
+            memcpy(window, other, n * sizeof *window);
+            memcpy(each, other_each, 2 * n * sizeof *each);
+            memcpy(value, other_value, sizeof other_value);
+        }
+    }
+    free(other);
+    free(other_each);
+    return st;
+}
+
+ss_status
+ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
+                double forcing, ss_window *window, ss_value value[2], ss_value *each)
+{
+    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1 };
+    k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
+    double *memory = malloc((COLUMNS + 1 + PARAMETERS) * k.room * sizeof *memory);
+    if (memory == NULL)
+        return SS_ENOMEM;
+    for (int j = 0; j < COLUMNS; j++)
+        k.q[j] = memory + (size_t)j * k.room;
+    k.r = memory + COLUMNS * k.room;
+    k.j = memory + (COLUMNS + 1) * k.room;
+    ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
+    free(memory);
     return st;
 }

@@ -5,52 +5,25 @@
  * spikes found at shorter scales is a spike.  Once a row shows one, the rows of REACH octaves more
  * are looked at: weaker spikes and blunter ones appear there, and what appears only later is no
  * longer sharp.
- *
- * Noise: the rms of |W| in a row, from the median, which spikes do not move: |W|^2 of Gaussian
- * noise is exponential, its median ln 2 of its mean.  Threshold: |W| of Gaussian noise crosses the level u
- * (in units of its rms) upwards u exp(-u^2) / (a sqrt(2 pi)) times a second (Rice 1945, with the
- * spectral width 1/(sqrt(2) a) of the Morlet wavelet); summed over the rows that is to be
- * false_alarms.  Neighbouring rows are not independent, so there are fewer.
- *
- * The record is continued oddly about its end points, so that it goes on with the same value and
- * slope; what is nearer to an end than sqrt(2) a is not used all the same. */
+ */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include "error.h"
 #include "features/breakpoint.h"
-#include <stickslip/morlet.h>
+#include "features/rows.h"
 #include <stickslip/spikes.h>
 
-#define CENTER 6.0
-#define VOICES 4
-#define HIGHEST 0.6             /* of Nyquist */
 #define REACH 2.0               /* octaves looked at from the first row with a spike on */
 #define CLEAR 2.0               /* scales that two spikes are apart at least */
 #define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
-#define MARGIN 6.0              /* scales by which the record is continued */
 #define CONCLUSIVE 6.0          /* dB that the clearest spike is above the threshold at least */
-#define QUIET 3.0               /* scales from a spike on that it is not heard */
-#define LEAST 0.1               /* part of a row that its noise is read from at least */
 #define FIT 2.0                 /* scales on either side that the fit of a break sees */
 
 const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7 };
 
-typedef struct peak {
-    double t, level;            /* [s], |W| */
-} peak;
-
-typedef struct row {
-    double a, f;
-    double rms, top;            /* of the noise; the largest peak's level */
-    size_t n;
-    peak *peak;                 /* all maxima, in time order */
-} row;
-
 typedef struct search {
-    const double *x;
-    size_t n;
-    double rate, x_max;
+    row_source source;
     const ss_spike_opts *opts;
     size_t n_rows;
     row *row;
@@ -64,119 +37,6 @@ ss_spike_kind_name(ss_spike_kind kind)
 {
     static const char *const name[] = { "glitch", "jump", "kink", "bend" };
     return (unsigned)kind <= SS_SPIKE_BEND ? name[kind] : "?";
-}
-
-/* --- a row --------------------------------------------------------------------------------- */
-
-/* The record with margin samples more at either end, an odd continuation; past the other end of
- * a record that is too short for that, its last value stays. */
-static double *
-continued(const double *x, size_t n, size_t margin)
-{
-    double *y = malloc((n + 2 * margin) * sizeof *y);
-    if (y == NULL)
-        return NULL;
-    for (size_t i = 0; i < n; i++)
-        y[margin + i] = x[i];
-    for (size_t i = 1; i <= margin; i++) {
-        size_t k = i < n ? i : n - 1;
-        y[margin - i] = 2 * x[0] - x[k];
-        y[margin + n - 1 + i] = 2 * x[n - 1] - x[n - 1 - k];
-    }
-    return y;
-}
-
-static int
-by_value(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
-/* The maximum of the parabola through three levels, the middle one the largest. */
-static peak
-summit(const double *level, double t, double step)
-{
-    double bend = level[0] - 2 * level[1] + level[2];
-    double off = bend < 0 ? 0.5 * (level[0] - level[2]) / bend : 0;
-    return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
-}
-
-/* The rms of |W| in the n levels, which are sorted, one every step from t on, by the median of those
- * that are farther than quiet from all spikes found so far: all that there are, if these are less
- * than LEAST of them. */
-static double
-noise_of(const ss_spikes_found *found, double *level, size_t n, double t, double step, double quiet)
-{
-    size_t left = 0, i = 0;
-    for (size_t k = 0; k < n; k++) {
-        double at = t + (double)k * step;
-        while (i < found->n && found->spike[i].t + quiet < at)
-            i++;
-        if (i < found->n && found->spike[i].t - quiet <= at)
-            continue;
-        double swap = level[left];
-        level[left++] = level[k];
-        level[k] = swap;
-    }
-    if ((double)left < LEAST * (double)n)
-        left = n;
-    qsort(level, left, sizeof *level, by_value);
-    return level[left / 2] / sqrt(M_LN2);
-}
-
-/* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
-static ss_status
-fill_row(row *r, const ss_spikes_found *found, const ss_scale *scale, double *level, double margin,
-         double length)
-{
-    double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
-    size_t first = (size_t)ceil((margin + cone) / step);
-    size_t last = (size_t)floor((margin + length - cone) / step);
-    r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
-    if (r->peak == NULL)
-        return SS_ENOMEM;
-    for (size_t k = first; k <= last; k++)
-        if (level[k] > level[k - 1] && level[k] >= level[k + 1])
-            r->peak[r->n++] = summit(level + k - 1, ss_scale_b(scale, k) - margin, step);
-    for (size_t i = 0; i < r->n; i++)
-        r->top = fmax(r->top, r->peak[i].level);
-    r->rms = noise_of(found, level + first, last - first + 1, ss_scale_b(scale, first) - margin,
-                      step, QUIET * r->a);
-    return SS_OK;
-}
-
-/* |W| of the whole record at one scale, its maxima and its noise. */
-static ss_status
-compute_row(row *r, const search *s, double f, ss_error *err)
-{
-    ss_morlet_opts opts = ss_morlet_defaults;
-    ss_morlet *plan = NULL;
-    opts.center = CENTER, opts.voices = VOICES, opts.force = 1, opts.accuracy = 1e-10;
-    opts.octaves = 1;
-    opts.m0 = opts.m1 = round(VOICES * log2(CENTER / (2 * M_PI * f))) / VOICES;
-    double a = exp2(opts.m0);
-    size_t margin = (size_t)ceil(MARGIN * a * s->rate), n = s->n + 2 * margin;
-    double *x = continued(s->x, s->n, margin), *w = NULL;
-    ss_status st = x == NULL ? SS_ENOMEM : ss_morlet_new(&plan, n, s->rate, &opts, err);
-    if (st == SS_OK && (w = malloc(2 * ss_morlet_total(plan) * sizeof *w)) == NULL)
-        st = SS_ENOMEM;
-    if (st == SS_OK)
-        st = ss_morlet_execute(plan, x, w, err);
-    if (st == SS_OK) {
-        const ss_scale *scale = ss_morlet_scale(plan, 0);
-        for (size_t k = 0; k < scale->n; k++)
-            w[k] = hypot(w[2 * k], w[2 * k + 1]);
-        *r = (row){ .a = a, .f = scale->f };
-        st = fill_row(r, s->found, scale, w, (double)margin / s->rate,
-                      (double)(s->n - 1) / s->rate);
-        /* what rounding of the samples alone gives, as white noise */
-        r->rms = hypot(r->rms, s->opts->precision * s->x_max / sqrt(s->rate));
-    }
-    ss_morlet_free(plan);
-    free(w);
-    free(x);
-    return st;
 }
 
 /* --- from row to row ----------------------------------------------------------------------- */
@@ -216,8 +76,8 @@ slope_of(const search *s, size_t i, const peak *p, double *clearest)
     *clearest = p->level / s->row[i].rms;
     double sum = 0, weight = 0, base = log(p->level);
     size_t last = i;
-    double level[VOICES + 1] = { 0 };
-    for (size_t k = i + 1; k < s->n_rows && k <= i + VOICES; k++) {
+    double level[ROW_VOICES + 1] = { 0 };
+    for (size_t k = i + 1; k < s->n_rows && k <= i + ROW_VOICES; k++) {
         const peak *next = nearest(&s->row[k], p->t, DRIFT * s->row[k].a);
         if (next == NULL)
             break;
@@ -231,14 +91,17 @@ slope_of(const search *s, size_t i, const peak *p, double *clearest)
         sum += ((double)k - mid) * level[k];
         weight += ((double)k - mid) * ((double)k - mid);
     }
-    return weight > 0 ? sum / weight * VOICES : 0;
+    return weight > 0 ? sum / weight * ROW_VOICES : 0;
 }
 
+/* What falls towards longer scales without standing out at the shortest ones is a pulse of some
+ * length: smooth. */
 static ss_spike_kind
-kind_of(double slope)
+kind_of(double slope, size_t i)
 {
-    return slope < -1.5 ? SS_SPIKE_GLITCH : slope < 4 ? SS_SPIKE_JUMP
-        : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
+    if (slope < -1.5)
+        return i < ROW_VOICES ? SS_SPIKE_GLITCH : SS_SPIKE_BEND;
+    return slope < 4 ? SS_SPIKE_JUMP : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
 }
 
 static ss_status
@@ -301,38 +164,26 @@ take_row(search *s, size_t i)
     return SS_OK;
 }
 
-/* u for which Gaussian noise crosses it false_alarms times: u exp(-u^2) sum_rows T / (a sqrt(2 pi)),
- * by u^2 = log(...) repeated, which contracts. */
-static double
-find_threshold(double length, double shortest, size_t rows, double false_alarms)
-{
-    double count = 0, u = 4;
-    for (size_t i = 0; i < rows; i++)
-        count += length / (shortest * exp2((double)i / VOICES) * sqrt(2 * M_PI));
-    for (int pass = 0; pass < 30; pass++)
-        u = sqrt(fmax(log(u * count / false_alarms), 1));
-    return u;
-}
-
 static ss_status
 search_rows(search *s, double f, ss_error *err)
 {
-    double length = (double)(s->n - 1) / s->rate, shortest = CENTER / (2 * M_PI * f);
+    const row_source *src = &s->source;
+    double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
     double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
     if (!(octaves > 0))
         return SS_OK;           /* too short for any */
-    size_t rows = (size_t)(octaves * VOICES) + 1, last = rows - 1;
-    s->threshold = find_threshold(length, shortest, rows, s->opts->false_alarms);
+    size_t rows = (size_t)(octaves * ROW_VOICES) + 1, last = rows - 1;
+    s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
     s->row = calloc(rows, sizeof *s->row);
     if (s->row == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i <= last; i++) {
-        ss_status st = compute_row(&s->row[i], s, f * exp2(-(double)i / VOICES), err);
+        ss_status st = ss_row_new(&s->row[i], src, f * exp2(-(double)i / ROW_VOICES), s->found, err);
         if (st != SS_OK)
             return st;
         s->n_rows = i + 1;
         if (s->row[i].top > s->threshold * s->row[i].rms && last == rows - 1)
-            last = i + (size_t)(REACH * VOICES) < last ? i + (size_t)(REACH * VOICES) : last;
+            last = i + (size_t)(REACH * ROW_VOICES) < last ? i + (size_t)(REACH * ROW_VOICES) : last;
         if (i > 0 && (st = take_row(s, i - 1)) != SS_OK)
             return st;
     }
@@ -347,26 +198,28 @@ refined(const search *s, size_t i)
 {
     const ss_spikes_found *found = s->found;
     const ss_spike *spike = &found->spike[i];
-    double a = CENTER / (2 * M_PI * spike->f) * s->rate, at = spike->t * s->rate;
-    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->n - 1));
+    double rate = s->source.rate;
+    double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
+    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->source.n - 1));
     if (spike->kind == SS_SPIKE_BEND || spike->kind == SS_SPIKE_GLITCH)
         return spike->t;
     if (i > 0)
-        lo = fmax(lo, found->spike[i - 1].t * s->rate + 1);
+        lo = fmax(lo, found->spike[i - 1].t * rate + 1);
     if (i + 1 < found->n)
-        hi = fmin(hi, found->spike[i + 1].t * s->rate - 1);
-    return ss_breakpoint(s->x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / s->rate;
+        hi = fmin(hi, found->spike[i + 1].t * rate - 1);
+    return ss_breakpoint(s->source.x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
 }
 
 static void
 classify(search *s, ss_spike *spike)
 {
-    double clearest = 0;
-    for (size_t i = 0; i < s->n_rows; i++)
-        if (s->row[i].f == spike->f)
-            spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
-    spike->kind = kind_of(spike->slope);
-    if (spike->kind != SS_SPIKE_BEND || spike->f == s->row[0].f)
+    double clearest;
+    size_t i = 0;
+    while (s->row[i].f != spike->f)
+        i++;
+    spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
+    spike->kind = kind_of(spike->slope, i);
+    if (spike->kind != SS_SPIKE_BEND || i == 0)
         s->found->floor = fmin(s->found->floor, 20 * log10(s->threshold / clearest));
 }
 
@@ -386,26 +239,15 @@ finish(search *s)
 }
 
 static ss_status
-check(const double *x, size_t n, double rate, const ss_spike_opts *opts, double *x_max,
-      ss_error *err)
+check(double rate, const ss_spike_opts *opts, ss_error *err)
 {
-    *x_max = 0;
-    if (n == 0 || n > SIZE_MAX / 64)
-        return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
-    if (!(rate >= 1e-100 && rate <= 1e100))
-        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
-    if (!(opts->fmax >= 0 && opts->fmax <= HIGHEST * rate / 2 * (1 + 1e-12)))
+    if (!(opts->fmax >= 0 && opts->fmax <= ROW_HIGHEST * rate / 2 * (1 + 1e-12)))
         return ss_fail(err, SS_EINVAL, "fmax %g Hz is not at most %g of Nyquist", opts->fmax,
-                       HIGHEST);
+                       ROW_HIGHEST);
     if (!(opts->false_alarms > 0 && opts->false_alarms <= 1))
         return ss_fail(err, SS_EINVAL, "false alarms: %g is not in (0, 1]", opts->false_alarms);
     if (!(opts->precision >= 0 && opts->precision <= 1))
         return ss_fail(err, SS_EINVAL, "precision: %g is not in [0, 1]", opts->precision);
-    for (size_t i = 0; i < n; i++) {
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
-        *x_max = fmax(*x_max, fabs(x[i] - x[0]));
-    }
     return SS_OK;
 }
 
@@ -413,15 +255,17 @@ ss_status
 ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
                const ss_spike_opts *opts, ss_error *err)
 {
-    search s = { .x = x, .n = n, .rate = rate, .opts = opts };
-    ss_status st = check(x, n, rate, opts, &s.x_max, err);
+    search s = { .opts = opts };
+    ss_status st = check(rate, opts, err);
+    if (st == SS_OK)
+        st = ss_row_source_init(&s.source, x, n, rate, opts->precision, err);
     if (st != SS_OK)
         return st;
     s.found = calloc(1, sizeof *s.found);
     if (s.found == NULL)
         return SS_ENOMEM;
-    if (s.x_max > 0)
-        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : HIGHEST * rate / 2, err);
+    if (!s.source.constant)
+        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * rate / 2, err);
     if (st == SS_OK)
         finish(&s);
     for (size_t i = 0; i < s.n_rows; i++)
@@ -441,7 +285,7 @@ ss_spikes_within(const ss_spikes_found *found, double onset, double end, double 
     ss_spike_group group = { 0, 0 };
     for (size_t i = 0; i < found->n; i++) {
         const ss_spike *spike = &found->spike[i];
-        double a = CENTER / (2 * M_PI * spike->f);
+        double a = ROW_CENTER / (2 * M_PI * spike->f);
         if (spike->kind == SS_SPIKE_GLITCH || spike->kind == SS_SPIKE_BEND
             || spike->level < -range || spike->t < onset - a || spike->t > end + a)
             continue;

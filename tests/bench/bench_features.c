@@ -74,12 +74,70 @@ print(const char *name, double snr, const tally *t)
     fflush(stdout);
 }
 
+/* --- stiff and soft, light and heavy ------------------------------------------------------- */
+
+typedef struct stick_times {         /* the longest microstick between two macroscopic slips [s] */
+    double began, longest, sum;
+    size_t n;
+} stick_times;
+
+/* A stick that comes more than a tenth of the base's period after the last event begins a transition. */
+static int
+watch(const ss_event *e, void *user)
+{
+    stick_times *s = user;
+    if (e->kind == SS_STICK)
+        s->began = e->t;
+    else if (e->kind == SS_SLIP && !isnan(s->began)) {
+        s->longest = fmax(s->longest, e->t - s->began);
+        s->began = NAN;
+    }
+    return 0;
+}
+
+static void
+grid(void)
+{
+    static const double ratios[] = { 0.005, 0.02, 0.05, 0.1, 0.2 };
+    printf("# K_y zeta snr/dB longest/periods K_error/%% zeta_error/%% K_error/se zeta_error/se windows\n");
+    for (int i = 0; i < 7; i++)
+        for (int j = 0; j < 5; j++) {
+            ss_scene scene = shipped("compliant-light");
+            ss_signal *signal = NULL;
+            stick_times sticks = { .began = NAN };
+            scene.contact_stiffness = 2e4 * pow(10, i / 2.);
+            double total = scene.stiffness + scene.contact_stiffness;
+            scene.contact_damping = ratios[j] * 2 * sqrt(total * scene.mass);
+            ss_sim_opts opts = ss_sim_defaults;
+            opts.events = watch;
+            opts.user = &sticks;
+            if (ss_simulate(&signal, &scene, NULL) != SS_OK
+                || ss_sim_run(&scene, &opts, NULL, NULL) != SS_OK)
+                exit(1);
+            for (int k = 0; k < 2; k++) {
+                ss_features *f = features_of(signal, snr_of[k], 1, &scene);
+                size_t used = 0;
+                for (size_t l = 0; l < f->n; l++)
+                    used += !isnan(f->transition[l].from);
+                ss_value K = f->total_stiffness, z = f->damping_ratio;
+                printf("%g\t%g\t%g\t%.2f\t%.4f\t%.3f\t%.2f\t%.2f\t%zu of %zu\n", scene.contact_stiffness, ratios[j],
+                       snr_of[k], sticks.longest * sqrt(total / scene.mass) / (2 * M_PI),
+                       100 * (K.value / total - 1), 100 * (z.value / ratios[j] - 1),
+                       (K.value - total) / K.error, (z.value - ratios[j]) / z.error, used, f->n);
+                ss_features_free(f);
+            }
+            ss_signal_free(signal);
+        }
+}
+
 int
 main(int argc, char *argv[])
 {
     static const char *const scenes[] = { "compliant-heavy", "compliant-light" };
     unsigned long seeds = argc > 1 ? strtoul(argv[1], NULL, 10) : 100;
     gsl_set_error_handler_off();
+    grid();
+    if (seeds==0) return 0;
     printf("# scene release snr/dB K_rms/%% K_max/%% zeta_rms/%% zeta_max/%% K_within/%% zeta_within/%% refused\n");
     for (int i = 0; i < 2; i++)
         for (int release = 0; release < 2; release++) {
