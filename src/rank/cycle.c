@@ -95,6 +95,18 @@ ss_cycle_period(const double *x, size_t n, double rate, double period, double pa
     return best;
 }
 
+/* What repeats after a period does so after two and three of them: if nearly all of its power is left
+ * at a part of it, that part is the period.  (Half a cycle of a model has none of its power.) */
+static double
+shortest(const double *x, size_t n, double rate, double period)
+{
+    for (int part = 3; part >= 2; part--)
+        while (period / part * rate >= CYCLE_LEAST
+               && repeating(x, n, period / part * rate) > 0.9 * repeating(x, n, period * rate))
+            period /= part;
+    return period;
+}
+
 ss_status
 ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, double rate,
               double frequency)
@@ -113,7 +125,7 @@ ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, doubl
     }
     double period = samples.value / rate;
     if (!(frequency > 0))
-        period = ss_cycle_period(x, n, rate, period, 0.01);
+        period = shortest(x, n, rate, ss_cycle_period(x, n, rate, period, 0.01));
     if (ss_cycle_fold(c, x, n, rate, period, &err) != SS_OK) {
         snprintf(why, size, "%s", err.text);
         c->period = 0;

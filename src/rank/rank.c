@@ -36,10 +36,11 @@ const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
 
 const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3 };
 
-enum { STARTS = 48, KEEP = 3, STEPS = 80 };     /* of the search: more find nothing better */
-enum { WINDOW = 8 };                    /* cycles of which features are compared */
-#define DOUBTFUL 1.0                    /* a lead by less than one threshold is none */
-#define UNEXPLAINED 0.25                /* of the cycle's power left by the best: none explains it */
+enum { STARTS = 32, KEEP = 2, STEPS = 60 };     /* of the search: more find nothing better */
+enum { WINDOW = 4 };                    /* cycles of which features are compared */
+#define DOUBTFUL 0.5                    /* a lead by less than half a threshold is none */
+#define UNEXPLAINED 0.1                 /* of the cycle's power left by the best: none explains it */
+#define SELDOM 0.5                      /* a half cycle: less is no transition */
 #define SPAN 80.0                       /* [dB] of a contour map */
 
 /* --- what a signal shows ------------------------------------------------------------------- */
@@ -153,6 +154,7 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_status st;
     opts.voices = 4;
+    opts.accuracy = 1e-4;
     for (size_t i = 0; i < SS_CRITERIA; i++)
         l->value[i] = NAN;
     l->map = NULL;
@@ -315,6 +317,26 @@ ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double facto
     return changed;
 }
 
+/* Why the first row is no answer; nothing if it is. */
+static void
+doubt(ss_ranking *r)
+{
+    double lead = r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY;
+    double left = pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10);
+    if (r->value[SS_BY_SPIKES] < SELDOM && r->value[SS_BY_MAXIMUM] < SELDOM)
+        snprintf(r->why, sizeof r->why, "no transitions: neither spikes nor local maxima in most "
+                 "half cycles");
+    else if (left > UNEXPLAINED)
+        snprintf(r->why, sizeof r->why, "no scene explains the signal: the best leaves %.0f %% of "
+                 "its power", 100 * left);
+    else if (lead < DOUBTFUL)
+        snprintf(r->why, sizeof r->why, "the best two scenes differ by %.2g, less than half a "
+                 "threshold", lead);
+    else if (r->row[0].adjusted.model == SS_COMPLIANT && isnan(r->value[SS_BY_DAMPING]))
+        snprintf(r->why, sizeof r->why, "no oscillation in the sticks, by which compliant contacts "
+                 "are known");
+}
+
 static void
 settle(ss_ranking *r, const work *w)
 {
@@ -328,17 +350,8 @@ settle(ss_ranking *r, const work *w)
     qsort(r->row, r->n, sizeof *r->row, less_first);
     for (size_t i = 0; i < SS_CRITERIA; i++)
         r->value[i] = w->look.value[i];
-    double lead = r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY;
-    double left = pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10);
-    r->told = 0;
-    if (left > UNEXPLAINED)
-        snprintf(r->why, sizeof r->why, "no scene explains the signal: the best leaves %.0f %% of "
-                 "its power", 100 * left);
-    else if (lead < DOUBTFUL)
-        snprintf(r->why, sizeof r->why, "the best two scenes differ by %.2g, less than one "
-                 "threshold", lead);
-    else
-        r->told = 1;
+    doubt(r);
+    r->told = r->why[0] == '\0';
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
