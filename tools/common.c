@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <limits.h>
@@ -252,6 +253,20 @@ tool_integer(const char *option, const char *text, long lo, long hi)
     return i;
 }
 
+void
+tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
+          double pair[2])
+{
+    char first[64];
+    size_t n = strcspn(text, ":");
+    if (text[n] != ':' || n >= sizeof first)
+        tool_usage("%s: '%s' is not %s", option, text, form);
+    memcpy(first, text, n);
+    first[n] = '\0';
+    pair[0] = tool_number(option, first, lo, hi);
+    pair[1] = tool_number(option, text + n + 1, pair[0], hi);
+}
+
 int
 tool_choice(const char *option, const char *text, const char *const choice[])
 {
@@ -473,6 +488,27 @@ tool_output(const char *path)
     if (out_file == NULL)
         tool_die("%s: %s", path, strerror(errno));
     return out_file;
+}
+
+FILE *
+tool_output_kept(const char *path)
+{
+    struct flock whole = { .l_type = F_WRLCK, .l_whence = SEEK_SET };
+    int fd = open(path, O_RDWR | O_CREAT, 0666);
+    if (fd >= 0 && fcntl(fd, F_SETLK, &whole) != 0)
+        tool_die("%s: %s", path, errno == EACCES || errno == EAGAIN
+                 ? "another process is writing it" : strerror(errno));
+    out_file = fd >= 0 ? fdopen(fd, "r+") : NULL;
+    if (out_file == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return out_file;
+}
+
+void
+tool_cut(FILE *out, long offset)
+{
+    if (fseek(out, offset, SEEK_SET) != 0 || ftruncate(fileno(out), offset) != 0)
+        tool_die("%s", strerror(errno));
 }
 
 void
