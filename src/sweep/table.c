@@ -157,7 +157,8 @@ ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err)
         st = take_line(&r, line, err);
     free(line);
     if (st == SS_OK && (ferror(in) || errno == ENOMEM))
-        st = ss_fail(err, ferror(in) ? SS_EIO : SS_ENOMEM, "%s: %s", name, strerror(errno));
+        st = ferror(in) ? ss_fail_errno(err, name, errno)
+             : ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     if (st == SS_OK && r.line == 0)
         st = ss_fail(err, SS_EDATA, "%s: empty", name);
     if (st == SS_OK)
