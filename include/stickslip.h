@@ -19,6 +19,7 @@
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/features.h>
+#include <stickslip/spikes.h>
 #include <stickslip/store.h>
 #include <stickslip/plot.h>
 

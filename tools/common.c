@@ -249,6 +249,20 @@ tool_integer(const char *option, const char *text, long lo, long hi)
     return i;
 }
 
+void
+tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
+          double pair[2])
+{
+    char first[64];
+    size_t n = strcspn(text, ":");
+    if (text[n] != ':' || n >= sizeof first)
+        tool_usage("%s: '%s' is not %s", option, text, form);
+    memcpy(first, text, n);
+    first[n] = '\0';
+    pair[0] = tool_number(option, first, lo, hi);
+    pair[1] = tool_number(option, text + n + 1, pair[0], hi);
+}
+
 int
 tool_choice(const char *option, const char *text, const char *const choice[])
 {

@@ -32,6 +32,9 @@ extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 /* Values of options; wrong ones are wrong usage. */
 double tool_number(const char *option, const char *text, double lo, double hi);
 long tool_integer(const char *option, const char *text, long lo, long hi);
+/* Two numbers "A:B", lo <= A <= B <= hi; form is what the message says is wanted. */
+void tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
+               double pair[2]);
 /* The index of text in the NULL-terminated list. */
 int tool_choice(const char *option, const char *text, const char *const choice[]);
 

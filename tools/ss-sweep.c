@@ -23,7 +23,7 @@ static const char usage[] =
 "      --max-period N    sub-harmonics looked for (8); --max-cycles N: then it is\n"
 "                        called aperiodic (10000); --max-steps N of a point (1e7)\n"
 "      --settle-cycles N simulate so many cycles instead of looking for the end\n"
-"      --method NAME     of ss-sim (default exact where there is one, or rk8pd)\n"
+"      --method NAME     of ss-sim (default exact where there is one)\n"
 "  -j, --threads N       work on N points at a time (1)\n"
 "      --shard I/N       every N-th point only: index I modulo N\n"
 "  -r, --resume FILE     append to FILE what it lacks, or begin it\n"
@@ -227,7 +227,7 @@ make_header(const request *req, ss_scene *scene)
         fprintf(out, "# max_cycles: %lu\n", s->max_cycles);
     fprintf(out, "# max_period: %d\n# max_steps: %lu\n", s->max_period, s->max_steps);
     fprintf(out, "# method: %s%s\n", s->shoot ? "shooting, " : "", s->method != NULL ? s->method
-            : scene->model == SS_STATE_VARIABLE ? "rk8pd" : "exact");
+            : scene->model == SS_STATE_VARIABLE ? "rk8pd, bsimp where stiff" : "exact");
     fputs("# columns: index", out);
     for (size_t i = 0; i < req->opts.n_axes; i++) {
         const char *unit;

@@ -35,6 +35,14 @@ ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
+/* What was read from a signal, to be drawn over its contours; times on the source's clock [s]. */
+typedef struct ss_overlay {
+    size_t n_spans, n_maxima, n_spikes;
+    double (*span)[2];          /* onset and end of a transition: a bar along the bottom */
+    double (*maximum)[2];       /* time and label [Hz] of a local maximum: a ring */
+    double *spike;              /* a mark along the top */
+} ss_overlay;
+
 typedef struct ss_contour_opts {
     int levels;                 /* contour lines  1 ... 100 */
     double span;                /* [dB] that they span below the largest |W|  > 0 */
@@ -42,6 +50,7 @@ typedef struct ss_contour_opts {
     size_t column;              /* of that signal */
     const double *event;        /* [s] on the source's clock, marked by vertical lines, or NULL */
     size_t n_events;
+    const ss_overlay *overlay;  /* or NULL */
 } ss_contour_opts;
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
 

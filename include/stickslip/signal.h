@@ -175,9 +175,19 @@ typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
 void ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
+/* Noise of the frequencies lo to hi [Hz] only, 0 <= lo <= hi <= rate / 2, to n samples of one column;
+ * the rms of what is added is rms.  SS_EINVAL if the record has no frequency in the band. */
+ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
+                            double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
+
+/* What a converter of so many bits makes of x, whose input spans -range to range: multiples of the
+ * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
+ * below range.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
+enum { SS_BITS_MAX = 52 };
+ss_status ss_quantise(double *x, size_t n, int bits, double range);
 
 /* --- numbers ------------------------------------------------------------------------------- */
 

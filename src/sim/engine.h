@@ -39,8 +39,9 @@ struct engine {
     unsigned long steps, rhs, events;
 };
 
+#define EXACT "exact"                       /* what methods in closed form are called */
 const char *ss_ode_method_name(size_t i);      /* NULL after the last */
-ss_status ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err);
+ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 /* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over
  * mass has done (G), in the present mode of an exact engine; their rates of change are -(k/m) S,
@@ -48,7 +49,7 @@ ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
 /* sim.c: what a walk shares with a record. */
-motion ss_motion_of(const ss_scene *scene, double tol);
+motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 int ss_engine_ends_within(engine *e, double *s_event);     /* the mode ends in the step just taken */
 int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s after m->u */
 void ss_engine_accept(engine *e);                           /* it does not */

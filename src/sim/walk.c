@@ -7,10 +7,13 @@
 ss_status
 ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err)
 {
-    *w = (walk){ .m = ss_motion_of(scene, opts->tol), .max_steps = opts->max_steps };
+    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
+    int exact = strcmp(method, EXACT) == 0;
+    *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
     w->m.model->start(&w->m);
-    ss_status st = strcmp(opts->method, "exact") == 0 ? ss_exact_new(&w->e, &w->m, err)
-        : ss_ode_new(&w->e, &w->m, opts, err);
+    w->m.x_begin = w->m.x_ref + w->m.q[0];
+    ss_status st = exact ? ss_exact_new(&w->e, &w->m, err)
+                         : ss_ode_new(&w->e, &w->m, method, opts->tol, err);
     return st == SS_OK ? w->e->type->begin(w->e) : st;
 }
 

@@ -52,6 +52,7 @@ ss_measure_unit(ss_measure m)
     return m < SS_MEASURES ? measure[m].unit : NULL;
 }
 
+/* For the state variable without a method one that does: what is used depends on the point. */
 static const char *
 method_of(const ss_steady_opts *opts, ss_model model)
 {
@@ -372,7 +373,8 @@ shoot(finder *f, ss_steady *out, int *found)
 static ss_status
 begin(finder *f)
 {
-    const ss_sim_opts sim = { .method = method_of(f->opts, f->scene->model),
+    int is_free = f->opts->method == NULL && f->scene->model == SS_STATE_VARIABLE;
+    const ss_sim_opts sim = { .method = is_free ? NULL : method_of(f->opts, f->scene->model),
                               .tol = fmax(1e-14, f->opts->tol / 1000),
                               .max_steps = f->opts->max_steps };
     ss_walk_end(&f->w);
