@@ -66,6 +66,10 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 /* Write every key that the model has, one a line, in the fewest digits that read back the same. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 
+/* The number of a scene that a key names, and its unit unless that is NULL; NULL if the scene's model
+ * has no such number, and err says so. */
+double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
+
 /* The ranges over which scenes are supported: there results are tested.  What lies outside is tried
  * all the same. */
 typedef struct ss_scene_range {

@@ -33,8 +33,6 @@ enum { REPORT_STEPS = 256 };            /* from one report of progress to the ne
 
 const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
 
-#define EXACT "exact"
-
 const char *
 ss_sim_method_name(size_t i)
 {
@@ -98,8 +96,8 @@ set_scales(motion *m, int exact, double tol)
         m->graze = fmin(fmax(GRAZE_TOL * tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
 }
 
-static motion
-motion_of(const ss_scene *scene, int exact, double tol)
+motion
+ss_motion_of(const ss_scene *scene, int exact, double tol)
 {
     motion m = { .scene = scene, .model = model_of(scene),
                  .omega = 2 * M_PI * scene->base_frequency,
@@ -241,8 +239,8 @@ guard_at(double s, void *user)
 }
 
 /* Whether the mode ends within the step just taken, and when. */
-static int
-ends_within(engine *e, double *s_event)
+int
+ss_engine_ends_within(engine *e, double *s_event)
 {
     const motion *m = e->m;
     guard_value at_0, at_h;
@@ -253,12 +251,11 @@ ends_within(engine *e, double *s_event)
     return ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
 }
 
-/* The mode has ended s after m->u: enter the next one. */
-static ss_status
-change_mode(record *r, engine *e, int still, double s)
+/* The mode has ended s after m->u: enter the next one.  1 if that is an event. */
+int
+ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 {
     motion *m = e->m;
-    ss_event event;
     if (!still) {
         double q[MAX_DIM], dqdt[MAX_DIM];
         e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
@@ -268,18 +265,26 @@ change_mode(record *r, engine *e, int still, double s)
     ss_motion_rebase(m);
     if (m->mode != 0 && fabs(m->x_ref + m->q[0] - m->x_begin) <= m->doubt)
         m->unresolved++;
+    if (!m->model->next(m, event))
+        return 0;
+    m->x_begin = m->x_ref + m->q[0];
+    e->events++;
+    return 1;
+}
+
+static ss_status
+change_mode(record *r, engine *e, int still, double s)
+{
+    ss_event event;
     ss_status st = SS_OK;
-    if (m->model->next(m, &event)) {
-        m->x_begin = m->x_ref + m->q[0];
-        e->events++;
-        st = write_event(r, m, &event);
-    }
+    if (ss_engine_next_mode(e, still, s, &event))
+        st = write_event(r, e->m, &event);
     return st == SS_OK ? e->type->begin(e) : st;
 }
 
 /* The step is done with, and no event was in it. */
-static void
-accept(engine *e)
+void
+ss_engine_accept(engine *e)
 {
     motion *m = e->m;
     memcpy(m->q, e->q1, sizeof m->q);
@@ -288,8 +293,8 @@ accept(engine *e)
     e->type->go_on(e);
 }
 
-static ss_status
-chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
+ss_status
+ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
 {
     double period = 2 * M_PI / m->model->fastest(m, NULL);
     *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
@@ -363,7 +368,7 @@ run(record *r, engine *e, ss_error *err)
             if (st != SS_OK)
                 return st;
             h = e->h;
-            ends = ends_within(e, &h);
+            ends = ss_engine_ends_within(e, &h);
         }
         st = write_samples(r, e, still, h);
         if (st != SS_OK)
@@ -374,12 +379,12 @@ run(record *r, engine *e, ss_error *err)
         if (ends) {
             st = change_mode(r, e, still, h);
             if (st == SS_OK)
-                st = chatters(m, lasted, &in_a_row, err);
+                st = ss_motion_chatters(m, lasted, &in_a_row, err);
             if (st != SS_OK)
                 return st;
             lasted = 0;
         } else {
-            accept(e);
+            ss_engine_accept(e);
         }
     }
 }
@@ -412,7 +417,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .base_further = base_turns(scene) };
     const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
     int exact = strcmp(method, EXACT) == 0;
-    motion m = motion_of(scene, exact, opts->tol);
+    motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
