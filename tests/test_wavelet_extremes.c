@@ -1,5 +1,5 @@
-/* test_wavelet_extremes.c -- records far from any that are usual: the accuracy is what is promised, or
- * the refusal says why.
+/* test_wavelet_extremes.c -- records far from any that are usual: the accuracy is what is promised,
+ * or the refusal says why.
  *
  * Every row is transformed by both engines and held against the sum in long double
  * (morlet_oracle.h), for the bound in stickslip/morlet.h. */
@@ -49,12 +49,12 @@ static const struct row {
     shape shape;
     size_t n;
     double size, offset, rate, center;
-    int m_rel[2];               /* octaves of scales from a sample's length; {0, 0}: the default ones */
+    int m_rel[2];               /* octaves of scales from a sample's length; { 0 }: default */
 } row[] = {
     { "1e300",                       OSCILLATION, 400, 1e300,  0, 2000, 6, { 0 } },
     { "1e-300",                      OSCILLATION, 400, 1e-300, 0, 2000, 6, { 0 } },
     { "subnormal",                   OSCILLATION, 400, 1e-310, 0, 2000, 6, { 0 } },
-    { "the least there is",          ALTERNATING, 400, 4.94065645841246544e-324, 0, 2000, 6, { 0 } },
+    { "the least there is",          ALTERNATING, 400, 4.94e-324, 0, 2000, 6, { 0 } },
     { "the largest there is",        ALTERNATING, 400, 1.7976931348623157e308, 0, 2000, 6, { 0 } },
     { "a decay through subnormals",  DECAY,       700, 1, 0, 2000, 6, { 0 } },
     { "one on an offset of 1e12",    OSCILLATION, 400, 1, 1e12, 2000, 6, { 0 } },

@@ -1,4 +1,4 @@
-/* bench_subnormal.c -- what subnormal samples cost the wavelet transform: no more than 3 times others.
+/* bench_subnormal.c -- what subnormal samples cost the wavelet transform: at most 3 times others.
  *
  * Records of noise as it is, in subnormals throughout, and dying away into them, as a
  * ringdown does, by each engine, in turns; the least of each one's times is compared. */
