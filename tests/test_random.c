@@ -56,7 +56,12 @@ random_scene(uint64_t number)
         s.x0 = X * cos(angle);
         s.v0 = X * omega * sin(angle);
     }
-    X = fmax(s.base_amplitude, fmax(fabs(s.x0), fabs(s.v0) / omega));
+    double largest = fmax(s.base_amplitude, fmax(fabs(s.x0), fabs(s.v0) / omega));
+    if (largest > 0) {
+        s.base_amplitude *= X / largest;
+        s.x0 *= X / largest;
+        s.v0 *= X / largest;
+    }
     s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
     double fastest = fmax(1, base);
     if (s.model == SS_COMPLIANT) {
