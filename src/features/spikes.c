@@ -130,6 +130,13 @@ earlier_first(const void *a, const void *b)
     return (p->t > q->t) - (p->t < q->t);
 }
 
+static void
+sort(ss_spikes_found *found)
+{
+    if (found->n > 1)
+        qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
+}
+
 /* Is t clear of the n spikes found at shorter scales, which are in time order? */
 static int
 is_clear(const ss_spikes_found *found, size_t n, double t, double distance)
@@ -161,7 +168,7 @@ take_row(search *s, size_t i)
         if (st != SS_OK)
             return st;
     }
-    qsort(s->found->spike, s->found->n, sizeof *s->found->spike, earlier_first);
+    sort(s->found);
     return SS_OK;
 }
 
@@ -233,7 +240,7 @@ finish(search *s)
         classify(s, &found->spike[i]);
     for (size_t i = 0; i < found->n; i++)
         found->spike[i].t = refined(s, i);
-    qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
+    sort(found);
     for (size_t i = 0; i < found->n; i++)
         found->f = fmax(found->f, found->spike[i].f);
     found->conclusive = found->floor <= -CONCLUSIVE;
