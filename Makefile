@@ -7,6 +7,8 @@
 #                           fails if an error exceeds its bound
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
+#   make maps               maps of periodic states, under build/maps
+#   make check-cluster      sweeps by GNU parallel over ssh and by Slurm, on this machine, for real
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
 #   make dist               libstickslip-VERSION.tar.gz of what is committed, under build/
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
@@ -163,6 +165,16 @@ draw-paper: all $(BUILD)/bin/paper-table
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
 
+maps:
+	@$(DEPS) build paper
+	@$(MAKE) --no-print-directory draw-maps
+
+draw-maps: all
+	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/maps sh tools/maps.sh
+
+check-cluster: all
+	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" sh tests/cluster/run.sh
+
 bench: all bench-errors
 	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
 		BUILD=$(call quote,$(BUILD)) PYTHON=$(call quote,$(PYTHON)) sh tests/bench/run.sh
@@ -207,6 +219,7 @@ dist:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always bench bench-errors check check-all clean deps dist draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench bench-errors check check-all check-cluster clean deps dist draw-maps \
+	draw-paper install maps needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

@@ -5,6 +5,7 @@
 #include "common.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <limits.h>
@@ -464,6 +465,27 @@ tool_output(const char *path)
     if (out_file == NULL)
         tool_die("%s: %s", path, strerror(errno));
     return out_file;
+}
+
+FILE *
+tool_output_kept(const char *path)
+{
+    struct flock whole = { .l_type = F_WRLCK, .l_whence = SEEK_SET };
+    int fd = open(path, O_RDWR | O_CREAT, 0666);
+    if (fd >= 0 && fcntl(fd, F_SETLK, &whole) != 0)
+        tool_die("%s: %s", path, errno == EACCES || errno == EAGAIN
+                 ? "another process is writing it" : strerror(errno));
+    out_file = fd >= 0 ? fdopen(fd, "r+") : NULL;
+    if (out_file == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return out_file;
+}
+
+void
+tool_cut(FILE *out, long offset)
+{
+    if (fseek(out, offset, SEEK_SET) != 0 || ftruncate(fileno(out), offset) != 0)
+        tool_die("%s", strerror(errno));
 }
 
 void

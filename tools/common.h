@@ -87,6 +87,12 @@ FILE *tool_output(const char *path);
 /* The same for a library call that wants a path: the name of the temporary file. */
 const char *tool_output_path(const char *path);
 
+/* Open a file that another run is to go on with, from its start, or make it: what is written stays
+ * there whatever happens.  Dies if another process has it open so. */
+FILE *tool_output_kept(const char *path);
+/* Go on writing at this offset; what lies behind it is dropped. */
+void tool_cut(FILE *out, long offset);
+
 /* What --format names: tsv or au. */
 tool_kind tool_format(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */

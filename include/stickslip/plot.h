@@ -8,6 +8,7 @@
 #include <stickslip/status.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
+#include <stickslip/sweep.h>
 #include <stickslip/trade.h>
 
 SS_BEGIN_DECLARATIONS
@@ -60,6 +61,18 @@ ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
 /* The work-precision diagram: worst error of x over CPU time as a multiple of the fastest row's, both
  * logarithmic, one line a method, the frontier ringed.  opts->from and to do not apply. */
 ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err);
+
+typedef struct ss_map_opts {
+    size_t x, y;                /* columns of the table that make a grid */
+    size_t z[2], n_z;           /* one or two that are drawn over it */
+    const double *curve;        /* x, y, x, y, ... of a line over all, NaN where it breaks; NULL */
+    size_t n_curve;             /* points */
+} ss_map_opts;
+
+/* A map of a sweep over two parameters: a column of at most ten different values as regions, any other
+ * as lines of equal value.  opts->from and to do not apply. */
+ss_status ss_plot_map(FILE *out, const ss_sweep_table *table, const ss_map_opts *map,
+                      const ss_plot_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -16,12 +16,14 @@ static const ss_value unknown = { NAN, NAN };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 #define CENTER 6.0
+#define SPAN 80.0               /* [dB] of the paper's contours */
 #define SIGMAS 3.0
 #define SLIGHT 0.5              /* [dB] maxima less prominent than this do not show an oscillation */
 #define BAND 0.25               /* [octaves] maxima this near to each other in frequency are of one kind */
 #define STRONG 30.0             /* [dB] below the strongest: spikes that begin a transition by themselves */
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
+enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 #define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
 
 typedef struct search {
@@ -72,7 +74,18 @@ noise_floor(const search *s)
     return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
 }
 
-/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it. */
+static size_t
+row_of(const ss_coefficients *coef, double f)
+{
+    size_t row = 0;
+    for (size_t i = 1; i < coef->n_scales; i++)
+        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[row].f / f)))
+            row = i;
+    return row;
+}
+
+/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it, and
+ * those that no contour shows. */
 static void
 drop_noise(search *s)
 {
@@ -82,7 +95,7 @@ drop_noise(search *s)
         ss_maximum m = s->found[i];
         double scale = s->opts->norm == SS_NORM_L1 ? sqrt(CENTER / (2 * M_PI * m.f)) : 1;
         double fall = top * pow(10, m.level / 20) * (1 - pow(10, -m.prominence / 20));
-        if (fall * scale >= SIGMAS * noise)
+        if (fall * scale >= SIGMAS * noise && m.level >= -SPAN)
             s->found[kept++] = m;
     }
     s->n_found = kept;
@@ -107,12 +120,12 @@ same_kind(const ss_maximum *m, double f)
     return fabs(log2(m->f / f)) <= BAND;
 }
 
-/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than two do. */
+/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do. */
 static double
 find_recurrent(const search *s, double prominence)
 {
     double best = 0, best_level = 0;
-    size_t most = 1;
+    size_t most = FEW - 1;
     for (size_t i = 0; i < s->n_found; i++) {
         double level = 0;
         size_t count = 0;
@@ -121,7 +134,7 @@ find_recurrent(const search *s, double prominence)
                 count++;
                 level += s->found[k].level;
             }
-        if (count > most || (count == most && most > 1 && level > best_level)) {
+        if (count > most || (count == most && most >= FEW && level > best_level)) {
             most = count;
             best = s->found[i].f;
             best_level = level;
@@ -136,16 +149,6 @@ true_frequency(const search *s, double label)
 {
     return s->opts->norm == SS_NORM_L1 ? label
         : label * (CENTER + sqrt(CENTER * CENTER + 2)) / (2 * CENTER);
-}
-
-static size_t
-row_of(const ss_coefficients *coef, double f)
-{
-    size_t row = 0;
-    for (size_t i = 1; i < coef->n_scales; i++)
-        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[row].f / f)))
-            row = i;
-    return row;
 }
 
 static int
@@ -270,7 +273,8 @@ refine(search *s, const ss_maximum *swell, double f)
             anchor[i] = (size_t)(swell[i].t * s->rate);
         st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate,
                              isnan(out->forcing_frequency.value) ? 0
-                             : 2 * M_PI * out->forcing_frequency.value / s->rate, window, all, each);
+                             : 2 * M_PI * out->forcing_frequency.value / s->rate, s->out->noise, window, all,
+                             each);
     }
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -303,7 +307,7 @@ find_ringing(search *s, double label)
     if (st == SS_OK)
         st = new_transitions(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
-    if (ringing < 2 || 2 * ringing < out->n) {          /* that is chance */
+    if (ringing < FEW || 2 * ringing < out->n) {        /* that is chance */
         free(out->transition);
         out->transition = NULL;
         out->n = out->recurring = 0;
@@ -475,7 +479,7 @@ find_all(search *s)
         if (f > 0)
             st = find_ringing(s, f);
     }
-    if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0))
+    if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0) && s->out->spikes->conclusive)
         st = find_spiked(s);
     if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0))
         st = find_single(s);

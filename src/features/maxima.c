@@ -226,16 +226,18 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
     if (peak == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < m->n; i++) {
-        size_t at = m->point[i].at, row = row_of(m, at), k = at - index_of(m, row, 0);
-        const ss_scale *scale = &m->coef->scale[row];
+        size_t at = m->point[i].at;
         double height = level_of(m->point[i].key), saddle = m->saddle[at];
+        if (m->pool[at] != at && !(saddle > 0))
+            continue;                   /* no peak */
+        size_t row = row_of(m, at), k = at - index_of(m, row, 0);
+        const ss_scale *scale = &m->coef->scale[row];
         double below = saddle > 0 || i == 0 ? saddle : m->floor;    /* only the highest has no saddle */
         double fall = below > 0 ? 20 * log10(height / below) : INFINITY;
         double level = 20 * log10(height / top);
         if (count > 0 && level < peak[0].level - range)
             break;
-        if ((m->pool[at] == at || saddle > 0) && fall > 0 && fall >= min_prominence
-            && !on_border(m, row, k))
+        if (fall > 0 && fall >= min_prominence && !on_border(m, row, k))
             peak[count++] = (ss_maximum){ ss_scale_b(scale, k), scale->f, level, fall };
     }
     qsort(peak, count, sizeof *peak, earlier_first);
