@@ -20,6 +20,7 @@
 #include <stickslip/morlet.h>
 #include <stickslip/features.h>
 #include <stickslip/spikes.h>
+#include <stickslip/rank.h>
 #include <stickslip/store.h>
 #include <stickslip/plot.h>
 

@@ -298,6 +298,8 @@ read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error
     *end = c == EOF;
     if (ferror(in))
         return ss_fail(err, SS_EIO, "%s: %s", at.name, strerror(errno));
+    if (strcspn(line, "\r") + 1 < n)
+        return fail_at(at, err, "a lone CR; lines end in LF or CRLF");
     line[strcspn(line, "#")] = '\0';
     return SS_OK;
 }

@@ -89,33 +89,37 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
 typedef struct lines {          /* of a file that begins with a line that says what it is */
     FILE *in;
     const char *path;
-    char *text;
-    size_t room, number;
+    char text[4096];
+    size_t number;
 } lines;
 
 static void
 open_lines(lines *l, const char *path, const char *magic, const char *what)
 {
     *l = (lines){ .in = tool_open(path), .path = path, .number = 1 };
-    ssize_t length = getline(&l->text, &l->room, l->in);
-    if (length >= 0)
+    if (fgets(l->text, sizeof l->text, l->in) != NULL)
         l->text[strcspn(l->text, "\r\n")] = '\0';
-    if (length >= 0 ? strcmp(l->text, magic) != 0 : !ferror(l->in))
+    if (strcmp(l->text, magic) != 0 && !ferror(l->in))
         tool_die("%s:1: not a list of %s, which begins '%s'", tool_input_name(path), what, magic);
 }
 
-/* The next line that is not empty, or 0 at the end, when the file is closed. */
+/* The next line that is not empty, or 0 at the end, when the file is closed.  Of a long comment its
+ * beginning is enough. */
 static int
 next_line(lines *l)
 {
-    while (getline(&l->text, &l->room, l->in) >= 0) {
+    while (fgets(l->text, sizeof l->text, l->in) != NULL) {
         l->number++;
+        int c = strchr(l->text, '\n') != NULL ? '\n' : getc(l->in);
+        if (c != '\n' && c != EOF && l->text[0] != '#')
+            tool_die("%s:%zu: line too long", tool_input_name(l->path), l->number);
+        while (c != '\n' && c != EOF)
+            c = getc(l->in);
         if (l->text[strspn(l->text, " \t\r\n")] != '\0')
             return 1;
     }
     if (ferror(l->in))
         tool_die("%s: %s", tool_input_name(l->path), strerror(errno));
-    free(l->text);
     if (l->in != stdin)
         fclose(l->in);
     return 0;

@@ -26,14 +26,15 @@ typedef struct ss_header {
     char **note;                /* "key: value" lines of the source, passed on; never rate, start, columns */
 } ss_header;
 
-/* Build a header: every string is copied.  NULL if there is no memory. */
+/* Build a header: every string is copied, one that is no valid UTF-8 as if it were Latin-1.  NULL if
+ * there is no memory. */
 ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
 ss_header *ss_header_copy(const ss_header *head);
 /* Append a column.  Blanks and slashes in its name become "_", and a name that is there already
  * gets "_2", "_3", ... behind it; unit may be NULL or "".  SS_EINVAL: no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
 /* Append a note; one with a key that is there already replaces it.  Newlines become blanks.
- * SS_EINVAL: the key is rate, start, columns or empty, or has a colon in it. */
+ * SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or has a colon in it. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
