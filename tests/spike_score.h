@@ -39,8 +39,9 @@ score_keep(const ss_event *e, void *user)
     return 0;
 }
 
+/* damping: contact damping in place of the scene's, unless 0. */
 static inline void
-score_scene_make(score_scene *s, const char *name, double rate, double duration)
+score_scene_make(score_scene *s, const char *name, double rate, double duration, double damping)
 {
     ss_sim_opts opts = ss_sim_defaults;
     s->n_events = 0;
@@ -55,6 +56,8 @@ score_scene_make(score_scene *s, const char *name, double rate, double duration)
     }
     s->scene.rate = rate;
     s->scene.duration = duration;
+    if (damping > 0)
+        s->scene.contact_damping = damping;
     opts.events = score_keep;
     opts.user = s;
     if (ss_sim_run(&s->scene, &opts, NULL, NULL) != SS_OK

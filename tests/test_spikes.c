@@ -74,7 +74,7 @@ units_and_clocks_do_not_matter(void **state)
 {
     score_scene s;
     (void)state;
-    score_scene_make(&s, "compliant-light", RATE, 1);
+    score_scene_make(&s, "compliant-light", RATE, 1, 0);
     double *x = malloc(s.n * sizeof *x);
     ss_spikes_found *want = score_find(&s, 40, 1), *found;
     static const struct { double gain, offset, rate; } change[] = {
@@ -115,7 +115,7 @@ finds_every_event_of_clean_scenes(void **state)
         score_scene s;
         score sc = { 0 };
         size_t slips = 0, seen = 0;
-        score_scene_make(&s, scene[k].name, scene[k].rate, 3.2);
+        score_scene_make(&s, scene[k].name, scene[k].rate, 3.2, 0);
         ss_spikes_found *found = score_find(&s, INFINITY, 1);
         score_add(&sc, &s, found);
         assert_true(found->conclusive);
@@ -145,7 +145,7 @@ coulomb_friction_makes_one_spike_a_transition(void **state)
     score_scene s;
     size_t strong = 0;
     (void)state;
-    score_scene_make(&s, "coulomb", RATE, 3.2);
+    score_scene_make(&s, "coulomb", RATE, 3.2, 0);
     ss_spikes_found *found = score_find(&s, INFINITY, 1);
     for (size_t i = 0; i < found->n; i++) {
         strong += found->spike[i].level >= -30;
@@ -165,7 +165,7 @@ a_smooth_law_bends_and_never_breaks(void **state)
     score_scene s;
     score sc = { 0 };
     (void)state;
-    score_scene_make(&s, "state-variable", RATE, 3.2);
+    score_scene_make(&s, "state-variable", RATE, 3.2, 0);
     ss_spikes_found *found = score_find(&s, INFINITY, 1);
     score_add(&sc, &s, found);
     assert_true(sc.bends >= 32 && found->conclusive);
@@ -184,7 +184,7 @@ finds_micro_slips_40_dB_above_the_noise(void **state)
         score_scene s;
         score sc = { 0 };
         size_t slips = 0, seen = 0;
-        score_scene_make(&s, name[k], RATE, 3.2);
+        score_scene_make(&s, name[k], RATE, 3.2, 0);
         for (unsigned long seed = 1; seed <= 20; seed++) {
             ss_spikes_found *found = score_find(&s, 40, seed);
             score_add(&sc, &s, found);
@@ -209,7 +209,7 @@ claims_nothing_20_dB_above_the_noise(void **state)
     (void)state;
     for (size_t k = 0; k < 2; k++) {
         score_scene s;
-        score_scene_make(&s, name[k], RATE, 3);
+        score_scene_make(&s, name[k], RATE, 3, 0);
         for (unsigned long seed = 1; seed <= 20; seed++) {
             ss_spikes_found *found = score_find(&s, 20, seed);
             assert_false(found->conclusive);

@@ -101,7 +101,7 @@ take_points(map *m)
             const double *w = m->coef->w + 2 * (scale->offset + k);
             point p = { .at = index_of(m, row, k) };
             double level = hypot(w[0], w[1]);
-            if (!(level > m->floor) || ss_scale_edge(scale, k, m->coef->n, m->coef->head->rate))
+            if (!(level > m->floor) || ss_coefficients_edge(m->coef, row, k))
                 continue;
             memcpy(&p.key, &level, sizeof level);
             m->point[m->n++] = p;
@@ -203,12 +203,10 @@ flood(map *m)
 static int
 on_border(const map *m, size_t row, size_t k)
 {
-    const ss_scale *scale = &m->coef->scale[row];
-    double rate = m->coef->head->rate;
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == scale->n || ss_scale_edge(scale, k - 1, m->coef->n, rate)
-        || ss_scale_edge(scale, k + 1, m->coef->n, rate);
+    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k - 1)
+        || ss_coefficients_edge(m->coef, row, k + 1);
 }
 
 static int
