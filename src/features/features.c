@@ -440,12 +440,12 @@ find_slope(search *s)
     size_t x = (size_t)s->opts->displacement, f = (size_t)s->opts->force, n = 0;
     if (s->opts->displacement < 0 || s->opts->force < 0)
         return SS_OK;
-    ss_span *span = malloc((out->n + 1) * sizeof *span);
+    ss_window *span = malloc((out->n + 1) * sizeof *span);
     if (span == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < out->n; i++)
         if (!isnan(out->transition[i].from))
-            span[n++] = (ss_span){ (size_t)(out->transition[i].from * s->rate + 0.5),
+            span[n++] = (ss_window){ (size_t)(out->transition[i].from * s->rate + 0.5),
                                    (size_t)(out->transition[i].to * s->rate + 0.5) };
     ss_status st = ss_slope_find(values + f * s->n, values + x * s->n, s->x, span, n,
                                  &out->contact_slope);

@@ -15,7 +15,7 @@ typedef struct sums {
 } sums;
 
 static double
-mean_of(const double *v, ss_span s)
+mean_of(const double *v, ss_window s)
 {
     double sum = 0;
     for (size_t i = s.first; i < s.end; i++)
@@ -24,7 +24,7 @@ mean_of(const double *v, ss_span s)
 }
 
 ss_status
-ss_slope_find(const double *f, const double *x, const double *y, const ss_span *span, size_t n,
+ss_slope_find(const double *f, const double *x, const double *y, const ss_window *span, size_t n,
               ss_value *slope)
 {
     sums *each = malloc((n + 1) * sizeof *each), all = { 0, 0 };
