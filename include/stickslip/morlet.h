@@ -105,6 +105,42 @@ double ss_scale_b(const ss_scale *scale, size_t k);
  * ends being the first and the last sample. */
 int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
+/* --- streams --------------------------------------------------------------------------------
+ *
+ * The transform of a signal whose length is not known, in memory bounded by the longest scale.  A
+ * coefficient is complete, and can be had, when the samples up to 8.5 a after b have come: what may
+ * follow, however large, stays below the floor of the accuracy.  So the error is the one promised for
+ * the whole record; even the largest |W| is only that of its scale so far.  Which samples come
+ * together changes a coefficient within that error only. */
+
+/* Receives translations first ... first + n - 1, n >= 1, of a scale, each scale's in order, valid
+ * during the call only; w as in ss_morlet_execute, the edge as ss_scale_edge gives it for samples.
+ * scale->n and scale->offset mean nothing.  A non-zero return ends the stream with SS_STOP. */
+typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, const double *w,
+                                size_t samples, void *user);
+
+typedef struct ss_stream ss_stream;
+
+/* SS_EINVAL without fmin or octaves, or with detrend, which takes the whole record.  Scales longer
+ * than the record will be are no error: all they give lies inside the cone of influence. */
+ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
+                        ss_coefficient_sink *sink, void *user, ss_error *err);
+size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
+const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* owned by the stream */
+size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
+
+/* Take n samples.  The sink gets what is complete of them as soon as that is cheap: in long windows.
+ * SS_EINVAL: one is not finite; those before it have been taken.  After a failure the stream only
+ * says it again. */
+ss_status ss_stream_push(ss_stream *stream, const double *x, size_t n, ss_error *err);
+/* Give all that is complete; call it when no more samples are there for now. */
+ss_status ss_stream_drain(ss_stream *stream, ss_error *err);
+/* Give all the rest: the signal has ended, and is zero from here on. */
+ss_status ss_stream_end(ss_stream *stream, ss_error *err);
+void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
+
+/* --- coefficients on their grid -------------------------------------------------------------- */
+
 /* Coefficients with the grid they stand on, as computed or as read back. */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
