@@ -8,6 +8,7 @@
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
+#   make dist               libstickslip-VERSION.tar.gz of what is committed, under build/
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
 #
@@ -19,6 +20,8 @@ LIBDIR     ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 SCENEDIR   ?= $(PREFIX)/share/stickslip/scenes
 MANDIR     ?= $(PREFIX)/share/man
+BASHDIR    ?= $(PREFIX)/share/bash-completion/completions
+ZSHDIR     ?= $(PREFIX)/share/zsh/site-functions
 CFLAGS     ?= -O2 -g
 BUILD      ?= build$(if $(SAN),-san)
 INSTALL    ?= install
@@ -181,19 +184,29 @@ install: all
 	for t in $(TOOLS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(DESTDIR)$(BINDIR) || exit 1; done
 	for m in $(MANUAL); do d=$(DESTDIR)$(MANDIR)/man$${m##*.}; \
 		$(INSTALL) -d $$d && $(INSTALL) -m 644 $$m $$d || exit 1; done
+	$(INSTALL) -d $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
+	for t in $(TOOLS); do $(INSTALL) -m 644 data/completion/stickslip.bash $(DESTDIR)$(BASHDIR)/$$t || \
+		exit 1; done
+	$(INSTALL) -m 644 data/completion/_stickslip $(DESTDIR)$(ZSHDIR)
 
 # Directories that only we use go too.
 uninstall:
 	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
 		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
 		$(SCENES:data/scenes/%=$(DESTDIR)$(SCENEDIR)/%) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
+		$(TOOLS:%=$(DESTDIR)$(BASHDIR)/%) $(DESTDIR)$(ZSHDIR)/_stickslip \
 		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
 	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
 		rmdir $(DESTDIR)$$d 2> /dev/null || :; done
 
+# The same commit gives the same bytes.
+dist:
+	@mkdir -p $(BUILD)
+	git archive --prefix=libstickslip-$(VERSION)/ HEAD | gzip -n9 > $(BUILD)/libstickslip-$(VERSION).tar.gz
+
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always bench bench-errors check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench bench-errors check check-all clean deps dist draw-paper install needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

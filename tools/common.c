@@ -559,6 +559,13 @@ run_gnuplot(FILE *script, FILE *out)
     fclose(words);
 }
 
+ss_plot_style
+tool_style(const char *text)
+{
+    static const char *const style[] = { "paper", "screen", NULL };
+    return tool_choice("--style", text, style) == 0 ? SS_PAPER : SS_SCREEN;
+}
+
 void
 tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
 {

@@ -36,7 +36,7 @@ long tool_integer(const char *option, const char *text, long lo, long hi);
 int tool_choice(const char *option, const char *text, const char *const choice[]);
 
 /* The options that tools share, to be put into their long options. */
-enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_FIRST };
+enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_STYLE, TOOL_OPT_FIRST };
 #define TOOL_LONGOPTS \
     { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
     { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
@@ -93,6 +93,9 @@ void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind
  * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
 void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
+
+/* What --style names: paper or screen. */
+ss_plot_style tool_style(const char *text);
 
 /* --- long work ----------------------------------------------------------------------------- */
 

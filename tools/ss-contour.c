@@ -19,6 +19,7 @@ static const char usage[] =
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
+"      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
@@ -130,6 +131,7 @@ main(int argc, char *argv[])
         { "signal", required_argument, NULL, OPT_SIGNAL }, { "column", required_argument, NULL, 'c' },
         { "events", required_argument, NULL, OPT_EVENTS },
         { "title", required_argument, NULL, OPT_TITLE },
+        { "style", required_argument, NULL, TOOL_OPT_STYLE },
         { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
         TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
@@ -145,6 +147,7 @@ main(int argc, char *argv[])
         case 'c': column = optarg; break;
         case OPT_EVENTS: events = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
+        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;

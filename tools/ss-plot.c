@@ -15,6 +15,7 @@ static const char usage[] =
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
 "  -r, --rate=HZ        input without a clock: the sample rate\n"
+"      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
@@ -57,10 +58,11 @@ main(int argc, char *argv[])
     static const struct option longopts[] = {
         { "column", required_argument, NULL, 'c' }, { "xy", required_argument, NULL, OPT_XY },
         { "title", required_argument, NULL, OPT_TITLE },
+        { "style", required_argument, NULL, TOOL_OPT_STYLE },
         { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
         { "rate", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
-    ss_read_opts read_opts = { NULL, 0 };
+    ss_read_opts read_opts = { .rate = 0 };
     const char *output = NULL, **name = malloc(((size_t)argc + 2) * sizeof *name);
     drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
 
@@ -76,6 +78,7 @@ main(int argc, char *argv[])
         case 'c': name[d.n++] = optarg; break;
         case OPT_XY: cut_pair(optarg, name); d.n = 2; break;
         case OPT_TITLE: opts.title = optarg; break;
+        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'r': read_opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;

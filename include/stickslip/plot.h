@@ -12,12 +12,18 @@
 
 SS_BEGIN_DECLARATIONS
 
+typedef enum ss_plot_style {
+    SS_PAPER,                   /* as wide as a journal's column, 8.5 cm, with letters of 6 points */
+    SS_SCREEN                   /* 1.5 times as wide and high with letters of that size: more room */
+} ss_plot_style;
+
 typedef struct ss_plot_opts {
     const char *output;         /* the picture's file, .png, .svg or .pdf; NULL: none is named, the
                                    script draws on gnuplot's current terminal */
     const char *format;         /* "png", "svg", "pdf"; NULL: from output's ending */
     const char *title;          /* NULL: from the notes (scene, model); "": none */
     double from, to;            /* [s] on the source's clock, the span drawn; NaN: all of it */
+    ss_plot_style style;
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;
 

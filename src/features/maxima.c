@@ -75,7 +75,7 @@ map_new(map *m, const ss_coefficients *coef, size_t first, size_t last)
         for (size_t k = 0; k < scale->n; k++) {
             const double *w = coef->w + 2 * (scale->offset + k);
             double level = hypot(w[0], w[1]);
-            if (level > 0 && !ss_scale_edge(scale, k, coef->n, coef->head->rate))
+            if (level > 0 && !ss_coefficients_edge(coef, row, k))
                 m->point[m->n++] = (point){ level, row, k };
         }
     }
@@ -153,12 +153,10 @@ static int
 on_border(const map *m, size_t i)
 {
     size_t row = m->point[i].row, k = m->point[i].k;
-    const ss_scale *scale = &m->coef->scale[row];
-    double rate = m->coef->head->rate;
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == scale->n || ss_scale_edge(scale, k - 1, m->coef->n, rate)
-        || ss_scale_edge(scale, k + 1, m->coef->n, rate);
+    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k - 1)
+        || ss_coefficients_edge(m->coef, row, k + 1);
 }
 
 static int

@@ -28,7 +28,22 @@ ss_coefficients_free(ss_coefficients *coefficients)
     ss_header_free(coefficients->head);
     free(coefficients->scale);
     free(coefficients->w);
+    free(coefficients->gap);
     free(coefficients);
+}
+
+/* 1 if nearer to a gap than the cone of influence is wide. */
+static int
+near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
+{
+    return ss_near_gap(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
+}
+
+int
+ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
+{
+    const ss_scale *scale = &c->scale[i];
+    return ss_scale_edge(scale, k, c->n, c->head->rate) || near_gap(c, scale, k);
 }
 
 double
@@ -41,8 +56,7 @@ ss_coefficients_max(const ss_coefficients *coefficients)
         for (size_t k = 0; k < scale->n; k++) {
             double level = hypot(w[2 * k], w[2 * k + 1]);
             all = fmax(all, level);
-            if (level > outside
-                && !ss_scale_edge(scale, k, coefficients->n, coefficients->head->rate))
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k))
                 outside = level;
         }
     }
@@ -96,7 +110,7 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
      const ss_morlet_opts *opts, ss_error *err)
 {
     ss_status st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
-    if (st != SS_OK)
+    if (st != SS_OK || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
         return st;
     coef->n = signal->n;
     coef->center = opts->center;
@@ -407,12 +421,18 @@ append(part *p, double re, double im)
     return SS_OK;
 }
 
-/* The edge as far as it is known; where the end is not, it is looked at by check_tail. */
+/* The edge as far as it is known of a record of n samples. */
+static int
+known_edge(const reader *r, const part *p, size_t k, size_t n)
+{
+    return ss_scale_edge(&p->scale, k, n, r->coef->head->rate) || near_gap(r->coef, &p->scale, k);
+}
+
+/* Is that the edge?  Where the end is not known, this is looked at again by check_tail. */
 static int
 edge_fits(const reader *r, part *p, double edge)
 {
-    size_t n = r->coef->n > 0 ? r->coef->n : SIZE_MAX;
-    int fits = edge == ss_scale_edge(&p->scale, p->n, n, r->coef->head->rate);
+    int fits = edge == known_edge(r, p, p->n, r->coef->n > 0 ? r->coef->n : SIZE_MAX);
     int of_end = !fits && edge == 1 && r->coef->n == 0;
     if (p->tail == p->n && !of_end)
         p->tail++;
@@ -449,9 +469,9 @@ check_tail(reader *r, part *p)
         return refuse(r, "%s", why.text);
     if (p->n > sc->n)
         return refuse(r, "scale %g has %zu coefficients, not %zu", sc->m, sc->n, p->n);
-    if ((p->tail < p->n && !ss_scale_edge(sc, p->tail, n, rate))
-        || (p->tail > 0 && ss_scale_edge(sc, p->tail - 1, n, rate)
-            != ss_scale_edge(sc, p->tail - 1, SIZE_MAX, rate)))
+    if ((p->tail < p->n && !known_edge(r, p, p->tail, n))
+        || (p->tail > 0 && known_edge(r, p, p->tail - 1, n)
+            != known_edge(r, p, p->tail - 1, SIZE_MAX)))
         return refuse(r, "the edge of scale %g is not what the cone of influence of %zu samples "
                       "gives", sc->m, n);
     return SS_OK;
@@ -561,6 +581,7 @@ read_all(reader *r, FILE *in, const char *name)
     if (r->in.head == NULL || r->coef == NULL || (r->coef->head = ss_header_new(0, 0)) == NULL)
         return SS_ENOMEM;
     if ((st = read_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK
         || (st = r->au ? read_au_rows(r) : read_text_rows(r)) != SS_OK)
         return st;
     return assemble(r);

@@ -2,6 +2,7 @@
  *
  * Text repeats a scale's own columns as text, and AU as bytes; what is left to do for a row is its b,
  * re, im and edge. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "morlet/plan.h"
@@ -13,7 +14,9 @@ enum { WIDTH = 8 * COEFFICIENT_COLUMNS, ROOM = 1 << 16, LONGEST = COEFFICIENT_CO
 struct ss_coefficient_writer {
     FILE *out;
     ss_format format;
-    double rate;
+    double rate, start;
+    ss_span *gap;
+    size_t n_gaps;
     int stream;                 /* the length comes last */
     size_t used;
     char buffer[ROOM];          /* empty between calls */
@@ -57,13 +60,16 @@ ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_form
     writer->out = out;
     writer->format = format;
     writer->rate = head->rate;
+    writer->start = head->start;
     writer->stream = stream != NULL && strcmp(stream, "yes") == 0;
     writer->used = 0;
-    ss_status st = write_header(head, out, format);
+    ss_status st = ss_header_gaps(&writer->gap, &writer->n_gaps, head);
+    if (st == SS_OK)
+        st = write_header(head, out, format);
     if (st == SS_OK)
         *out_writer = writer;
     else
-        free(writer);
+        ss_coefficient_writer_free(writer);
     return st;
 }
 
@@ -115,7 +121,8 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
     ss_au_put(au + 24, scale->f);
     for (size_t i = 0; i < n; i++, w += 2) {
         double b = ss_scale_b(scale, first + i);
-        int edge = ss_scale_edge(scale, first + i, samples, writer->rate);
+        int edge = ss_scale_edge(scale, first + i, samples, writer->rate)
+            || ss_near_gap(writer->gap, writer->n_gaps, writer->start + b, sqrt(2) * scale->a);
         char *to = writer->buffer + writer->used;
         if (writer->format == SS_AU) {
             au_row(au, b, w, edge);
@@ -149,6 +156,9 @@ ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples)
 void
 ss_coefficient_writer_free(ss_coefficient_writer *writer)
 {
+    if (writer == NULL)
+        return;
+    free(writer->gap);
     free(writer);
 }
 

@@ -3,6 +3,7 @@
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
  * or its group, which our own files have. */
+#include "../signal/stream.h"
 #include "h5.h"
 
 #include <math.h>
@@ -95,7 +96,7 @@ ss_h5_fail_listing(h5_file *file)
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
-ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
     *start = 0;
     if (*rate > 0)
@@ -126,7 +127,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 {
     double start;
     char name[128];
-    ss_status status = ss_find_clock(file, id, dataset, &rate, &start);
+    ss_status status = find_clock(file, id, dataset, &rate, &start);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);
@@ -145,7 +146,8 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 }
 
 static ss_status
-read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, double *values)
+read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, int gaps,
+           double *values)
 {
     size_t n = shape->rows * shape->columns;
     double *raw = malloc(n * sizeof *raw);
@@ -158,7 +160,9 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
         size_t row = shape->transposed ? i % shape->rows : i / shape->columns;
         size_t column = shape->transposed ? i / shape->rows : i % shape->columns;
         values[column * shape->rows + row] = raw[i];
-        if (!isfinite(raw[i])) {
+        if (!isfinite(raw[i]) && gaps)
+            values[column * shape->rows + row] = NAN;
+        else if (!isfinite(raw[i])) {
             char text[64];
             snprintf(text, sizeof text, "value %zu is not finite", i + 1);
             status = ss_h5_fail(file, SS_EDATA, 0, dataset, text);
@@ -173,6 +177,7 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
 {
     array shape;
     double rate = opts != NULL ? opts->rate : 0;
+    int gaps = opts != NULL && opts->gaps != SS_GAPS_REFUSE;
     ss_header *head = NULL;
     hid_t id = H5Dopen2(file->id, dataset, H5P_DEFAULT);
     if (id < 0)
@@ -187,7 +192,10 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
     if (status == SS_OK)
         status = ss_signal_new(out, head, shape.rows);
     if (status == SS_OK)
-        status = read_array(file, id, dataset, &shape, (*out)->values);
+        status = read_array(file, id, dataset, &shape, gaps, (*out)->values);
+    if (status == SS_OK && gaps)
+        status = ss_fill_gaps((*out)->values, shape.rows, 1, shape.rows, (*out)->head, opts->gaps,
+                              dataset, file->err);
     ss_header_free(head);
     H5Dclose(id);
     return status;

@@ -323,6 +323,8 @@ read_coefficients(h5_file *file, ss_coefficients **out)
     hid_t group = H5Gopen2(file->id, "wavelet", H5P_DEFAULT);
     ss_status status = read_grid(file, group, *out);
     H5Gclose(group);
+    if (status == SS_OK)
+        status = ss_header_gaps(&(*out)->gap, &(*out)->n_gaps, (*out)->head);
     return status;
 }
 
