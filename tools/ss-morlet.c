@@ -1,5 +1,6 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -25,6 +26,7 @@ static const char usage[] =
 "      --force            also scales that the record does not resolve\n"
 "      --threads=N        work on N scales at a time (1)\n"
 "      --stream           give coefficients as they are complete; needs --fmin\n"
+"      --inverse          read coefficients, write the signal that has them\n"
 "      --check            compare with the other method, say what differs\n"
 "  -o, --output=FILE      .tsv, .au, or .h5 with the signal\n"
 "      --format=FORM      on standard output: tsv (default) or au\n"
@@ -36,7 +38,7 @@ static const char usage[] =
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
     OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_CHECK
+    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_CHECK
 };
 
 static const struct option longopts[] = {
@@ -57,6 +59,7 @@ static const struct option longopts[] = {
     { "force", no_argument, NULL, OPT_FORCE },
     { "threads", required_argument, NULL, OPT_THREADS },
     { "stream", no_argument, NULL, OPT_STREAM },
+    { "inverse", no_argument, NULL, OPT_INVERSE },
     { "check", no_argument, NULL, OPT_CHECK },
     { "format", required_argument, NULL, TOOL_OPT_FORMAT },
     TOOL_LONGOPTS
@@ -71,7 +74,8 @@ typedef struct request {
     ss_morlet_opts opts;
     const char *column, *output;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
-    int stream, check;
+    int stream, inverse, check;
+    int transforms;                     /* an option was given that is of the transform alone */
     tool_kind kind;                     /* what is written */
 } request;
 
@@ -94,6 +98,7 @@ set_option(request *req, int c)
 {
     ss_morlet_opts *opts = &req->opts;
     req->grid |= c == OPT_VOICES || c == OPT_STEP || c == OPT_DENSE;
+    req->transforms |= c >= OPT_COLUMN && c != OPT_ACCURACY && c != OPT_INVERSE;
     switch (c) {
     case OPT_COLUMN:     req->column = optarg; break;
     case OPT_CENTER:     opts->center = tool_number("--center", optarg, 2, 1000); break;
@@ -114,6 +119,7 @@ set_option(request *req, int c)
     case OPT_THREADS:    opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
                          break;
     case OPT_STREAM:     req->stream = 1; break;
+    case OPT_INVERSE:    req->inverse = 1; break;
     case OPT_CHECK:      req->check = 1; break;
     case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
     case 'o':            req->output = optarg; break;
@@ -136,6 +142,8 @@ check_request(request *req)
         opts->voices = 1;
         opts->step = 1;
     }
+    if (req->inverse && req->transforms)
+        tool_usage("--inverse takes no options but --accuracy, --output and --format");
     if (req->stream && opts->fmin == 0 && !opts->octaves)
         tool_usage("--stream needs --fmin, as the length of the record is not known");
     if (req->stream && opts->detrend != SS_DETREND_NONE)
@@ -239,6 +247,22 @@ transform_whole(const request *req, const char *path)
     write_output(req, signal, coef);
     ss_coefficients_free(coef);
     ss_signal_free(signal);
+}
+
+/* Coefficients back to a signal. */
+static void
+invert(const request *req, const char *path)
+{
+    ss_coefficients *coef = tool_read_coefficients(path);
+    ss_signal *signal;
+    ss_error err = { "" };
+    double error, accuracy = req->opts.accuracy;
+    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, &err), &err, path);
+    tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
+              coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
+    tool_write_signal(signal, req->output, req->kind);
+    ss_signal_free(signal);
+    ss_coefficients_free(coef);
 }
 
 /* --- streams ------------------------------------------------------------------------------- */
@@ -368,7 +392,9 @@ main(int argc, char *argv[])
         set_option(&req, c);
     check_request(&req);
     const char *path = tool_input(argc, argv, optind);
-    if (req.stream)
+    if (req.inverse)
+        invert(&req, path);
+    else if (req.stream)
         transform_stream(&req, path);
     else
         transform_whole(&req, path);

@@ -167,6 +167,18 @@ void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is a
 /* 1 inside the cone of influence, and as near to a gap or in it, else 0: translation k of scale i. */
 int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k);
 
+/* The signal that has these coefficients, by conjugate gradients on the frame operator: least squares
+ * in the coefficients, weighted as the integral over a and b weights them.  What the scales do not
+ * reach, below the lowest and above the highest label, is absent from it, a mean or a line too.
+ * *error, unless that is NULL: about its root mean square error within the labels, relative to its
+ * own: what of the coefficients it fails to explain, times the square root of the ratio of the grid's
+ * frame bounds there.  With steps above 0.5 more than that may be wrong beyond the labels.
+ * SS_ESCALE: the ratio exceeds 100, the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ... 0.1, of
+ * the coefficients stays unexplained: they are not those of any signal.  SS_EDATA: notes lack options,
+ * or scales are missing.  Costs three to a hundred transforms and as many adjoints by the sum. */
+ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
+                            double *error, ss_error *err);
+
 /* Write coefficients as they come.  The header says the column's signal and the options, and with
  * n = 0 that the samples are not counted yet: then end writes their number. */
 ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,

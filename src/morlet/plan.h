@@ -73,6 +73,10 @@ void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
 void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                          wavelet *wave, span part, double factor, double *most, double *w);
 double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n);
+/* The adjoint of a whole scale's transform in units of a^1/2, times factor, to be added to the n
+ * samples x. */
+void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
+                           const double *w, double factor, double *x);
 double ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale);
 
 /* The same at any b, by the definition, as exactly as double precision allows, for factor 1. */

@@ -305,6 +305,39 @@ ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *
         w[i] *= factor;
 }
 
+/* Add to x Re(w h) of a coefficient, all its taps. */
+static void
+add_wavelet(const kernel *ker, size_t n, double rate, double b, const double w[2], double *x)
+{
+    place at;
+    locate(&at, ker, b, rate, 2 * ker->taps);
+    ptrdiff_t out = (ptrdiff_t)ker->taps - 1, last = (ptrdiff_t)n - 1 - at.c;
+    ptrdiff_t lo = -at.c > -out ? -at.c : -out, hi = last < out ? last : out;
+    double u = at.tau * ker->d, scale = PI_M14 * ker->d * exp(-u * u / 2);
+    double p = phase(ker, at.tau), c = cos(p), s = sin(p);
+    double re = scale * (w[0] * c + w[1] * s), im = scale * (w[0] * s - w[1] * c);
+    double second = ker->second * scale * w[0];
+    for (ptrdiff_t k = lo; k <= hi; k += BLOCK) {
+        ptrdiff_t width = hi - k < BLOCK ? hi - k + 1 : BLOCK;
+        double g = at.q == 0 ? 1 : exp(at.q * (double)k), *y = x + at.c + k;
+        for (ptrdiff_t j = 0; j < width; j++)
+            y[j] += g * at.g[j] * (re * ker->re[k + j] - im * ker->im[k + j]);
+        for (ptrdiff_t j = 0; second != 0 && j < width; j++)
+            y[j] -= g * at.g[j] * second * ker->gauss[k + j];
+    }
+}
+
+void
+ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
+                      const double *w, double factor, double *x)
+{
+    fill_tables(&wave->ker, wave->room);
+    for (size_t k = 0; k < scale->n; k++) {
+        double part[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
+        add_wavelet(&wave->ker, plan->n, plan->rate, ss_scale_b(scale, k), part, x);
+    }
+}
+
 /* Taps of a wavelet on one side, as far as is tried first. */
 static double
 taps_tried(const ss_morlet *plan, const ss_scale *scale)
