@@ -852,6 +852,118 @@ noise_is_the_same_in_pieces(void **state)
     assert_int_equal(ss_add_noise(other, N, NAN, 4), SS_EINVAL);
 }
 
+/* The power of x at the frequencies of the record in [lo, hi], by the definition: every k-th one. */
+static double
+power_between(const double *x, size_t n, double rate, double lo, double hi)
+{
+    double power = 0;
+    for (size_t k = 1; k < n / 2; k++) {
+        double f = (double)k * rate / (double)n, re = 0, im = 0;
+        if (f < lo || f > hi)
+            continue;
+        for (size_t i = 0; i < n; i++) {
+            double angle = 2 * M_PI * (double)(i * k % n) / (double)n;
+            re += x[i] * cos(angle);
+            im += x[i] * sin(angle);
+        }
+        power += 2 * (re * re + im * im) / ((double)n * (double)n);
+    }
+    return power;
+}
+
+/* Noise of a band has its power there, flat, and the rms that was asked for.  A record that is cut out
+ * of a longer one leaks as 1 / (pi distance)^2: less than 1 % of the power, 10 frequencies away. */
+static void
+noise_of_a_band_stays_in_it(void **state)
+{
+    static const struct { size_t n; double lo, hi; } band[] = {
+        { 1024, 100, 200 }, { 1500, 100, 200 }, { 1500, 0, 1000 }, { 1500, 400, 1000 },
+        { 1024, 62.5, 62.5 } };
+    (void)state;
+    for (size_t k = 0; k < sizeof band / sizeof *band; k++) {
+        double x[1500] = { 0 }, again[1500] = { 0 }, square = 0, margin = 10 * 2000. / 1500;
+        size_t n = band[k].n;
+        ss_noise *noise;
+        for (int pass = 0; pass < 2; pass++) {
+            ss_noise_new(&noise, 7);
+            assert_int_equal(ss_noise_add_band(noise, pass == 0 ? x : again, n, 2000, band[k].lo,
+                                               band[k].hi, 0.25, NULL), SS_OK);
+            ss_noise_free(noise);
+        }
+        assert_memory_equal(x, again, sizeof x);
+        for (size_t i = 0; i < n; i++)
+            square += x[i] * x[i] / (double)n;
+        assert_true(fabs(sqrt(square) - 0.25) <= 1e-12);
+        double inside = power_between(x, n, 2000, band[k].lo - margin, band[k].hi + margin);
+        double mean = variance(x, n);           /* without the part at 0 Hz */
+        assert_true(inside >= 0.99 * mean && inside <= mean * (1 + 1e-9));
+        if (band[k].hi > band[k].lo) {          /* both halves alike: each is half but for chance */
+            double middle = (band[k].lo + band[k].hi) / 2;
+            double half = power_between(x, n, 2000, band[k].lo - margin, middle) / inside;
+            double numbers = (band[k].hi - band[k].lo) / 2000 * (double)n;  /* free ones in a half */
+            assert_true(fabs(half - 0.5) <= 5 * 0.5 / sqrt(numbers));
+        }
+    }
+}
+
+static void
+bands_without_a_frequency_are_refused(void **state)
+{
+    static const double wrong[][2] = { { -1, 5 }, { 5, 2 }, { 5, 1001 }, { 5.1, 5.2 }, { NAN, 5 } };
+    double x[100] = { 0 };
+    ss_error err = { "" };
+    ss_noise *noise;
+    (void)state;
+    ss_noise_new(&noise, 1);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, wrong[i][0], wrong[i][1], 1, &err),
+                         SS_EINVAL);
+    assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, 0, 100, -1, &err), SS_EINVAL);
+    for (size_t i = 0; i < 100; i++)
+        assert_true(x[i] == 0);
+    ss_noise_free(noise);
+}
+
+/* A ramp over more than the range: multiples of the step, the nearest, clipped; what is wrong is even
+ * between -1/2 and 1/2 of a step, so its variance is a twelfth of its square, to 1 % by the
+ * ramp's own steps, and to 5 % where these are wider than the converter's. */
+static void
+a_converter_rounds_and_clips(void **state)
+{
+    enum { N = 40001 };
+    static double x[N];
+    (void)state;
+    for (int bits = 1; bits <= 16; bits += 5) {
+        double range = 2.5, step = range / (double)(1 << (bits - 1)), square = 0;
+        size_t inside = 0;
+        for (size_t i = 0; i < N; i++)
+            x[i] = 3 * (2. * (double)i / (N - 1) - 1);
+        assert_int_equal(ss_quantise(x, N, bits, range), SS_OK);
+        for (size_t i = 0; i < N; i++) {
+            double was = 3 * (2. * (double)i / (N - 1) - 1), off = x[i] - was;
+            assert_true(x[i] / step == rint(x[i] / step));
+            assert_true(x[i] >= -range && x[i] <= range - step);
+            if (was < -range)
+                assert_true(x[i] == -range);
+            else if (was > range - step / 2)
+                assert_true(x[i] == range - step);
+            else {
+                assert_true(fabs(off) <= step / 2 * (1 + 1e-9));
+                square += off * off;
+                inside++;
+            }
+        }
+        if (bits > 1)
+            assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
+                        <= (bits > 11 ? 0.05 : 1e-2));
+    }
+    assert_int_equal(ss_quantise(x, N, 0, 1), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 53, 1), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, 0), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, INFINITY), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 52, 1e-310), SS_EINVAL);
+}
+
 /* --- gaps and other clocks ----------------------------------------------------------------- */
 
 static void
@@ -995,6 +1107,10 @@ main(void)
         cmocka_unit_test(refuses_waves_out_of_range),
         cmocka_unit_test(noise_has_the_ratio_asked_for),
         cmocka_unit_test(noise_is_the_same_in_pieces),
+        cmocka_unit_test(noise_of_a_band_stays_in_it),
+        cmocka_unit_test(bands_without_a_frequency_are_refused),
+        cmocka_unit_test(a_converter_rounds_and_clips),
+
         cmocka_unit_test(interpolates_uneven_stamps_to_a_uniform_clock),
         cmocka_unit_test(resamples_a_signal_at_its_own_samples),
         cmocka_unit_test(fills_gaps_and_says_where),

@@ -32,6 +32,9 @@ extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 /* Values of options; wrong ones are wrong usage. */
 double tool_number(const char *option, const char *text, double lo, double hi);
 long tool_integer(const char *option, const char *text, long lo, long hi);
+/* Two numbers "A:B", lo <= A <= B <= hi; form is what the message says is wanted. */
+void tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
+               double pair[2]);
 /* The index of text in the NULL-terminated list. */
 int tool_choice(const char *option, const char *text, const char *const choice[]);
 
@@ -85,6 +88,12 @@ tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallbac
 FILE *tool_output(const char *path);
 /* The same for a library call that wants a path: the name of the temporary file. */
 const char *tool_output_path(const char *path);
+
+/* Open a file that another run is to go on with, from its start, or make it: what is written stays
+ * there whatever happens.  Dies if another process has it open so. */
+FILE *tool_output_kept(const char *path);
+/* Go on writing at this offset; what lies behind it is dropped. */
+void tool_cut(FILE *out, long offset);
 
 /* What --format names: tsv or au. */
 tool_kind tool_format(const char *text);

@@ -163,7 +163,10 @@ typedef struct reader {
     ss_morlet_opts opts;        /* what the grid follows from */
     part *part;
     size_t n_parts, room, last; /* last: the part of the row before */
+    size_t *part_of;            /* of every j that there can be, its part from 1; 0: none yet */
 } reader;
+
+enum { LARGEST_M = 500 };       /* |log2 a| */
 
 /* SS_EDATA, and what is wrong with the current row. */
 #if defined(__GNUC__)
@@ -188,6 +191,8 @@ next_line(reader *r, char **line)
     size_t length;
     ss_status st = ss_input_line(&r->in.in, line, &length, r->err);
     r->row = r->in.in.line;
+    if (st == SS_OK && *line != NULL && strlen(*line) != length)
+        return refuse(r, "a NUL byte in text");
     return st;
 }
 
@@ -201,11 +206,13 @@ read_note(reader *r, const char *key, const char *value)
     double *number = strcmp(key, "rate") == 0 ? &head->rate
         : strcmp(key, "start") == 0 ? &head->start : NULL;
     if (number == NULL) {
+        if (head->n_notes == MAX_NOTES)
+            return refuse(r, "more than 4096 notes");
         ss_status st = ss_header_note(head, key, value);
         return st != SS_EINVAL ? st : refuse(r, "'%s' cannot be the key of a note", key);
     }
     *number = ss_number_parse(value, &end);
-    if (end == value || *end != '\0')
+    if (end == value || *end != '\0' || !isfinite(*number))
         return refuse(r, "%s '%s' is not a number", key, value);
     return SS_OK;
 }
@@ -380,7 +387,7 @@ new_part(reader *r, int j, const double number[])
         return refuse(r, "%s", why.text);
     if (r->coef->n == 0)
         p->scale.n = SIZE_MAX;
-    r->last = r->n_parts++;
+    r->n_parts++;
     return SS_OK;
 }
 
@@ -389,19 +396,20 @@ static ss_status
 find_part(reader *r, const double number[])
 {
     double m = number[0], a = number[1], f = number[3], j = rint(m * r->opts.voices);
-    if (!(fabs(m) <= 500) || fabs(m * r->opts.voices - j) > 1e-9
+    if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
         || !(fabs(a / exp2(m) - 1) < 1e-12)
         || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
         return refuse(r, "m, a and f are not those of a scale with center %g and %d voices",
                       r->opts.center, r->opts.voices);
-    for (size_t i = 0; i < r->n_parts; i++) {   /* the same or the next one, mostly */
-        size_t p = (r->last + i) % r->n_parts;
-        if (r->part[p].scale.j == (int)j) {
-            r->last = p;
-            return SS_OK;
-        }
+    size_t *known = &r->part_of[(int)j + LARGEST_M * r->opts.voices];
+    if (*known == 0) {
+        ss_status st = new_part(r, (int)j, number);
+        if (st != SS_OK)
+            return st;
+        *known = r->n_parts;
     }
-    return new_part(r, (int)j, number);
+    r->last = *known - 1;
+    return SS_OK;
 }
 
 static ss_status
@@ -581,10 +589,13 @@ read_all(reader *r, FILE *in, const char *name)
     if (r->in.head == NULL || r->coef == NULL || (r->coef->head = ss_header_new(0, 0)) == NULL)
         return SS_ENOMEM;
     if ((st = read_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
-        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK
-        || (st = r->au ? read_au_rows(r) : read_text_rows(r)) != SS_OK)
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
         return st;
-    return assemble(r);
+    r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
+    if (r->part_of == NULL)
+        return SS_ENOMEM;
+    st = r->au ? read_au_rows(r) : read_text_rows(r);
+    return st == SS_OK ? assemble(r) : st;
 }
 
 ss_status
@@ -595,6 +606,7 @@ ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error
     for (size_t i = 0; i < r.n_parts; i++)
         free(r.part[i].w);
     free(r.part);
+    free(r.part_of);
     ss_input_close(&r.in.in);
     ss_header_free(r.in.head);
     if (st == SS_OK)

@@ -74,6 +74,10 @@ work_on(void *user)
     work *job = user;
     double *scratch = job->plan->fft != NULL ? ss_fft_scratch(job->plan->fft) : NULL;
     pthread_mutex_lock(&job->lock);
+    if (scratch == NULL && job->plan->fft != NULL) {
+        job->next = job->failed = 0;
+        job->status = SS_ENOMEM;
+    }
     while (job->next > 0) {
         size_t i = --job->next;
         ss_error err = { "" };

@@ -17,7 +17,7 @@
 #define BLUR 0.2                /* pixels that a line may be off by leaving points out */
 #define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0 */
 
-const ss_contour_opts ss_contour_defaults = { 18, 80, NULL, 0, NULL, 0 };
+const ss_contour_opts ss_contour_defaults = { 18, 80, NULL, 0, NULL, 0, NULL };
 
 /* --- the map ------------------------------------------------------------------------------- */
 
@@ -208,6 +208,51 @@ put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
     fputs("EOD\n", out);
 }
 
+static int
+is_inside(const script_span *span, double t)
+{
+    return t >= span->from && t <= span->to;
+}
+
+/* What of an overlay lies in the span drawn: gnuplot takes an empty block for a mistake. */
+typedef struct visible {
+    size_t spans, spikes, maxima;
+} visible;
+
+/* Spans, cut at the ends, spikes, and maxima with their frequencies. */
+static visible
+put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
+{
+    int decimals = ss_script_decimals(span->to - span->from);
+    visible seen = { 0, 0, 0 };
+    fputs("$spans << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_spans; i++) {
+        double shortest = (span->to - span->from) / COLUMNS * 2;        /* to be seen at all */
+        double from = fmax(overlay->span[i][0], span->from);
+        double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
+        if (!(from <= to))
+            continue;
+        ss_script_put(out, from, decimals, " ");
+        ss_script_put(out, to, decimals, "\n");
+        seen.spans++;
+    }
+    fputs("EOD\n$spikes << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_spikes; i++)
+        if (is_inside(span, overlay->spike[i])) {
+            ss_script_put(out, overlay->spike[i], decimals, "\n");
+            seen.spikes++;
+        }
+    fputs("EOD\n$maxima << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_maxima; i++)
+        if (is_inside(span, overlay->maximum[i][0])) {
+            ss_script_put(out, overlay->maximum[i][0], decimals, " ");
+            ss_script_put(out, overlay->maximum[i][1], 6, "\n");
+            seen.maxima++;
+        }
+    fputs("EOD\n", out);
+    return seen;
+}
+
 /* --- the script ---------------------------------------------------------------------------- */
 
 static const char around[] =
@@ -238,9 +283,26 @@ static const char panel_b[] =
     "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
     "set colorbox user origin screen right + 0.02, screen 0.12 size screen 0.025, screen top_b - 0.12\n";
 
-/* Events first, so that they stand behind the lines; then the cone, then the contours. */
+/* Bars and marks in the rims of the panel; rings in white and colour, to be seen on any ground. */
 static void
-put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range)
+put_features(FILE *out, const visible *seen)
+{
+    if (seen->spans > 0)
+        fputs(", \\\n    $spans using 1:(rim(0.02)):($2-$1):(0) with vectors nohead lw 3 "
+              "lc rgb feature_colour", out);
+    if (seen->spikes > 0)
+        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6 "
+              "lc rgb feature_colour", out);
+    if (seen->maxima > 0)
+        fputs(", \\\n    $maxima using 1:2 with points pt 6 ps 0.9 lw 3.5 lc rgb 'white', \\\n"
+              "    $maxima using 1:2 with points pt 6 ps 0.9 lw 1.5 lc rgb feature_colour", out);
+}
+
+/* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
+ * read from them. */
+static void
+put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range,
+           const visible *seen)
 {
     fputs(around, out);
     if (contour->signal != NULL) {
@@ -257,8 +319,9 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
     if (contour->n_events > 0)
         fputs("    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour, "
               "\\\n", out);
-    fputs("    $contour using 1:2:(-$3*step) with lines lw 1 lc palette\n"
-          "unset multiplot\n", out);
+    fputs("    $contour using 1:2:(-$3*step) with lines lw 1 lc palette", out);
+    put_features(out, seen);
+    fputs("\nunset multiplot\n", out);
 }
 
 static ss_status
@@ -310,6 +373,7 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
         return status;
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
     double range = 0;
+    visible seen = { 0, 0, 0 };
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
     drawn.from = span.from;
     drawn.to = span.to;
@@ -329,9 +393,13 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
     put_cone(out, c, &span, (const double[2]){ fmin, fmax });
     if (contour->n_events > 0)
         put_events(out, contour, &span);
+    if (contour->overlay != NULL) {
+        fputs("feature_colour = '#cc3311'; rim(part) = fmin*(fmax/fmin)**part\n", out);
+        seen = put_overlay(out, contour->overlay, &span);
+    }
     status = put_contours(out, c, contour, &span);
     if (status != SS_OK)
         return status;
-    put_panels(out, c, contour, range);
+    put_panels(out, c, contour, range, &seen);
     return ss_script_end(out);
 }

@@ -397,6 +397,9 @@ next_line(struct table *t, char **line, int *comment, ss_error *err)
         if (strlen(*line) != length)
             return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters",
                            t->in->name, t->in->line);
+        if (strchr(*line, '\r') != NULL)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
+                           "makes them)", t->in->name, t->in->line);
     } while ((*line)[strspn(*line, " \t")] == '\0');
     *comment = **line == '#';
     return SS_OK;
@@ -407,7 +410,7 @@ make_room(struct table *t)
 {
     if (t->n_rows < t->room)
         return 1;
-    size_t room = t->room == 0 ? 4096 : 2 * t->room;
+    size_t room = t->room == 0 ? 1 + 65536 / t->n_columns : 2 * t->room;
     if (room > SIZE_MAX / sizeof *t->value / t->n_columns / 2)
         return 0;
     double *value = realloc(t->value, room * t->n_columns * sizeof *value);
@@ -487,6 +490,8 @@ read_table(struct table *t, ss_error *err)
         if (!found && !keep_above(t, line + strspn(line, "# ")))
             return out_of_memory(t, err);
     }
+    if (t->n_columns > MAX_COLUMNS)
+        return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
     char *first = strdup(line);                 /* split below, and for the names */
     if (first == NULL)
         return out_of_memory(t, err);

@@ -6,6 +6,9 @@
 #include <stdio.h>
 #include <stickslip/signal.h>
 
+/* More than any honest input has, so that hostile input finds an end of memory and time. */
+enum { MAX_LINE = 1 << 24, MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
+
 /* Bytes of a stream, as they come: never waits for more than is asked for. */
 struct input {
     FILE *file;
