@@ -217,10 +217,10 @@ narrow(candidate *c, const ss_signal *signal, size_t column, ss_error *err)
     ss_features_free(f);
     for (size_t i = 0; i < 2; i++) {
         int known = estimate[i] > 0;            /* NaN is not */
-        double middle = known ? log(estimate[i]) : c->own[i + 2];
+        double middle = known ? log(estimate[i]) : c->own[CANDIDATE_FIRST + i];
         double width = log(known ? NEAR : FAR);
-        c->lo[i + 2] = middle - width;
-        c->hi[i + 2] = middle + width;
+        c->lo[CANDIDATE_FIRST + i] = middle - width;
+        c->hi[CANDIDATE_FIRST + i] = middle + width;
     }
     return SS_OK;
 }
@@ -320,7 +320,7 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, ss_error *e
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(signal->values[column * signal->n + i]))
             return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
-    return ss_scene_check(start, err);
+    return ss_candidate_check(start, err);
 }
 
 ss_status
@@ -340,8 +340,10 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
                        opts->forcing_frequency);
     if (st != SS_OK || goal.period == 0)
         return st;
-    candidate c = ss_candidate_of(start, (int)opts->quantity, 2);
-    c.lo[0] = c.hi[0] = c.own[0];               /* k is known */
+    candidate c = ss_candidate_of(start, (int)opts->quantity, 1);
+    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS];      /* k is known */
+    c.lo[CANDIDATE_RATIO] = log(0.2);           /* below, sticks are too short to fit */
+    c.hi[CANDIDATE_RATIO] = 0;
     st = narrow(&c, signal, column, err);
     if (st == SS_OK)
         st = ss_candidate_search(&c, &goal, STARTS, KEEP, STEPS);

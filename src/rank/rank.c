@@ -416,7 +416,7 @@ ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene
         opts = &ss_rank_defaults;
     ss_status st = check(signal, column, n, opts, err);
     for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = ss_scene_check(&scene[i], err);
+        st = ss_candidate_check(&scene[i], err);
     if (st != SS_OK)
         return st;
     ss_ranking *r = calloc(1, sizeof *r);
