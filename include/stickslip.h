@@ -15,6 +15,7 @@
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
 #include <stickslip/trade.h>
+#include <stickslip/sweep.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/features.h>

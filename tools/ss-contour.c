@@ -21,6 +21,7 @@ static const char usage[] =
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
+"      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
@@ -88,33 +89,37 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
 typedef struct lines {          /* of a file that begins with a line that says what it is */
     FILE *in;
     const char *path;
-    char *text;
-    size_t room, number;
+    char text[4096];
+    size_t number;
 } lines;
 
 static void
 open_lines(lines *l, const char *path, const char *magic, const char *what)
 {
     *l = (lines){ .in = tool_open(path), .path = path, .number = 1 };
-    ssize_t length = getline(&l->text, &l->room, l->in);
-    if (length >= 0)
+    if (fgets(l->text, sizeof l->text, l->in) != NULL)
         l->text[strcspn(l->text, "\r\n")] = '\0';
-    if (length >= 0 ? strcmp(l->text, magic) != 0 : !ferror(l->in))
+    if (strcmp(l->text, magic) != 0 && !ferror(l->in))
         tool_die("%s:1: not a list of %s, which begins '%s'", tool_input_name(path), what, magic);
 }
 
-/* The next line that is not empty, or 0 at the end, when the file is closed. */
+/* The next line that is not empty, or 0 at the end, when the file is closed.  Of a long comment its
+ * beginning is enough. */
 static int
 next_line(lines *l)
 {
-    while (getline(&l->text, &l->room, l->in) >= 0) {
+    while (fgets(l->text, sizeof l->text, l->in) != NULL) {
         l->number++;
+        int c = strchr(l->text, '\n') != NULL ? '\n' : getc(l->in);
+        if (c != '\n' && c != EOF && l->text[0] != '#')
+            tool_die("%s:%zu: line too long", tool_input_name(l->path), l->number);
+        while (c != '\n' && c != EOF)
+            c = getc(l->in);
         if (l->text[strspn(l->text, " \t\r\n")] != '\0')
             return 1;
     }
     if (ferror(l->in))
         tool_die("%s: %s", tool_input_name(l->path), strerror(errno));
-    free(l->text);
     if (l->in != stdin)
         fclose(l->in);
     return 0;
@@ -182,7 +187,7 @@ read_transition(ss_overlay *o, const lines *l)
     }
 }
 
-/* Rows are transitions; a note "spike" has the time of one first. */
+/* Rows are transitions; a note "spike" has its time and its kind: jumps and kinks are drawn. */
 static void
 read_features(drawing *d, const char *path)
 {
@@ -195,8 +200,11 @@ read_features(drawing *d, const char *path)
         if (l.text[0] != '#')
             read_transition(o, &l);
         else if (strncmp(l.text, note, sizeof note - 1) == 0) {
+            double t = take_number(&l, &text, "the time of a spike");
+            if (strncmp(text, "jump", 4) != 0 && strncmp(text, "kink", 4) != 0)
+                continue;
             o->spike = make_room(o->spike, o->n_spikes, sizeof *o->spike);
-            o->spike[o->n_spikes++] = take_number(&l, &text, "the time of a spike");
+            o->spike[o->n_spikes++] = t;
         }
     }
     d->opts.overlay = o;
@@ -218,6 +226,7 @@ main(int argc, char *argv[])
         { "events", required_argument, NULL, OPT_EVENTS },
         { "features", required_argument, NULL, OPT_FEATURES },
         { "title", required_argument, NULL, OPT_TITLE },
+        { "style", required_argument, NULL, TOOL_OPT_STYLE },
         { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
         TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
@@ -235,6 +244,7 @@ main(int argc, char *argv[])
         case OPT_EVENTS: events = optarg; break;
         case OPT_FEATURES: features = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
+        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;

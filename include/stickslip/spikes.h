@@ -48,8 +48,8 @@ typedef struct ss_spikes_found {
                                    0: there is too much noise to count or to group them */
 } ss_spikes_found;
 
-/* All spikes of the n samples of x, which must be finite.  Two that lie closer than twice the
- * scale at which they are seen are one.  n = 0 where nothing stands out of the noise. */
+/* All spikes of the n samples of x, which must be finite.  Two that |W| does not
+ * show apart, nearer to each other than some two of the scale at which they are seen, are one.  n = 0 where nothing stands out of the noise. */
 ss_status ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
                          const ss_spike_opts *opts, ss_error *err);
 void ss_spikes_free(ss_spikes_found *found);    /* NULL is allowed */

@@ -16,14 +16,20 @@ static const ss_value unknown = { NAN, NAN };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 #define CENTER 6.0
+#define SPAN 80.0               /* [dB] of the paper's contours */
 #define SIGMAS 3.0
 #define SLIGHT 0.5              /* [dB] maxima less prominent than this do not show an oscillation */
 #define BAND 0.25               /* [octaves] maxima this near to each other in frequency are of one kind */
+#define STRONG 30.0             /* [dB] below the strongest: spikes that begin a transition by themselves */
+#define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
+#define CLEAR 15.0              /* [dB] below the strongest: single events */
+enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 #define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
 
 typedef struct search {
     const ss_signal *signal;
     double *x;                  /* the column over its largest |value|, so that squares stay in range */
+    double largest;
     size_t n;
     double rate;
     const ss_features_opts *opts;
@@ -68,7 +74,18 @@ noise_floor(const search *s)
     return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
 }
 
-/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it. */
+static size_t
+row_of(const ss_coefficients *coef, double f)
+{
+    size_t row = 0;
+    for (size_t i = 1; i < coef->n_scales; i++)
+        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[row].f / f)))
+            row = i;
+    return row;
+}
+
+/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it, and
+ * those that no contour shows. */
 static void
 drop_noise(search *s)
 {
@@ -78,7 +95,7 @@ drop_noise(search *s)
         ss_maximum m = s->found[i];
         double scale = s->opts->norm == SS_NORM_L1 ? sqrt(CENTER / (2 * M_PI * m.f)) : 1;
         double fall = top * pow(10, m.level / 20) * (1 - pow(10, -m.prominence / 20));
-        if (fall * scale >= SIGMAS * noise)
+        if (fall * scale >= SIGMAS * noise && m.level >= -SPAN)
             s->found[kept++] = m;
     }
     s->n_found = kept;
@@ -103,12 +120,12 @@ same_kind(const ss_maximum *m, double f)
     return fabs(log2(m->f / f)) <= BAND;
 }
 
-/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than two do. */
+/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do. */
 static double
 find_recurrent(const search *s, double prominence)
 {
     double best = 0, best_level = 0;
-    size_t most = 1;
+    size_t most = FEW - 1;
     for (size_t i = 0; i < s->n_found; i++) {
         double level = 0;
         size_t count = 0;
@@ -117,7 +134,7 @@ find_recurrent(const search *s, double prominence)
                 count++;
                 level += s->found[k].level;
             }
-        if (count > most || (count == most && most > 1 && level > best_level)) {
+        if (count > most || (count == most && most >= FEW && level > best_level)) {
             most = count;
             best = s->found[i].f;
             best_level = level;
@@ -134,14 +151,10 @@ true_frequency(const search *s, double label)
         : label * (CENTER + sqrt(CENTER * CENTER + 2)) / (2 * CENTER);
 }
 
-static size_t
-row_of(const ss_coefficients *coef, double f)
+static int
+is_event(const ss_spike *spike)
 {
-    size_t row = 0;
-    for (size_t i = 1; i < coef->n_scales; i++)
-        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[row].f / f)))
-            row = i;
-    return row;
+    return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
 }
 
 /* --- transitions --------------------------------------------------------------------------- */
@@ -225,6 +238,27 @@ set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_valu
     *ratio = (ss_value){ s / r, hypot(w * w * fit[1].error, w * s * fit[0].error) / (r * r * r) };
 }
 
+/* Move the onset to the nearest jump or kink of the spikes found, within half a period; the end to the
+ * last one that comes within a period of another: what is released again sticks no longer than that. */
+static void
+snap_to_spikes(const search *s, ss_transition *tr, double period)
+{
+    const ss_spikes_found *found = s->out->spikes;
+    double nearest = 0.5 * period;
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        double distance = fabs(spike->t - tr->from);
+        if (!is_event(spike))
+            continue;
+        if (distance < nearest) {
+            nearest = distance;
+            tr->onset = spike->t;
+        }
+        if (spike->t > tr->end && spike->t <= tr->end + period)
+            tr->end = spike->t;
+    }
+}
+
 static ss_status
 refine(search *s, const ss_maximum *swell, double f)
 {
@@ -239,7 +273,8 @@ refine(search *s, const ss_maximum *swell, double f)
             anchor[i] = (size_t)(swell[i].t * s->rate);
         st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate,
                              isnan(out->forcing_frequency.value) ? 0
-                             : 2 * M_PI * out->forcing_frequency.value / s->rate, window, all, each);
+                             : 2 * M_PI * out->forcing_frequency.value / s->rate, s->out->noise, window, all,
+                             each);
     }
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -251,6 +286,7 @@ refine(search *s, const ss_maximum *swell, double f)
                 continue;
             tr->onset = tr->from = (double)window[i].first / s->rate;
             tr->end = tr->to = (double)window[i].end / s->rate;
+            snap_to_spikes(s, tr, 1 / f);
         }
     }
     free(anchor);
@@ -271,7 +307,7 @@ find_ringing(search *s, double label)
     if (st == SS_OK)
         st = new_transitions(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
-    if (ringing < 2 || 2 * ringing < out->n) {          /* that is chance */
+    if (ringing < FEW || 2 * ringing < out->n) {        /* that is chance */
         free(out->transition);
         out->transition = NULL;
         out->n = out->recurring = 0;
@@ -284,6 +320,93 @@ find_ringing(search *s, double label)
         qsort(out->transition, out->n, sizeof *out->transition, earlier);
     free(swell);
     return st;
+}
+
+/* Transitions that do not ring: each strong spike begins one, and the weaker ones up to the next
+ * strong one belong to it.  Strong ones nearer than an eighth of what repeats are one. */
+static ss_status
+find_spiked(search *s)
+{
+    ss_features *out = s->out;
+    const ss_spikes_found *found = out->spikes;
+    double apart = isnan(out->forcing_frequency.value) ? 0 : 0.125 / out->forcing_frequency.value;
+    ss_status st = new_transitions(out, found->n);
+    if (st != SS_OK)
+        return st;
+    out->n = 0;
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        ss_transition *last = out->n > 0 ? &out->transition[out->n - 1] : NULL;
+        if (!is_event(spike))
+            continue;
+        if (spike->level >= -STRONG && (last == NULL || spike->t > last->onset + apart)) {
+            last = &out->transition[out->n++];
+            last->onset = spike->t;
+        }
+        if (last != NULL)
+            last->end = spike->t;
+    }
+    return SS_OK;
+}
+
+/* Single events in a record that is quiet else. */
+static ss_status
+find_single(search *s)
+{
+    ss_bursts *found = NULL;
+    ss_status st = ss_find_bursts(&found, s->x, s->n, s->rate, CLEAR, NULL);
+    if (st == SS_OK && (st = new_transitions(s->out, found->n)) == SS_OK)
+        for (size_t i = 0; i < found->n; i++)
+            s->out->transition[i].onset = s->out->transition[i].end = found->burst[i].t;
+    ss_bursts_free(found);
+    return st;
+}
+
+static ss_status
+find_dropped(search *s)
+{
+    ss_drop *drop = NULL;
+    size_t n = 0;
+    ss_status st = ss_find_drops(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest, NULL);
+    if (st == SS_OK && (st = new_transitions(s->out, n)) == SS_OK)
+        for (size_t i = 0; i < n; i++) {
+            s->out->transition[i].onset = drop[i].t;
+            s->out->transition[i].end = drop[i].end;
+        }
+    free(drop);
+    return st;
+}
+
+static void
+count_spikes(ss_features *out)
+{
+    for (size_t i = 0; i < out->n; i++)
+        out->transition[i].spikes = ss_spikes_within(out->spikes, out->transition[i].onset,
+                                                     out->transition[i].end, SPIKES).n;
+}
+
+/* From the times between the transitions; where the signal repeats itself, from how many of them
+ * there are in a repetition, which leaves out none that is too weak to be seen. */
+static void
+find_slip_rate(search *s)
+{
+    ss_features *out = s->out;
+    size_t n = out->n;
+    double sum = 0, squares = 0, duration = (double)s->n / s->rate;
+    out->slips = n;
+    if (n < 3)
+        return;
+    for (size_t i = 1; i < n; i++) {
+        double interval = out->transition[i].onset - out->transition[i - 1].onset;
+        sum += interval;
+        squares += interval * interval;
+    }
+    double m = (double)(n - 1), mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
+    double each = round((double)n / duration / out->forcing_frequency.value);
+    out->slip_rate = (ss_value){ 1 / mean, sqrt(scatter / (m - 1 > 0 ? m - 1 : 1)) / (mean * mean) };
+    if (each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
+        out->slip_rate = (ss_value){ each * out->forcing_frequency.value,
+                                     each * out->forcing_frequency.error };
 }
 
 /* --- stiffness and damping ----------------------------------------------------------------- */
@@ -323,6 +446,19 @@ transform(search *s, size_t column, ss_error *err)
 }
 
 static ss_status
+find_maxima(search *s)
+{
+    ss_status st = find_noise(s);
+    if (st == SS_OK)
+        st = ss_maxima_above(&s->found, &s->n_found, s->coef,
+                             fmin(SLIGHT, s->opts->threshold), noise_floor(s));
+    if (st != SS_OK)
+        return st;
+    drop_noise(s);
+    return keep_prominent(s);
+}
+
+static ss_status
 find_all(search *s)
 {
     ss_value period;
@@ -332,19 +468,25 @@ find_all(search *s)
     if (!isnan(period.value))
         s->out->forcing_frequency = (ss_value){ s->rate / period.value, s->rate * period.error
                                                 / (period.value * period.value) };
-    st = find_noise(s);
-    if (st == SS_OK)
-        st = ss_maxima_above(&s->found, &s->n_found, s->coef,
-                             fmin(SLIGHT, s->opts->threshold), noise_floor(s));
-    if (st != SS_OK)
+    if ((st = ss_find_spikes(&s->out->spikes, s->x, s->n, s->rate, &ss_spike_defaults,
+                             NULL)) != SS_OK
+        || (st = find_maxima(s)) != SS_OK)
         return st;
-    drop_noise(s);
-    st = keep_prominent(s);
-    for (int slight = 0; slight < 2 && st == SS_OK && s->out->n == 0; slight++) {
+    if (s->opts->drop > 0)
+        st = find_dropped(s);
+    for (int slight = 0; slight < 2 && st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0); slight++) {
         double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
         if (f > 0)
             st = find_ringing(s, f);
     }
+    if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0) && s->out->spikes->conclusive)
+        st = find_spiked(s);
+    if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0))
+        st = find_single(s);
+    if (st != SS_OK)
+        return st;
+    count_spikes(s->out);
+    find_slip_rate(s);
     if (st == SS_OK)
         find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
     return st;
@@ -356,7 +498,7 @@ check(const ss_signal *signal, size_t column, const ss_features_opts *opts, ss_e
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu", column + 1);
     if (!(opts->threshold > 0 && opts->mass >= 0 && opts->stiffness >= 0 && opts->fmin >= 0
-          && isfinite(opts->threshold + opts->mass + opts->stiffness + opts->fmin)))
+          && opts->drop >= 0 && isfinite(opts->drop + opts->threshold + opts->mass + opts->stiffness + opts->fmin)))
         return ss_fail(err, SS_EINVAL, "threshold, mass, stiffness or fmin out of range");
     if (opts->threads < 1 || opts->threads > SS_THREADS_MAX)
         return ss_fail(err, SS_EINVAL, "threads out of range");
@@ -368,13 +510,14 @@ check(const ss_signal *signal, size_t column, const ss_features_opts *opts, ss_e
 
 /* A copy of x over its largest |value|; NULL: no memory. */
 static double *
-normalised(const double *x, size_t n)
+normalised(const double *x, size_t n, double *largest)
 {
-    double *copy = malloc((n + 1) * sizeof *copy), largest = 0;
+    double *copy = malloc((n + 1) * sizeof *copy);
+    *largest = 0;
     for (size_t i = 0; i < n; i++)
-        largest = fmax(largest, fabs(x[i]));
+        *largest = fmax(*largest, fabs(x[i]));
     for (size_t i = 0; i < n && copy != NULL; i++)
-        copy[i] = largest > 0 ? x[i] / largest : 0;
+        copy[i] = *largest > 0 ? x[i] / *largest : 0;
     return copy;
 }
 
@@ -388,7 +531,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         return st;
     s.n = signal->n;
     s.rate = signal->head->rate;
-    s.x = normalised(signal->values + column * s.n, s.n);
+    s.x = normalised(signal->values + column * s.n, s.n, &s.largest);
     s.out = calloc(1, sizeof *s.out);
     if (s.out == NULL || s.x == NULL) {
         free(s.x);
@@ -406,6 +549,9 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
     free(s.found);
     if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* too short for anything to be in it */
         st = SS_OK;
+    if (st == SS_OK && s.out->spikes == NULL
+        && (s.out->spikes = calloc(1, sizeof *s.out->spikes)) == NULL)
+        st = ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
     if (st == SS_OK)
         *out = s.out;
     else
@@ -420,5 +566,6 @@ ss_features_free(ss_features *features)
         return;
     free(features->transition);
     free(features->maximum);
+    ss_spikes_free(features->spikes);
     free(features);
 }

@@ -101,7 +101,7 @@ take_points(map *m)
             const double *w = m->coef->w + 2 * (scale->offset + k);
             point p = { .at = index_of(m, row, k) };
             double level = hypot(w[0], w[1]);
-            if (!(level > m->floor) || ss_scale_edge(scale, k, m->coef->n, m->coef->head->rate))
+            if (!(level > m->floor) || ss_coefficients_edge(m->coef, row, k))
                 continue;
             memcpy(&p.key, &level, sizeof level);
             m->point[m->n++] = p;
@@ -203,12 +203,10 @@ flood(map *m)
 static int
 on_border(const map *m, size_t row, size_t k)
 {
-    const ss_scale *scale = &m->coef->scale[row];
-    double rate = m->coef->head->rate;
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == scale->n || ss_scale_edge(scale, k - 1, m->coef->n, rate)
-        || ss_scale_edge(scale, k + 1, m->coef->n, rate);
+    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k - 1)
+        || ss_coefficients_edge(m->coef, row, k + 1);
 }
 
 static int
@@ -228,16 +226,18 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
     if (peak == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < m->n; i++) {
-        size_t at = m->point[i].at, row = row_of(m, at), k = at - index_of(m, row, 0);
-        const ss_scale *scale = &m->coef->scale[row];
+        size_t at = m->point[i].at;
         double height = level_of(m->point[i].key), saddle = m->saddle[at];
+        if (m->pool[at] != at && !(saddle > 0))
+            continue;                   /* no peak */
+        size_t row = row_of(m, at), k = at - index_of(m, row, 0);
+        const ss_scale *scale = &m->coef->scale[row];
         double below = saddle > 0 || i == 0 ? saddle : m->floor;    /* only the highest has no saddle */
         double fall = below > 0 ? 20 * log10(height / below) : INFINITY;
         double level = 20 * log10(height / top);
         if (count > 0 && level < peak[0].level - range)
             break;
-        if ((m->pool[at] == at || saddle > 0) && fall > 0 && fall >= min_prominence
-            && !on_border(m, row, k))
+        if (fall > 0 && fall >= min_prominence && !on_border(m, row, k))
             peak[count++] = (ss_maximum){ ss_scale_b(scale, k), scale->f, level, fall };
     }
     qsort(peak, count, sizeof *peak, earlier_first);

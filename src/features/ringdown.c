@@ -36,6 +36,10 @@
 #define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
 #define MISFIT 1e-3             /* of the oscillation's amplitude: the line's own error is taken for noise */
+#define ROUGH 0.02              /* a core is described badly if more of its oscillation's amplitude is left */
+#define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
+#define LASTS 0.15              /* and of the amplitude at its start, at its end: what is gone rang no two periods */
+#define APART 3.0               /* periods: transitions nearer than that have no room for two and a slip */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 #define FINE 1e-8
@@ -297,12 +301,12 @@ find_noise(work *k, const ss_window *window, size_t n)
     return SS_OK;
 }
 
-/* The core about an anchor: where the line and the oscillation leave least, among the places where
- * there is at least a quarter of the most oscillation. */
+/* The window of so many periods about an anchor where the line and the oscillation leave least, among
+ * the places where there is at least a quarter of the most oscillation. */
 static ss_window
-place_core(work *k, size_t anchor)
+place(work *k, size_t anchor, double size_in_periods)
 {
-    size_t size = periods(k, CORE), step = 1 + periods(k, 1) / PLACES;
+    size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1);
     ss_window best = { 0, 0 };
     size = size > k->columns + 2 ? size : k->columns + 2;
@@ -571,29 +575,113 @@ jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
     return SS_OK;
 }
 
-/* --- all of it ----------------------------------------------------------------------------- */
+/* --- each transition by itself ------------------------------------------------------------- */
 
 static ss_status
-fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
+fit_one(work *k, ss_window win, ss_value each[2], linear *fitted)
 {
-    double w = k->w, s = k->s;
-    ss_status st = SS_OK;
     int ok;
-    for (size_t i = 0; i < n && st == SS_OK; i++) {
-        if (length(window[i]) <= k->columns + 2)
-            continue;
-        k->w = w, k->s = s;
-        st = fit(k, &window[i], 1, FINE, &ok);
-        if (st != SS_OK || !ok)
-            continue;
-        normal h = normal_of(k, window[i]);
-        each[2 * i].value = k->w;
-        each[2 * i + 1].value = k->s;
-        errors_of_fit(&h, h.rss / (double)(length(window[i]) - k->columns - 2), each + 2 * i);
+    double w = k->w, s = k->s;
+    ss_status st = fit(k, &win, 1, FINE, &ok);
+    if (st == SS_OK && ok) {
+        *fitted = project(k, win);
+        normal h = normal_of(k, win);
+        each[0].value = k->w;
+        each[1].value = k->s;
+        errors_of_fit(&h, h.rss / (double)(length(win) - k->columns - 2), each);
     }
     k->w = w, k->s = s;
     return st;
 }
+
+static ss_status
+fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
+{
+    linear fitted;
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < n && st == SS_OK; i++)
+        if (length(window[i]) > k->columns + 2)
+            st = fit_one(k, window[i], each + 2 * i, &fitted);
+    return st;
+}
+
+/* Are the cores described badly, even when they are placed and fitted in turns?  Then it is not the
+ * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor noise,
+ * but that the oscillation is not quite a damped sinusoid. */
+static int
+is_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white)
+{
+    enum { TURNS = 3 };
+    size_t rough = 0, used = 0;
+    int ok = 1;
+    for (int turn = 0; turn < TURNS && ok; turn++) {
+        for (size_t i = 0; i < n; i++)
+            core[i] = place(k, anchor[i], CORE);
+        if (fit(k, core, n, COARSE, &ok) != SS_OK)
+            return 0;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (length(core[i]) == 0)
+            continue;
+        linear fitted = project(k, core[i]);
+        double variance = fitted.rss / (double)(length(core[i]) - k->columns);
+        used++;
+        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && variance > 9 * white * white;
+    }
+    return 2 * rough > used;
+}
+
+/* Windows of the least length where none could be grown, each fitted by itself and kept if the
+ * oscillation explains it well. */
+static ss_status
+fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
+{
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < n && st == SS_OK; i++) {
+        ss_window win = place(k, anchor[i], LEAST);
+        ss_value own[2] = { nothing, nothing };
+        linear fitted;
+        if (length(window[i]) > 0 || length(win) <= k->columns + 2)
+            continue;
+        st = fit_one(k, win, own, &fitted);
+        if (st != SS_OK || !(fabs(log(own[0].value / k->w)) < M_LN2 / 2)
+            || !(fitted.ring > EXPLAINED * (fitted.ring + fitted.rss))
+            || !(exp(-own[1].value * (double)length(win)) > LASTS))
+            continue;
+        memcpy(each + 2 * i, own, sizeof own);
+        window[i] = win;
+    }
+    return st;
+}
+
+/* The median of those fitted one by one, and its error from their scatter. */
+static ss_status
+take_median(const ss_window *window, size_t n, const ss_value *each, ss_value value[2])
+{
+    double *v = malloc((n + 1) * sizeof *v);
+    if (v == NULL)
+        return SS_ENOMEM;
+    for (int j = 0; j < 2; j++) {
+        double mean = 0, scatter = 0;
+        size_t used = 0;
+        for (size_t i = 0; i < n; i++)
+            if (length(window[i]) > 0 && !isnan(each[2 * i + j].value))
+                v[used++] = each[2 * i + j].value;
+        if (used < FEW)
+            break;
+        qsort(v, used, sizeof *v, by_size);
+        for (size_t i = 0; i < used; i++)
+            mean += v[i] / (double)used;
+        for (size_t i = 0; i < used; i++)
+            scatter += (v[i] - mean) * (v[i] - mean) / (double)(used - 1);
+        value[j].value = used % 2 ? v[used / 2] : 0.5 * (v[used / 2 - 1] + v[used / 2]);
+        value[j].error = sqrt(M_PI / 2 * scatter / (double)used);       /* of a Gaussian's median */
+    }
+    free(v);
+    return SS_OK;
+}
+
+/* --- all of it ----------------------------------------------------------------------------- */
 
 static ss_status
 fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *window,
@@ -602,7 +690,7 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
     double start = k->w;
     int ok = 0, more = 1;
     for (size_t i = 0; i < n; i++)
-        core[i] = window[i] = place_core(k, anchor[i]);
+        core[i] = window[i] = place(k, anchor[i], CORE);
     ss_status st = fit(k, core, n, COARSE, &ok);
     if (st == SS_OK && ok)
         st = find_noise(k, core, n);
@@ -689,9 +777,33 @@ fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value va
     return st;
 }
 
+/* What neither fit describes: one by one. */
+static ss_status
+fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
+           ss_value *each, double white)
+{
+    size_t strict = 0, used = 0;
+    if (n < 2 || (double)(anchor[n - 1] - anchor[0]) < APART * period(k) * (double)(n - 1))
+        return SS_OK;
+    ss_window *core = malloc((n + 1) * sizeof *core);
+    if (core == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        strict += length(window[i]) > 0;
+    int rough = 2 * strict < n && is_rough(k, anchor, core, n, white);
+    free(core);
+    if (!rough)
+        return SS_OK;
+    ss_status st = fit_rough(k, anchor, n, window, each);
+    for (size_t i = 0; i < n; i++)
+        used += length(window[i]) > 0;
+    return st == SS_OK && used > strict ? take_median(window, n, each, value) : st;
+}
+
 ss_status
 ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
-                double forcing, ss_window *window, ss_value value[2], ss_value *each)
+                double forcing, double white, ss_window *window, ss_value value[2],
+                ss_value *each)
 {
     work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1 };
     k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
@@ -703,6 +815,10 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     k.r = memory + COLUMNS * k.room;
     k.j = memory + (COLUMNS + 1) * k.room;
     ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
+    k.w = w, k.s = START * w;
+    k.forcing = 0, k.columns = COLUMNS - 1;
+    if (st == SS_OK)
+        st = fit_singly(&k, anchor, n_anchors, window, value, each, white);
     free(memory);
     return st;
 }

@@ -14,6 +14,7 @@
 #include "features/rows.h"
 #include <stickslip/spikes.h>
 
+#define DEEPEST 5.0             /* octaves looked at for the first: smooth over 100 samples is smooth */
 #define REACH 2.0               /* octaves looked at from the first row with a spike on */
 #define CLEAR 2.0               /* scales that two spikes are apart at least */
 #define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
@@ -172,7 +173,7 @@ search_rows(search *s, double f, ss_error *err)
     double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
     if (!(octaves > 0))
         return SS_OK;           /* too short for any */
-    size_t rows = (size_t)(octaves * ROW_VOICES) + 1, last = rows - 1;
+    size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
     s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
     s->row = calloc(rows, sizeof *s->row);
     if (s->row == NULL)

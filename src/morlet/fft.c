@@ -92,6 +92,7 @@ struct fft {
     inverse *inverse;
     size_t n_inverse, longest;
     kaiser *kernel[2][KERNELS];     /* for each bound; NULL: none needed */
+    int no_memory;                  /* for one of them */
 };
 
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
@@ -633,9 +634,13 @@ advance_kernel(struct fft *f, int round, double edge)
     if (edge > EDGE_MAX)
         return NULL;
     kaiser **at = &f->kernel[round][k];
-    if (*at == NULL && kernel_for(f, made_for, f->bound[round], &ker)
-        && (*at = malloc(sizeof ker)) != NULL)
+    if (*at != NULL || !kernel_for(f, made_for, f->bound[round], &ker))
+        return *at;
+    *at = malloc(sizeof ker);
+    if (*at != NULL)
         **at = ker;
+    else
+        f->no_memory = 1;
     return *at;
 }
 
@@ -801,6 +806,8 @@ ss_fft_new(ss_morlet *plan)
     f->bound[1] = TAIL_FLOOR;
     choose_levels(f, plan);
     choose_routes(f, plan);
+    if (f->no_memory)
+        return SS_ENOMEM;
     if (any_route(f, plan->n_scales))
         return plan_all(f, plan->n_scales);
     ss_fft_free(f);

@@ -134,26 +134,42 @@ put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
 
 /* --- what stands around it ----------------------------------------------------------------- */
 
-/* The cone of influence: a curve of times at either end, nearer than sqrt(2) a to it. */
+/* One side of a shaded area: from lo to hi Hz the times that are sqrt(2) a after t, or before it where
+ * the sign is -1, but not beyond stop. */
 static void
-put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo, double hi)
+put_side(FILE *out, const script_span *span, double t, int sign, double stop, double center,
+         const double band[2])
 {
     enum { POINTS = 100 };
-    double start = c->head->start, length = (double)(c->n - 1) / c->head->rate;
     int decimals = ss_script_decimals(span->to - span->from);
-    for (int end = 0; end < 2; end++) {
-        fputs(end == 0 ? "$cone_left << EOD\n" : "$cone_right << EOD\n", out);
-        for (int i = -1; i <= POINTS + 1; i++) {
-            double f = lo * pow(hi / lo, fmin(fmax(i, 0), POINTS) / POINTS);
-            double edge = fmin(sqrt(2) * c->center / (2 * M_PI * f), length / 2);
-            if (i < 0 || i > POINTS)            /* close the polygon beyond the end of the record */
-                edge = -1;
-            double t = end == 0 ? start + edge : start + length - edge;
-            ss_script_put(out, fmin(fmax(t, span->from), span->to), decimals, " ");
-            ss_script_put(out, f, 6, "\n");
-        }
-        fputs("EOD\n", out);
+    for (int i = 0; i <= POINTS; i++) {
+        double part = (double)(sign > 0 ? i : POINTS - i) / POINTS;
+        double f = band[0] * pow(band[1] / band[0], part);
+        double edge = t + sign * sqrt(2) * center / (2 * M_PI * f);
+        edge = sign > 0 ? fmin(edge, stop) : fmax(edge, stop);
+        ss_script_put(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
+        ss_script_put(out, f, 6, "\n");
     }
+}
+
+/* The cone of influence, nearer than sqrt(2) a to an end of the record, and the like around gaps:
+ * closed curves, a blank line between them. */
+static void
+put_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
+{
+    double start = c->head->start, end = start + (double)(c->n - 1) / c->head->rate;
+    fputs("$cone << EOD\n", out);
+    put_side(out, span, start, 1, start + (end - start) / 2, c->center, band);
+    put_side(out, span, -INFINITY, -1, start, c->center, band);
+    putc('\n', out);
+    put_side(out, span, end, -1, end - (end - start) / 2, c->center, band);
+    put_side(out, span, INFINITY, 1, end, c->center, band);
+    for (size_t i = 0; i < c->n_gaps; i++) {
+        putc('\n', out);
+        put_side(out, span, c->gap[i].to, 1, end, c->center, band);
+        put_side(out, span, c->gap[i].from, -1, start, c->center, band);
+    }
+    fputs("EOD\n", out);
 }
 
 /* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
@@ -211,8 +227,9 @@ put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
     visible seen = { 0, 0, 0 };
     fputs("$spans << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spans; i++) {
+        double shortest = (span->to - span->from) / COLUMNS * 2;        /* to be seen at all */
         double from = fmax(overlay->span[i][0], span->from);
-        double to = fmin(overlay->span[i][1], span->to);
+        double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
         if (!(from <= to))
             continue;
         ss_script_put(out, from, decimals, " ");
@@ -297,9 +314,8 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
     put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
     if (contour->signal == NULL)
         fputs("unset label 1\n", out);
-    fputs("plot $cone_left using 1:2 with filledcurves closed fs solid 1 noborder lc rgb cone_colour, "
-          "\\\n    $cone_right using 1:2 with filledcurves closed fs solid 1 noborder lc rgb "
-          "cone_colour, \\\n", out);
+    fputs("plot $cone using 1:2 with filledcurves closed fs solid 1 noborder lc rgb cone_colour, "
+          "\\\n", out);
     if (contour->n_events > 0)
         fputs("    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour, "
               "\\\n", out);
@@ -374,7 +390,7 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
         status = put_signal(out, contour, &drawn, &range, err);
     if (status != SS_OK)
         return status;
-    put_cone(out, c, &span, fmin, fmax);
+    put_cone(out, c, &span, (const double[2]){ fmin, fmax });
     if (contour->n_events > 0)
         put_events(out, contour, &span);
     if (contour->overlay != NULL) {
