@@ -155,6 +155,7 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
     ss_status st;
     opts.voices = 4;
     opts.accuracy = 1e-4;
+    opts.detrend = SS_DETREND_MEAN;
     for (size_t i = 0; i < SS_CRITERIA; i++)
         l->value[i] = NAN;
     l->map = NULL;
