@@ -1,4 +1,5 @@
-/* spike_score.h -- spikes found in the acceleration of a scene, held against the simulator's events.
+/* spike_score.h -- spikes found in the acceleration of a scene, held against the simulator's
+ * events.
  *
  * A slip that sticks again within twice the scale at which a spike is seen is one event with
  * the stick that ends it: a spike between the two is right. */
@@ -84,7 +85,8 @@ score_distance(const score_scene *s, double t, double a)
     double least = INFINITY;
     for (size_t i = 0; i < s->n_events; i++) {
         double slip = score_micro_slip(s, i), since = t - s->event[i].t;
-        least = fmin(least, slip > 0 && slip < 2 * a && since > 0 && since < slip ? 0 : fabs(since));
+        int between = slip > 0 && slip < 2 * a && since > 0 && since < slip;
+        least = fmin(least, between ? 0 : fabs(since));
     }
     return least;
 }

@@ -206,7 +206,8 @@ main(int argc, char *argv[])
     static const struct option longopts[] = {
         { "levels", required_argument, NULL, OPT_LEVELS },
         { "span", required_argument, NULL, OPT_SPAN },
-        { "signal", required_argument, NULL, OPT_SIGNAL }, { "column", required_argument, NULL, 'c' },
+        { "signal", required_argument, NULL, OPT_SIGNAL },
+        { "column", required_argument, NULL, 'c' },
         { "events", required_argument, NULL, OPT_EVENTS },
         { "features", required_argument, NULL, OPT_FEATURES },
         { "title", required_argument, NULL, OPT_TITLE },

@@ -80,7 +80,7 @@ find_level(const ss_header *head, size_t column, const double *x, size_t n)
     return level;
 }
 
-/* White noise is drawn row by row, as in a stream; that of a band for one column after the other. */
+/* White noise is drawn row by row, as in a stream; that of a band column by column. */
 static void
 add_noise(ss_noise *noise, ss_signal *signal, const double *level)
 {

@@ -1,9 +1,9 @@
 /* breakpoint.c -- a two-sided fit with a free break.
  *
- * Left of the break a cubic, right of it the same plus truncated powers 1 to 3 (a kink), or 0 to 3 (a
- * jump).  All but the place of the break is linear: the residual is what an orthogonal projection
- * leaves, and the place is where it is least.  Between two samples a jump has no place (any gives the
- * same samples), so it is put half way. */
+ * Left of the break a cubic, right of it the same plus truncated powers 1 to 3 (a kink), or 0 to 3
+ * (a jump).  All but the place of the break is linear: the residual is what an orthogonal
+ * projection leaves, and the place is where it is least.  Between two samples a jump has no place
+ * (any gives the same samples), so it is put half way. */
 #include "features/breakpoint.h"
 
 #include <math.h>
@@ -57,8 +57,8 @@ residual(const piece *p, double at, int lowest)
     return sum;
 }
 
-/* Where in [lo, hi] the residual of a kink is least: scanned in steps of a quarter of a sample, then by
- * golden section, then by the parabola through the last three. */
+/* Where in [lo, hi] the residual of a kink is least: scanned in steps of a quarter of a sample,
+ * then by golden section, then by the parabola through the last three. */
 static double
 least_kink(const piece *p, double lo, double hi, double *sum)
 {

@@ -49,7 +49,8 @@ static ss_status
 take(ss_bursts *found, row *r, double threshold, double range)
 {
     size_t n = 0;
-    qsort(r->peak, r->n, sizeof *r->peak, stronger_first);
+    if (r->n > 1)
+        qsort(r->peak, r->n, sizeof *r->peak, stronger_first);
     found->burst = malloc((r->n + 1) * sizeof *found->burst);
     if (found->burst == NULL)
         return SS_ENOMEM;

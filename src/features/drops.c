@@ -1,10 +1,11 @@
 /* drops.c -- how often and how far a force drops: a sawtooth of stick and slip, read by height.
  *
  * Turning points are those that the signal leaves by RELOAD of the height asked for; falls between
- * them that are higher than it are drops, so that no slow drift adds up to one.  They are read behind a running median, which takes single wrong samples away
- * and leaves edges as they are.  Its width follows from the noise: extremes of what it leaves (3
- * standard deviations at either end) may change a height by ERROR of the one asked for; but it is no
- * wider than half a fall, so that it does not flatten the turning points. */
+ * them that are higher than it are drops, so that no slow drift adds up to one.  They are read
+ * behind a running median, which takes single wrong samples away and leaves edges as they are.  Its
+ * width follows from the noise: extremes of what it leaves (3 standard deviations at either end)
+ * may change a height by ERROR of the one asked for; but it is no wider than half a fall, so that
+ * it does not flatten the turning points. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -116,7 +117,9 @@ read_turning_points(drop_list *list, const double *y, size_t n, double rate, dou
             high = i;
         }
     }
-    return falls && y[high] - y[low] > height && st == SS_OK ? append(list, y, high, low, rate) : st;
+    if (st == SS_OK && falls && y[high] - y[low] > height)
+        st = append(list, y, high, low, rate);
+    return st;
 }
 
 /* Samples from turning point to turning point, the median over all drops; scratch holds n. */

@@ -4,9 +4,9 @@
  * noise is exponential, its median ln 2 of its mean.  Not less than what rounding of the samples
  * makes: of a converter's step, or of the last digit that numbers are trusted to have.
  *
- * Threshold: |W| of Gaussian noise crosses the level u (in units of its rms) upwards
- * u exp(-u^2) / (a sqrt(2 pi)) times a second (Rice 1945, with the spectral width 1 / (sqrt(2) a) of
- * the Morlet wavelet); summed over the rows that is to be false_alarms.  Neighbouring rows are not
+ * Threshold: |W| of Gaussian noise crosses the level u (in units of its rms) upwards u exp(-u^2) /
+ * (a sqrt(2 pi)) times a second (Rice 1945, with the spectral width 1 / (sqrt(2) a) of the Morlet
+ * wavelet); summed over the rows that is to be false_alarms.  Neighbouring rows are not
  * independent, so there are fewer.
  *
  * The record is continued oddly about its end points, so that it goes on with the same value and
@@ -23,8 +23,9 @@
 #define QUIET 3.0               /* scales from a spike on that it is heard */
 #define LEAST 0.1               /* part of a row that its noise is read from at least */
 
-/* The step of the converter that the samples came through, 0 if none is seen: the smallest change, if
- * nearly all others are multiples of it.  Few or few different changes are a signal of steps. */
+/* The step of the converter that the samples came through, 0 if none is seen: the smallest change,
+ * if nearly all others are multiples of it.  A signal of few levels that changes seldom is one of
+ * steps. */
 static double
 converter_step(const double *x, size_t n)
 {
@@ -40,7 +41,8 @@ converter_step(const double *x, size_t n)
         changes += steps > 0;
         fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* by chance a fifth of them */
     }
-    if (changes < n / 20 || hi - lo < 8 * step || (double)fit < 0.9 * (double)changes)
+    int seldom = changes < n / 20, few = hi - lo < 64 * step;
+    if (hi - lo < 8 * step || (seldom && few) || (double)fit < 0.9 * (double)changes)
         return 0;
     return step;
 }
@@ -64,12 +66,13 @@ ss_row_source_init(row_source *source, const double *x, size_t n, double rate, d
         return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
     *source = (row_source){ .x = x, .n = n, .rate = rate, .constant = hi == lo };
     if (hi > lo)
-        source->rounding = fmax(precision * (hi - lo), converter_step(x, n) / sqrt(12)) / sqrt(rate);
+        source->rounding = fmax(precision * (hi - lo), converter_step(x, n) / sqrt(12))
+            / sqrt(rate);
     return SS_OK;
 }
 
-/* The record less its first value, with margin samples more at either end, an odd continuation; past
- * the other end of a record that is too short for that, its last value stays. */
+/* The record less its first value, with margin samples more at either end, an odd continuation;
+ * past the other end of a record that is too short for that, its last value stays. */
 static double *
 continued(const double *x, size_t n, size_t margin)
 {
@@ -103,9 +106,9 @@ summit(const double *level, double t, double step)
     return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
 }
 
-/* The rms of |W| in the n levels, which are sorted, one every step from t on, by the median of those
- * that are farther than quiet from all spikes found so far: all that there are, if these are less
- * than LEAST of them. */
+/* The rms of |W| in the n levels, which are sorted, one every step from t on, by the median of
+ * those that are farther than quiet from all spikes found so far: all that there are, if these are
+ * less than LEAST of them. */
 static double
 noise_of(const ss_spikes_found *loud, double *level, size_t n, double t, double step, double quiet)
 {

@@ -7,7 +7,7 @@
 
 #define ROW_CENTER 6.0
 #define ROW_VOICES 4
-#define ROW_HIGHEST 0.6         /* of Nyquist: nearer to it what is sampled is not what was measured */
+#define ROW_HIGHEST 0.6         /* of Nyquist: nearer to it converters have their filters */
 
 typedef struct row_source {
     const double *x;

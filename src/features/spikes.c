@@ -14,7 +14,7 @@
 #include "features/rows.h"
 #include <stickslip/spikes.h>
 
-#define DEEPEST 5.0             /* octaves looked at for the first: smooth over 100 samples is smooth */
+#define DEEPEST 5.0             /* octaves looked at for the first: 100 samples are smooth */
 #define REACH 2.0               /* octaves looked at from the first row with a spike on */
 #define CLEAR 2.0               /* scales that two spikes are apart at least */
 #define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
@@ -69,8 +69,8 @@ stands_out(const search *s, const row *r, const peak *p)
     return p != NULL && p->level > s->threshold * r->rms;
 }
 
-/* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most; what
- * it has above the noise where that is most, into *clearest. */
+/* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most;
+ * what it has above the noise where that is most, into *clearest. */
 static double
 slope_of(const search *s, size_t i, const peak *p, double *clearest)
 {
@@ -130,6 +130,13 @@ earlier_first(const void *a, const void *b)
     return (p->t > q->t) - (p->t < q->t);
 }
 
+static void
+sort(ss_spikes_found *found)
+{
+    if (found->n > 1)
+        qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
+}
+
 /* Is t clear of the n spikes found at shorter scales, which are in time order? */
 static int
 is_clear(const ss_spikes_found *found, size_t n, double t, double distance)
@@ -161,7 +168,7 @@ take_row(search *s, size_t i)
         if (st != SS_OK)
             return st;
     }
-    qsort(s->found->spike, s->found->n, sizeof *s->found->spike, earlier_first);
+    sort(s->found);
     return SS_OK;
 }
 
@@ -174,17 +181,19 @@ search_rows(search *s, double f, ss_error *err)
     if (!(octaves > 0))
         return SS_OK;           /* too short for any */
     size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
+    const size_t reach = (size_t)(REACH * ROW_VOICES);
     s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
     s->row = calloc(rows, sizeof *s->row);
     if (s->row == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i <= last; i++) {
-        ss_status st = ss_row_new(&s->row[i], src, f * exp2(-(double)i / ROW_VOICES), s->found, err);
+        double label = f * exp2(-(double)i / ROW_VOICES);
+        ss_status st = ss_row_new(&s->row[i], src, label, s->found, err);
         if (st != SS_OK)
             return st;
         s->n_rows = i + 1;
         if (s->row[i].top > s->threshold * s->row[i].rms && last == rows - 1)
-            last = i + (size_t)(REACH * ROW_VOICES) < last ? i + (size_t)(REACH * ROW_VOICES) : last;
+            last = i + reach < last ? i + reach : last;
         if (i > 0 && (st = take_row(s, i - 1)) != SS_OK)
             return st;
     }
@@ -233,7 +242,7 @@ finish(search *s)
         classify(s, &found->spike[i]);
     for (size_t i = 0; i < found->n; i++)
         found->spike[i].t = refined(s, i);
-    qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
+    sort(found);
     for (size_t i = 0; i < found->n; i++)
         found->f = fmax(found->f, found->spike[i].f);
     found->conclusive = found->floor <= -CONCLUSIVE;

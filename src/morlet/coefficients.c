@@ -128,6 +128,8 @@ ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
              const ss_morlet_opts *opts, ss_error *err)
 {
     ss_morlet *plan = NULL;
+    if (out == NULL || signal == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1,
                        signal->head->n_columns);
@@ -602,6 +604,8 @@ ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
     reader r = { .in = { .magic = COEFFICIENTS_MAGIC }, .err = err };
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = read_all(&r, in, name);
     for (size_t i = 0; i < r.n_parts; i++)
         free(r.part[i].w);

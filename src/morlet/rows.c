@@ -52,6 +52,8 @@ ss_status
 ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
                           const ss_header *head)
 {
+    if (out_writer == NULL || out == NULL || head == NULL)
+        return SS_EINVAL;
     const char *stream = ss_header_find_note(head, "stream");
     ss_coefficient_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
@@ -166,6 +168,8 @@ ss_status
 ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format)
 {
     ss_coefficient_writer *writer;
+    if (coefficients == NULL)
+        return SS_EINVAL;
     ss_status st = ss_coefficient_writer_new(&writer, out, format, coefficients->head);
     for (size_t i = 0; st == SS_OK && i < coefficients->n_scales; i++) {
         const ss_scale *scale = &coefficients->scale[i];

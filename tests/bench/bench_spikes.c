@@ -1,13 +1,14 @@
-/* bench_spikes.c -- which spikes are found in noise, how well they are placed, and how many are wrong.
+/* bench_spikes.c -- which spikes are found in noise, how well they are placed, and how many are
+ * wrong.
  *
  * Prints, for each scene and signal-to-noise ratio over fixed seeds: records in which counts are
- * conclusive; spikes at the simulator's events, the part of them within 1 and 2 samples of it; false
- * ones in a hundred transitions; micro-slips of 1.3 ms and more that are seen; grouped transitions.
- * Exits 1 if at 40 dB less than 95 % of the slips are seen, less than 80 and 95 % lie within 1 and 2
- * samples, or more than 1 is false.
+ * conclusive; spikes at the simulator's events, the part of them within 1 and 2 samples of it;
+ * false ones in a hundred transitions; micro-slips of 1.3 ms and more that are seen; grouped
+ * transitions. Exits 1 if at 40 dB less than 95 % of the slips are seen, less than 80 and 95 % lie
+ * within 1 and 2 samples, or more than 1 is false.
  *
- * bench_spikes --slips prints micro-slips seen against their length and the ratio, as man/figures/spikes.gp
- * draws them; the contact damping is varied for it. */
+ * bench_spikes --slips prints micro-slips seen against their length and the ratio, as
+ * man/figures/spikes.gp draws them; the contact damping is varied for it. */
 #include <stdio.h>
 #include <string.h>
 #include "../spike_score.h"
@@ -84,8 +85,8 @@ main(int argc, char *argv[])
         print_slips();
         return 0;
     }
-    printf("                  SNR  conclusive  spikes within samples  false  slips of  grouped\n"
-           "scene              dB           %%             1      2  in 100  1.3 ms %%        %%\n");
+    printf("                 SNR  conclusive  spikes  within samples  false  1.3 ms  grouped\n"
+           "scene             dB           %%               1      2  in 100       %%        %%\n");
     for (size_t k = 0; k < sizeof name / sizeof *name; k++) {
         score_scene s;
         score_scene_make(&s, name[k], RATE, DURATION, 0);
