@@ -244,19 +244,23 @@ noise_alone_has_no_spikes(void **state)
         fail_msg("%zu spikes in %d records of noise", wrong, 2 * RECORDS);
 }
 
-/* A converter rounds a slow sine to steps of its own: no jumps are found in it. */
+/* A converter rounds a slow sine to steps of its own, which seldom change where it is slowest: no
+ * jumps are found in it. */
 static void
 a_converter_makes_no_spikes(void **state)
 {
     enum { N = 4000 };
     double x[N];
+    ss_spikes_found *found;
     (void)state;
-    for (size_t i = 0; i < N; i++)
-        x[i] = sin(2 * M_PI * 7.3 * (double)i / RATE);
-    assert_int_equal(ss_quantise(x, N, 10, 1), SS_OK);
-    ss_spikes_found *found = find(x, N, RATE);
-    assert_int_equal(found->n, 0);
-    ss_spikes_free(found);
+    for (double f = 0.01; f < 10; f *= 27) {
+        for (size_t i = 0; i < N; i++)
+            x[i] = sin(2 * M_PI * f * (double)i / RATE);
+        assert_int_equal(ss_quantise(x, N, 10, 1), SS_OK);
+        found = find(x, N, RATE);
+        assert_int_equal(found->n, 0);
+        ss_spikes_free(found);
+    }
     for (size_t i = N / 2; i < N; i++)
         x[i] += 0.25;
     found = find(x, N, RATE);

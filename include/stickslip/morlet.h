@@ -46,7 +46,8 @@ typedef struct ss_morlet_opts {
     ss_engine engine;
     double accuracy;            /* TOL  1e-13 ... 1e-1: the error of the sum is at most TOL x (largest
                                    |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x|, with the
-                                   1/a norm 16 DBL_EPSILON max|x| */
+                                   1/a norm 16 DBL_EPSILON max|x|; or the least step of a double,
+                                   where that is more */
     ss_norm norm;
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
     ss_detrend detrend;         /* what is subtracted from the record first */

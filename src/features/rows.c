@@ -24,7 +24,8 @@
 #define LEAST 0.1               /* part of a row that its noise is read from at least */
 
 /* The step of the converter that the samples came through, 0 if none is seen: the smallest change,
- * if nearly all others are multiples of it.  Few or few different changes are a signal of steps. */
+ * if nearly all others are multiples of it.  A signal of few levels that changes seldom is one of
+ * steps. */
 static double
 converter_step(const double *x, size_t n)
 {
@@ -40,7 +41,8 @@ converter_step(const double *x, size_t n)
         changes += steps > 0;
         fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* by chance a fifth of them */
     }
-    if (changes < n / 20 || hi - lo < 8 * step || (double)fit < 0.9 * (double)changes)
+    int seldom = changes < n / 20, few = hi - lo < 64 * step;
+    if (hi - lo < 8 * step || (seldom && few) || (double)fit < 0.9 * (double)changes)
         return 0;
     return step;
 }

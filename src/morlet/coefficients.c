@@ -113,6 +113,8 @@ ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
              const ss_morlet_opts *opts, ss_error *err)
 {
     ss_morlet *plan = NULL;
+    if (out == NULL || signal == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1,
                        signal->head->n_columns);
@@ -161,6 +163,8 @@ write_scale(const ss_coefficients *coef, const ss_scale *scale, FILE *out)
 ss_status
 ss_coefficients_write(const ss_coefficients *coefficients, FILE *out)
 {
+    if (coefficients == NULL || out == NULL)
+        return SS_EINVAL;
     const ss_header *head = coefficients->head;
     fprintf(out, "%s\n", magic);
     for (size_t i = 0; i < head->n_notes; i++)
@@ -496,6 +500,8 @@ ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
     reader r = { .err = err };
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = ss_input_open(&r.in, in, name, err);
     if (st == SS_OK)
         st = read_all(&r);

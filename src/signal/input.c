@@ -74,7 +74,7 @@ fill(struct input *in, ss_error *err)
         while (n < 0 && errno == EINTR);
     }
     if (n < 0)
-        return ss_fail(err, SS_EIO, "%s: %s", in->name, strerror(errno));
+        return ss_fail_errno(err, in->name, errno);
     in->ended = n == 0;
     in->hi += (size_t)n;
     return SS_OK;

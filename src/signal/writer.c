@@ -69,6 +69,8 @@ write_header(ss_writer *writer)
 ss_status
 ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
 {
+    if (out_writer == NULL || out == NULL || head == NULL)
+        return SS_EINVAL;
     ss_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
     if (writer == NULL)
@@ -105,6 +107,8 @@ put_value(ss_writer *writer, double x, char separator)
 ss_status
 ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
 {
+    if (writer == NULL || (rows == NULL && n > 0))
+        return SS_EINVAL;
     const ss_header *head = writer->head;
     size_t columns = head->n_columns;
     for (size_t i = 0; i < n; i++, writer->row++) {
@@ -143,6 +147,8 @@ ss_signal_write(const ss_signal *signal, FILE *out, ss_format format)
 {
     enum { PIECE = 1024 };
     ss_writer *writer;
+    if (signal == NULL || out == NULL)
+        return SS_EINVAL;
     size_t columns = signal->head->n_columns;
     double *rows = malloc((columns + 1) * PIECE * sizeof *rows);
     if (rows == NULL)
