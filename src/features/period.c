@@ -1,10 +1,10 @@
 /* period.c -- the time after which a signal repeats itself.
  *
- * The largest line of a spectrum may be any harmonic, and the fundamental may be missing; what all of
- * them share is the period.  It is the lag of the first peak of the autocorrelation that is nearly
- * as high as the highest.  The autocorrelation is that of the spectrum's magnitude instead of its
+ * The largest line of a spectrum may be any harmonic, and the fundamental may be missing; what all
+ * of them share is the period. It is the lag of the first peak of the autocorrelation that is nearly
+ * as high as the highest. The autocorrelation is that of the spectrum's magnitude instead of its
  * square (Tolonen and Karjalainen 2000, "compressed"): else one strong line makes peaks of its own
- * and a slow drift hides them all.  Peaks at the multiples of the lag then refine it, and their
+ * and a slow drift hides them all. Peaks at the multiples of the lag then refine it, and their
  * scatter is its error. */
 #include "period.h"
 
@@ -15,9 +15,9 @@
 #include <stdlib.h>
 
 #define NEARLY 0.9              /* of the highest peak: the first peak as high as this is the period's */
-/* The least correlation that counts.  That of white noise has the standard deviation n^-1/2: SIGMAS of
- * them are not reached by chance at any of 1e6 lags.  Irregular slips reach 0.05, drifting ones that
- * still repeat 0.3. */
+/* The least correlation that counts. That of white noise has the standard deviation n^-1/2: SIGMAS
+ * of them are not reached by chance at any of 1e6 lags. Irregular slips reach 0.05, drifting ones
+ * that still repeat 0.3. */
 #define LEAST 0.15
 #define SIGMAS 5.5
 
@@ -69,9 +69,9 @@ peak_near(const double *r, double at, double reach)
     return (double)best + fmax(-0.5, fmin(0.5, shift));
 }
 
-/* The period that the peaks at the multiples of a lag have in common, up to last and as many as most,
- * and the height of the last of them.  In *error its standard error: alone, a peak is known to the
- * sample. */
+/* The period that the peaks at the multiples of a lag have in common, up to last and as many as
+ * most, and the height of the last of them. In *error its standard error: alone, a peak is known to
+ * the sample. */
 static double
 follow(const double *r, size_t lag, double last, double most, double *height, double *error)
 {
