@@ -79,7 +79,7 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_writer_rows(NULL, NULL, 0), NULL);
     assert_refused(ss_scene_write(NULL, stdout), NULL);
     assert_refused(ss_scene_write(&scene, NULL), NULL);
-    assert_refused(ss_coefficients_write(NULL, stdout), NULL);
+    assert_refused(ss_coefficients_write(NULL, stdout, SS_TSV), NULL);
     assert_refused(ss_transform(&c, NULL, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_store_write(NULL, &record, &e), &e);
     assert_refused(ss_store_write("x.h5", NULL, &e), &e);

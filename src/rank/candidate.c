@@ -14,8 +14,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_qrng.h>
+#include "error.h"
 
-enum { STIFFNESS, RATIO, OWN_1, OWN_2 };
 enum { STARTS_MOST = 256 };
 
 /* The scaled law of f_k = 1 N and gamma f_k in place of gamma is the literal one. */
@@ -36,6 +36,15 @@ drive_of(const ss_scene *scene)
     return scene->stiffness * scene->base_amplitude;
 }
 
+ss_status
+ss_candidate_check(const ss_scene *scene, ss_error *err)
+{
+    ss_status st = ss_scene_check(scene, err);
+    if (st == SS_OK && !(drive_of(scene) > 0))
+        return ss_fail(err, SS_EINVAL, "base_amplitude = 0: such a scene has no cycle to compare");
+    return st;
+}
+
 candidate
 ss_candidate_of(const ss_scene *scene, int pick, double factor)
 {
@@ -46,19 +55,19 @@ ss_candidate_of(const ss_scene *scene, int pick, double factor)
                                    compliant ? s->contact_stiffness : s->gamma,
                                    compliant ? s->contact_damping : s->alpha };
     if (s->model == SS_COULOMB)
-        c.n = OWN_1;
+        c.n = CANDIDATE_FIRST;
     for (size_t i = 0; i < c.n; i++) {
-        /* no damping is damping too small to see; what is not finite never moves */
+        /* no friction or damping is as good as too little to see */
         c.own[i] = log(fmax(own[i], 1e-300));
         c.lo[i] = c.own[i] - log(factor);
         c.hi[i] = c.own[i] + log(factor);
         c.best[i] = c.own[i];
     }
-    if (c.lo[RATIO] < 0)            /* f_k > k Z_e: nothing slips */
-        c.hi[RATIO] = fmin(c.hi[RATIO], 0);
+    if (c.lo[CANDIDATE_RATIO] < 0)            /* f_k > k Z_e: nothing slips */
+        c.hi[CANDIDATE_RATIO] = fmin(c.hi[CANDIDATE_RATIO], 0);
     if (s->model == SS_STATE_VARIABLE) {    /* alpha v is told, and v is as free as Z_e is */
-        c.lo[OWN_2] -= log(factor) / 2;
-        c.hi[OWN_2] += log(factor) / 2;
+        c.lo[CANDIDATE_SECOND] -= log(factor) / 2;
+        c.hi[CANDIDATE_SECOND] += log(factor) / 2;
     }
     return c;
 }
@@ -69,16 +78,16 @@ scene_of(const candidate *c, const double key[CANDIDATE_KEYS], double period)
 {
     ss_scene s = c->scene;
     double drive = drive_of(&s);
-    s.stiffness = exp(key[STIFFNESS]);
+    s.stiffness = exp(key[CANDIDATE_STIFFNESS]);
     s.base_amplitude = drive / s.stiffness;
-    s.friction = drive * exp(key[RATIO]);
+    s.friction = drive * exp(key[CANDIDATE_RATIO]);
     s.base_frequency = 1 / period;
     if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = exp(key[OWN_1]);
-        s.contact_damping = exp(key[OWN_2]);
+        s.contact_stiffness = exp(key[CANDIDATE_FIRST]);
+        s.contact_damping = exp(key[CANDIDATE_SECOND]);
     } else if (s.model == SS_STATE_VARIABLE) {
-        s.gamma = exp(key[OWN_1]);
-        s.alpha = exp(key[OWN_2]);
+        s.gamma = exp(key[CANDIDATE_FIRST]);
+        s.alpha = exp(key[CANDIDATE_SECOND]);
     }
     s.phase = s.x0 = s.v0 = 0;
     s.settle = CANDIDATE_SETTLE * period;
@@ -250,7 +259,7 @@ ss_candidate_distance(const candidate *c)
     double sum = 0, of_mass = 0, squares = 0;
     for (size_t i = 0; i < c->n; i++) {
         double d = c->best[i] - c->own[i];
-        int by_mass = i == STIFFNESS || (i > RATIO && c->scene.model == SS_COMPLIANT);
+        int by_mass = i == CANDIDATE_STIFFNESS || (i > CANDIDATE_RATIO && c->scene.model == SS_COMPLIANT);
         sum += by_mass ? d : 0;
         of_mass += by_mass;
         squares += d * d;

@@ -6,9 +6,10 @@
 #include <stickslip/sim.h>
 #include "rank/cycle.h"
 
-enum { CANDIDATE_KEYS = 4, CANDIDATE_SETTLE = 6 };      /* cycles from rest to the one compared */
+enum { CANDIDATE_STIFFNESS, CANDIDATE_RATIO, CANDIDATE_FIRST, CANDIDATE_SECOND, CANDIDATE_KEYS };
+enum { CANDIDATE_SETTLE = 6 };      /* cycles from rest to the one compared */
 
-/* The stiffness k (at the same k Z_e), f_k / (k Z_e), and the model's own two: K_y and c, or gamma
+/* Its keys: the stiffness k (at the same k Z_e), f_k / (k Z_e), and the model's own two: K_y and c, or gamma
  * and alpha.  The mass is left alone, as no motion tells it: what counts is the ratios to it. */
 typedef struct candidate {
     ss_scene scene;             /* as given, a literal law as the scaled one that equals it */
@@ -21,6 +22,8 @@ typedef struct candidate {
     double size, shift;         /* see ss_cycle_misfit */
 } candidate;
 
+/* SS_OK for a scene in range whose base moves. */
+ss_status ss_candidate_check(const ss_scene *scene, ss_error *err);
 /* What the scene says, and each key free within a factor, >= 1. */
 candidate ss_candidate_of(const ss_scene *scene, int pick, double factor);
 /* Find c->best and what follows: starts points all over the range, and the keep best of them each

@@ -67,16 +67,18 @@ ss_cycle_fold(cycle *c, const double *x, size_t n, double rate, double period, s
     return SS_OK;
 }
 
-/* The power that repeats, in bins. */
+/* The power about the mean that repeats, in bins. */
 static double
 repeating(const double *x, size_t n, double samples)
 {
-    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0;
+    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0, all = 0;
     size_t bins = bins_of(samples);
     gather(sum, count, bins, x, n, 1 / samples);
-    for (size_t i = 0; i < bins; i++)
+    for (size_t i = 0; i < bins; i++) {
         power += count[i] > 0 ? sum[i] * sum[i] / count[i] : 0;
-    return power;
+        all += sum[i];
+    }
+    return power - all * all / (double)n;
 }
 
 double

@@ -28,7 +28,8 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 enum { PASSES = 40 };
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
 #define FAR 10.0
-#define UNEXPLAINED 0.5                 /* a residual above this is another model's, or none's */
+#define UNEXPLAINED 0.1                 /* of the rms: what leaves more, and more than MARGIN times */
+#define MARGIN 1.5                      /* its noise, is another model's or none's */
 #define VAGUE 0.3                       /* a standard error above this part tells nothing */
 
 /* What is adjusted, as 1 + (its change in the unit given): differences need numbers of order 1. */
@@ -202,9 +203,9 @@ residual_of(double *residual, const ss_scene *scene, int pick, const double *x, 
     return SS_OK;
 }
 
-/* Stiffness and damping from the transitions, if they tell. */
+/* Stiffness and damping from the transitions, if they tell; the rms of the noise. */
 static ss_status
-narrow(candidate *c, const ss_signal *signal, size_t column, ss_error *err)
+narrow(candidate *c, double *noise, const ss_signal *signal, size_t column, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts = ss_features_defaults;
@@ -214,13 +215,14 @@ narrow(candidate *c, const ss_signal *signal, size_t column, ss_error *err)
     if (st != SS_OK)
         return st;
     const double estimate[2] = { f->contact_stiffness.value, f->contact_damping.value };
+    *noise = f->noise;
     ss_features_free(f);
     for (size_t i = 0; i < 2; i++) {
         int known = estimate[i] > 0;            /* NaN is not */
-        double middle = known ? log(estimate[i]) : c->own[i + 2];
+        double middle = known ? log(estimate[i]) : c->own[CANDIDATE_FIRST + i];
         double width = log(known ? NEAR : FAR);
-        c->lo[i + 2] = middle - width;
-        c->hi[i + 2] = middle + width;
+        c->lo[CANDIDATE_FIRST + i] = middle - width;
+        c->hi[CANDIDATE_FIRST + i] = middle + width;
     }
     return SS_OK;
 }
@@ -286,7 +288,7 @@ fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, 
 }
 
 static void
-judge(ss_fit *fit)
+judge(ss_fit *fit, double noise)
 {
     const struct { const char *what; ss_value v; } told[] = {
         { "friction", fit->friction }, { "base_amplitude", fit->base_amplitude },
@@ -295,7 +297,7 @@ judge(ss_fit *fit)
     fit->told = 0;
     if (fit->why[0] != '\0')
         return;
-    if (!(fit->residual_started <= UNEXPLAINED)) {
+    if (!(fit->residual_started <= fmax(UNEXPLAINED, MARGIN * noise))) {
         snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.0f %% of the signal",
                  100 * fit->residual_started);
         return;
@@ -320,7 +322,7 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, ss_error *e
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(signal->values[column * signal->n + i]))
             return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
-    return ss_scene_check(start, err);
+    return ss_candidate_check(start, err);
 }
 
 ss_status
@@ -330,6 +332,7 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     ss_status st = check(signal, column, start, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
+    double noise;
     cycle goal;
     if (st != SS_OK)
         return st;
@@ -340,14 +343,16 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
                        opts->forcing_frequency);
     if (st != SS_OK || goal.period == 0)
         return st;
-    candidate c = ss_candidate_of(start, (int)opts->quantity, 2);
-    c.lo[0] = c.hi[0] = c.own[0];               /* k is known */
-    st = narrow(&c, signal, column, err);
+    candidate c = ss_candidate_of(start, (int)opts->quantity, 1);
+    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS];      /* k is known */
+    c.lo[CANDIDATE_RATIO] = log(0.2);           /* below, sticks are too short to fit */
+    c.hi[CANDIDATE_RATIO] = 0;
+    st = narrow(&c, &noise, signal, column, err);
     if (st == SS_OK)
         st = ss_candidate_search(&c, &goal, STARTS, KEEP, STEPS);
     if (st == SS_OK)
         st = fit_record(fit, &c, &goal, x, signal->n, rate);
     if (st == SS_OK)
-        judge(fit);
+        judge(fit, noise / sqrt(variance(x, signal->n)));
     return st;
 }

@@ -155,6 +155,7 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
     ss_status st;
     opts.voices = 4;
     opts.accuracy = 1e-4;
+    opts.detrend = SS_DETREND_MEAN;
     for (size_t i = 0; i < SS_CRITERIA; i++)
         l->value[i] = NAN;
     l->map = NULL;
@@ -416,7 +417,7 @@ ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene
         opts = &ss_rank_defaults;
     ss_status st = check(signal, column, n, opts, err);
     for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = ss_scene_check(&scene[i], err);
+        st = ss_candidate_check(&scene[i], err);
     if (st != SS_OK)
         return st;
     ss_ranking *r = calloc(1, sizeof *r);

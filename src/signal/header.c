@@ -363,13 +363,13 @@ write_label(FILE *out, const ss_column *c)
 }
 
 char *
-ss_header_text(const ss_header *head, size_t *length)
+ss_header_text(const ss_header *head, const char *magic, size_t *length)
 {
     char *text = NULL, number[SS_NUMBER_MAX];
     FILE *out = open_memstream(&text, length);
     if (out == NULL)
         return NULL;
-    fputs(STREAM_MAGIC "\n", out);
+    fprintf(out, "%s\n", magic);
     for (size_t i = 0; i < head->n_notes; i++)
         fprintf(out, "# %s\n", head->note[i]);
     ss_number_format(number, head->rate);

@@ -49,6 +49,7 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
     if (reader == NULL)
         return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     reader->head = ss_header_new(0, 0);
+    reader->magic = STREAM_MAGIC;
     ss_status st = ss_input_open(&reader->in, in, name, err);
     if (st == SS_OK && reader->head == NULL)
         st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
@@ -75,6 +76,12 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
         return SS_FAIL_NULL(err);
     *n = 0;
     return reader->rows(reader, rows, max, n, err);
+}
+
+int
+ss_reader_waits(const ss_reader *reader)
+{
+    return reader->values == NULL && ss_input_waits(&reader->in);
 }
 
 void

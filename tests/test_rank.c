@@ -1,0 +1,394 @@
+/* test_rank.c -- ranking: signals whose model is known; fits: signals whose parameters are. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stickslip.h>
+#include "rank/candidate.h"
+#include "rank/cycle.h"
+
+enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
+
+static ss_scene
+shipped(int i)
+{
+    const ss_shipped_scene *s = &ss_shipped_scenes[i];
+    ss_scene scene;
+    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
+    assert_non_null(in);
+    assert_int_equal(ss_scene_read(&scene, in, s->name, NULL), SS_OK);
+    fclose(in);
+    return scene;
+}
+
+/* The acceleration alone, with noise at snr dB (none from 200 on). */
+static ss_signal *
+record_of(const ss_scene *scene, double snr)
+{
+    const size_t a = SS_ACCELERATION;
+    ss_signal *all = NULL, *one = NULL;
+    assert_int_equal(ss_simulate(&all, scene, NULL), SS_OK);
+    assert_int_equal(ss_signal_select(&one, all, &a, 1, 0, all->n), SS_OK);
+    ss_signal_free(all);
+    if (snr < 200)
+        ss_add_noise(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5);
+    return one;
+}
+
+static ss_ranking *
+rank(const ss_signal *signal)
+{
+    ss_scene scene[MODELS];
+    ss_ranking *r = NULL;
+    ss_error err = { "" };
+    for (int i = 0; i < MODELS; i++)
+        scene[i] = shipped(i);
+    if (ss_rank(&r, signal, 0, scene, MODELS, NULL, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return r;
+}
+
+/* --- cycles -------------------------------------------------------------------------------- */
+
+static double
+wave(double turn)
+{
+    return sin(2 * M_PI * turn) + 0.5 * cos(6 * M_PI * turn) + 0.2 * sin(10 * M_PI * turn + 1);
+}
+
+/* A band-limited wave shifted by parts of a bin: the parabola through three values of a correlation
+ * whose fastest part has 5 periods in 512 bins errs by less than (2 pi 5 / 512)^2 of a bin. */
+static void
+size_and_shift_of_a_cycle_are_found(void **state)
+{
+    static const double shift[] = { 0, 0.25, 0.30001, 0.9 };
+    cycle c = { .n = 512 };
+    double m[512], a, s;
+    (void)state;
+    for (size_t k = 0; k < sizeof shift / sizeof *shift; k++) {
+        c.power = 0;
+        for (size_t i = 0; i < 512; i++) {
+            c.y[i] = 2.5 * wave((double)i / 512 - shift[k]);
+            m[i] = wave((double)i / 512) + 7;           /* an offset is no matter */
+            c.power += c.y[i] * c.y[i] / 512;
+        }
+        double left = ss_cycle_misfit(&c, m, &a, &s);
+        assert_true(fabs(remainder(s - shift[k], 1)) <= 0.004 / 512);
+        assert_true(fabs(a / 2.5 - 1) <= 1e-6 && left <= 1e-6 * c.power);
+    }
+}
+
+static void
+what_cannot_move_leaves_all(void **state)
+{
+    cycle c = { .n = 64, .power = 3 };
+    double m[64] = { 0 }, a, s;
+    (void)state;
+    for (size_t i = 0; i < 64; i++)
+        c.y[i] = i % 2 ? sqrt(3) : -sqrt(3);
+    assert_true(ss_cycle_misfit(&c, m, &a, &s) == 3 && a == 0 && s == 0);
+}
+
+/* The period to what a bin is over the cycles there are, and noise averaged down: 40 cycles of 100
+ * samples in 64 bins, 62.5 samples in each. */
+static void
+folds_at_the_period_that_repeats(void **state)
+{
+    enum { N = 4000 };
+    double *x = malloc(N * sizeof *x);
+    cycle c;
+    (void)state;
+    for (size_t i = 0; i < N; i++)
+        x[i] = 500 + wave((double)i / 100.37);      /* the mean repeats after any time */
+    ss_add_noise(x, N, 0.1, 3);
+    double period = ss_cycle_period(x, N, 1000, 0.1, 0.01);
+    assert_true(fabs(period / 0.10037 - 1) <= 1. / 64 / (N / 100.37));
+    assert_int_equal(ss_cycle_fold(&c, x, N, 1000, period, NULL), SS_OK);
+    assert_int_equal(c.n, 64);
+    double power = 0.5 * (1 + 0.25 + 0.04);
+    assert_true(fabs(c.power / power - 1) <= 0.01);
+    /* the scatter within a bin is noise and what the wave changes within it, at most 10 % of noise */
+    assert_true(c.noise > 0.9 * 0.01 / 62.5 && c.noise < 4 * 0.01 / 62.5);
+    char why[100] = "";
+    assert_int_equal(ss_cycle_find(&c, why, sizeof why, x, N, 1000, 0), SS_OK);
+    assert_true(fabs(c.period / 0.10037 - 1) <= 1. / 64 / (N / 100.37) && why[0] == '\0');
+    free(x);
+}
+
+/* A lighter mass has k, K_y and c go up together; f_k / (k Z_e) does not know it. */
+static void
+a_lighter_mass_is_the_nearest_explanation(void **state)
+{
+    ss_scene scene = shipped(LIGHT);
+    candidate c = ss_candidate_of(&scene, SS_ACCELERATION, 1.5);
+    (void)state;
+    assert_true(ss_candidate_distance(&c) == 0);
+    c.best[0] += 0.2, c.best[2] += 0.2, c.best[3] += 0.2;
+    /* mass by -mu: 3 (0.2 - mu)^2 + mu^2 is least at mu = 0.15, where it is 0.03 */
+    assert_true(fabs(ss_candidate_distance(&c) - sqrt(0.03 / 5)) <= 1e-12);
+    c = ss_candidate_of(&scene, SS_ACCELERATION, 1.5);
+    c.best[1] += 0.3;
+    assert_true(fabs(ss_candidate_distance(&c) - sqrt(0.09 / 5)) <= 1e-12);
+}
+
+static void
+the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
+{
+    ss_scene literal = shipped(STATE);
+    double x[400], y[400], most = 0, off = 0;
+    (void)state;
+    literal.law = SS_LAW_LITERAL;
+    literal.duration = 0.2;
+    candidate c = ss_candidate_of(&literal, SS_ACCELERATION, 1);
+    c.scene.duration = 0.2;
+    assert_int_equal(c.scene.law, SS_LAW_SCALED);
+    assert_true(ss_candidate_run(&literal, SS_ACCELERATION, x, 400));
+    assert_true(ss_candidate_run(&c.scene, SS_ACCELERATION, y, 400));
+    for (size_t i = 0; i < 400; i++)
+        most = fmax(most, fabs(x[i])), off = fmax(off, fabs(x[i] - y[i]));
+    assert_true(off <= 1e-3 * most);            /* 1e-4 each is what the method keeps */
+}
+
+/* --- ranking ------------------------------------------------------------------------------- */
+
+static void
+shipped_scenes_rank_themselves_first(void **state)
+{
+    (void)state;
+    for (int i = 0; i < MODELS; i++) {
+        ss_scene scene = shipped(i);
+        ss_signal *signal = record_of(&scene, i % 2 ? 20 : 40);
+        ss_ranking *r = rank(signal);
+        if (!r->told || (int)r->row[0].scene != i)
+            fail_msg("%s: %s first; %s", ss_shipped_scenes[i].name,
+                     ss_shipped_scenes[r->row[0].scene].name, r->why);
+        assert_true(fabs(r->forcing_frequency / 2.5 - 1) <= 0.002);
+        for (size_t k = 1; k < r->n; k++)
+            assert_true(r->row[k].total >= r->row[k - 1].total);
+        ss_ranking_free(r);
+        ss_signal_free(signal);
+    }
+}
+
+/* Another rig, another unit, another sign, another clock, an offset: a compliant one all the same. */
+static void
+size_sign_and_offset_do_not_matter(void **state)
+{
+    ss_scene scene = shipped(LIGHT);
+    (void)state;
+    scene.mass = 3, scene.contact_stiffness = 180000, scene.friction = 1.26, scene.phase = 2;
+    ss_signal *signal = record_of(&scene, 40);
+    for (size_t i = 0; i < signal->n; i++)
+        signal->values[i] = 4e8 - 9.81e6 * signal->values[i];
+    ss_ranking *r = rank(signal);
+    assert_true(r->told && r->row[0].scene == LIGHT);
+    assert_true(r->row[0].distance[SS_BY_FREQUENCY] <= 0.02);
+    ss_ranking_free(r);
+    ss_signal_free(signal);
+}
+
+static void
+what_has_no_transitions_is_not_told(void **state)
+{
+    static const struct { const char *what; double constant, rms, sine, ramp; } row[] = {
+        { "nothing", 0, 0, 0, 0 }, { "a constant", 3, 0, 0, 0 }, { "noise", 0, 1, 0, 0 },
+        { "a sine", 0, 0, 1, 0 }, { "a sine in noise", 0, 0.1, 1, 0 }, { "a ramp", 0, 0, 0, 1 } };
+    ss_scene scene = shipped(COULOMB);
+    ss_signal *signal = record_of(&scene, 300);
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        for (size_t i = 0; i < signal->n; i++)
+            signal->values[i] = row[k].constant + row[k].sine * sin(2 * M_PI * 2.5 * (double)i / 2000)
+                                + row[k].ramp * (double)i;
+        ss_add_noise(signal->values, signal->n, row[k].rms, 11);
+        ss_ranking *r = rank(signal);
+        if (r->told || r->why[0] == '\0')
+            fail_msg("%s: told", row[k].what);
+        ss_ranking_free(r);
+    }
+    ss_signal_free(signal);
+}
+
+/* The stick of this one is a fifth of a period of the contact's oscillation. */
+static void
+compliant_contacts_are_not_told_apart_without_their_oscillation(void **state)
+{
+    ss_scene scene = shipped(LIGHT);
+    (void)state;
+    scene.friction *= 0.6;
+    ss_signal *signal = record_of(&scene, 40);
+    ss_ranking *r = rank(signal);
+    assert_true(isnan(r->value[SS_BY_DAMPING]) && !r->told && r->why[0] != '\0');
+    ss_ranking_free(r);
+    ss_signal_free(signal);
+}
+
+static void
+short_records_are_not_told(void **state)
+{
+    static const double duration[] = { 0, 0.0005, 0.01, 0.39 };
+    (void)state;
+    for (size_t k = 0; k < sizeof duration / sizeof *duration; k++) {
+        ss_scene scene = shipped(HEAVY);
+        scene.duration = duration[k];
+        ss_signal *signal = record_of(&scene, 300);
+        ss_ranking *r = rank(signal);
+        assert_true(!r->told && isnan(r->forcing_frequency) && r->n == MODELS);
+        ss_ranking_free(r);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+refuses_what_is_out_of_range(void **state)
+{
+    ss_scene scene = shipped(HEAVY), still = scene;
+    ss_signal *signal = record_of(&scene, 300);
+    ss_ranking *r = NULL;
+    ss_fit fit;
+    ss_rank_opts opts = ss_rank_defaults;
+    (void)state;
+    still.base_amplitude = 0;
+    assert_int_equal(ss_rank(&r, signal, 1, &scene, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_rank(&r, signal, 0, &scene, 0, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_rank(&r, signal, 0, &still, 1, NULL, NULL), SS_EINVAL);
+    static const double spread[] = { -0.1, 1, INFINITY, NAN };
+    for (size_t i = 0; i < 4; i++) {
+        opts.spread = spread[i];
+        assert_int_equal(ss_rank(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
+    }
+    opts = ss_rank_defaults;
+    opts.forcing_frequency = NAN;
+    assert_int_equal(ss_rank(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
+    signal->values[17] = NAN;
+    assert_int_equal(ss_rank(&r, signal, 0, &scene, 1, NULL, NULL), SS_EDATA);
+    assert_int_equal(ss_fit_scene(&fit, signal, 0, &scene, NULL, NULL), SS_EDATA);
+    scene = shipped(STATE);
+    assert_int_equal(ss_fit_scene(&fit, signal, 0, &scene, NULL, NULL), SS_EINVAL);
+    assert_null(r);
+    ss_signal_free(signal);
+}
+
+/* --- the sum ------------------------------------------------------------------------------- */
+
+static void
+scores_are_distances_over_thresholds_up_to_three(void **state)
+{
+    ss_rank_row row = { .scene = 0 };
+    (void)state;
+    row.distance[SS_BY_RESIDUAL] = 6;
+    assert_true(fabs(ss_rank_score(&row, SS_BY_RESIDUAL, 1) - 2) <= 1e-15);
+    assert_true(fabs(ss_rank_score(&row, SS_BY_RESIDUAL, 0.8) - 2.5) <= 1e-15);
+    row.distance[SS_BY_RESIDUAL] = 1000;
+    assert_true(ss_rank_score(&row, SS_BY_RESIDUAL, 1) == SS_SCORE_MOST);
+    row.distance[SS_BY_RESIDUAL] = NAN;
+    assert_true(ss_rank_score(&row, SS_BY_RESIDUAL, 1) == 1);
+}
+
+/* Row 0 totals 2, row 1 0.55 + 1.5 = 2.05, row 2 3: with the threshold of jumps 20 % higher row 1 sinks to
+ * 1.8, and row 0, which has no jump, stays. */
+static void
+a_threshold_that_moves_can_change_the_order(void **state)
+{
+    ss_rank_row row[3] = { { .scene = 0 }, { .scene = 1 }, { .scene = 2 } };
+    ss_ranking r = { .n = 3, .row = row };
+    size_t order[3];
+    (void)state;
+    row[0].distance[SS_BY_SPIKES] = 2;
+    row[1].distance[SS_BY_SPIKES] = 0.55;
+    row[1].distance[SS_BY_JUMP] = 9;
+    row[2].distance[SS_BY_SPIKES] = 3;
+    assert_false(ss_ranking_order(&r, SS_BY_JUMP, 1, order));
+    assert_false(ss_ranking_order(&r, SS_BY_JUMP, 0.8, order));
+    assert_true(ss_ranking_order(&r, SS_BY_JUMP, 1.2, order));
+    assert_true(order[0] == 1 && order[1] == 0 && order[2] == 2);
+}
+
+/* --- fits ---------------------------------------------------------------------------------- */
+
+/* From a start whose contact is twice as stiff and damps three times as much.  What is left without
+ * noise is the tolerance of the descent; at 40 dB, 5 times what 12 seeds left: 0.005 and 0.1 %, with
+ * f_k and Z_e, which have much the same effect, at 0.03 %. */
+static void
+finds_the_parameters_of_a_compliant_signal(void **state)
+{
+    static const struct { int scene; double snr, force, stiffness, damping; } row[] = {
+        { HEAVY, 300, 1e-8, 1e-8, 1e-8 }, { LIGHT, 300, 1e-8, 1e-8, 1e-8 },
+        { HEAVY, 40, 2e-3, 3e-4, 5e-3 }, { LIGHT, 40, 2e-3, 3e-4, 5e-3 } };
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        ss_scene truth = shipped(row[k].scene), start = truth;
+        ss_signal *signal = record_of(&truth, row[k].snr);
+        ss_fit fit;
+        start.contact_stiffness *= 2, start.contact_damping *= 3, start.friction = 1;
+        start.base_amplitude = 0.001;
+        assert_int_equal(ss_fit_scene(&fit, signal, 0, &start, NULL, NULL), SS_OK);
+        assert_true(fit.told);
+        assert_true(fabs(fit.friction.value / truth.friction - 1) <= row[k].force);
+        assert_true(fabs(fit.base_amplitude.value / truth.base_amplitude - 1) <= row[k].force);
+        assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1)
+                    <= row[k].stiffness);
+        assert_true(fabs(fit.contact_damping.value / truth.contact_damping - 1) <= row[k].damping);
+        /* all that is left is the noise */
+        assert_true(fit.residual_started <= 1.02 * pow(10, -row[k].snr / 20) + 1e-8);
+        assert_true(fit.scene.rate == truth.rate && fit.scene.duration == truth.duration);
+        assert_true(fit.residual <= 0.15);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+does_not_fit_what_is_not_compliant(void **state)
+{
+    static const int other[] = { COULOMB, STATE, LIGHT };
+    ss_scene start = shipped(LIGHT);
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        ss_scene scene = shipped(other[k]);
+        ss_signal *signal = record_of(&scene, 40);
+        ss_fit fit;
+        if (other[k] == LIGHT) {            /* noise and nothing else */
+            memset(signal->values, 0, signal->n * sizeof *signal->values);
+            ss_add_noise(signal->values, signal->n, 1, 2);
+        }
+        assert_int_equal(ss_fit_scene(&fit, signal, 0, &start, NULL, NULL), SS_OK);
+        assert_true(!fit.told && fit.why[0] != '\0');
+        ss_signal_free(signal);
+    }
+}
+
+static int
+no_abort(void **state)
+{
+    (void)state;
+    gsl_set_error_handler_off();
+    return 0;
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(size_and_shift_of_a_cycle_are_found),
+        cmocka_unit_test(what_cannot_move_leaves_all),
+        cmocka_unit_test(folds_at_the_period_that_repeats),
+        cmocka_unit_test(a_lighter_mass_is_the_nearest_explanation),
+        cmocka_unit_test(the_literal_law_is_ranked_as_the_scaled_one_that_equals_it),
+        cmocka_unit_test(shipped_scenes_rank_themselves_first),
+        cmocka_unit_test(size_sign_and_offset_do_not_matter),
+        cmocka_unit_test(what_has_no_transitions_is_not_told),
+        cmocka_unit_test(compliant_contacts_are_not_told_apart_without_their_oscillation),
+        cmocka_unit_test(short_records_are_not_told),
+        cmocka_unit_test(refuses_what_is_out_of_range),
+        cmocka_unit_test(scores_are_distances_over_thresholds_up_to_three),
+        cmocka_unit_test(a_threshold_that_moves_can_change_the_order),
+        cmocka_unit_test(finds_the_parameters_of_a_compliant_signal),
+        cmocka_unit_test(does_not_fit_what_is_not_compliant),
+    };
+    return cmocka_run_group_tests(tests, no_abort, NULL);
+}
