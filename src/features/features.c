@@ -563,6 +563,8 @@ ss_status
 ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
                  const ss_features_opts *opts, ss_error *err)
 {
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
     search s = { .signal = signal, .opts = opts != NULL ? opts : &ss_features_defaults };
     ss_status st = check(signal, column, s.opts, err);
     if (st != SS_OK)

@@ -102,6 +102,8 @@ ss_status
 ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_t each,
                   double *difference, ss_error *err)
 {
+    if (plan == NULL || x == NULL || w == NULL || difference == NULL)
+        return SS_FAIL_NULL(err);
     compare cmp = { .plan = plan, .each = each, .state = 1 };
     ss_morlet *other = NULL;
     double worst = 0;

@@ -239,6 +239,8 @@ ss_status
 ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
                   double *error, ss_error *err)
 {
+    if (out == NULL || coefficients == NULL)
+        return SS_FAIL_NULL(err);
     enum { BOUNDS_MAX = 100 };
     solver s = { .coef = coefficients };
     double residual = 0;

@@ -312,10 +312,16 @@ judge(ss_fit *fit, double noise)
 }
 
 static ss_status
-check(const ss_signal *signal, size_t column, const ss_scene *start, ss_error *err)
+check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
+      ss_error *err)
 {
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
+    if ((unsigned)opts->quantity > SS_FORCE)
+        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
+    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
+        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
+                       opts->forcing_frequency);
     if (start->model != SS_COMPLIANT)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
@@ -329,15 +335,17 @@ ss_status
 ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
              const ss_rank_opts *opts, ss_error *err)
 {
-    ss_status st = check(signal, column, start, err);
+    if (fit == NULL || signal == NULL || start == NULL)
+        return SS_FAIL_NULL(err);
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    ss_status st = check(signal, column, start, opts, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
     double noise;
     cycle goal;
     if (st != SS_OK)
         return st;
-    if (opts == NULL)
-        opts = &ss_rank_defaults;
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN };
     st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, signal->n, rate,
                        opts->forcing_frequency);
