@@ -100,7 +100,8 @@ ss_status
 ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                        const ss_morlet_opts *opts)
 {
-    if (out == NULL || signal == NULL || opts == NULL)
+    if (out == NULL || signal == NULL || opts == NULL
+        || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
         return SS_EINVAL;
     *out = NULL;
     ss_status st = ss_header_select(out, signal, &column, 1, 0);

@@ -171,7 +171,7 @@ ss_coefficient_writer_free(ss_coefficient_writer *writer)
 ss_status
 ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format)
 {
-    ss_coefficient_writer *writer;
+    ss_coefficient_writer *writer = NULL;
     if (coefficients == NULL)
         return SS_EINVAL;
     ss_status st = ss_coefficient_writer_new(&writer, out, format, coefficients->head);

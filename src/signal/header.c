@@ -66,6 +66,8 @@ ss_status
 ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
                  size_t first)
 {
+    if (out == NULL || head == NULL || (column == NULL && n > 0))
+        return SS_EINVAL;
     ss_header *copy = ss_header_new(head->rate, head->start);
     *out = NULL;
     if (copy == NULL || !copy_notes(copy, head)) {

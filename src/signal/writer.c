@@ -157,7 +157,7 @@ ss_status
 ss_signal_write(const ss_signal *signal, FILE *out, ss_format format)
 {
     enum { PIECE = 1024 };
-    ss_writer *writer;
+    ss_writer *writer = NULL;
     if (signal == NULL || out == NULL)
         return SS_EINVAL;
     size_t columns = signal->head->n_columns;

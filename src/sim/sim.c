@@ -57,7 +57,7 @@ model_of(const ss_scene *scene)
 const char *
 ss_sim_method_for(const ss_scene *scene)
 {
-    if (scene == NULL)
+    if (scene == NULL || (unsigned)scene->model > SS_COMPLIANT)
         return NULL;
     const struct model *model = model_of(scene);
     return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
