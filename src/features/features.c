@@ -552,9 +552,11 @@ normalised(const double *x, size_t n, double *largest)
 {
     double *copy = malloc((n + 1) * sizeof *copy);
     *largest = 0;
+    if (copy == NULL)
+        return NULL;
     for (size_t i = 0; i < n; i++)
         *largest = fmax(*largest, fabs(x[i]));
-    for (size_t i = 0; i < n && copy != NULL; i++)
+    for (size_t i = 0; i < n; i++)
         copy[i] = *largest > 0 ? x[i] / *largest : 0;
     return copy;
 }

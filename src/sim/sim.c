@@ -54,13 +54,17 @@ model_of(const ss_scene *scene)
     return model[scene->model];
 }
 
+static const char *
+method_for(const ss_scene *scene)
+{
+    const struct model *model = model_of(scene);
+    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
+}
+
 const char *
 ss_sim_method_for(const ss_scene *scene)
 {
-    if (scene == NULL || (unsigned)scene->model > SS_COMPLIANT)
-        return NULL;
-    const struct model *model = model_of(scene);
-    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
+    return scene != NULL && (unsigned)scene->model <= SS_COMPLIANT ? method_for(scene) : NULL;
 }
 
 /* --- the motion ---------------------------------------------------------------------------- */
@@ -419,7 +423,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate,
                  .base_further = base_turns(scene) };
-    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
+    const char *method = opts->method != NULL ? opts->method : method_for(scene);
     int exact = strcmp(method, EXACT) == 0;
     motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
