@@ -1,12 +1,12 @@
 /* bench_rank -- which scene ss_rank puts first for signals of known models.
  *
- *     bench_rank [EACH [SEED [v]]]       signals of each model (8), seed (1); v: every row that is not right
+ *     bench_rank [EACH [SEED [v]]]   signals of each model (8), seed (1); v: what is not right
  *
- * Signals are of the shipped scenes with every parameter drawn within +-30 %, at 40 and 20 dB.  f_k /
- * (k Z_e) is drawn from .90 to .97: elsewhere most do not move, or stick for less than two periods.
- * These draws too are made ("free"): there "cannot tell" is the right answer wherever the signal
- * shows no oscillation.  Fails if more than one signal in ten has another than its own model first, or
- * if one in ten free draws is told wrongly. */
+ * Signals are of the shipped scenes with every parameter drawn within +-30 %, at 40 and 20 dB.
+ * f_k / (k Z_e) is drawn from .90 to .97: elsewhere most do not move, or stick for less than two
+ * periods. These draws too are made ("free"): there "cannot tell" is the right answer wherever the
+ * signal shows no oscillation.  Fails if more than one signal in ten has another than its own
+ * model first, or if one in ten free draws is told wrongly. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_rng.h>
 #include "bench.h"
@@ -130,12 +130,13 @@ told_wrong(const tally *t)
 static void
 print(const tally *t, const char *what, double snr, unsigned long seed)
 {
-    printf("# %s, %g dB, seed %lu: right first in %d of %d, told wrongly %d; %.2f s each\n", what, snr,
-           seed, right(t), t->n, told_wrong(t), t->seconds / t->n);
+    printf("# %s, %g dB, seed %lu: right first in %d of %d, told wrongly %d; %.2f s each\n", what,
+           snr, seed, right(t), t->n, told_wrong(t), t->seconds / t->n);
     printf("# compliant signals without an oscillation: %d, told: %d\n", t->silent, t->silent_told);
     printf("# by one criterion alone:");
     for (int c = 0; c < SS_CRITERIA; c++)
-        printf(" %s %d%s", ss_criterion_rules[c].name, t->alone[c], c + 1 < SS_CRITERIA ? "," : "\n");
+        printf(" %s %d%s", ss_criterion_rules[c].name, t->alone[c],
+               c + 1 < SS_CRITERIA ? "," : "\n");
     for (int m = 0; m < MODELS; m++) {
         printf("%s\t%g\t%s", what, snr, ss_shipped_scenes[m].name);
         for (int i = 0; i < MODELS; i++)
