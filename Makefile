@@ -5,6 +5,8 @@
 #   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench-errors
 #   make bench              error and cost, measured here, simulation against CVODE and SciPy too;
 #                           fails if an error exceeds its bound
+#   make lint               gcc -fanalyzer, clang-tidy, cppcheck, shellcheck, mandoc: silent
+#   make coverage           the share of src/ that the tests run
 #   make fuzz               every reader on made-up input for FUZZ_SECONDS=60 each; needs clang
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
@@ -169,12 +171,21 @@ bench-errors: $(BENCHES:%=$(BUILD)/tests/%)
 # Objects instrumented for libFuzzer are a tree of their own.
 FUZZ_SECONDS ?= 60
 FUZZ_CC      ?= clang
-FUZZ_FLAGS   := -O1 -fsanitize=fuzzer-no-link -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all
+FUZZ_FLAGS   := -fsanitize=fuzzer-no-link -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all
 fuzz:
-	@$(MAKE) --no-print-directory fuzzers CC=$(FUZZ_CC) SANFLAGS='$(FUZZ_FLAGS)' BUILD=$(BUILD)-fuzz
+	@$(MAKE) --no-print-directory fuzzers CC=$(FUZZ_CC) SANFLAGS='$(FUZZ_FLAGS)' CFLAGS='-O1 -g' \
+		BUILD=$(BUILD)-fuzz
 	@FUZZ_SECONDS=$(FUZZ_SECONDS) BUILD=$(BUILD)-fuzz sh tests/fuzz/run.sh $(FUZZERS)
 
 fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
+
+lint:
+	@CC=gcc FLAGS=$(call quote,-std=c11 -D_XOPEN_SOURCE=700 -Iinclude -Isrc $(INCLUDES)) sh tests/lint.sh
+
+# Lines of src/ that the tests run, with gcc's gcov; what they do not is in $(BUILD)-coverage/report.
+coverage:
+	@$(MAKE) --no-print-directory run-tests BUILD=$(BUILD)-coverage CC=gcc CFLAGS='-O1 -g --coverage' LDFLAGS=--coverage
+	@BUILD=$(BUILD)-coverage sh tests/coverage.sh
 
 paper:
 	@$(DEPS) build paper
@@ -245,7 +256,7 @@ dist:
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always bench bench-errors check check-all check-cluster clean deps dist draw-maps \
-	draw-paper fuzz fuzzers install maps needs paper run-tests uninstall
+.PHONY: all always bench bench-errors check check-all check-cluster clean coverage deps dist \
+	draw-maps draw-paper fuzz fuzzers install lint maps needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

@@ -9,5 +9,9 @@
 __attribute__((format(printf, 3, 4)))
 #endif
 ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);
+/* SS_EINVAL: a pointer that must not be NULL is. */
+#define SS_FAIL_NULL(err) ss_fail(err, SS_EINVAL, "an argument is NULL")
+/* SS_EIO for a file, with the system's words for this errno; strerror is not for threads. */
+ss_status ss_fail_errno(ss_error *err, const char *name, int number);
 
 #endif

@@ -297,7 +297,7 @@ read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error
     line[n] = '\0';
     *end = c == EOF;
     if (ferror(in))
-        return ss_fail(err, SS_EIO, "%s: %s", at.name, strerror(errno));
+        return ss_fail_errno(err, at.name, errno);
     if (strcspn(line, "\r") + 1 < n)
         return fail_at(at, err, "a lone CR; lines end in LF or CRLF");
     line[strcspn(line, "#")] = '\0';
@@ -314,6 +314,8 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
     char line[1024];
     ss_status st = SS_OK;
 
+    if (out == NULL || in == NULL || name == NULL || (settings == NULL && n > 0))
+        return SS_FAIL_NULL(err);
     for (int end = 0; st == SS_OK && !end;) {
         at.line++;
         st = read_line(in, line, sizeof line, at, &end, err);
@@ -342,6 +344,8 @@ ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err)
 ss_status
 ss_scene_check(const ss_scene *scene, ss_error *err)
 {
+    if (scene == NULL)
+        return SS_FAIL_NULL(err);
     ss_scene copy = *scene;         /* the accessors below give what may be changed */
     for (size_t i = 0; i < KEYS; i++) {
         const struct key *k = &key[i];
@@ -364,6 +368,8 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
 ss_status
 ss_scene_write(const ss_scene *scene, FILE *out)
 {
+    if (scene == NULL || out == NULL)
+        return SS_EINVAL;
     ss_scene copy = *scene;
     for (size_t i = 0; i < KEYS; i++) {
         const struct key *k = &key[i];

@@ -2,6 +2,7 @@
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 #include "error.h"
 
 const char *
@@ -42,4 +43,13 @@ ss_fail(ss_error *err, ss_status status, const char *format, ...)
             *p = iscntrl((unsigned char)*p) ? '?' : *p;
     }
     return status;
+}
+
+ss_status
+ss_fail_errno(ss_error *err, const char *name, int number)
+{
+    char text[128];
+    if (strerror_r(number, text, sizeof text) != 0)
+        snprintf(text, sizeof text, "error %d of the system", number);
+    return ss_fail(err, SS_EIO, "%s: %s", name, text);
 }

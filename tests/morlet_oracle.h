@@ -59,7 +59,7 @@ worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
             oracle(x, n, rate, opts, sc->a, ss_scale_b(sc, k), want);
             error = fmax(error, (double)hypotl(got[0] - want[0], got[1] - want[1]));
         }
-        double bound = opts->accuracy * most + 16 * DBL_EPSILON * unit;
+        double bound = opts->accuracy * most + 16 * DBL_EPSILON * unit + DBL_TRUE_MIN;
         worst = fmax(worst, (error - oracle_error(opts) * unit) / bound);
     }
     return worst;

@@ -117,20 +117,22 @@ ends_at(const row *r, const ss_scene *s, const run *got)
 static void
 swings_freely(const row *r, const ss_scene *s, const run *got)
 {
-    const long double pi = acosl(-1), W = 2 * pi * s->base_frequency, w = sqrtl((long double)s->stiffness / s->mass);
+    const long double W = 2 * acosl(-1) * s->base_frequency;
+    const long double w = sqrtl((long double)s->stiffness / s->mass);
     double max = max_x(got);
     for (size_t i = 0; i < got->n; i++) {
         long double t = (long double)i / s->rate, p = (W - w) / 2 * t, q = (W + w) / 2 * t;
         /* (cos w t - cos W t) w^2 / (W^2 - w^2) = w^2 t sin(q) sin(p)/p / (W + w), times 1 */
-        long double x = s->base_amplitude * w * w * t * sinl(q) * (p == 0 ? 1 : sinl(p) / p) / (W + w);
+        long double beat = p == 0 ? 1 : sinl(p) / p;
+        long double x = s->base_amplitude * w * w * t * sinl(q) * beat / (W + w);
         x += s->x0 * cosl(w * t) + s->v0 / w * sinl(w * t);
         is_near(r, got, "x", got->sample[i].x, (double)x, r->allow * max);
     }
 }
 
-/* As the Coulomb scene with the same settings moves, to within allow; and that a compliant contact is
- * released up to one of its periods late, that friction takes a quarter of it to be there, which makes
- * a difference of v that the spring turns into one of x, and that it gives way by f_k / K_y. */
+/* As the Coulomb scene with the same settings moves, to within allow; and that a compliant contact
+ * is released up to one of its periods late, that friction takes a quarter of it to be there, which
+ * makes a difference of v that the spring turns into one of x, and that it gives way by f_k / K_y. */
 static void
 moves_as_coulomb(const row *r, const ss_scene *s, const run *got)
 {

@@ -407,7 +407,7 @@ set_up(void **state)
         fclose(out);
     }
     FILE *out = fmemopen(coefficient_text, sizeof coefficient_text, "w");
-    if (ss_coefficients_write(coefficients, out) != SS_OK)
+    if (ss_coefficients_write(coefficients, out, SS_TSV) != SS_OK)
         return -1;
     coefficient_length = (size_t)ftell(out);
     fclose(out);

@@ -476,6 +476,116 @@ a_truncated_file_is_refused(void **state)
     ss_signal_free(signal);
 }
 
+/* Each bit in turn of every 61st byte is another; HDF5 keeps checksums of some parts only. */
+static void
+flipped_bits_are_refused_or_harmless(void **state)
+{
+    ss_signal *signal = new_signal(50);
+    ss_coefficients *c = transform(signal, 0);
+    unsigned char bytes[100000];
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+    FILE *out = fopen(path, "rb+");
+    size_t size = fread(bytes, 1, sizeof bytes, out);
+    assert_true(feof(out));
+    fclose(out);
+    for (size_t i = 0; i < size; i += 61) {
+        ss_signal *read = NULL;
+        ss_coefficients *back = NULL;
+        ss_error err = { "" };
+        bytes[i] ^= (unsigned char)(1u << i / 61 % 8);
+        out = fopen(path, "wb");
+        assert_int_equal(fwrite(bytes, 1, size, out), size);
+        fclose(out);
+        if (ss_store_read_signal(&read, path, NULL, NULL, &err) != SS_OK)
+            assert_true(read == NULL && err.text[0] != '\0');
+        if (ss_store_read_coefficients(&back, path, &err) != SS_OK)
+            assert_true(back == NULL && err.text[0] != '\0');
+        ss_signal_free(read);
+        ss_coefficients_free(back);
+        bytes[i] ^= (unsigned char)(1u << i / 61 % 8);
+    }
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+/* A one-dimensional dataset of n values. */
+static void
+put_array(hid_t file, const char *name, hid_t type, hsize_t n, hid_t how)
+{
+    const hsize_t most = how != H5P_DEFAULT && H5Pget_layout(how) == H5D_CHUNKED ? H5S_UNLIMITED : n;
+    hid_t space = H5Screate_simple(1, &n, &most);
+    hid_t id = H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(id >= 0);
+    H5Dclose(id);
+    H5Sclose(space);
+}
+
+/* A file that leads to another, which is there, or claims what it does not hold. */
+static void
+write_hostile(const char *other)
+{
+    hsize_t chunk = 1000, huge_chunk = (hsize_t)1 << 28, n = 6;
+    hid_t space = H5Screate_simple(1, &n, NULL), wide = H5Tcopy(H5T_STD_I32LE);
+    hid_t how = H5Pcreate(H5P_DATASET_CREATE), raw = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t virtual = H5Pcreate(H5P_DATASET_CREATE), large = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(other, "/line", file, "external", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(other, "/", file, "signal", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(other, "/", file, "wavelet", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_soft("/loop", file, "loop", H5P_DEFAULT, H5P_DEFAULT);
+    H5Pset_external(raw, other, 0, 6);
+    H5Pset_virtual(virtual, space, other, "/line", space);
+    H5Pset_chunk(how, 1, &chunk);
+    H5Pset_chunk(large, 1, &huge_chunk);
+    H5Tset_size(wide, 64);
+    put_array(file, "raw", H5T_STD_I8LE, 6, raw);
+    put_array(file, "virtual", H5T_STD_I16BE, 6, virtual);
+    put_array(file, "claims", H5T_IEEE_F64LE, 900000000, how);
+    put_array(file, "chunk", H5T_IEEE_F64LE, 6, large);
+    put_array(file, "wide", wide, 6, H5P_DEFAULT);
+    H5Fclose(file);
+    H5Pclose(how);
+    H5Pclose(raw);
+    H5Pclose(virtual);
+    H5Pclose(large);
+    H5Tclose(wide);
+    H5Sclose(space);
+}
+
+static void
+nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
+{
+    static const struct { const char *dataset, *words; } row[] = {
+        { "", ":/signal: not a group of this file" },
+        { "/external", ":/external: no such dataset" },
+        { "/loop", ":/loop: no such dataset" },
+        { "/raw", ":/raw: its values lie outside this file" },
+        { "/virtual", ":/virtual: its values lie outside this file" },
+        { "/claims", ":/claims: claims more values than a file of this size can hold" },
+        { "/chunk", ":/chunk: claims more values than a file of this size can hold" },
+        { "/wide", ":/wide: does not hold real numbers" },
+    };
+    static const ss_read_opts opts = { .rate = 1 };
+    char other[80];
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    (void)state;
+    write_foreign(0);
+    snprintf(other, sizeof other, "%s.other", path);
+    assert_int_equal(rename(path, other), 0);
+    write_hostile(other);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_signal *signal = NULL;
+        assert_int_equal(ss_store_read_signal(&signal, path, row[i].dataset, &opts, &err), SS_EDATA);
+        assert_null(signal);
+        assert_string_equal(err.text + strlen(path), row[i].words);
+    }
+    assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EDATA);
+    assert_string_equal(err.text + strlen(path), ":/wavelet: not a group of this file");
+    unlink(other);
+}
+
 /* Give an object of the file another number as an attribute, as anyone might. */
 static void
 put_attribute(const char *object, const char *name, double value)
@@ -647,6 +757,8 @@ main(void)
         cmocka_unit_test(what_cannot_be_read_is_refused_in_clear_words),
         cmocka_unit_test(a_file_without_coefficients_says_so),
         cmocka_unit_test(a_truncated_file_is_refused),
+        cmocka_unit_test(flipped_bits_are_refused_or_harmless),
+        cmocka_unit_test(nothing_leads_out_of_a_file_or_claims_more_than_it_holds),
         cmocka_unit_test(a_grid_that_is_not_one_is_refused),
         cmocka_unit_test(a_clock_of_its_own_is_not_exchanged),
         cmocka_unit_test(attributes_that_are_no_notes_are_skipped),

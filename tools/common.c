@@ -329,6 +329,22 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
     return signal;
 }
 
+ss_coefficients *
+tool_read_coefficients(const char *path)
+{
+    ss_coefficients *coefficients = NULL;
+    ss_error err = { "" };
+    if (tool_is_hdf5(path)) {
+        tool_check(ss_store_read_coefficients(&coefficients, path, &err), &err);
+        return coefficients;
+    }
+    FILE *in = tool_open(path);
+    tool_check(ss_coefficients_read(&coefficients, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
+    return coefficients;
+}
+
 static const ss_shipped_scene *
 shipped(const char *name)
 {

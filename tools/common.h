@@ -57,6 +57,8 @@ const char *tool_input_name(const char *path);
 FILE *tool_open(const char *path);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
+/* Read coefficients from "-", a file or HDF5, or die. */
+ss_coefficients *tool_read_coefficients(const char *path);
 /* Read a scene given by path, by the bare name of a shipped one, or "-", with settings
  * "key=value" in place of its own; dies, a setting at fault being wrong usage. */
 ss_scene tool_read_scene(const char *path, const char *const settings[], size_t n);

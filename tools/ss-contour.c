@@ -48,22 +48,6 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     return ss_plot_contour(out, d->coefficients, &d->opts, opts, err);
 }
 
-static ss_coefficients *
-read_coefficients(const char *path)
-{
-    ss_coefficients *coefficients = NULL;
-    ss_error err = { "" };
-    if (tool_is_hdf5(path)) {
-        tool_check(ss_store_read_coefficients(&coefficients, path, &err), &err);
-        return coefficients;
-    }
-    FILE *in = tool_open(path);
-    tool_check(ss_coefficients_read(&coefficients, in, tool_input_name(path), &err), &err);
-    if (in != stdin)
-        fclose(in);
-    return coefficients;
-}
-
 /* The signal for panel (a): the one asked for, or the one that an HDF5 file has, or none. */
 static ss_signal *
 find_signal(drawing *d, const char *path, const char *signal_path, const char *column)
@@ -258,7 +242,7 @@ main(int argc, char *argv[])
     if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events)
         + is_stdin(features) > 1)
         tool_usage("standard input can be read only once");
-    d.coefficients = read_coefficients(path);
+    d.coefficients = tool_read_coefficients(path);
     ss_signal *signal = find_signal(&d, path, signal_path, column);
     if (column != NULL && signal == NULL)
         tool_usage("--column chooses from a signal, and there is none; give it with --signal");

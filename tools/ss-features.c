@@ -167,7 +167,8 @@ write_features(FILE *out, const ss_features *f, const ss_signal *signal, size_t 
     const ss_header *head = signal->head;
     fputs("# stickslip features 1\n", out);
     for (size_t i = 0; i < head->n_notes; i++)
-        fprintf(out, "# %s\n", head->note[i]);
+        if (strncmp(head->note[i], "contact_", 8) != 0)     /* a scene's own; here they are results */
+            fprintf(out, "# %s\n", head->note[i]);
     fprintf(out, "# column: %s\n# threshold: ", head->column[column].name);
     put(out, opts->threshold);
     fprintf(out, "\n# norm: %s\n", opts->norm == SS_NORM_L1 ? "l1" : "l2");

@@ -1,5 +1,6 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -24,8 +25,11 @@ static const char usage[] =
 "      --detrend=NAME     subtract none, mean or linear first (none)\n"
 "      --force            also scales that the record does not resolve\n"
 "      --threads=N        work on N scales at a time (1)\n"
+"      --stream           give coefficients as they are complete; needs --fmin\n"
+"      --inverse          read coefficients, write the signal that has them\n"
 "      --check            compare with the other method, say what differs\n"
-"  -o, --output=FILE      .tsv, or .h5 with the signal; - is standard output\n"
+"  -o, --output=FILE      .tsv, .au, or .h5 with the signal\n"
+"      --format=FORM      on standard output: tsv (default) or au\n"
 "  -q, --quiet            no warnings\n"
 "  -v, --verbose          say what was chosen and what it cost\n"
 "  -h, --help             show this text and exit\n"
@@ -34,7 +38,7 @@ static const char usage[] =
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
     OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE, OPT_THREADS, OPT_CHECK
+    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_CHECK
 };
 
 static const struct option longopts[] = {
@@ -54,7 +58,10 @@ static const struct option longopts[] = {
     { "detrend", required_argument, NULL, OPT_DETREND },
     { "force", no_argument, NULL, OPT_FORCE },
     { "threads", required_argument, NULL, OPT_THREADS },
+    { "stream", no_argument, NULL, OPT_STREAM },
+    { "inverse", no_argument, NULL, OPT_INVERSE },
     { "check", no_argument, NULL, OPT_CHECK },
+    { "format", required_argument, NULL, TOOL_OPT_FORMAT },
     TOOL_LONGOPTS
 };
 
@@ -67,7 +74,9 @@ typedef struct request {
     ss_morlet_opts opts;
     const char *column, *output;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
-    int check;
+    int stream, inverse, check;
+    int transforms;                     /* an option was given that is of the transform alone */
+    tool_kind kind;                     /* what is written */
 } request;
 
 static void
@@ -85,6 +94,7 @@ set_option(request *req, int c)
 {
     ss_morlet_opts *opts = &req->opts;
     req->grid |= c == OPT_VOICES || c == OPT_STEP || c == OPT_DENSE;
+    req->transforms |= c >= OPT_COLUMN && c != OPT_ACCURACY && c != OPT_INVERSE;
     switch (c) {
     case OPT_COLUMN:     req->column = optarg; break;
     case OPT_CENTER:     opts->center = tool_number("--center", optarg, 2, 1000); break;
@@ -104,7 +114,10 @@ set_option(request *req, int c)
     case OPT_FORCE:      opts->force = 1; break;
     case OPT_THREADS:    opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
                          break;
+    case OPT_STREAM:     req->stream = 1; break;
+    case OPT_INVERSE:    req->inverse = 1; break;
     case OPT_CHECK:      req->check = 1; break;
+    case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
     case 'o':            req->output = optarg; break;
     default:             tool_option(c);
     }
@@ -125,6 +138,16 @@ check_request(request *req)
         opts->voices = 1;
         opts->step = 1;
     }
+    if (req->inverse && req->transforms)
+        tool_usage("--inverse takes no options but --accuracy, --output and --format");
+    if (req->stream && opts->fmin == 0 && !opts->octaves)
+        tool_usage("--stream needs --fmin, as the length of the record is not known");
+    if (req->stream && opts->detrend != SS_DETREND_NONE)
+        tool_usage("--stream excludes --detrend: a mean or a line is that of the whole record");
+    if (req->stream && req->check)
+        tool_usage("--stream excludes --check, which takes the whole record");
+    req->kind = tool_output_kind(req->output, 1u << TOOL_TSV | 1u << TOOL_AU
+                                 | (req->stream ? 0 : 1u << TOOL_H5), req->kind);
 }
 
 /* A library call's failure, told with the input's name. */
@@ -178,41 +201,199 @@ report(const request *req, const ss_signal *signal, size_t column, const ss_coef
     ss_morlet_free(plan);
 }
 
+static ss_format
+format_of(const request *req)
+{
+    return req->kind == TOOL_AU ? SS_AU : SS_TSV;
+}
+
 static void
-write_output(const char *path, const ss_signal *signal, const ss_coefficients *coef)
+check_written(ss_status status)
+{
+    if (status == SS_EINVAL)
+        tool_die("AU is limited to a header of 1 MiB");
+    if (status == SS_EIO || status == SS_STOP)
+        tool_end();                     /* says why */
+    tool_check(status, NULL);
+}
+
+static void
+write_output(const request *req, const ss_signal *signal, const ss_coefficients *coef)
 {
     ss_error err = { "" };
-    if (tool_output_kind(path, 1u << TOOL_TSV | 1u << TOOL_H5, TOOL_TSV) == TOOL_H5) {
+    if (req->kind == TOOL_H5) {
         ss_record record = { .signal = signal, .coefficients = coef };
-        tool_check(ss_store_write(tool_output_path(path), &record, &err), &err);
+        tool_check(ss_store_write(tool_output_path(req->output), &record, &err), &err);
         return;
     }
-    if (ss_coefficients_write(coef, tool_output(path)) != SS_OK)
-        tool_end();                     /* says why */
+    check_written(ss_coefficients_write(coef, tool_output(req->output), format_of(req)));
+}
+
+/* Transform a record that is there. */
+static void
+transform_whole(const request *req, const char *path)
+{
+    ss_coefficients *coef = NULL;
+    ss_error err = { "" };
+    ss_signal *signal = tool_read_signal(path, NULL);
+    size_t column = tool_column(signal->head, path, req->column);
+    double begin = now();
+    check(ss_transform(&coef, signal, column, &req->opts, &err), &err, path);
+    report(req, signal, column, coef, now() - begin, path);
+    write_output(req, signal, coef);
+    ss_coefficients_free(coef);
+    ss_signal_free(signal);
+}
+
+/* Coefficients back to a signal. */
+static void
+invert(const request *req, const char *path)
+{
+    ss_coefficients *coef = tool_read_coefficients(path);
+    ss_signal *signal;
+    ss_error err = { "" };
+    double error, accuracy = req->opts.accuracy;
+    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, &err), &err, path);
+    tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
+              coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
+    tool_write_signal(signal, req->output, req->kind);
+    ss_signal_free(signal);
+    ss_coefficients_free(coef);
+}
+
+/* --- streams ------------------------------------------------------------------------------- */
+
+typedef struct flow {
+    ss_stream *stream;
+    ss_coefficient_writer *writer;
+    FILE *out;
+    size_t coefficients;
+} flow;
+
+/* A sink. */
+static int
+write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
+           void *user)
+{
+    flow *f = user;
+    f->coefficients += n;
+    return ss_coefficient_writer_rows(f->writer, scale, first, n, w, samples) != SS_OK;
+}
+
+/* The library's answer to what has been done with a stream. */
+static void
+check_flow(const flow *f, ss_status status, const ss_error *err, const char *path)
+{
+    if (status != SS_OK && status != SS_STOP)
+        fflush(f->out);                 /* what is written stays */
+    if (status == SS_STOP)
+        check_written(status);
+    check(status, err, path);
+}
+
+static void
+show_what_is_complete(const flow *f, const char *path)
+{
+    ss_error err = { "" };
+    check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
+    if (fflush(f->out) != 0)
+        check_written(SS_EIO);
+}
+
+/* Samples as they come: while there are more, in long windows; when the source pauses, all that is
+ * complete. */
+static void
+follow(flow *f, ss_reader *reader, size_t column, const char *path)
+{
+    enum { PIECE = 8192 };
+    size_t columns = ss_reader_header(reader)->n_columns, n = 1;
+    double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
+    ss_error bad = { "" }, err = { "" };
+    if (rows == NULL || x == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    while (n > 0 && !tool_stopping()) {
+        ss_status st = ss_reader_rows(reader, rows, PIECE, &n, &bad);
+        for (size_t i = 0; i < n; i++)
+            x[i] = rows[i * columns + column];
+        check_flow(f, ss_stream_push(f->stream, x, n, &err), &err, path);
+        if (st != SS_OK || (n < PIECE && ss_reader_waits(reader)))
+            show_what_is_complete(f, path);
+        tool_check(st, &bad);
+    }
+    free(rows);
+    free(x);
+}
+
+static void
+open_flow(flow *f, const request *req, const ss_header *head, size_t column, const char *path)
+{
+    ss_header *own;
+    ss_error err = { "" };
+    check(ss_stream_new(&f->stream, head->rate, &req->opts, write_rows, f, &err), &err, path);
+    tool_check(ss_coefficients_header(&own, head, column, 0, &req->opts), NULL);
+    f->out = tool_output(req->output);
+    check_written(ss_coefficient_writer_new(&f->writer, f->out, format_of(req), own));
+    ss_header_free(own);
+}
+
+static void
+close_flow(flow *f, const char *path)
+{
+    ss_error err = { "" };
+    size_t scales = ss_stream_scales(f->stream);
+    check_flow(f, ss_stream_end(f->stream, &err), &err, path);
+    check_written(ss_coefficient_writer_end(f->writer, ss_stream_samples(f->stream)));
+    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
+              ss_stream_samples(f->stream), scales, ss_stream_scale(f->stream, 0)->f,
+              ss_stream_scale(f->stream, scales - 1)->f);
+    ss_coefficient_writer_free(f->writer);
+    ss_stream_free(f->stream);
+}
+
+static void
+transform_stream(const request *req, const char *path)
+{
+    flow f = { .coefficients = 0 };
+    ss_error err = { "" };
+    ss_reader *reader;
+    if (tool_is_hdf5(path)) {           /* is not read row by row */
+        ss_signal *signal = tool_read_signal(path, NULL);
+        size_t column = tool_column(signal->head, path, req->column);
+        open_flow(&f, req, signal->head, column, path);
+        check_flow(&f, ss_stream_push(f.stream, signal->values + column * signal->n, signal->n,
+                                      &err), &err, path);
+        close_flow(&f, path);
+        ss_signal_free(signal);
+        return;
+    }
+    FILE *in = tool_open(path);
+    tool_check(ss_reader_new(&reader, in, tool_input_name(path), NULL, &err), &err);
+    size_t column = tool_column(ss_reader_header(reader), path, req->column);
+    tool_end_at_rows(req->output);
+    open_flow(&f, req, ss_reader_header(reader), column, path);
+    follow(&f, reader, column, path);
+    close_flow(&f, path);
+    ss_reader_free(reader);
+    if (in != stdin)
+        fclose(in);
 }
 
 int
 main(int argc, char *argv[])
 {
-    request req = { .opts = ss_morlet_defaults };
-    ss_coefficients *coef = NULL;
-    ss_error err = { "" };
+    request req = { .opts = ss_morlet_defaults, .kind = TOOL_TSV };
 
     tool_begin(argv, "ss-morlet", usage);
     for (int c; (c = getopt_long(argc, argv, "o:qvh", longopts, NULL)) != -1;)
         set_option(&req, c);
     check_request(&req);
-    tool_output_kind(req.output, 1u << TOOL_TSV | 1u << TOOL_H5, TOOL_TSV);
     const char *path = tool_input(argc, argv, optind);
-
-    ss_signal *signal = tool_read_signal(path, NULL);
-    size_t column = tool_column(signal->head, path, req.column);
-    double begin = now();
-    check(ss_transform(&coef, signal, column, &req.opts, &err), &err, path);
-    report(&req, signal, column, coef, now() - begin, path);
-    write_output(req.output, signal, coef);
-    ss_coefficients_free(coef);
-    ss_signal_free(signal);
+    if (req.inverse)
+        invert(&req, path);
+    else if (req.stream)
+        transform_stream(&req, path);
+    else
+        transform_whole(&req, path);
     tool_end();
     return 0;
 }

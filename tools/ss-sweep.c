@@ -148,6 +148,8 @@ parse(request *req, int argc, char *argv[])
         tool_usage("which scene? give a file, or a shipped one by its name");
     req->scene_path = tool_input(argc, argv, optind);
     tool_output_kind(req->path, 1u << TOOL_TSV, TOOL_TSV);
+    if (req->resume != NULL && strcmp(req->resume, "-") == 0)
+        tool_usage("--resume needs a file: what went to standard output cannot be read again");
     if (req->resume != NULL && req->path != NULL)
         tool_usage("--resume FILE is where the rows go: --output does not go with it");
 }

@@ -46,7 +46,8 @@ typedef struct ss_morlet_opts {
     ss_engine engine;
     double accuracy;            /* TOL  1e-13 ... 1e-1: the error of the sum is at most TOL x (largest
                                    |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x|, with the
-                                   1/a norm 16 DBL_EPSILON max|x| */
+                                   1/a norm 16 DBL_EPSILON max|x|; or the least step of a double,
+                                   where that is more */
     ss_norm norm;
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
     ss_detrend detrend;         /* what is subtracted from the record first */
@@ -105,6 +106,42 @@ double ss_scale_b(const ss_scale *scale, size_t k);
  * ends being the first and the last sample. */
 int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
+/* --- streams --------------------------------------------------------------------------------
+ *
+ * The transform of a signal whose length is not known, in memory bounded by the longest scale.  A
+ * coefficient is complete, and can be had, when the samples up to 8.5 a after b have come: what may
+ * follow, however large, stays below the floor of the accuracy.  So the error is the one promised for
+ * the whole record; even the largest |W| is only that of its scale so far.  Which samples come
+ * together changes a coefficient within that error only. */
+
+/* Receives translations first ... first + n - 1, n >= 1, of a scale, each scale's in order, valid
+ * during the call only; w as in ss_morlet_execute, the edge as ss_scale_edge gives it for samples.
+ * scale->n and scale->offset mean nothing.  A non-zero return ends the stream with SS_STOP. */
+typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, const double *w,
+                                size_t samples, void *user);
+
+typedef struct ss_stream ss_stream;
+
+/* SS_EINVAL without fmin or octaves, or with detrend, which takes the whole record.  Scales longer
+ * than the record will be are no error: all they give lies inside the cone of influence. */
+ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
+                        ss_coefficient_sink *sink, void *user, ss_error *err);
+size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
+const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* owned by the stream */
+size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
+
+/* Take n samples.  The sink gets what is complete of them as soon as that is cheap: in long windows.
+ * SS_EINVAL: one is not finite; those before it have been taken.  After a failure the stream only
+ * says it again. */
+ss_status ss_stream_push(ss_stream *stream, const double *x, size_t n, ss_error *err);
+/* Give all that is complete; call it when no more samples are there for now. */
+ss_status ss_stream_drain(ss_stream *stream, ss_error *err);
+/* Give all the rest: the signal has ended, and is zero from here on. */
+ss_status ss_stream_end(ss_stream *stream, ss_error *err);
+void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
+
+/* --- coefficients on their grid -------------------------------------------------------------- */
+
 /* Coefficients with the grid they stand on, as computed or as read back. */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
@@ -122,12 +159,40 @@ typedef struct ss_coefficients {
 /* The simple case: transform one column of a signal. */
 ss_status ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
                        const ss_morlet_opts *opts, ss_error *err);
-ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out);
+ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format);
+/* Text or AU, told apart by its first bytes, of a record or a stream that has come to its end.  Reads
+ * past what it needs: nothing may have been read from a pipe before. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
 void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
 
 /* 1 inside the cone of influence, and as near to a gap or in it, else 0: translation k of scale i. */
 int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k);
+
+/* The signal that has these coefficients, by conjugate gradients on the frame operator: least squares
+ * in the coefficients, weighted as the integral over a and b weights them.  What the scales do not
+ * reach, below the lowest and above the highest label, is absent from it, a mean or a line too.
+ * *error, unless that is NULL: about its root mean square error within the labels, relative to its
+ * own: what of the coefficients it fails to explain, times the square root of the ratio of the grid's
+ * frame bounds there.  With steps above 0.5 more than that may be wrong beyond the labels.
+ * SS_ESCALE: the ratio exceeds 100, the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ... 0.1, of
+ * the coefficients stays unexplained: they are not those of any signal.  SS_EDATA: notes lack options,
+ * or scales are missing.  Costs three to a hundred transforms and as many adjoints by the sum. */
+ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
+                            double *error, ss_error *err);
+
+/* Write coefficients as they come.  The header says the column's signal and the options, and with
+ * n = 0 that the samples are not counted yet: then end writes their number. */
+ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
+                                 const ss_morlet_opts *opts);
+typedef struct ss_coefficient_writer ss_coefficient_writer;
+ss_status ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
+                                    const ss_header *head);
+/* Arguments as a sink gets them.  SS_EIO if out refuses the rows. */
+ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
+                                     size_t first, size_t n, const double *w, size_t samples);
+/* Flushes. */
+ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples);
+void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
 
 /* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */
 double ss_coefficients_max(const ss_coefficients *coefficients);

@@ -98,6 +98,8 @@ const ss_header *ss_reader_header(const ss_reader *reader);
 /* Read up to max rows of n_columns values each, one row after the other, into rows.  *n = 0 with
  * SS_OK is the end.  Fewer than max may come: what is there is given before more is waited for. */
 ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+/* 1 if they would wait for the source, for a row or a part of it; 0 if there is some, or the end. */
+int ss_reader_waits(const ss_reader *reader);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
 
 /* A whole signal in memory. */

@@ -57,10 +57,10 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
     unsigned long steps;        /* accepted integration steps */
     unsigned long rhs;          /* evaluations of the right-hand side */
     unsigned long events;       /* before the record too */
-    unsigned long unresolved;   /* micro-events within what the tolerance, or the closed form's rounding,
-                                   leaves of x in a step: slips no longer than that, and contacts that
-                                   only touched their limit.  x is right, to its accuracy; the number
-                                   and the times of such events are not */
+    unsigned long unresolved;   /* micro-events within what the tolerance, or the closed form's
+                                   rounding, leaves of x in a step: slips no longer than that, and
+                                   contacts that only touched their limit.  x is right, to its
+                                   accuracy; the number and times of such events are not */
 } ss_sim_stats;
 
 /* Simulate the scene from the start of settling to the end of the record, in constant memory.

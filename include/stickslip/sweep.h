@@ -62,7 +62,8 @@ typedef struct ss_steady {
  * and residual are at most tol.  Settle, duration and rate of the scene do not count.
  *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
- * an aperiodic motion, which is measured over max_period cycles.  Else as ss_sim_run, nothing is
+ * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the number
+ * of events that are not resolved (ss_sim_stats).  Else as ss_sim_run, nothing is
  * there. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);

@@ -8,6 +8,7 @@
 #include "maxima.h"
 #include "period.h"
 #include "ringdown.h"
+#include "slope.h"
 
 const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displacement = -1,
                                                 .force = -1, .threads = 1 };
@@ -20,7 +21,7 @@ static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 #define SIGMAS 3.0
 #define SLIGHT 0.5              /* [dB] maxima less prominent than this do not show an oscillation */
 #define BAND 0.25               /* [octaves] maxima this near to each other in frequency are of one kind */
-#define STRONG 30.0             /* [dB] below the strongest: spikes that begin a transition by themselves */
+#define STRONG 20.0             /* [dB] below the strongest: spikes that begin a transition by themselves */
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
@@ -430,6 +431,28 @@ find_stiffness(ss_features *out, double m, double k)
         out->contact_stiffness = (ss_value){ total - k, out->total_stiffness.error };
 }
 
+/* The other route to the contact's stiffness, over what was fitted. */
+static ss_status
+find_slope(search *s)
+{
+    ss_features *out = s->out;
+    const double *values = s->signal->values;
+    size_t x = (size_t)s->opts->displacement, f = (size_t)s->opts->force, n = 0;
+    if (s->opts->displacement < 0 || s->opts->force < 0)
+        return SS_OK;
+    ss_window *span = malloc((out->n + 1) * sizeof *span);
+    if (span == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < out->n; i++)
+        if (!isnan(out->transition[i].from))
+            span[n++] = (ss_window){ (size_t)(out->transition[i].from * s->rate + 0.5),
+                                   (size_t)(out->transition[i].to * s->rate + 0.5) };
+    ss_status st = ss_slope_find(values + f * s->n, values + x * s->n, s->x, span, n,
+                                 &out->contact_slope);
+    free(span);
+    return st;
+}
+
 /* --- all of it ----------------------------------------------------------------------------- */
 
 /* From the lowest usable frequency on; SS_ESCALE where there is none. */
@@ -487,9 +510,8 @@ find_all(search *s)
         return st;
     count_spikes(s->out);
     find_slip_rate(s);
-    if (st == SS_OK)
-        find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
-    return st;
+    find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
+    return find_slope(s);
 }
 
 static ss_status
@@ -500,6 +522,9 @@ check(const ss_signal *signal, size_t column, const ss_features_opts *opts, ss_e
     if (!(opts->threshold > 0 && opts->mass >= 0 && opts->stiffness >= 0 && opts->fmin >= 0
           && opts->drop >= 0 && isfinite(opts->drop + opts->threshold + opts->mass + opts->stiffness + opts->fmin)))
         return ss_fail(err, SS_EINVAL, "threshold, mass, stiffness or fmin out of range");
+    if (opts->displacement >= (int)signal->head->n_columns
+        || opts->force >= (int)signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "no such column of displacement or force");
     if (opts->threads < 1 || opts->threads > SS_THREADS_MAX)
         return ss_fail(err, SS_EINVAL, "threads out of range");
     for (size_t i = 0; i < signal->n; i++)

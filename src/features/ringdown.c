@@ -39,7 +39,8 @@
 #define ROUGH 0.02              /* a core is described badly if more of its oscillation's amplitude is left */
 #define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
 #define LASTS 0.15              /* and of the amplitude at its start, at its end: what is gone rang no two periods */
-#define APART 3.0               /* periods: transitions nearer than that have no room for two and a slip */
+#define APART 3.0               /* periods: transitions, or half-cycles of the base, shorter than that have
+                                   no room for two and a slip */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 #define FINE 1e-8
@@ -731,17 +732,23 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
     return st == SS_OK ? fit_each(k, window, n, each) : st;
 }
 
+static void
+clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
+{
+    value[0] = value[1] = nothing;
+    for (size_t i = 0; i < n; i++) {
+        window[i] = (ss_window){ anchor[i], anchor[i] };
+        each[2 * i] = each[2 * i + 1] = nothing;
+    }
+}
+
 static ss_status
 fit_with(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
 {
     ss_window *core = malloc((n + 1) * sizeof *core);
     if (core == NULL)
         return SS_ENOMEM;
-    value[0] = value[1] = nothing;
-    for (size_t i = 0; i < n; i++) {
-        window[i] = (ss_window){ anchor[i], anchor[i] };
-        each[2 * i] = each[2 * i + 1] = nothing;
-    }
+    clear(anchor, n, window, value, each);
     ss_status st = fit_all(k, anchor, n, core, window, value, each);
     free(core);
     return st;
@@ -783,8 +790,6 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
            ss_value *each, double white)
 {
     size_t strict = 0, used = 0;
-    if (n < 2 || (double)(anchor[n - 1] - anchor[0]) < APART * period(k) * (double)(n - 1))
-        return SS_OK;
     ss_window *core = malloc((n + 1) * sizeof *core);
     if (core == NULL)
         return SS_ENOMEM;
@@ -806,6 +811,11 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
                 ss_value *each)
 {
     work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1 };
+    clear(anchor, n_anchors, window, value, each);
+    double apart = n_anchors < 2 ? 0
+        : (double)(anchor[n_anchors - 1] - anchor[0]) / (double)(n_anchors - 1);
+    if (!(apart >= APART * period(&k)) || (forcing > 0 && M_PI / forcing < APART * period(&k)))
+        return SS_OK;
     k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
     double *memory = malloc((COLUMNS + 1 + PARAMETERS) * k.room * sizeof *memory);
     if (memory == NULL)

@@ -72,7 +72,8 @@ excess(const motion *m)
     ss_linear_rates(m, ss_motion_drive(m, m->u), m->q, rate);
     if (!(rate[1] * sign(m->q[0]) < 0))
         return INFINITY;
-    return fabs(m->q[0]) - deflection_limit(m) + v / (2 * fabs(rate[1])) * v;  /* v^2 may underflow */
+    double rest = v / (2 * fabs(rate[1])) * v;      /* v^2 may underflow */
+    return fabs(m->q[0]) - deflection_limit(m) + rest;
 }
 
 /* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most (sim.c says

@@ -21,6 +21,31 @@ ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_e
     return SS_OK;
 }
 
+ss_status
+ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+               double *scratch, wavelet *wave, span part, double *most, double *w, ss_error *err)
+{
+    const ss_scale *scale = &plan->scale[i];
+    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
+    factor = ldexp(factor, rec->exponent);
+    int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
+    factor = fits ? factor : 1;
+    if (s != NULL && ss_fft_takes(plan->fft, i)) {
+        if (scratch == NULL)
+            return SS_ENOMEM;
+        ss_fft_scale(plan, i, rec, s, scratch, part, factor, most, w);
+    } else {
+        wavelet *own = wave == NULL ? ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)
+            : NULL;
+        if (wave == NULL && own == NULL)
+            return SS_ENOMEM;
+        ss_quadrature_scale(plan, scale, rec, wave != NULL ? wave : own, part, factor, most, w);
+        ss_wavelet_free(own);
+    }
+    return fits ? SS_OK
+        : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
+}
+
 typedef struct work {
     const ss_morlet *plan;
     record rec;
@@ -36,21 +61,10 @@ typedef struct work {
 static ss_status
 one_scale(const work *job, size_t i, double *scratch, ss_error *err)
 {
-    const ss_morlet *plan = job->plan;
-    const ss_scale *scale = &plan->scale[i];
-    double *w = job->w + 2 * scale->offset;
-    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
-    factor = ldexp(factor, job->rec.exponent);
-    int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
-    factor = fits ? factor : 1;
-    ss_status st = SS_OK;
-    if (!ss_fft_takes(plan->fft, i))
-        st = ss_quadrature_scale(plan, scale, &job->rec, factor, w);
-    else
-        ss_fft_scale(plan, i, &job->rec, &job->spectra, scratch, factor, w);
-    if (st != SS_OK || fits)
-        return st;
-    return ss_morlet_finish(w, scale->n, scale->a, plan->opts.norm, job->rec.exponent, err);
+    const ss_scale *scale = &job->plan->scale[i];
+    double most = 0;
+    return ss_morlet_part(job->plan, i, &job->rec, &job->spectra, scratch, NULL,
+                          (span){ 0, scale->n }, &most, job->w + 2 * scale->offset, err);
 }
 
 /* A thread: scales until none is left, the expensive short ones first. */

@@ -39,7 +39,6 @@
 #include "morlet/plan.h"
 #include "morlet/versions.h"
 
-#define REACH 8.5                   /* exp(-REACH^2/2) = 2e-16 */
 #define EDGE_MAX 0.32               /* of a kernel's band, in cycles a point */
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 
@@ -92,6 +91,7 @@ struct fft {
     inverse *inverse;
     size_t n_inverse, longest;
     kaiser *kernel[2][KERNELS];     /* for each bound; NULL: none needed */
+    double cost;                    /* of all that is done here, about [s] */
     int no_memory;                  /* for one of them */
 };
 
@@ -252,6 +252,13 @@ turn(size_t k, size_t c, size_t m, double e[2])
     e[1] = sin(p);
 }
 
+/* Samples between the translations of a lattice. */
+static double
+step_of(const level *lev, const route *r)
+{
+    return (double)lev->points * (double)lev->samples / (double)r->length;
+}
+
 /* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
 static double
 put_lattice(const double *v, size_t n, double factor, double *w)
@@ -299,14 +306,20 @@ put_block(double *restrict s, const double start[2], const double *restrict re,
     return most;
 }
 
-/* DENSE: coefficient c lies c/phases points along the circle. */
+/* How many places between points repeat. */
+static size_t
+phases_of(const level *lev, const route *r)
+{
+    return lev->points / r->length * lev->samples;
+}
+
+/* DENSE: coefficient c lies c/phases points along the circle; n from row on, counted in points. */
 static double
 put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker, const double *v,
-          double *table, double factor, double *w)
+          double *table, size_t row, size_t n_all, double factor, double *w)
 {
-    const level *lev = &f->level[r->level];
-    size_t phases = lev->points / r->length * lev->samples, circle = r->length * phases;
-    size_t mid = (size_t)b->mid, rows = (f->n + phases - 1) / phases;
+    size_t phases = phases_of(&f->level[r->level], r), circle = r->length * phases;
+    size_t mid = (size_t)b->mid, rows = (n_all + phases - 1) / phases;
     double *weight = table, *shift = weight + phases * (size_t)ker->taps, most = 0;
     double re[BLOCK], im[BLOCK];
     for (size_t p = 0; p < phases; p++) {
@@ -319,14 +332,15 @@ put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker,
         re[i] = e[0];
         im[i] = e[1];
     }
+    v += 2 * row;
     for (size_t j = 0; j < rows; j += BLOCK) {
         double start[2];
-        turn(mid, j, r->length, start);
-        for (size_t p = 0; p < phases && j * phases + p < f->n; p++) {
+        turn(mid, row + j, r->length, start);
+        for (size_t p = 0; p < phases && j * phases + p < n_all; p++) {
             const double *q = shift + 2 * p;
             double e[2] = { start[0] * q[0] - start[1] * q[1], start[0] * q[1] + start[1] * q[0] };
             double sum[2 * BLOCK];
-            size_t first = j * phases + p, n = (f->n - first + phases - 1) / phases;
+            size_t first = j * phases + p, n = (n_all - first + phases - 1) / phases;
             sum_taps(v + 2 * j - (ker->taps - 2), weight + p * (size_t)ker->taps, ker->taps, sum);
             most = fmax(most, put_block(sum, e, re, im, factor, w + 2 * first, phases,
                                         n < BLOCK ? n : BLOCK));
@@ -338,20 +352,22 @@ put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker,
 /* ANYWHERE: each coefficient at its own b, tau samples after sample c. */
 static double
 put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale *scale,
-             const kaiser *ker, const double *v, double factor, double *w)
+             const kaiser *ker, const double *v, ptrdiff_t origin, span part, double factor,
+             double *w)
 {
     const level *lev = &f->level[r->level];
     double per_sample = (double)r->length / ((double)lev->points * (double)lev->samples), most = 0;
     size_t circle = lev->points * lev->samples;
-    for (size_t i = 0; i < scale->n; i++) {
-        double at = ss_scale_b(scale, i), c = rint(at * f->rate);
+    for (size_t i = 0; i < part.n; i++) {
+        double at = ss_scale_b(scale, part.first + i), c = rint(at * f->rate);
         double tau = c / f->rate == at ? 0 : fma(at, f->rate, -c);
+        c -= (double)origin;
         double weight[KAISER_TAPS_MAX], e[2], re = 0, im = 0;
         uint64_t whole = (uint64_t)c * r->length / circle;  /* both below 2^32 */
-        double part = (double)((uint64_t)c * r->length % circle) / (double)circle
+        double rest = (double)((uint64_t)c * r->length % circle) / (double)circle
             + tau * per_sample;
-        ptrdiff_t j = (ptrdiff_t)whole + (ptrdiff_t)floor(part);
-        ss_kaiser_weights(ker, part - floor(part), weight);
+        ptrdiff_t j = (ptrdiff_t)whole + (ptrdiff_t)floor(rest);
+        ss_kaiser_weights(ker, rest - floor(rest), weight);
         const double *p = v + 2 * j - (ker->taps - 2);
         for (int k = 0; k < ker->taps; k++) {
             re += weight[k] * p[2 * k];
@@ -393,10 +409,10 @@ kernel_index(double edge, double *made_for)
     return i;
 }
 
-/* One pass over a scale at one of the bounds.  Returns the largest |W|^2. */
+/* One pass over part of a scale at one of the bounds.  Returns the largest |W|^2. */
 static double
-pass(const ss_morlet *plan, size_t i, const double *x, int round, double *v, double factor,
-     double *w)
+pass(const ss_morlet *plan, size_t i, const double *x, ptrdiff_t origin, span part, int round,
+     double *v, double factor, double *w)
 {
     const struct fft *f = plan->fft;
     const route *r = &f->route[i];
@@ -407,25 +423,31 @@ pass(const ss_morlet *plan, size_t i, const double *x, int round, double *v, dou
     const kaiser *ker = r->kind == LATTICE ? NULL
         : f->kernel[round][kernel_index(edge_of(&b, r->length), &made_for)];
     series(f, r, &b, x, r->kind == LATTICE ? 0 : b.mid, ker, v);
-    if (r->kind == LATTICE)
-        return put_lattice(v, scale->n, factor, w);
+    if (r->kind == LATTICE) {
+        double before = rint((double)origin / step_of(&f->level[r->level], r));
+        ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
+        return put_lattice(v + 2 * first, part.n, factor, w);
+    }
     close_circle(v, r->length);
     if (r->kind == ANYWHERE)
-        return put_anywhere(f, r, &b, scale, ker, v, factor, w);
+        return put_anywhere(f, r, &b, scale, ker, v, origin, part, factor, w);
     double *table = v + 2 * (r->length + MARGIN);
-    return put_dense(f, r, &b, ker, v, table, factor, w);
+    size_t row = (size_t)((ptrdiff_t)part.first - origin) / phases_of(&f->level[r->level], r);
+    return put_dense(f, r, &b, ker, v, table, row, part.n, factor, w);
 }
 
 void
 ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
-             double factor, double *w)
+             span part, double factor, double *most, double *w)
 {
     const double *x = s->level[plan->fft->route[i].level];
+    double before = *most;
     for (int round = 0; round < 2; round++) {
-        double most = sqrt(pass(plan, i, x, round, scratch + 2 * MARGIN, factor, w));
+        *most = fmax(before, sqrt(pass(plan, i, x, rec->origin, part, round,
+                                       scratch + 2 * MARGIN, factor, w)));
         double bound = plan->fft->bound[round];
         if (rec->x_max == 0
-            || bound <= TAIL_FLOOR + plan->opts.accuracy * fmax(0, most / rec->x_max - bound))
+            || bound <= TAIL_FLOOR + plan->opts.accuracy * fmax(0, *most / rec->x_max - bound))
             break;
     }
 }
@@ -571,6 +593,33 @@ samples_reached(const ss_scale *scale, double rate)
     return reach < 0x1p50 ? (size_t)reach : (size_t)1 << 50;
 }
 
+/* Samples that a point may stand for, the shortest scale being so many samples. */
+static size_t
+samples_for(const struct fft *f, double shortest, size_t most)
+{
+    double omega = (f->center + half_width(f, reach_for(f, TAIL_FLOOR))) / shortest;
+    size_t samples = 1;
+    while ((double)(16 * samples) * omega <= 2 * M_PI && samples < most)
+        samples *= 2;
+    return samples < 4 ? 1 : samples;
+}
+
+/* One circle, which a window fills but for what spreading needs. */
+static void
+choose_window(struct fft *f, ss_morlet *plan)
+{
+    level *lev = &f->level[0];
+    double shortest = plan->scale[plan->n_scales - 1].a * f->rate;
+    lev->samples = samples_for(f, shortest, f->n / 8);
+    size_t margin = lev->samples > 1 ? 2 * SPREAD_TAPS : 0;
+    double least = (double)f->n / (double)lev->samples + (double)margin;
+    lev->points = good_points(least, lattice_factor(plan));
+    lev->reach = SIZE_MAX;
+    f->levels = 1;
+    if (lev->points > margin)
+        f->n = plan->n = (lev->points - margin) * lev->samples;
+}
+
 /* Circle 0 has few zeros; circle 1, if longer scales need one, so many that they do. */
 static void
 choose_levels(struct fft *f, const ss_morlet *plan)
@@ -590,12 +639,7 @@ choose_levels(struct fft *f, const ss_morlet *plan)
     }
     if (far == 0)
         return;
-    double omega = (f->center + half_width(f, reach_for(f, TAIL_FLOOR))) * REACH / (double)near;
-    one->samples = 1;
-    while ((double)(16 * one->samples) * omega <= 2 * M_PI && one->samples < f->n / 8)
-        one->samples *= 2;
-    if (one->samples < 4)
-        one->samples = 1;
+    one->samples = samples_for(f, (double)near / REACH, f->n / 8);
     double least = (double)(f->n + far) / (double)one->samples + 3 * SPREAD_TAPS;
     one->points = good_points(least, factor);
     one->reach = far;
@@ -605,7 +649,8 @@ choose_levels(struct fft *f, const ss_morlet *plan)
 /* L, if every translation stands at a multiple of the circle's L-th part, else 0.  Within the
  * promise is near enough, W changing by no more than (omega_c + REACH)/a of its largest a second. */
 static size_t
-lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy)
+lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy,
+               int window)
 {
     double circle = (double)lev->points * (double)lev->samples;
     int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5, dense = scale->b_den != 1;
@@ -615,6 +660,9 @@ lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, dou
     int near = !dense && scale->b_num <= scale->a && off < allow;
     if (!(parts >= (double)scale->n && parts < INT_MAX))
         return 0;
+    if (window)
+        return power_of_two && circle == parts * step && step <= 4 * scale->a * f->rate
+            ? (size_t)parts : 0;
     return near || ((dense || power_of_two) && circle == parts * step) ? (size_t)parts : 0;
 }
 
@@ -673,7 +721,7 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
         return INFINITY;
     band fine = band_of(f, lev, scale->a, half_width(f, reach_for(f, TAIL_FLOOR)));
     double best = INFINITY, terms = (double)(fine.hi - fine.lo) + 1;
-    size_t length = lattice_length(f, lev, scale, plan->opts.accuracy);
+    size_t length = lattice_length(f, lev, scale, plan->opts.accuracy, plan->window && !dense);
     if (terms > (double)lev->points)
         return best;
     if (length > 0) {
@@ -711,15 +759,21 @@ choose_routes(struct fft *f, const ss_morlet *plan)
         r->level = reach > f->level[0].reach;
         if (r->level == 1 && (f->levels == 1 || reach > f->level[1].reach))
             continue;
-        double cost = choose_route(f, plan, i), sum = ss_quadrature_cost(plan, &plan->scale[i]);
+        double cost = choose_route(f, plan, i);
+        double sum = ss_quadrature_cost(plan, &plan->scale[i], plan->scale[i].n);
         if (plan->opts.engine == SS_ENGINE_AUTO && cost > sum)
             r->kind = BY_SUM;
-        else if (r->kind != BY_SUM)
-            gain[r->level] += sum - cost;
+        if (r->kind == BY_SUM)
+            continue;
+        gain[r->level] += sum - cost;
+        f->cost += cost;
     }
-    for (int l = 0; l < f->levels; l++)
-        gain[l] -= inverse_cost(f->level[l].points) / 2
-            + (l == 1 ? (double)f->n * SPREAD_TAPS * COST_DENSE_TAP : 0);
+    for (int l = 0; l < f->levels; l++) {
+        double forward = inverse_cost(f->level[l].points) / 2
+            + (f->level[l].samples > 1 ? (double)f->n * SPREAD_TAPS * COST_DENSE_TAP : 0);
+        gain[l] -= forward;
+        f->cost += forward;
+    }
     for (size_t i = 0; plan->opts.engine == SS_ENGINE_AUTO && i < plan->n_scales; i++)
         if (gain[f->route[i].level] < 0)
             f->route[i].kind = BY_SUM;
@@ -801,10 +855,13 @@ ss_fft_new(ss_morlet *plan)
     f->rate = plan->rate;
     f->center = wc;
     f->second = plan->opts.admissible ? exp(-wc * wc / 2) : 0;
-    f->log_factor = 1 + log1p((double)plan->n / shortest / 2);
+    f->log_factor = 1 + log1p((double)plan->n * (plan->window ? 2 : 1) / shortest / 2);
     f->bound[0] = fmax(plan->opts.accuracy / 1000, TAIL_FLOOR);
     f->bound[1] = TAIL_FLOOR;
-    choose_levels(f, plan);
+    if (plan->window)
+        choose_window(f, plan);
+    else
+        choose_levels(f, plan);
     choose_routes(f, plan);
     if (f->no_memory)
         return SS_ENOMEM;
@@ -840,4 +897,33 @@ int
 ss_fft_takes(const struct fft *fft, size_t i)
 {
     return fft != NULL && fft->route[i].kind != BY_SUM;
+}
+
+double
+ss_fft_cost(const struct fft *fft)
+{
+    return fft->cost;
+}
+
+size_t
+ss_fft_unit(const ss_morlet *plan)
+{
+    double unit = 1;
+    for (size_t i = 0; i < plan->n_scales && plan->fft != NULL; i++) {
+        const route *r = &plan->fft->route[i];
+        if (r->kind != LATTICE || plan->opts.dense)
+            continue;
+        double step = step_of(&plan->fft->level[r->level], r);
+        while (step != floor(step))     /* a multiple of it that is a whole number */
+            step *= 2;
+        unit = fmax(unit, step);        /* they differ by powers of two */
+    }
+    return (size_t)unit;
+}
+
+size_t
+ss_fft_places(const struct fft *fft, size_t i)
+{
+    const route *r = &fft->route[i];
+    return r->kind == DENSE ? phases_of(&fft->level[r->level], r) : 1;
 }

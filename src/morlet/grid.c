@@ -34,12 +34,13 @@ label(double j, const ss_morlet_opts *opts)
     return opts->center / (2 * M_PI * exp2(j / opts->voices));
 }
 
-/* Scales that the sampling resolves and the record holds, see stickslip/morlet.h. */
+/* Scales that the sampling resolves and the record holds, see stickslip/morlet.h; n = 0: any
+ * record, the end of which is not known. */
 static range
 usable(size_t n, double rate, const ss_morlet_opts *opts)
 {
     double a_lo = (opts->center + sqrt(-2 * log(opts->accuracy))) / (M_PI * rate);
-    double a_hi = (double)n / rate / (2 * sqrt(2));
+    double a_hi = n > 0 ? (double)n / rate / (2 * sqrt(2)) : INFINITY;
     return whole(a_lo, a_hi, opts->voices);
 }
 
@@ -77,6 +78,10 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
                        "needed%s", n, n == 1 ? "" : "s", rate, opts->accuracy, need,
                        opts->force ? ", or --force with both limits of frequency" : "");
     }
+    if (!opts->force && n == 0 && ask.lo < use.lo)
+        return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within "
+                       "accuracy %g, not %.6g Hz; --force computes them all the same", rate,
+                       label(use.lo, opts), opts->accuracy, label(ask.lo, opts));
     if (!opts->force && (ask.lo < use.lo || ask.hi > use.hi))
         return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz "
                        "within accuracy %g, not from %.6g to %.6g Hz; --force computes them all "
@@ -137,18 +142,25 @@ ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate)
 }
 
 /* The floor is within one of the count that ss_scale_b gives, rounding included. */
+size_t
+ss_scale_count(const ss_scale *scale, double t)
+{
+    size_t n = (size_t)floor(t * scale->b_den / scale->b_num);
+    while (ss_scale_b(scale, n) <= t)
+        n++;
+    while (ss_scale_b(scale, n - 1) > t)
+        n--;
+    return n;
+}
+
 static ss_status
 count_translations(ss_scale *scale, size_t n, double rate, ss_error *err)
 {
-    double last = (double)(n - 1) / rate, count = floor(last * scale->b_den / scale->b_num);
-    if (!(count < 0x1p50))
+    double last = (double)(n - 1) / rate;
+    if (!(last * scale->b_den / scale->b_num < 0x1p50))
         return ss_fail(err, SS_EINVAL, "the translation step %g s is too small for a record of "
                        "%g s", scale->b_num / scale->b_den, last);
-    scale->n = (size_t)count;
-    while (ss_scale_b(scale, scale->n) <= last)
-        scale->n++;
-    while (ss_scale_b(scale, scale->n - 1) > last)
-        scale->n--;
+    scale->n = ss_scale_count(scale, last);
     return SS_OK;
 }
 
@@ -164,24 +176,42 @@ ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                          .b_den = opts->dense ? rate : 1 };
     if (!(scale->b_num >= 1e-300))
         return ss_fail(err, SS_EINVAL, "step %g is too small", opts->step);
-    return count_translations(scale, n, rate, err);
+    return n == 0 ? SS_OK : count_translations(scale, n, rate, err);
+}
+
+ss_status
+ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
+               const ss_morlet_opts *opts, ss_error *err)
+{
+    range use = usable(n, rate, opts), ask = asked(n, rate, opts, use);
+    ss_status st = check_request(ask, use, n, rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    *n_scales = (size_t)(ask.hi - ask.lo) + 1;
+    *scale = calloc(*n_scales, sizeof **scale);
+    if (*scale == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < *n_scales; i++)
+        st = ss_morlet_scale_at(*scale + i, (int)ask.hi - (int)i, NAN, n, rate, opts, err);
+    if (st != SS_OK) {
+        free(*scale);
+        *scale = NULL;
+    }
+    return st;
 }
 
 static ss_status
-fill_grid(ss_morlet *plan, int j_long, ss_error *err)
+fill_plan(ss_morlet *plan, ss_error *err)
 {
-    for (size_t i = 0; i < plan->n_scales; i++) {
-        ss_scale *scale = &plan->scale[i];
-        ss_status st = ss_morlet_scale_at(scale, j_long - (int)i, NAN, plan->n, plan->rate,
-                                          &plan->opts, err);
-        if (st != SS_OK)
-            return st;
-        scale->offset = plan->total;
-        plan->total += scale->n;
+    ss_status st = ss_morlet_grid(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
+                                  err);
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
+        plan->scale[i].offset = plan->total;
+        plan->total += plan->scale[i].n;
         if (plan->total > SIZE_MAX / (2 * sizeof(double)))
-            return SS_ENOMEM;
+            st = SS_ENOMEM;
     }
-    return SS_OK;
+    return st;
 }
 
 ss_status
@@ -190,17 +220,11 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
     ss_status st = ss_morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
-    range use = usable(n, rate, opts), ask = asked(n, rate, opts, use);
-    if ((st = check_request(ask, use, n, rate, opts, err)) != SS_OK)
-        return st;
-
     ss_morlet *plan = calloc(1, sizeof *plan);
     if (plan == NULL)
         return SS_ENOMEM;
-    *plan = (ss_morlet){ .opts = *opts, .n = n, .rate = rate,
-                         .n_scales = (size_t)(ask.hi - ask.lo) + 1 };
-    plan->scale = calloc(plan->n_scales, sizeof *plan->scale);
-    st = plan->scale == NULL ? SS_ENOMEM : fill_grid(plan, (int)ask.hi, err);
+    *plan = (ss_morlet){ .opts = *opts, .n = n, .rate = rate };
+    st = fill_plan(plan, err);
     if (st == SS_OK)
         st = ss_fft_new(plan);
     if (st != SS_OK) {

@@ -9,6 +9,7 @@
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 /* Of the 16 eps promised, what the parts of the wavelet that are left out may take. */
 #define TAIL_FLOOR (4 * DBL_EPSILON)
+#define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */
 
 struct ss_morlet {
     ss_morlet_opts opts;
@@ -17,15 +18,24 @@ struct ss_morlet {
     size_t n_scales;
     ss_scale *scale;        /* long to short */
     size_t total;           /* coefficients */
+    int window;             /* 1: for windows of a stream, of whose coefficients only those are
+                               asked for that lie REACH a and a unit within its ends */
     struct fft *fft;        /* NULL: all by quadrature */
 };
 
-/* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1). */
+/* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1); or a
+ * window of a stream, zero outside. */
 typedef struct record {
     size_t n;
-    double *x, x_max;       /* x_max = max|x|; x is the caller's to free */
+    double *x, x_max;       /* x_max >= max|x|; x is the caller's to free */
     int exponent;           /* the samples are x 2^exponent */
+    ptrdiff_t origin;       /* x[0] is sample origin of the signal */
 } record;
+
+/* Translations first ... first + n - 1 of a scale. */
+typedef struct span {
+    size_t first, n;
+} span;
 
 /* SS_EINVAL if a sample is not finite. */
 ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend,
@@ -38,16 +48,36 @@ ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int expo
 /* SS_OK if every option lies in its range and n samples at this rate are a record. */
 ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err);
 
-/* Fill in scale j of the grid but for its offset; a NaN means 2^(j/V).  SS_EINVAL if its
- * translations are too many to count. */
+/* The scales that opts ask for, long to short, to be freed.  n = 0: the length is not known, and
+ * translations are not counted. */
+ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
+                         const ss_morlet_opts *opts, ss_error *err);
+/* Translations up to time t >= 0. */
+size_t ss_scale_count(const ss_scale *scale, double t);
+
+/* Fill in scale j of the grid but for its offset; a NaN means 2^(j/V); n = 0: but for n, too.
+ * SS_EINVAL if its translations are too many to count. */
 ss_status ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                              const ss_morlet_opts *opts, ss_error *err);
 
-/* All coefficients of a scale, factor times those in units of a^1/2 and of the record; and about
- * what they cost [s]. */
-ss_status ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
-                              double factor, double *w);
-double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale);
+/* The wavelet of a scale at whole samples, for records of n samples at most; it may serve many
+ * records, one at a time.  NULL: no memory. */
+typedef struct wavelet wavelet;
+wavelet *ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n);
+size_t ss_wavelet_bytes(const ss_morlet_opts *opts, double a, double rate, size_t n);
+void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
+
+/* Coefficients of a scale, factor times those in units of a^1/2 and of the record.  *most is the
+ * largest |W| in these units of those computed before, which the accuracy counts by, too, and is
+ * raised.  Then about what n of them cost [s], making the wavelet apart. */
+void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                         wavelet *wave, span part, double factor, double *most, double *w);
+double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n);
+/* The adjoint of a whole scale's transform in units of a^1/2, times factor, to be added to the n
+ * samples x. */
+void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
+                           const double *w, double factor, double *x);
+double ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale);
 
 /* The same at any b, by the definition, as exactly as double precision allows, for factor 1. */
 ss_status ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
@@ -66,8 +96,20 @@ typedef struct spectra {
 ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out);
 void ss_fft_release(spectra *s);
 void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                  double *scratch, double factor, double *w);
+                  double *scratch, span part, double factor, double *most, double *w);
 double *ss_fft_scratch(const struct fft *fft);         /* for one thread; NULL: no memory */
 void ss_fft_scratch_free(double *scratch);
+
+/* Of a plan for windows: what one costs [s], the samples of which every window must begin at a
+ * multiple, and those by which the first translation asked for must lie behind a multiple. */
+double ss_fft_cost(const struct fft *fft);
+size_t ss_fft_unit(const ss_morlet *plan);
+size_t ss_fft_places(const struct fft *fft, size_t i);
+
+/* A part of scale i, in the norm and the samples' own size: by its engine, or by the definition if
+ * s is NULL.  scratch is ss_fft_scratch's; wave may be NULL; *most as above. */
+ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+                         double *scratch, wavelet *wave, span part, double *most, double *w,
+                         ss_error *err);
 
 #endif

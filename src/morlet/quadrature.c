@@ -29,6 +29,7 @@
 /* [s], measured by tests/bench/bench_morlet: a coefficient, and a tap of it. */
 #define COST_PLACE 60e-9
 #define COST_TAP 0.8e-9
+#define COST_TABLE 50e-9        /* a tap of the wavelet, when it is made */
 
 enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
@@ -173,13 +174,15 @@ locate(place *at, const kernel *ker, double b, double rate, size_t width)
 
 /* Add to w, in units of a^1/2, what the taps from <= |k| < to contribute to the coefficient at b. */
 static void
-add_taps(const kernel *ker, const double *x, size_t n, double rate, double b, size_t from,
-         size_t to, double w[2])
+add_taps(const kernel *ker, const record *rec, double rate, double b, size_t from, size_t to,
+         double w[2])
 {
     double sum[2], second[2] = { 0, 0 }, part[2];
+    const double *x = rec->x;
     place at;
     locate(&at, ker, b, rate, 2 * to);
-    ptrdiff_t first = -at.c, last = (ptrdiff_t)n - 1 - at.c, out = (ptrdiff_t)to - 1;
+    at.c -= rec->origin;
+    ptrdiff_t first = -at.c, last = (ptrdiff_t)rec->n - 1 - at.c, out = (ptrdiff_t)to - 1;
     ptrdiff_t lo = first > -out ? first : -out, hi = last < out ? last : out;
     ptrdiff_t in = (ptrdiff_t)from - 1; /* |k| <= in is there already */
 
@@ -224,64 +227,135 @@ tables_use(kernel *ker, double *base, size_t taps)
     ker->gauss = ker->im + width;
 }
 
-/* Taps that leave out no more than TAIL_FLOOR. */
-static size_t
-most_taps(const ss_morlet_opts *opts, double a, double rate, size_t n)
+struct wavelet {
+    kernel ker;
+    size_t room;                        /* taps that leave out no more than TAIL_FLOOR, or n */
+    double *base;
+};
+
+size_t
+ss_wavelet_bytes(const ss_morlet_opts *opts, double a, double rate, size_t n)
 {
     kernel ker = kernel_of(opts, a, rate);
-    return taps_for(&ker, TAIL_FLOOR, n);
+    return 6 * sizeof(double) * taps_for(&ker, TAIL_FLOOR, n);
 }
 
-/* All coefficients of a scale in units of a^1/2, see above. */
-static void
-transform_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec, double *base,
-                size_t room, double *w)
+wavelet *
+ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n)
 {
-    kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
-    double tol = plan->opts.accuracy, bound = tol / 10;
-    tables_use(&ker, base, room);
-    for (size_t i = 0; i < 2 * scale->n; i++)
+    wavelet *wave = malloc(sizeof *wave);
+    if (wave == NULL)
+        return NULL;
+    wave->ker = kernel_of(opts, a, rate);
+    wave->room = taps_for(&wave->ker, TAIL_FLOOR, n);
+    if (tables_new(&wave->base, wave->room) != SS_OK) {
+        free(wave);
+        return NULL;
+    }
+    tables_use(&wave->ker, wave->base, wave->room);
+    return wave;
+}
+
+void
+ss_wavelet_free(wavelet *wave)
+{
+    if (wave == NULL)
+        return;
+    free(wave->base);
+    free(wave);
+}
+
+/* Add to w the taps from <= |k| < to of a part of a scale.  The largest |W|. */
+static double
+add_to_part(const kernel *ker, const record *rec, double rate, const ss_scale *scale, span part,
+            size_t from, size_t to, double *w)
+{
+    double most = 0;
+    for (size_t i = 0; i < part.n; i++, w += 2) {
+        add_taps(ker, rec, rate, ss_scale_b(scale, part.first + i), from, to, w);
+        most = fmax(most, w[0] * w[0] + w[1] * w[1]);
+    }
+    return sqrt(most);
+}
+
+/* See above. */
+void
+ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                    wavelet *wave, span part, double factor, double *most, double *w)
+{
+    kernel *ker = &wave->ker;
+    double tol = plan->opts.accuracy, bound = tol / 10, before = *most;
+    size_t n = rec->n < wave->room ? rec->n : wave->room, from = 0;
+    for (size_t i = 0; i < 2 * part.n; i++)
         w[i] = 0;
 
-    for (int pass = 0; pass < 2; pass++) {
-        size_t from = ker.taps, to = taps_for(&ker, fmax(bound, TAIL_FLOOR), rec->n);
-        double most = 0;
-        if (to <= from || rec->x_max == 0)
-            return;
-        fill_tables(&ker, to);
-        for (size_t k = 0; k < scale->n; k++) {
-            add_taps(&ker, rec->x, rec->n, plan->rate, ss_scale_b(scale, k), from, to, w + 2 * k);
-            most = fmax(most, w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1]);
-        }
-        double cut = to >= rec->n ? 0 : tail(&ker, ((double)to - 0.5) * ker.d);
-        bound = tol * fmax(0, sqrt(most) / rec->x_max - cut) + TAIL_FLOOR;
+    for (int pass = 0; pass < 2 && rec->x_max > 0; pass++) {
+        size_t to = taps_for(ker, fmax(bound, TAIL_FLOOR), n);
+        if (to <= from)
+            break;
+        fill_tables(ker, to);
+        *most = fmax(before, add_to_part(ker, rec, plan->rate, scale, part, from, to, w));
+        double cut = to >= rec->n ? 0 : tail(ker, ((double)to - 0.5) * ker->d);
+        bound = tol * fmax(0, *most / rec->x_max - cut) + TAIL_FLOOR;
         if (cut <= bound)
-            return;
+            break;
+        from = to;
+    }
+    for (size_t i = 0; i < 2 * part.n; i++)
+        w[i] *= factor;
+}
+
+/* Add to x Re(w h) of a coefficient, all its taps. */
+static void
+add_wavelet(const kernel *ker, size_t n, double rate, double b, const double w[2], double *x)
+{
+    place at;
+    locate(&at, ker, b, rate, 2 * ker->taps);
+    ptrdiff_t out = (ptrdiff_t)ker->taps - 1, last = (ptrdiff_t)n - 1 - at.c;
+    ptrdiff_t lo = -at.c > -out ? -at.c : -out, hi = last < out ? last : out;
+    double u = at.tau * ker->d, scale = PI_M14 * ker->d * exp(-u * u / 2);
+    double p = phase(ker, at.tau), c = cos(p), s = sin(p);
+    double re = scale * (w[0] * c + w[1] * s), im = scale * (w[0] * s - w[1] * c);
+    double second = ker->second * scale * w[0];
+    for (ptrdiff_t k = lo; k <= hi; k += BLOCK) {
+        ptrdiff_t width = hi - k < BLOCK ? hi - k + 1 : BLOCK;
+        double g = at.q == 0 ? 1 : exp(at.q * (double)k), *y = x + at.c + k;
+        for (ptrdiff_t j = 0; j < width; j++)
+            y[j] += g * at.g[j] * (re * ker->re[k + j] - im * ker->im[k + j]);
+        for (ptrdiff_t j = 0; second != 0 && j < width; j++)
+            y[j] -= g * at.g[j] * second * ker->gauss[k + j];
     }
 }
 
-double
-ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale)
+void
+ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
+                      const double *w, double factor, double *x)
 {
-    kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
-    size_t taps = taps_for(&ker, fmax(plan->opts.accuracy / 10, TAIL_FLOOR), plan->n);
-    return (double)scale->n * (COST_PLACE + COST_TAP * (2 * (double)taps - 1));
+    fill_tables(&wave->ker, wave->room);
+    for (size_t k = 0; k < scale->n; k++) {
+        double part[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
+        add_wavelet(&wave->ker, plan->n, plan->rate, ss_scale_b(scale, k), part, x);
+    }
 }
 
-ss_status
-ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec, double factor,
-                    double *w)
+/* Taps of a wavelet on one side, as far as is tried first. */
+static double
+taps_tried(const ss_morlet *plan, const ss_scale *scale)
 {
-    double *base;
-    size_t room = most_taps(&plan->opts, scale->a, plan->rate, plan->n);
-    ss_status st = tables_new(&base, room);
-    if (st != SS_OK)
-        return st;
-    transform_scale(plan, scale, rec, base, room, w);
-    for (size_t i = 0; i < 2 * scale->n; i++)
-        w[i] *= factor;
-    free(base);
-    return SS_OK;
+    kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
+    return (double)taps_for(&ker, fmax(plan->opts.accuracy / 10, TAIL_FLOOR), plan->n);
+}
+
+double
+ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n)
+{
+    return (double)n * (COST_PLACE + COST_TAP * (2 * taps_tried(plan, scale) - 1));
+}
+
+double
+ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale)
+{
+    return COST_TABLE * taps_tried(plan, scale);
 }
 
 /* Coefficients at any b, in units of a^1/2, as exactly as double precision allows. */
@@ -289,19 +363,15 @@ static ss_status
 points(const ss_morlet_opts *opts, double rate, const record *rec, double a, const double *b,
        size_t n, double *w)
 {
-    double *base;
-    kernel ker = kernel_of(opts, a, rate);
-    size_t taps = taps_for(&ker, TAIL_FLOOR, rec->n);
-    ss_status st = tables_new(&base, taps);
-    if (st != SS_OK)
-        return st;
-    tables_use(&ker, base, taps);
-    fill_tables(&ker, taps);
+    wavelet *wave = ss_wavelet_new(opts, a, rate, rec->n);
+    if (wave == NULL)
+        return SS_ENOMEM;
+    fill_tables(&wave->ker, wave->room);
     for (size_t i = 0; i < n; i++) {
         w[2 * i] = w[2 * i + 1] = 0;
-        add_taps(&ker, rec->x, rec->n, rate, b[i], 0, taps, w + 2 * i);
+        add_taps(&wave->ker, rec, rate, b[i], 0, wave->room, w + 2 * i);
     }
-    free(base);
+    ss_wavelet_free(wave);
     return SS_OK;
 }
 

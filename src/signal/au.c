@@ -111,18 +111,18 @@ number_channels(ss_header *head, size_t n)
 
 /* Our header in the annotation: gives *out NULL if it is none or is malformed. */
 static ss_status
-read_annotation(ss_header **out, char *text)
+read_annotation(ss_header **out, const char *magic, char *text)
 {
     const char *reason;
     ss_status st = SS_OK;
     ss_header *head = *out = NULL;
-    size_t magic = strlen(STREAM_MAGIC);
-    if (strncmp(text, STREAM_MAGIC, magic) != 0 || text[magic] != '\n')
+    size_t length_of_magic = strlen(magic);
+    if (strncmp(text, magic, length_of_magic) != 0 || text[length_of_magic] != '\n')
         return SS_OK;
     head = ss_header_new(0, 0);
     if (head == NULL)
         return SS_ENOMEM;
-    for (char *line = text + magic + 1, *next; st == SS_OK && *line == '#'; line = next) {
+    for (char *line = text + length_of_magic + 1, *next; st == SS_OK && *line == '#'; line = next) {
         size_t length = strcspn(line, "\n");
         next = line + length + (line[length] == '\n');
         line[length] = '\0';
@@ -140,7 +140,7 @@ static ss_status
 make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
 {
     ss_header *head;
-    ss_status st = read_annotation(&head, annotation);
+    ss_status st = read_annotation(&head, reader->magic, annotation);
     if (st != SS_OK)
         return st;
     if (head != NULL && head->n_columns == channels) {
@@ -186,6 +186,14 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
     char *annotation = strndup(in->buffer + in->lo + AU_FIXED_HEADER, offset - AU_FIXED_HEADER);
+    if (annotation != NULL && strncmp(annotation, "# stickslip ", 12) == 0
+        && strncmp(annotation, reader->magic, strlen(reader->magic)) != 0) {
+        int length = (int)strcspn(annotation, "\n");
+        ss_fail(err, SS_EDATA, "%s: begins '%.*s', where '%s' is expected", in->name,
+                length < 40 ? length : 40, annotation, reader->magic);
+        free(annotation);
+        return SS_EDATA;
+    }
     st = annotation != NULL ? make_header(reader, annotation, field[4], channels) : SS_ENOMEM;
     free(annotation);
     if (st != SS_OK)

@@ -197,7 +197,7 @@ clean_unit(const char *unit)
 ss_status
 ss_header_add_column(ss_header *head, const char *name, const char *unit)
 {
-    if (name == NULL || *name == '\0')
+    if (head == NULL || name == NULL || *name == '\0')
         return SS_EINVAL;
     return append_column(head, clean_name(head, name), clean_unit(unit));
 }
@@ -279,6 +279,8 @@ ss_status
 ss_header_note(ss_header *head, const char *key, const char *value)
 {
     const char *old;
+    if (head == NULL || key == NULL || value == NULL)
+        return SS_EINVAL;
     if (is_blank(*key) || strchr(key, ':') != NULL || strcmp(key, "rate") == 0
         || strcmp(key, "start") == 0 || strcmp(key, "columns") == 0)
         return SS_EINVAL;
@@ -361,13 +363,13 @@ write_label(FILE *out, const ss_column *c)
 }
 
 char *
-ss_header_text(const ss_header *head, size_t *length)
+ss_header_text(const ss_header *head, const char *magic, size_t *length)
 {
     char *text = NULL, number[SS_NUMBER_MAX];
     FILE *out = open_memstream(&text, length);
     if (out == NULL)
         return NULL;
-    fputs(STREAM_MAGIC "\n", out);
+    fprintf(out, "%s\n", magic);
     for (size_t i = 0; i < head->n_notes; i++)
         fprintf(out, "# %s\n", head->note[i]);
     ss_number_format(number, head->rate);

@@ -3,6 +3,7 @@
  * A FILE cannot say whether a line can be had without waiting, so its descriptor is read instead;
  * one without a descriptor (fmemopen) is read as such. */
 #include <errno.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -74,7 +75,7 @@ fill(struct input *in, ss_error *err)
         while (n < 0 && errno == EINTR);
     }
     if (n < 0)
-        return ss_fail(err, SS_EIO, "%s: %s", in->name, strerror(errno));
+        return ss_fail_errno(err, in->name, errno);
     in->ended = n == 0;
     in->hi += (size_t)n;
     return SS_OK;
@@ -130,4 +131,11 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
     *length = (size_t)(end - *line);
     in->line++;
     return SS_OK;
+}
+
+int
+ss_input_waits(const struct input *in)
+{
+    struct pollfd fd = { .fd = fileno(in->file), .events = POLLIN };
+    return !in->ended && fd.fd >= 0 && poll(&fd, 1, 0) == 0;
 }

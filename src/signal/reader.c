@@ -42,11 +42,14 @@ ss_status
 ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {
     static const ss_read_opts no_opts;
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
     ss_reader *reader = calloc(1, sizeof *reader);
     *out = NULL;
     if (reader == NULL)
         return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     reader->head = ss_header_new(0, 0);
+    reader->magic = STREAM_MAGIC;
     ss_status st = ss_input_open(&reader->in, in, name, err);
     if (st == SS_OK && reader->head == NULL)
         st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
@@ -69,8 +72,16 @@ ss_reader_header(const ss_reader *reader)
 ss_status
 ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
+    if (reader == NULL || rows == NULL || n == NULL)
+        return SS_FAIL_NULL(err);
     *n = 0;
     return reader->rows(reader, rows, max, n, err);
+}
+
+int
+ss_reader_waits(const ss_reader *reader)
+{
+    return reader->values == NULL && ss_input_waits(&reader->in);
 }
 
 void
@@ -89,6 +100,8 @@ ss_reader_free(ss_reader *reader)
 ss_status
 ss_signal_new(ss_signal **out, const ss_header *head, size_t n)
 {
+    if (out == NULL || head == NULL)
+        return SS_EINVAL;
     ss_signal *signal = calloc(1, sizeof *signal);
     size_t columns = head->n_columns > 0 ? head->n_columns : 1;
     *out = NULL;
@@ -121,6 +134,8 @@ ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                  size_t first, size_t end)
 {
     ss_header *head;
+    if (out == NULL || signal == NULL || (column == NULL && n_columns > 0))
+        return SS_EINVAL;
     *out = NULL;
     if (first > end || end > signal->n)
         return SS_EINVAL;
@@ -168,6 +183,8 @@ ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *
     ss_reader *reader;
     double *rows = NULL;
     size_t n = 0;
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
     *out = NULL;
     ss_status st = ss_reader_new(&reader, in, name, opts, err);
     if (st != SS_OK)

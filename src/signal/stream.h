@@ -27,12 +27,14 @@ ss_status ss_input_need(struct input *in, size_t n, ss_error *err);
  * and *line = NULL at the end of the stream. */
 ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error *err);
 int ss_input_has_line(struct input *in);           /* is a whole line in the buffer? */
+int ss_input_waits(const struct input *in);        /* would more bytes have to be waited for? */
 
 typedef ss_status read_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
 struct ss_reader {
     struct input in;
     ss_header *head;
     read_rows *rows;
+    const char *magic;          /* AU: with which the annotation begins */
     uint64_t row;               /* rows given so far */
     int encoding;               /* AU: of its values */
     uint64_t bytes_left;        /* AU: of its data, UINT64_MAX if unknown */
@@ -55,7 +57,11 @@ ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts
 
 #define STREAM_MAGIC "# stickslip signal 1"
 /* The lines of a header, to be freed, or NULL if there is no memory. */
-char *ss_header_text(const ss_header *head, size_t *length);
+char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
+/* Write them, as text or as AU does; SS_EINVAL if AU is too narrow for them. */
+ss_status ss_header_write(const ss_header *head, const char *magic, FILE *out, ss_format format);
+/* A value as AU holds it. */
+void ss_au_put(char to[8], double x);
 /* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
 ss_status ss_header_take(ss_header *head, char *line, const char **reason);
 /* A copy to be freed, or NULL if there is no memory: text that is no valid UTF-8 is taken as Latin-1,

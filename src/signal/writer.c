@@ -37,38 +37,50 @@ ss_au_rate(double rate)
     return rate < 1 ? 1 : rate < UINT32_MAX ? (uint32_t)rint(rate) : UINT32_MAX;
 }
 
-static ss_status
-write_header(ss_writer *writer)
+ss_status
+ss_header_write(const ss_header *head, const char *magic, FILE *out, ss_format format)
 {
     size_t length;
-    char *text = ss_header_text(writer->head, &length), fixed[AU_FIXED_HEADER];
+    char *text = ss_header_text(head, magic, &length), fixed[AU_FIXED_HEADER];
     if (text == NULL)
         return SS_ENOMEM;
     size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* NULs, at least one */
-    if (writer->format == SS_AU && (writer->head->n_columns > AU_MAX_CHANNELS
-                                    || length + padding > AU_MAX_ANNOTATION)) {
+    if (format == SS_AU && (head->n_columns > AU_MAX_CHANNELS
+                            || length + padding > AU_MAX_ANNOTATION)) {
         free(text);
         return SS_EINVAL;
     }
-    if (writer->format == SS_AU) {
+    if (format == SS_AU) {
         uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), 0xffffffff,
-                              7, ss_au_rate(writer->head->rate),
-                              (uint32_t)writer->head->n_columns };
+                              7, ss_au_rate(head->rate), (uint32_t)head->n_columns };
         for (int i = 0; i < 6; i++)
             put_big_endian(fixed + 4 * i, field[i], 4);
-        fwrite(fixed, 1, sizeof fixed, writer->out);
-        fwrite(text, 1, length, writer->out);
-        fwrite("\0\0\0\0\0\0\0", 1, padding, writer->out);
+        fwrite(fixed, 1, sizeof fixed, out);
+        fwrite(text, 1, length, out);
+        fwrite("\0\0\0\0\0\0\0", 1, padding, out);
     } else {
-        fwrite(text, 1, length, writer->out);
+        fwrite(text, 1, length, out);
     }
     free(text);
-    return ferror(writer->out) ? SS_EIO : SS_OK;
+    return ferror(out) ? SS_EIO : SS_OK;
+}
+
+void
+ss_au_put(char to[8], double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    to[0] = (char)(bits >> 56), to[1] = (char)(bits >> 48 & 0xff);
+    to[2] = (char)(bits >> 40 & 0xff), to[3] = (char)(bits >> 32 & 0xff);
+    to[4] = (char)(bits >> 24 & 0xff), to[5] = (char)(bits >> 16 & 0xff);
+    to[6] = (char)(bits >> 8 & 0xff), to[7] = (char)(bits & 0xff);
 }
 
 ss_status
 ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
 {
+    if (out_writer == NULL || out == NULL || head == NULL)
+        return SS_EINVAL;
     ss_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
     if (writer == NULL)
@@ -77,7 +89,8 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
     writer->format = format;
     writer->row = writer->used = 0;
     writer->head = ss_header_copy(head);
-    ss_status st = writer->head != NULL ? write_header(writer) : SS_ENOMEM;
+    ss_status st = writer->head == NULL ? SS_ENOMEM
+        : ss_header_write(head, STREAM_MAGIC, out, format);
     if (st != SS_OK) {
         ss_writer_free(writer);
         return st;
@@ -91,10 +104,8 @@ put_value(ss_writer *writer, double x, char separator)
 {
     char *to = writer->buffer + writer->used;
     if (writer->format == SS_AU) {
-        uint64_t bits;
-        memcpy(&bits, &x, sizeof bits);
-        put_big_endian(to, bits, sizeof bits);
-        writer->used += sizeof bits;
+        ss_au_put(to, x);
+        writer->used += sizeof x;
     } else {
         size_t n = ss_number_format(to, x);
         to[n] = separator;
@@ -105,6 +116,8 @@ put_value(ss_writer *writer, double x, char separator)
 ss_status
 ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
 {
+    if (writer == NULL || (rows == NULL && n > 0))
+        return SS_EINVAL;
     const ss_header *head = writer->head;
     size_t columns = head->n_columns;
     for (size_t i = 0; i < n; i++, writer->row++) {
@@ -143,6 +156,8 @@ ss_signal_write(const ss_signal *signal, FILE *out, ss_format format)
 {
     enum { PIECE = 1024 };
     ss_writer *writer;
+    if (signal == NULL || out == NULL)
+        return SS_EINVAL;
     size_t columns = signal->head->n_columns;
     double *rows = malloc((columns + 1) * PIECE * sizeof *rows);
     if (rows == NULL)

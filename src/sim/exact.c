@@ -16,6 +16,7 @@
 #include "sim/engine.h"
 
 #include <complex.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
@@ -40,7 +41,7 @@ typedef struct exact {
     double p_cos, p_sin;            /* P = p_cos cos(theta + Omega u) + p_sin sin(...) */
     double q, v;                    /* factors of C and S */
     double curvature, third;        /* the guard's second and third derivatives are at most this */
-    double width;                   /* to which the next event is narrowed down */
+    double width;                   /* to which the next event is narrowed down at least */
     int in_samples;                 /* a sample has been taken since q and v were set */
     turn swing;                     /* exp((-s + i w) u) of the last one */
     turn swing_further;             /* the same for one sample interval */
@@ -244,11 +245,12 @@ exact_ahead(engine *e, double s_max, double *s_event)
         double step = safe_distance(x, fmax(g, 0), slope, bend);
         if (m->mode == 0)
             step = fmin(step, safe_distance(x, 2 * limit - g, -slope, -bend));
-        if (step <= x->width && s > 0) {
-            *s_event = e->h = s + step + x->width;
+        double width = fmax(x->width, 2 * DBL_EPSILON * (m->u + s));
+        if (step <= width && s > 0) {
+            *s_event = e->h = s + step + width;
             return 1;
         }
-        if (!(step > x->width))
+        if (!(step > width))
             return -1;
         s = fmin(s + step, s_max);
         base = ss_motion_base(m, m->u + s);

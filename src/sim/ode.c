@@ -14,8 +14,9 @@
 #include <string.h>
 #include "error.h"
 
-/* A step this much shorter than 1/40 of the fastest period, and than the friction's own time, means that the tolerance asks for more
- * digits than double precision has; a first-order start at 1e-14 needs about 1e-7. */
+/* A step this much shorter than 1/40 of the fastest period, and than the friction's own time, means
+ * that the tolerance asks for more digits than double precision has; a first-order start at 1e-14
+ * needs about 1e-7. */
 #define STEP_FLOOR 1e-12
 
 typedef struct ode {

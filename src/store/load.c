@@ -33,9 +33,9 @@ load_stream(ss_signal **out, const char *path, const ss_read_opts *opts, ss_erro
     struct stat st;
     FILE *in = fopen(path, "rb");
     if (in == NULL)
-        return ss_fail(err, SS_EIO, "%s: %s", path, strerror(errno));
+        return ss_fail_errno(err, path, errno);
     ss_status status = fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode)
-                       ? ss_fail(err, SS_EIO, "%s: %s", path, strerror(EISDIR))
+                       ? ss_fail_errno(err, path, EISDIR)
                        : ss_signal_read(out, in, path, opts, err);
     fclose(in);
     return status;
@@ -45,6 +45,8 @@ ss_status
 ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
 {
     struct stat st;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
     if (ss_store_is_hdf5(path))
         return ss_store_read_signal(out, path, NULL, opts, err);
     const char *colon = strstr(path, ":/");
@@ -56,7 +58,7 @@ ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts, ss_e
     ss_status status = ss_store_is_hdf5(file)
                        ? ss_store_read_signal(out, file, colon + 1, opts, err)
                        : stat(file, &st) != 0
-                       ? ss_fail(err, SS_EIO, "%s: %s", file, strerror(errno))
+                       ? ss_fail_errno(err, file, errno)
                        : ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file,
                                  colon + 1);
     free(file);

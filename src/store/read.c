@@ -387,6 +387,8 @@ ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
     h5_file file = { -1, path, err };
     ss_signal *signal = NULL;
     ss_status status;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
     H5E_BEGIN_TRY {
         status = ss_h5_open(&file);
         if (status == SS_OK)
@@ -406,6 +408,8 @@ ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *er
     h5_file file = { -1, path, err };
     ss_coefficients *coefficients = NULL;
     ss_status status;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
     H5E_BEGIN_TRY {
         status = ss_h5_open(&file);
         if (status == SS_OK)

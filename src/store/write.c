@@ -457,7 +457,7 @@ write_out(h5_file *file, const void *bytes, size_t size)
     struct stat st;
     FILE *out = fopen(file->path, "wb");
     if (out == NULL)
-        return ss_h5_fail(file, SS_EIO, 0, "", strerror(errno));
+        return ss_fail_errno(file->err, file->path, errno);
     int failed = fwrite(bytes, 1, size, out) != size, why = errno;
     if (fclose(out) != 0 && !failed) {
         failed = 1;
@@ -465,7 +465,7 @@ write_out(h5_file *file, const void *bytes, size_t size)
     }
     if (failed && stat(file->path, &st) == 0 && S_ISREG(st.st_mode))
         unlink(file->path);
-    return failed ? ss_h5_fail(file, SS_EIO, 0, "", strerror(why)) : SS_OK;
+    return failed ? ss_fail_errno(file->err, file->path, why) : SS_OK;
 }
 
 static ss_status
@@ -493,6 +493,8 @@ ss_store_write(const char *path, const ss_record *record, ss_error *err)
 {
     h5_file file = { -1, path, err };
     ss_status status;
+    if (path == NULL || record == NULL)
+        return SS_FAIL_NULL(err);
     H5E_BEGIN_TRY {
         status = write_record(&file, record);
     } H5E_END_TRY

@@ -101,6 +101,7 @@ typedef struct finder {
     state unit;                         /* of a difference */
     state last[2 * SS_PERIOD_MAX + 1];  /* the latest, cycle after cycle, in a ring */
     unsigned long taken;                /* of them */
+    unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
 } finder;
 
 static state
@@ -182,9 +183,11 @@ measure_cycles(finder *f, int cycles, int period, ss_steady *out)
     int derive = period > 0 && (f->opts->measures & FLOQUET);
     ss_meter_begin(&r, f->opts->measures, &f->w.m);
     ss_tangent_begin(&t, &f->w.m);
+    unsigned long before = f->w.m.unresolved;
     ss_status st = go(f, cycles, &r, derive ? &t : NULL);
     if (st != SS_OK)
         return st;
+    f->unresolved = f->w.m.unresolved - before;
     ss_meter_end(&r, cycles, period > 0, out->value);
     out->value[SS_PERIOD] = period;
     out->value[SS_X_PHASE] = at.x;
@@ -394,6 +397,9 @@ complete(const finder *f, const ss_steady *out)
     if (out->value[SS_PERIOD] == 0)
         return ss_fail(f->err, SS_EDATA, "no period up to %d within %lu cycles", o->max_period,
                        o->max_cycles);
+    if (f->unresolved > 0)
+        return ss_fail(f->err, SS_EDATA, "%lu events a period within what rounding or tolerance makes "
+                       "of them: not resolved", f->unresolved);
     for (int i = 0; i < SS_MEASURES; i++)
         if ((o->measures & 1u << i) && isnan(out->value[i]))
             return ss_fail(f->err, SS_EDATA, i == SS_TRANSITION

@@ -7,7 +7,6 @@
 #include "sweep/meter.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { REF, Q, V };
 
@@ -74,8 +73,6 @@ ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const do
         stop(t, w, rates);
     else if (mode == 0 && is_event && w->m.scene->model == SS_COMPLIANT)
         release(t, w, q, rates);
-    else if (mode == 0 && !is_event)            /* set back to the limit that it touched */
-        memset(t->d[Q], 0, 2 * sizeof t->d[Q]);
 }
 
 void

@@ -31,5 +31,6 @@ try $vary --threads 0 coulomb
 try $vary --max-period 65 coulomb
 try $vary --set mass=x coulomb
 try $vary --resume b.tsv coulomb
+ss-sweep --resume - $vary coulomb || echo "exit $?"
 ss-sweep -o a.png $vary coulomb || echo "exit $?"
 ls

@@ -42,7 +42,7 @@ keep_event(const ss_event *e, void *user)
     return 0;
 }
 
-/* method NULL: the scene's; max_steps 0: no budget.  To be freed with run_free, whatever came out. */
+/* method NULL: the scene's; max_steps 0: no budget.  To be freed with run_free in any case. */
 static run
 run_with(const ss_scene *scene, const char *method, double tol, unsigned long max_steps)
 {

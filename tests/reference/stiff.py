@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""stiff.py > stiff.tsv: the state-variable scene far from the paper's alpha and gamma, by SciPy's Radau.
+"""stiff.py > stiff.tsv: the state-variable scene far from the paper's alpha, gamma, by SciPy's Radau.
 
 Shares nothing with the library but the scene's parameters, as doubles.  x is in units of Z_e, v of
 Z_e Omega, theta of f_k, so that one tolerance serves all.  A step from one side of the front of tanh
@@ -13,8 +13,8 @@ W = 2 * np.pi * HZ
 V = Z * W
 PAST = 1e-7
 END, SAMPLES = 1.0, (0.25, 0.5, 0.75, 1.0)
-GRID = ((1e0, 1e-3), (1e0, 1e9), (1e3, 1e5), (1e3, 1e9), (1e6, 1e-3), (1e6, 1e3), (1e6, 1e6), (1e6, 1e9),
-        (1e9, 1e-3), (1e9, 1e1), (1e9, 1e7), (1e9, 1e9))
+GRID = ((1e0, 1e-3), (1e0, 1e9), (1e3, 1e5), (1e3, 1e9), (1e6, 1e-3), (1e6, 1e3), (1e6, 1e6),
+        (1e6, 1e9), (1e9, 1e-3), (1e9, 1e1), (1e9, 1e7), (1e9, 1e9))
 
 
 def solve(alpha, gamma, rtol):
@@ -53,4 +53,5 @@ print("# alpha/(s/m)", "gamma/(1/s)", "t/s", "x/m", "error/m", sep="\t")
 for a, g in GRID:
     fine, coarse = solve(a, g, 1e-10), solve(a, g, 1e-9)
     for s in SAMPLES:
-        print("%g\t%g\t%g\t%.17g\t%.1e" % (a, g, s, Z * fine[s], Z * abs(fine[s] - coarse[s])), flush=True)
+        print("%g\t%g\t%g\t%.17g\t%.1e" % (a, g, s, Z * fine[s], Z * abs(fine[s] - coarse[s])),
+              flush=True)

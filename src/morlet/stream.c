@@ -1,0 +1,643 @@
+/* stream.c -- the transform of a signal that has no end yet, window by window.
+ *
+ * Scales of like length form a group, which has a plan for windows of a fixed length, at least twice
+ * what its longest wavelet covers.  A window begins where the first coefficient that is still to come
+ * needs it to, and gives all those of the group whose wavelets lie inside; the next one overlaps it
+ * by what the longest wavelet covers.  So there is nothing to carry over but samples.
+ *
+ * Within REACH a around b all samples are there, so a window adds to the error of its engine no more
+ * than exp(-REACH^2/2), as far as the promise goes nothing.  The engines hold TOL against the largest
+ * |W| that a scale has had so far, which is at most the record's.
+ *
+ * A window that is full goes the way its plan found cheapest.  One that is not, because what is
+ * complete is wanted at once or because the signal has ended, goes by the definition where that is
+ * cheaper for the few coefficients it gives. */
+#include <limits.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "morlet/plan.h"
+#include "morlet/versions.h"
+
+enum {
+    BASE = 1 << 16,             /* samples in a window at least */
+    SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
+    OCTAVES = 5,                /* of scales in the others */
+    LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
+    PIECE = 1 << 14,            /* samples taken at a time */
+    GIVEN = 1 << 17,            /* coefficients given at a time */
+    TABLES = 32 << 20,          /* bytes of wavelets kept */
+    LANES = 8
+};
+
+/* What is known of a scale. */
+typedef struct row {
+    size_t next;                /* its first translation to come */
+    size_t count;               /* in the record; SIZE_MAX until that has ended */
+    ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
+    double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
+    int exponent;
+    wavelet *wave;              /* NULL: made when needed */
+    double place, table;        /* what the definition costs: a coefficient, the wavelet [s] */
+} row;
+
+typedef struct group {
+    ss_morlet *plan;            /* its n is the length of a window */
+    size_t first;               /* its scales are first ... first + plan->n_scales - 1 */
+    ptrdiff_t unit;             /* a window begins at a multiple of this */
+} group;
+
+/* A thread's. */
+typedef struct lane {
+    double *w, *scratch;        /* scratch: of the group at work, NULL if it needs none */
+    size_t scale;
+    span part;                  /* to compute; those from skip on are to be given */
+    size_t skip;
+    ss_status status;
+    ss_error error;
+    struct window *window;
+} lane;
+
+struct ss_stream {
+    ss_morlet_opts opts;
+    double rate;
+    ss_coefficient_sink *sink;
+    void *user;
+    size_t n_scales, n_groups, samples;
+    ss_scale *scale;
+    row *row;
+    group *group;
+    lane *lane;                 /* as many as threads */
+    double *x, x_max;           /* the last samples, and max|x| of all */
+    ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
+    size_t room;
+    int ended;
+    ss_status status;           /* of what failed first */
+    ss_error error;
+};
+
+/* A group's samples from start on, those there are. */
+typedef struct window {
+    ss_stream *stream;
+    const group *group;
+    ptrdiff_t start;
+    record rec;
+    spectra spectra;
+    int by_sum;
+} window;
+
+/* --- where the windows lie -------------------------------------------------------------------- */
+
+/* The sample at translation k or before it, 2^60 if it is that far away. */
+static ptrdiff_t
+place_of(const ss_stream *s, size_t i, size_t k)
+{
+    return (ptrdiff_t)fmin(floor(ss_scale_b(&s->scale[i], k) * s->rate), 0x1p60);
+}
+
+/* Samples that the next translation of a scale may lie behind the place where its computation
+ * begins. */
+static ptrdiff_t
+places_of(const group *g, size_t i)
+{
+    return g->plan->fft != NULL ? (ptrdiff_t)ss_fft_places(g->plan->fft, i - g->first) : 1;
+}
+
+static ptrdiff_t
+round_down(ptrdiff_t x, ptrdiff_t unit)
+{
+    ptrdiff_t rest = x % unit;
+    return x - (rest < 0 ? rest + unit : rest);
+}
+
+/* Where a group's next window begins; PTRDIFF_MAX if all has been given. */
+static ptrdiff_t
+start_of(const ss_stream *s, const group *g)
+{
+    ptrdiff_t start = PTRDIFF_MAX;
+    for (size_t i = g->first; i < g->first + g->plan->n_scales; i++) {
+        const row *r = &s->row[i];
+        if (r->next >= r->count)
+            continue;
+        ptrdiff_t from = place_of(s, i, r->next) - r->reach - places_of(g, i);
+        start = from < start ? from : start;
+    }
+    return start < PTRDIFF_MAX ? round_down(start, g->unit) : start;
+}
+
+/* The translations of scale i to come that need no sample from limit on. */
+static size_t
+ready(const ss_stream *s, size_t i, ptrdiff_t limit)
+{
+    const row *r = &s->row[i];
+    ptrdiff_t last = limit - r->reach;
+    if (last < 0 || place_of(s, i, r->next) > last)
+        return 0;
+    size_t count = ss_scale_count(&s->scale[i], (double)last / s->rate);
+    count = count < r->count ? count : r->count;
+    return count > r->next ? count - r->next : 0;
+}
+
+/* What lies within a window at start and is known. */
+static ptrdiff_t
+limit_of(const ss_stream *s, const group *g, ptrdiff_t start)
+{
+    ptrdiff_t limit = start + (ptrdiff_t)g->plan->n, samples = (ptrdiff_t)s->samples;
+    return s->ended || limit < samples ? limit : samples;
+}
+
+/* --- one window ------------------------------------------------------------------------------- */
+
+/* The samples of a window, of a size whose squares neither overflow nor underflow. */
+static ss_status
+take_samples(window *win)
+{
+    const ss_stream *s = win->stream;
+    ptrdiff_t there = (ptrdiff_t)s->samples - win->start;
+    size_t n = there < 0 ? 0 : (size_t)there;
+    record *rec = &win->rec;
+    n = n < win->group->plan->n ? n : win->group->plan->n;
+    *rec = (record){ .n = n, .x = s->x + (win->start - s->origin), .x_max = s->x_max,
+                     .origin = win->start };
+    if (s->x_max == 0 || (s->x_max > 0x1p-300 && s->x_max < 0x1p300))
+        return SS_OK;
+    double *x = malloc((n + 1) * sizeof *x);
+    if (x == NULL)
+        return SS_ENOMEM;
+    rec->x_max = frexp(s->x_max, &rec->exponent);
+    for (size_t i = 0; i < n; i++)
+        x[i] = ldexp(rec->x[i], -rec->exponent);
+    rec->x = x;
+    return SS_OK;
+}
+
+static void
+release(window *win)
+{
+    const ss_stream *s = win->stream;
+    if (win->rec.x != s->x + (win->start - s->origin))
+        free(win->rec.x);
+    ss_fft_release(&win->spectra);
+    for (int t = 0; t < s->opts.threads; t++) {
+        if (s->lane[t].scratch != NULL)
+            ss_fft_scratch_free(s->lane[t].scratch);
+        s->lane[t].scratch = NULL;
+    }
+}
+
+/* A thread: one part of one scale. */
+static void *
+compute(void *user)
+{
+    lane *l = user;
+    window *win = l->window;
+    row *r = &win->stream->row[l->scale];
+    int exponent = win->rec.exponent;
+    double most = ldexp(r->most, r->exponent - exponent);
+    l->status = ss_morlet_part(win->group->plan, l->scale - win->group->first, &win->rec,
+                               win->by_sum ? NULL : &win->spectra, l->scratch, r->wave, l->part,
+                               &most, l->w, &l->error);
+    r->most = most;
+    r->exponent = exponent;
+    return NULL;
+}
+
+/* What a lane has to compute next of its scale; 0 if there is nothing left. */
+static int
+next_part(lane *l, ptrdiff_t limit)
+{
+    const window *win = l->window;
+    const ss_stream *s = win->stream;
+    size_t first = s->row[l->scale].next, n = ready(s, l->scale, limit);
+    size_t places = (size_t)places_of(win->group, l->scale);
+    n = n < GIVEN ? n : GIVEN;
+    l->skip = win->by_sum ? 0 : (size_t)((ptrdiff_t)first - win->start) % places;
+    l->part = (span){ first - l->skip, n + l->skip };
+    return n > 0;
+}
+
+static ss_status
+give(ss_stream *s, lane *l, ss_error *err)
+{
+    size_t n = l->part.n - l->skip;
+    if (l->status != SS_OK) {
+        if (err != NULL)
+            *err = l->error;
+        return l->status;
+    }
+    s->row[l->scale].next += n;
+    int stop = s->sink(&s->scale[l->scale], l->part.first + l->skip, n, l->w + 2 * l->skip,
+                       s->samples, s->user);
+    return stop ? SS_STOP : SS_OK;
+}
+
+/* All of as many scales as there are lanes, a part of each at a time. */
+static ss_status
+compute_scales(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limit, ss_error *err)
+{
+    ss_status st = SS_OK;
+    for (size_t busy = 1; st == SS_OK && busy > 0;) {
+        pthread_t thread[SS_THREADS_MAX];
+        int started[SS_THREADS_MAX] = { 0 };
+        lane *work[SS_THREADS_MAX];
+        busy = 0;
+        for (size_t t = 0; t < n; t++) {
+            s->lane[t].scale = first + t;
+            s->lane[t].window = win;
+            if (next_part(&s->lane[t], limit))
+                work[busy++] = &s->lane[t];
+        }
+        for (size_t t = 1; t < busy; t++)
+            started[t] = pthread_create(&thread[t], NULL, compute, work[t]) == 0;
+        for (size_t t = 0; t < busy; t++)
+            if (!started[t])
+                compute(work[t]);
+        for (size_t t = 1; t < busy; t++)
+            if (started[t])
+                pthread_join(thread[t], NULL);
+        for (size_t t = 0; st == SS_OK && t < busy; t++)
+            st = give(s, work[t], err);
+    }
+    return st;
+}
+
+/* Is the definition cheaper for what a window gives? */
+static int
+cheaper_by_sum(const ss_stream *s, const group *g, ptrdiff_t limit)
+{
+    double sum = 0;
+    if (g->plan->fft == NULL)
+        return 1;
+    if (s->opts.engine == SS_ENGINE_FFT)
+        return 0;
+    for (size_t i = 0; i < g->plan->n_scales; i++) {
+        const row *r = &s->row[g->first + i];
+        size_t n = ss_fft_takes(g->plan->fft, i) ? ready(s, g->first + i, limit) : 0;
+        if (n > 0)
+            sum += (double)n * r->place + (r->wave == NULL ? r->table : 0);
+    }
+    return sum < ss_fft_cost(g->plan->fft);
+}
+
+/* All that a window at start gives. */
+static ss_status
+transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
+{
+    ptrdiff_t limit = limit_of(s, g, start);
+    window win = { .stream = s, .group = g, .start = start,
+                   .by_sum = cheaper_by_sum(s, g, limit) };
+    size_t lanes = (size_t)s->opts.threads;
+    ss_status st = take_samples(&win);
+    if (st == SS_OK && !win.by_sum)
+        st = ss_fft_forward(g->plan->fft, &win.rec, &win.spectra);
+    for (size_t t = 0; st == SS_OK && !win.by_sum && t < lanes; t++)
+        if ((s->lane[t].scratch = ss_fft_scratch(g->plan->fft)) == NULL)
+            st = SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < g->plan->n_scales; i += lanes) {
+        size_t left = g->plan->n_scales - i;
+        st = compute_scales(s, &win, g->first + i, left < lanes ? left : lanes, limit, err);
+    }
+    release(&win);
+    return st;
+}
+
+/* --- samples ---------------------------------------------------------------------------------- */
+
+/* Have room for n samples more, in place of those that no window needs any more. */
+static void
+make_room(ss_stream *s, size_t n)
+{
+    ptrdiff_t keep = (ptrdiff_t)s->samples;
+    size_t held = (size_t)(keep - s->origin);
+    if (held + n <= s->room)
+        return;
+    for (size_t i = 0; i < s->n_groups; i++) {
+        ptrdiff_t start = start_of(s, &s->group[i]);
+        keep = start < keep ? start : keep;
+    }
+    size_t drop = (size_t)(keep - s->origin);
+    memmove(s->x, s->x + drop, (held - drop) * sizeof *s->x);
+    s->origin = keep;
+}
+
+/* The largest of |x| and most; infinity or a NaN, which is lost on the way, shows in *sum. */
+VERSIONS static double
+largest(const double *x, size_t n, double most, double *sum)
+{
+    double top[LANES], zero[LANES] = { 0 };
+    size_t i = 0;
+    for (size_t l = 0; l < LANES; l++)
+        top[l] = most;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            double y = fabs(x[i + l]);
+            top[l] = y > top[l] ? y : top[l];
+            zero[l] += 0 * x[i + l];
+        }
+    for (; i < n; i++) {
+        top[0] = fabs(x[i]) > top[0] ? fabs(x[i]) : top[0];
+        zero[0] += 0 * x[i];
+    }
+    *sum = 0;
+    for (size_t l = 0; l < LANES; l++) {
+        most = top[l] > most ? top[l] : most;
+        *sum += zero[l];
+    }
+    return most;
+}
+
+/* Give what full windows there are. */
+static ss_status
+transform_full(ss_stream *s, ss_error *err)
+{
+    for (size_t i = 0; i < s->n_groups; i++) {
+        const group *g = &s->group[i];
+        ptrdiff_t start, n = (ptrdiff_t)g->plan->n;
+        while ((start = start_of(s, g)) <= (ptrdiff_t)s->samples - n) {
+            ss_status st = transform(s, g, start, err);
+            if (st != SS_OK)
+                return st;
+        }
+    }
+    return SS_OK;
+}
+
+static ss_status
+take(ss_stream *s, const double *x, size_t n, ss_error *err)
+{
+    double sum, most = largest(x, n, s->x_max, &sum);
+    size_t good = n;
+    if (!(sum == 0)) {
+        for (good = 0; isfinite(x[good]); good++)
+            ;
+        most = largest(x, good, s->x_max, &sum);
+    }
+    make_room(s, good);
+    memcpy(s->x + ((ptrdiff_t)s->samples - s->origin), x, good * sizeof *x);
+    s->samples += good;
+    s->x_max = most;
+    ss_status st = transform_full(s, err);
+    if (st == SS_OK && good < n)
+        st = ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", s->samples + 1,
+                     isnan(x[good]) ? "NaN" : "infinite");
+    return st;
+}
+
+/* Remember a failure, or tell of the one before. */
+static ss_status
+keep(ss_stream *s, ss_status st, const ss_error *why, ss_error *err)
+{
+    if (s->status == SS_OK && st != SS_OK) {
+        s->status = st;
+        s->error = *why;
+    }
+    if (s->status != SS_OK && err != NULL)
+        *err = s->error;
+    return s->status;
+}
+
+ss_status
+ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
+{
+    ss_error why = { "" };
+    ss_status st = s->status;
+    if (st == SS_OK && s->ended)
+        st = ss_fail(&why, SS_EINVAL, "the stream has ended");
+    while (st == SS_OK && n > 0) {
+        size_t piece = n < PIECE ? n : PIECE;
+        st = take(s, x, piece, &why);
+        x += piece;
+        n -= piece;
+    }
+    return keep(s, st, &why, err);
+}
+
+ss_status
+ss_stream_drain(ss_stream *s, ss_error *err)
+{
+    ss_error why = { "" };
+    ss_status st = s->status;
+    for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
+        const group *g = &s->group[i];
+        ptrdiff_t start = start_of(s, g);
+        size_t found = 0;
+        for (size_t k = 0; start < PTRDIFF_MAX && found == 0 && k < g->plan->n_scales; k++)
+            found = ready(s, g->first + k, (ptrdiff_t)s->samples);
+        if (found > 0)
+            st = transform(s, g, start, &why);
+    }
+    return keep(s, st, &why, err);
+}
+
+ss_status
+ss_stream_end(ss_stream *s, ss_error *err)
+{
+    ss_error why = { "" };
+    ss_status st = s->status;
+    if (st == SS_OK && s->samples == 0)
+        st = ss_fail(&why, SS_EINVAL, "the record is empty");
+    if (st == SS_OK && !s->ended)
+        for (size_t i = 0; i < s->n_scales; i++)
+            s->row[i].count = ss_scale_count(&s->scale[i], (double)(s->samples - 1) / s->rate);
+    s->ended = 1;
+    for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
+        ptrdiff_t start;
+        while (st == SS_OK && (start = start_of(s, &s->group[i])) < PTRDIFF_MAX)
+            st = transform(s, &s->group[i], start, &why);
+    }
+    return keep(s, st, &why, err);
+}
+
+/* --- making and freeing ----------------------------------------------------------------------- */
+
+static ptrdiff_t
+reach_of(double a, double rate)
+{
+    return (ptrdiff_t)fmin(ceil(REACH * a * rate) + 1, 0x1p50);
+}
+
+/* How many scales from first on go together. */
+static size_t
+scales_together(const ss_stream *s, size_t first)
+{
+    size_t n = 1;
+    if (s->row[first].reach <= SHORT)
+        return s->n_scales - first;
+    while (first + n < s->n_scales && s->row[first + n].reach > SHORT
+           && s->scale[first].a < s->scale[first + n].a * (1 << OCTAVES))
+        n++;
+    return n;
+}
+
+/* The plan of a group, its scales with as many translations as a window gives. */
+static ss_status
+plan_group(const ss_stream *s, group *g, size_t first)
+{
+    double reach = (double)s->row[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
+    size_t n_scales = scales_together(s, first);
+    *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
+    if (g->plan == NULL || !(n < PTRDIFF_MAX / (2 * sizeof(double))))
+        return SS_ENOMEM;
+    *g->plan = (ss_morlet){ .opts = s->opts, .n = (size_t)fmax(n, BASE), .rate = s->rate,
+                            .window = 1, .scale = malloc(n_scales * sizeof *s->scale) };
+    if (g->plan->scale == NULL)
+        return SS_ENOMEM;
+    g->plan->n_scales = n_scales;
+    memcpy(g->plan->scale, s->scale + first, n_scales * sizeof *s->scale);
+    for (size_t i = 0; i < n_scales; i++) {
+        ss_scale *sc = &g->plan->scale[i];
+        double hop = (double)g->plan->n - 2 * reach, step = sc->b_num / sc->b_den * s->rate;
+        sc->n = (size_t)fmin(ceil(hop / step), 0x1p50);
+    }
+    ss_status st = ss_fft_new(g->plan);
+    if (st == SS_OK)
+        g->unit = (ptrdiff_t)ss_fft_unit(g->plan);
+    return st;
+}
+
+static ss_status
+plan_groups(ss_stream *s)
+{
+    s->group = calloc(s->n_scales, sizeof *s->group);
+    if (s->group == NULL)
+        return SS_ENOMEM;
+    for (size_t first = 0; first < s->n_scales;) {
+        group *g = &s->group[s->n_groups++];
+        ss_status st = plan_group(s, g, first);
+        if (st != SS_OK)
+            return st;
+        first += g->plan->n_scales;
+    }
+    return SS_OK;
+}
+
+/* What the definition costs, and the wavelets for it that are kept: the short ones. */
+static ss_status
+plan_rows(ss_stream *s)
+{
+    size_t bytes = 0;
+    for (size_t i = s->n_groups; i-- > 0;) {
+        const ss_morlet *plan = s->group[i].plan;
+        for (size_t k = plan->n_scales; k-- > 0;) {
+            row *r = &s->row[s->group[i].first + k];
+            const ss_scale *sc = &plan->scale[k];
+            r->place = ss_quadrature_cost(plan, sc, 1);
+            r->table = ss_wavelet_cost(plan, sc);
+            bytes += ss_wavelet_bytes(&s->opts, sc->a, s->rate, plan->n);
+            if (bytes > TABLES)
+                continue;
+            r->wave = ss_wavelet_new(&s->opts, sc->a, s->rate, plan->n);
+            if (r->wave == NULL)
+                return SS_ENOMEM;
+        }
+    }
+    return SS_OK;
+}
+
+/* Room for samples and coefficients; the signal is zero before its first sample. */
+static ss_status
+make_buffers(ss_stream *s)
+{
+    size_t longest = 0, places = 1;
+    for (size_t i = 0; i < s->n_groups; i++) {
+        const group *g = &s->group[i];
+        ptrdiff_t start = start_of(s, g);
+        longest = g->plan->n > longest ? g->plan->n : longest;
+        s->origin = start < s->origin ? start : s->origin;
+        for (size_t k = 0; k < g->plan->n_scales; k++) {
+            size_t n = (size_t)places_of(g, g->first + k);
+            places = n > places ? n : places;
+        }
+    }
+    s->room = longest + PIECE;
+    s->x = calloc(s->room, sizeof *s->x);
+    s->lane = calloc((size_t)s->opts.threads, sizeof *s->lane);
+    if (s->x == NULL || s->lane == NULL)
+        return SS_ENOMEM;
+    for (int t = 0; t < s->opts.threads; t++)
+        if ((s->lane[t].w = malloc(2 * (GIVEN + places) * sizeof(double))) == NULL)
+            return SS_ENOMEM;
+    return SS_OK;
+}
+
+static ss_status
+prepare(ss_stream *s, ss_error *err)
+{
+    ss_status st = ss_morlet_grid(&s->scale, &s->n_scales, 0, s->rate, &s->opts, err);
+    if (st != SS_OK)
+        return st;
+    s->row = calloc(s->n_scales, sizeof *s->row);
+    if (s->row == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < s->n_scales; i++) {
+        s->row[i].reach = reach_of(s->scale[i].a, s->rate);
+        s->row[i].count = SIZE_MAX;
+    }
+    if ((st = plan_groups(s)) == SS_OK && (st = plan_rows(s)) == SS_OK)
+        st = make_buffers(s);
+    return st;
+}
+
+ss_status
+ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts, ss_coefficient_sink *sink,
+              void *user, ss_error *err)
+{
+    ss_status st = ss_morlet_check(1, rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    if (!(opts->fmin > 0) && !opts->octaves)
+        return ss_fail(err, SS_EINVAL, "a stream, whose length is not known, needs fmin");
+    if (opts->detrend != SS_DETREND_NONE)
+        return ss_fail(err, SS_EINVAL, "a stream cannot be detrended: a mean or a line is that of "
+                       "the whole record");
+    ss_stream *s = calloc(1, sizeof *s);
+    if (s == NULL)
+        return SS_ENOMEM;
+    *s = (ss_stream){ .opts = *opts, .rate = rate, .sink = sink, .user = user };
+    if ((st = prepare(s, err)) != SS_OK) {
+        ss_stream_free(s);
+        return st;
+    }
+    *out = s;
+    return SS_OK;
+}
+
+size_t
+ss_stream_scales(const ss_stream *s)
+{
+    return s->n_scales;
+}
+
+const ss_scale *
+ss_stream_scale(const ss_stream *s, size_t i)
+{
+    return &s->scale[i];
+}
+
+size_t
+ss_stream_samples(const ss_stream *s)
+{
+    return s->samples;
+}
+
+void
+ss_stream_free(ss_stream *s)
+{
+    if (s == NULL)
+        return;
+    for (size_t i = 0; i < s->n_groups; i++)
+        ss_morlet_free(s->group[i].plan);
+    for (size_t i = 0; s->row != NULL && i < s->n_scales; i++)
+        ss_wavelet_free(s->row[i].wave);
+    for (int t = 0; s->lane != NULL && t < s->opts.threads; t++)
+        free(s->lane[t].w);
+    free(s->group);
+    free(s->row);
+    free(s->scale);
+    free(s->lane);
+    free(s->x);
+    free(s);
+}

@@ -1,0 +1,147 @@
+/* bench_stream.c -- what a stream costs beside the transform of the whole record in memory.
+ *
+ * Prints nanoseconds of processor time a sample, for records of 1e4 to 1e8 samples of noise (or to as
+ * many as the first argument says), and the memory that the process held at most; then the largest
+ * difference between both where they can be compared, in units of the bound.  Exits 1 if it exceeds
+ * that. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include "../morlet_oracle.h"
+
+static double
+now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double
+megabytes(void)
+{
+    struct rusage use;
+    getrusage(RUSAGE_SELF, &use);
+    return (double)use.ru_maxrss / 1024;
+}
+
+typedef struct sum {
+    double total;               /* so that nothing is left out */
+    size_t n;
+    const ss_morlet *plan;      /* to compare with, or NULL */
+    const double *w;
+    double tol, worst;
+} sum;
+
+static int
+add(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
+{
+    sum *s = user;
+    (void)samples;
+    s->total += w[0] + w[2 * n - 1];
+    s->n += n;
+    for (size_t i = 0; s->plan != NULL && i < ss_morlet_scales(s->plan); i++) {
+        const ss_scale *sc = ss_morlet_scale(s->plan, i);
+        double most = 0, error = 0;
+        if (sc->j != scale->j)
+            continue;
+        for (size_t k = 0; k < sc->n; k++)
+            most = fmax(most, hypot(s->w[2 * (sc->offset + k)], s->w[2 * (sc->offset + k) + 1]));
+        for (size_t k = 0; k < n; k++) {
+            const double *want = s->w + 2 * (sc->offset + first + k);
+            error = fmax(error, hypot(w[2 * k] - want[0], w[2 * k + 1] - want[1]));
+        }
+        s->worst = fmax(s->worst, error / (2 * s->tol * most));
+    }
+    return 0;
+}
+
+static const struct grid {
+    const char *name;
+    int octaves, voices, dense;
+} grid[] = {
+    { "10 octaves of 8 voices, dense", 10, 8, 1 }, { "10 octaves of 16 voices, step 0.25", 10, 16, 0 },
+    { "16 octaves, dyadic", 16, 1, 0 }
+};
+
+/* One sample a second; scales upwards from the shortest that 1e-13 allows. */
+static ss_morlet_opts
+opts_of(const struct grid *g, double accuracy)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    double v = g->voices;
+    opts.accuracy = accuracy;
+    opts.voices = g->voices, opts.dense = g->dense, opts.step = v > 1 ? 0.25 : 1, opts.force = 1;
+    opts.octaves = 1, opts.m0 = ceil(v * log2(13.8 / M_PI)) / v;
+    opts.m1 = opts.m0 + g->octaves - 1 / v;
+    return opts;
+}
+
+/* Seconds for n samples pushed 8192 at a time, the same noise again and again; planning included. */
+static double
+stream(const ss_morlet_opts *opts, const double *x, size_t n, sum *s)
+{
+    enum { PUSH = 8192, REPEAT = 1 << 20 };
+    ss_stream *st;
+    double begin = now();
+    if (ss_stream_new(&st, 1, opts, add, s, NULL) != SS_OK)
+        exit(2);
+    for (size_t i = 0; i < n; i += PUSH)
+        if (ss_stream_push(st, x + i % REPEAT, n - i < PUSH ? n - i : PUSH, NULL) != SS_OK)
+            exit(2);
+    if (ss_stream_end(st, NULL) != SS_OK)
+        exit(2);
+    ss_stream_free(st);
+    return now() - begin;
+}
+
+static double
+in_memory(const ss_morlet_opts *opts, const double *x, size_t n, ss_morlet **plan, double **w)
+{
+    double begin = now();
+    if (ss_morlet_new(plan, n, 1, opts, NULL) != SS_OK)
+        exit(2);
+    *w = malloc(2 * ss_morlet_total(*plan) * sizeof **w);
+    memset(*w, 0, 2 * ss_morlet_total(*plan) * sizeof **w);
+    begin = now();
+    if (ss_morlet_execute(*plan, x, *w, NULL) != SS_OK)
+        exit(2);
+    return now() - begin;
+}
+
+int
+main(int argc, char *argv[])
+{
+    enum { N = 1 << 20 };
+    double *x = malloc(N * sizeof *x), most = argc > 1 ? atof(argv[1]) : 1e8;
+    int failed = 0;
+    make(NOISE, x, N);
+    printf("ns a sample, as a stream and in memory (2^20 samples); MB held at most\n");
+    for (size_t i = 0; i < sizeof grid / sizeof *grid; i++) {
+        ss_morlet_opts opts = opts_of(&grid[i], 1e-6);
+        printf("%s\n", grid[i].name);
+        for (size_t n = 10000; (double)n <= most; n *= 10) {
+            sum s = { 0 };
+            double seconds = stream(&opts, x, n, &s);
+            printf("%10zu  %7.3g  %5.3g MB\n", n, 1e9 * seconds / (double)n, megabytes());
+            fflush(stdout);
+        }
+    }
+    for (size_t i = 0; i < sizeof grid / sizeof *grid; i++) {
+        ss_morlet_opts opts = opts_of(&grid[i], 1e-6);
+        ss_morlet *plan;
+        double *w, seconds = in_memory(&opts, x, N, &plan, &w), as_stream;
+        as_stream = stream(&opts, x, N, &(sum){ 0 });
+        sum s = { .plan = plan, .w = w, .tol = opts.accuracy };
+        stream(&opts, x, N, &s);
+        printf("%s: in memory %.3g, stream %.3g ns, ratio %.2f; difference/bound %.2g\n",
+               grid[i].name, 1e9 * seconds / N, 1e9 * as_stream / N, as_stream / seconds, s.worst);
+        failed |= !(s.worst <= 1);
+        free(w);
+        ss_morlet_free(plan);
+    }
+    free(x);
+    return failed;
+}

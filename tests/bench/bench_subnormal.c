@@ -1,0 +1,72 @@
+/* bench_subnormal.c -- what subnormal samples cost the wavelet transform: at most 3 times others.
+ *
+ * Records of noise as it is, in subnormals throughout, and dying away into them, as a
+ * ringdown does, by each engine, in turns; the least of each one's times is compared. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <stickslip.h>
+
+enum { N = 20000, ROUNDS = 7, RECORDS = 3 };
+#define MOST 3.0
+
+static double
+cpu_time(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void
+fill(double x[RECORDS][N])
+{
+    unsigned long long seed = 1;
+    for (size_t i = 0; i < N; i++) {
+        seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+        x[0][i] = (double)(seed >> 11) * 0x1p-52 - 1;
+        x[1][i] = x[0][i] * 1e-310;
+        x[2][i] = x[0][i] * exp(-720 * fmin(1, 10. * (double)i / N));   /* 1e-313 from a tenth on */
+    }
+}
+
+static int
+measure(ss_engine engine, double x[RECORDS][N])
+{
+    static const char *const name[RECORDS] = { "noise", "in subnormals", "dying away" };
+    double least[RECORDS] = { INFINITY, INFINITY, INFINITY };
+    int failed = 0;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet *plan = NULL;
+    opts.engine = engine;
+    opts.voices = 4;
+    if (ss_morlet_new(&plan, N, 2000, &opts, NULL) != SS_OK)
+        return 1;
+    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    for (int round = 0; w != NULL && round < ROUNDS; round++)
+        for (int r = 0; r < RECORDS; r++) {
+            double began = cpu_time();
+            if (ss_morlet_execute(plan, x[r], w, NULL) != SS_OK)
+                failed = 1;
+            least[r] = fmin(least[r], cpu_time() - began);
+        }
+    for (int r = 1; r < RECORDS; r++) {
+        double ratio = least[r] / least[0];
+        printf("%s, %s: %.2f times the time of noise\n",
+               engine == SS_ENGINE_FFT ? "fft" : "quadrature", name[r], ratio);
+        failed |= !(ratio <= MOST);
+    }
+    ss_morlet_free(plan);
+    free(w);
+    return failed;
+}
+
+int
+main(void)
+{
+    static double x[RECORDS][N];
+    fill(x);
+    int failed = measure(SS_ENGINE_FFT, x);
+    return failed | measure(SS_ENGINE_QUADRATURE, x);
+}

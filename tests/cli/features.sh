@@ -1,0 +1,24 @@
+# Rows and summary of ss-features, and the examples of its manual.
+ss-sim compliant-light > run.tsv
+ss-features --mass 2.42 --stiffness 2310 run.tsv > found
+head -n 1 found
+grep '^# columns' found
+grep -vc '^#' found
+grep -v '^#' found | awk 'NF != 10 || $3 != 3 || $5 < 44 || $5 > 48 || $7 < 47.1 || $7 > 47.14 { print "odd:", $0 }'
+sed -n 's/^# \([a-z_]*\): [-0-9.e]* [-0-9.e]*$/\1/p' found | sed -n '/^transitions$/,$p'
+awk '$2 == "contact_stiffness:" && ($3 < 209850 || $3 > 209950) { print "odd:", $0 }' found
+ss-features -o out.tsv run.tsv && ss-features -o - --mass 2.42 --stiffness 2310 < run.tsv | cmp - found
+# nothing there
+ss-signal noise --duration 2 | ss-features | sed -n '/^# transitions/,$p'
+# the manual
+ss-sim compliant-light | ss-noise --snr 40 | ss-features --mass 2.42 --stiffness 2310 | grep stiffness | wc -l
+ss-sim compliant-heavy | ss-morlet -o run.h5
+ss-features run.h5 -o run.tsv
+ss-contour --features run.tsv run.h5 -o run.gp
+grep -c feature_colour run.gp
+# wrong usage, bad data
+for wrong in '--threshold=0' '--stiffness=1' '--norm=l3' '--drop=-1'; do
+    ss-features $wrong run.h5 2>> said && echo taken || echo $?
+done
+cat said
+ss-features --column nothing run.h5 || echo $?

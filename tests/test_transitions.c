@@ -1,0 +1,343 @@
+/* test_transitions.c -- transitions of simulated scenes, held against the scenes' own numbers. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stickslip.h>
+
+enum { SEEDS = 4 };
+
+static ss_scene
+scene_of(const char *name)
+{
+    ss_scene scene;
+    const ss_shipped_scene *s = ss_shipped_scenes;
+    while (strcmp(s->name, name) != 0)
+        s++;
+    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
+    assert_non_null(in);
+    assert_int_equal(ss_scene_read(&scene, in, s->name, NULL), SS_OK);
+    fclose(in);
+    scene.duration = 3.2;
+    return scene;
+}
+
+/* The features of the scene's acceleration in noise of snr dB (infinite: none), in other units. */
+static ss_features *
+features_in(const ss_scene *scene, double snr, unsigned long seed, double unit, double seconds)
+{
+    ss_features_opts opts = ss_features_defaults;
+    ss_features *f = NULL;
+    ss_signal *signal = NULL;
+    assert_int_equal(ss_simulate(&signal, scene, NULL), SS_OK);
+    size_t column = (size_t)ss_header_column(signal->head, "a");
+    double *a = signal->values + column * signal->n;
+    if (isfinite(snr))
+        ss_add_noise(a, signal->n, ss_noise_rms(a, signal->n, snr), seed);
+    for (size_t i = 0; i < signal->n; i++)
+        a[i] *= unit;
+    signal->head->rate /= seconds;
+    opts.mass = scene->mass;
+    opts.stiffness = scene->stiffness;
+    assert_int_equal(ss_features_find(&f, signal, column, &opts, NULL), SS_OK);
+    ss_signal_free(signal);
+    return f;
+}
+
+static ss_features *
+features_of(const ss_scene *scene, double snr, unsigned long seed)
+{
+    return features_in(scene, snr, seed, 1, 1);
+}
+
+static double
+stiffness(const ss_scene *s)
+{
+    return s->stiffness + s->contact_stiffness;
+}
+
+static double
+ratio(const ss_scene *s)
+{
+    return s->contact_damping / (2 * sqrt(stiffness(s) * s->mass));
+}
+
+/* The worst allowed of single runs: ten times the rms of the bench at 40 dB, five at 20 dB. */
+static const struct level { double snr, stiffness, ratio; } level[] = {
+    { INFINITY, 2e-4, 2e-3 }, { 40, 1e-3, 1.5e-2 }, { 20, 1e-2, 0.12 }
+};
+
+static void
+reads_stiffness_and_damping(void **state)
+{
+    static const char *const names[] = { "compliant-heavy", "compliant-light" };
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        ss_scene scene = scene_of(names[i % 2]);
+        scene.release = i < 2 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+        for (int k = 0; k < 3; k++)
+            for (unsigned long seed = 1; seed <= (k > 0 ? SEEDS : 1); seed++) {
+                ss_features *f = features_of(&scene, level[k].snr, seed);
+                double K = f->total_stiffness.value / stiffness(&scene) - 1;
+                double z = f->damping_ratio.value / ratio(&scene) - 1;
+                if (!(fabs(K) <= level[k].stiffness && fabs(z) <= level[k].ratio))
+                    fail_msg("%s at %g dB, seed %lu: stiffness off by %g, damping by %g",
+                             names[i % 2], level[k].snr, seed, K, z);
+                assert_true(fabs(f->contact_stiffness.value + scene.stiffness
+                                 - f->total_stiffness.value) < 1e-6);
+                assert_true(fabs(f->forcing_frequency.value - scene.base_frequency) < 0.01);
+                assert_true(fabs(f->slip_rate.value - 2 * scene.base_frequency) < 0.02);
+                ss_features_free(f);
+            }
+    }
+}
+
+/* Stiff and soft, light and heavy: within bounds, or refused. */
+static void
+reads_stiff_and_soft_contacts(void **state)
+{
+    static const double K_y[] = { 6e4, 6e5, 6e6, 2e7 }, damping[] = { 0.005, 0.05, 0.2 };
+    int refused = 0;
+    (void)state;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 3; j++) {
+            ss_scene scene = scene_of("compliant-light");
+            scene.contact_stiffness = K_y[i];
+            scene.contact_damping = damping[j] * 2 * sqrt(stiffness(&scene) * scene.mass);
+            ss_features *f = features_of(&scene, 40, 1);
+            double K = f->total_stiffness.value / stiffness(&scene) - 1;
+            double z = f->damping_ratio.value / damping[j] - 1;
+            refused += isnan(K);
+            if (fabs(K) > 5e-3 || fabs(z) > 0.05)       /* not a number: refused */
+                fail_msg("K_y %g, ratio %g: off by %g, %g", K_y[i], damping[j], K, z);
+            ss_features_free(f);
+        }
+    assert_true(refused <= 3);
+}
+
+/* Half a cycle of these bases leaves sticks of 0.3 to 1.5 periods. */
+static void
+refuses_sticks_under_two_periods(void **state)
+{
+    static const struct { double base, friction, K_y; } row[] = {
+        { 3, 1.2, 6e4 }, { 4, 1.2, 2e5 }, { 6, 1.2, 2e5 }, { 15, 1.2, 2e5 }, { 8, 0.8, 2e5 },
+        { 5, 0.4, 2e4 } };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (int k = 0; k < 2; k++) {
+            ss_scene scene = scene_of("compliant-light");
+            scene.base_frequency = row[i].base;
+            scene.friction = row[i].friction;
+            scene.contact_stiffness = row[i].K_y;
+            ss_features *f = features_of(&scene, level[k].snr, 1);
+            if (!isnan(f->frequency.value) || !isnan(f->damping_ratio.value))
+                fail_msg("base %g Hz, K_y %g: %g Hz", row[i].base, row[i].K_y, f->frequency.value);
+            for (size_t t = 0; t < f->n; t++)
+                assert_true(isnan(f->transition[t].frequency.value));
+            ss_features_free(f);
+        }
+}
+
+static void
+compliant_contacts_have_local_maxima_and_others_not(void **state)
+{
+    static const struct { const char *name; size_t least, most; } row[] = {
+        { "coulomb", 0, 0 }, { "state-variable", 0, 0 }, { "compliant-heavy", 13, 16 },
+        { "compliant-light", 13, 16 } };
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        ss_scene scene = scene_of(row[i].name);
+        for (int k = 0; k < 3; k++)
+            for (unsigned long seed = 1; seed <= (k > 0 ? SEEDS : 1); seed++) {
+                ss_features *f = features_of(&scene, level[k].snr, seed);
+                if (f->recurring < row[i].least || f->recurring > row[i].most)
+                    fail_msg("%s at %g dB: %zu of %zu", row[i].name, level[k].snr, f->recurring,
+                             f->n);
+                assert_true(isnan(f->frequency_raw.value) == (row[i].most == 0));
+                if (f->n < 15 || f->n > 16)
+                    fail_msg("%s at %g dB, seed %lu: %zu transitions", row[i].name, level[k].snr, seed, f->n);
+                ss_features_free(f);
+            }
+    }
+}
+
+typedef struct kept {
+    size_t n;
+    ss_event event[100];
+} kept;
+
+static int
+keep(const ss_event *e, void *user)
+{
+    kept *k = user;
+    k->event[k->n++] = *e;
+    return k->n == 100;
+}
+
+/* Each from the stick that follows a macroscopic slip to the last release before the next: within two
+ * samples of the simulator's events. */
+static void
+transitions_begin_and_end_with_the_events(void **state)
+{
+    static const char *const names[] = { "coulomb", "compliant-heavy", "compliant-light" };
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        ss_scene scene = scene_of(names[i]);
+        ss_features *f = features_of(&scene, INFINITY, 1);
+        ss_sim_opts opts = ss_sim_defaults;
+        kept k = { 0 };
+        size_t t = 0;
+        opts.events = keep;
+        opts.user = &k;
+        assert_int_equal(ss_sim_run(&scene, &opts, NULL, NULL), SS_OK);
+        for (size_t e = 0; e < k.n; e++) {
+            if (k.event[e].kind != SS_STICK || (e > 0 && k.event[e].t - k.event[e - 1].t < 0.05))
+                continue;                                   /* a micro-slip ends */
+            size_t last = e + 1;
+            while (last + 1 < k.n && k.event[last + 1].t - k.event[last].t < 0.05)
+                last++;
+            if (t >= f->n || fabs(f->transition[t].onset - k.event[e].t) > 2 / scene.rate
+                || fabs(f->transition[t].end - k.event[last].t) > 2 / scene.rate)
+                fail_msg("%s: transition %zu", names[i], t);
+            t++;
+        }
+        assert_int_equal(t, f->n);
+        ss_features_free(f);
+    }
+}
+
+/* A change of units changes nothing but units. */
+static void
+units_and_rates_do_not_matter(void **state)
+{
+    static const double unit[] = { 1, 0x1p-660, 0x1p660 }, seconds[] = { 1, 0x1p20, 0x1p-20 };
+    ss_scene scene = scene_of("compliant-light");
+    (void)state;
+    for (int i = 1; i < 3; i++) {
+        ss_features *a = features_of(&scene, 40, 1);
+        ss_features *b = features_in(&scene, 40, 1, unit[i], seconds[i]);
+        double f = a->frequency.value, g = b->frequency.value * seconds[i];
+        assert_int_equal(a->n, b->n);
+        assert_true(fabs(g / f - 1) < 1e-9);
+        assert_true(fabs(b->damping_ratio.value / a->damping_ratio.value - 1) < 1e-6);
+        ss_features_free(a);
+        ss_features_free(b);
+    }
+}
+
+static ss_signal *
+plain(size_t n, double rms)
+{
+    ss_header *head = ss_header_new(1000, 0);
+    ss_signal *signal = NULL;
+    ss_header_add_column(head, "a", "");
+    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header_free(head);
+    ss_add_noise(signal->values, n, rms, 1);
+    return signal;
+}
+
+static void
+finds_nothing_in_noise_silence_and_short_records(void **state)
+{
+    static const size_t n[] = { 0, 1, 2, 7, 30, 100, 4000 };
+    (void)state;
+    for (int rms = 0; rms < 2; rms++)
+        for (size_t i = 0; i < sizeof n / sizeof *n; i++) {
+            ss_signal *signal = plain(n[i], rms);
+            ss_features *f = NULL;
+            assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+            assert_int_equal(f->n, 0);
+            assert_int_equal(f->slips, 0);
+            assert_true(isnan(f->frequency.value) && isnan(f->frequency_raw.value)
+                        && isnan(f->forcing_frequency.value) && isnan(f->slip_rate.value));
+            ss_features_free(f);
+            ss_signal_free(signal);
+        }
+}
+
+/* The third harmonic is ten times the fundamental. */
+static void
+the_forcing_is_no_harmonic(void **state)
+{
+    ss_signal *signal = plain(8000, 0.1);
+    ss_features *f = NULL;
+    (void)state;
+    for (size_t i = 0; i < signal->n; i++) {
+        double p = 2 * M_PI * 2.3 * (double)i / 1000;
+        signal->values[i] += 0.1 * sin(p) + sin(3 * p) + 0.3 * cos(5 * p);
+    }
+    assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+    assert_true(fabs(f->forcing_frequency.value - 2.3) < 0.005);
+    ss_features_free(f);
+    ss_signal_free(signal);
+}
+
+static void
+reads_the_slope_of_force_over_displacement(void **state)
+{
+    static const char *const names[] = { "compliant-heavy", "compliant-light" };
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        ss_scene scene = scene_of(names[i]);
+        ss_features_opts opts = ss_features_defaults;
+        ss_features *f = NULL;
+        ss_signal *signal = NULL;
+        assert_int_equal(ss_simulate(&signal, &scene, NULL), SS_OK);
+        opts.displacement = ss_header_column(signal->head, "x");
+        opts.force = ss_header_column(signal->head, "f");
+        assert_int_equal(ss_features_find(&f, signal, (size_t)ss_header_column(signal->head, "a"),
+                                          &opts, NULL), SS_OK);
+        double z = ratio(&scene);
+        assert_true(fabs(f->contact_slope.value / scene.contact_stiffness - 1) < 2 * z * z + 1e-4);
+        assert_true(isnan(f->total_stiffness.value));               /* no mass given */
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+refuses_what_is_out_of_range(void **state)
+{
+    static const ss_features_opts good = { .threshold = 4, .displacement = -1, .force = -1,
+                                           .threads = 1 };
+    ss_features_opts bad[8];
+    ss_signal *signal = plain(100, 1);
+    ss_features *f = NULL;
+    (void)state;
+    for (int i = 0; i < 8; i++)
+        bad[i] = good;
+    bad[0].threshold = 0, bad[1].mass = -1, bad[2].stiffness = NAN, bad[3].fmin = INFINITY;
+    bad[4].threads = 0, bad[5].force = 1, bad[6].drop = -1, bad[7].threshold = NAN;
+    for (int i = 0; i < 8; i++)
+        assert_int_equal(ss_features_find(&f, signal, 0, &bad[i], NULL), SS_EINVAL);
+    assert_int_equal(ss_features_find(&f, signal, 1, &good, NULL), SS_EINVAL);
+    signal->values[3] = NAN;
+    assert_int_equal(ss_features_find(&f, signal, 0, &good, NULL), SS_EDATA);
+    ss_features_free(NULL);
+    ss_signal_free(signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reads_stiffness_and_damping),
+        cmocka_unit_test(reads_stiff_and_soft_contacts),
+        cmocka_unit_test(refuses_sticks_under_two_periods),
+        cmocka_unit_test(compliant_contacts_have_local_maxima_and_others_not),
+        cmocka_unit_test(transitions_begin_and_end_with_the_events),
+        cmocka_unit_test(units_and_rates_do_not_matter),
+        cmocka_unit_test(finds_nothing_in_noise_silence_and_short_records),
+        cmocka_unit_test(the_forcing_is_no_harmonic),
+        cmocka_unit_test(reads_the_slope_of_force_over_displacement),
+        cmocka_unit_test(refuses_what_is_out_of_range),
+    };
+    gsl_set_error_handler_off();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
