@@ -170,6 +170,8 @@ shipped_scenes_rank_themselves_first(void **state)
         assert_true(fabs(r->forcing_frequency / 2.5 - 1) <= 0.002);
         for (size_t k = 1; k < r->n; k++)
             assert_true(r->row[k].total >= r->row[k - 1].total);
+        for (size_t k = 0; k < r->n; k++)       /* without x and f there is no df/dx to miss */
+            assert_true(ss_rank_score(&r->row[k], SS_BY_STIFFNESS, 1) == 0);
         ss_ranking_free(r);
         ss_signal_free(signal);
     }

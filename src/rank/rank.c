@@ -50,6 +50,7 @@ typedef struct look {
     double value[SS_CRITERIA];
     double noise;                       /* rms */
     int countable;                      /* spikes can be counted */
+    int has_slope;                      /* there are columns for df/dx */
     ss_coefficients *map;
 } look;
 
@@ -134,6 +135,7 @@ look_at_transitions(look *l, const ss_signal *signal, size_t column, double half
         return st;
     double halves = floor((double)signal->n / signal->head->rate / half);
     l->noise = f->noise;
+    l->has_slope = opts.displacement >= 0 && opts.force >= 0;
     l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / halves, 1);
     l->value[SS_BY_FREQUENCY] = f->frequency.value;
     l->value[SS_BY_DAMPING] = f->damping_ratio.value;
@@ -217,6 +219,10 @@ compare(ss_rank_row *row, const look *signal, const look *model)
     /* where noise hides spikes, their number and kind tell of the noise */
     if (!signal->countable)
         row->distance[SS_BY_SPIKES] = row->distance[SS_BY_SLOPE] = 0;
+    if (!signal->has_slope) {
+        row->value[SS_BY_STIFFNESS] = NAN;
+        row->distance[SS_BY_STIFFNESS] = 0;
+    }
     row->value[SS_BY_MAP] = row->distance[SS_BY_MAP] = map_distance(signal, model);
 }
 
