@@ -371,7 +371,8 @@ static const struct row {
     { "headers", headers, 1, 0 }, { "reading streams", read_streams, 9, 0 },
     { "writing streams", write_streams, 2, 0 }, { "signals", signals, 7, 0 },
     { "simulations", simulations, 3, 0 }, { "closed forms", closed_forms, 2, 0 },
-    { "trades", trades, 2, 0 }, { "transforms", transforms, 6, 0 }, { "comparisons", comparisons, 2, 0 },
+    { "trades", trades, 2, 0 }, { "transforms", transforms, 6, 0 },
+    { "comparisons", comparisons, 2, 0 },
     { "reading coefficients", read_coefficients, 1, 0 }, { "features", features, 2, 1 },
     { "plots", plots, 4, 0 }, { "stores", stores, 2, 0 }, { "loads", loads, 3, 0 },
 };
@@ -385,8 +386,8 @@ set_up(void **state)
     (void)state;
     gsl_set_error_handler_off();
     for (int m = 0; m < 3; m++) {
-        scene[m] = (ss_scene){ .model = (ss_model)m, .mass = 2.42, .stiffness = 2310, .friction = 1.28,
-            .base_amplitude = 6e-4, .base_frequency = 2.5, .alpha = 3000, .gamma = 100,
+        scene[m] = (ss_scene){ .model = (ss_model)m, .mass = 2.42, .stiffness = 2310,
+            .friction = 1.28, .base_amplitude = 6e-4, .base_frequency = 2.5, .alpha = 3000, .gamma = 100,
             .contact_stiffness = 209900, .contact_damping = 25, .duration = 0.1, .rate = 1000 };
     }
     strcpy(path, "/tmp/test_memory.XXXXXX");

@@ -1,8 +1,8 @@
 /* test_sweep.c -- periodic states and their measures against closed forms and other routes.
  *
  * Truth is Den Hartog (1931) for motion without stops, free decay and free oscillation in closed
- * form, the settled numbers of independent programs listed beside the rows, and records of ss_sim_run
- * by rk8pd, which share no code with the way from event to event that is tested here. */
+ * form, the settled numbers of independent programs listed beside the rows, and records of
+ * ss_sim_run by rk8pd, which share no code with the way from event to event that is tested here. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -170,8 +170,8 @@ stops_where_den_hartog_says(void **state)
 static void
 gives_the_settled_numbers(void **state)
 {
-    /* |x| in stick, max|v| (of samples at 2 kHz, which miss (30/s)^2 h^2 / 8 of it and the last digit
-     * given) and the times of events of the Coulomb scene; max|x| and times of the
+    /* |x| in stick, max|v| (of samples at 2 kHz, which miss (30/s)^2 h^2 / 8 of it and the last
+     * digit given) and the times of events of the Coulomb scene; max|x| and times of the
      * compliant ones, of programs of their own, to the digits given */
     static const struct { const char *name; double x, v, dx, stops, stick, dstick, microslips; }
     row[] = {
@@ -297,7 +297,7 @@ multipliers_have_the_product_of_the_jumps(void **state)
         double r = row[i][0], beta = row[i][1], X = den_hartog_amplitude(r, beta);
         ss_scene s = den_hartog(r, beta);
         ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2), 1);
-        /* at x = X: drive - k x -+ beta, where drive = k Z_e cos(phase) with X/V = cos(phase) + ...:
+        /* at x = X: drive - k x -+ beta, where drive = k Z_e cos(phase):
          * from Den Hartog, cos of the phase at the turning point is X / V */
         double force = X * (1 - r * r) - X;
         double factor = (force + beta) / (force - beta);
@@ -306,7 +306,8 @@ multipliers_have_the_product_of_the_jumps(void **state)
     }
 }
 
-/* A released mass loses 4 f_k / k of amplitude a cycle and rests where the spring cannot move it. */
+/* A released mass loses 4 f_k / k of amplitude a cycle and rests where the spring cannot move
+ * it. */
 static void
 free_decay_ends_where_it_must(void **state)
 {
@@ -391,8 +392,8 @@ methods_agree(void **state)
     }
 }
 
-/* In microstick the contact rings at sqrt((k + K_y)/m - s^2); the base, slow, shifts the extrema of a
- * by little. */
+/* In microstick the contact rings at sqrt((k + K_y)/m - s^2); the base, slow, shifts the extrema of
+ * a by little. */
 static void
 hears_the_transition_frequency(void **state)
 {
@@ -598,8 +599,8 @@ read_text(ss_sweep_table **table, const char *text, ss_error *err)
 static void
 reads_rows_back(void **state)
 {
-    static const char good[] = "# stickslip sweep 1\n# columns: index contact_damping/(N s/m) period "
-        "amplitude/m status\n1\t2.5\taperiodic\t-\tno period\n0\t2\t1\t1e-4\tok\n"
+    static const char good[] = "# stickslip sweep 1\n# columns: index contact_damping/(N s/m) "
+        "period amplitude/m status\n1\t2.5\taperiodic\t-\tno period\n0\t2\t1\t1e-4\tok\n"
         "# stickslip sweep 1\n# columns: index contact_damping/(N s/m) period amplitude/m status\n"
         "2\t3\t2\t0.5\tok\r\n";
     static const struct { const char *text, *why; } bad[] = {

@@ -160,7 +160,8 @@ compliant_contacts_have_local_maxima_and_others_not(void **state)
                              f->n);
                 assert_true(isnan(f->frequency_raw.value) == (row[i].most == 0));
                 if (f->n < 15 || f->n > 16)
-                    fail_msg("%s at %g dB, seed %lu: %zu transitions", row[i].name, level[k].snr, seed, f->n);
+                    fail_msg("%s at %g dB, seed %lu: %zu transitions", row[i].name, level[k].snr,
+                             seed, f->n);
                 ss_features_free(f);
             }
     }

@@ -130,6 +130,69 @@ print_spikes(const ss_coefficients *c)
     free(spike);
 }
 
+/* --- the contact --------------------------------------------------------------------------- */
+
+static double
+note_number(const ss_header *head, const char *key)
+{
+    const char *text = ss_header_find_note(head, key);
+    char *end;
+    return text != NULL ? ss_number_parse(text, &end) : NAN;
+}
+
+static void
+print_value(const char *format, double x)
+{
+    if (isnan(x))
+        printf(" %10s", "-");
+    else
+        printf(format, x);
+}
+
+static void
+print_row(const char *name, const char *format, double words, double raw, ss_value fitted,
+          double truth)
+{
+    printf("  %-22s", name);
+    print_value(format, words);
+    print_value(format, raw);
+    print_value(format, fitted.value);
+    if (isnan(fitted.error))
+        printf(" %10s", "-");
+    else
+        printf(" %10.2g", fitted.error);
+    print_value(format, truth);
+    printf("\n");
+}
+
+/* The paper's estimate of the contact, ours by the same reading, the fit, and what was simulated. */
+static void
+print_contact(const char *path, const char *name)
+{
+    ss_signal *signal = NULL;
+    ss_features *f = NULL;
+    ss_error err = { "" };
+    ss_features_opts opts = ss_features_defaults;
+    int said = strncmp(name, "figure2", 7) != 0 && strncmp(name, "figure3", 7) != 0;
+    tool_check(ss_load_signal(&signal, path, NULL, &err), &err);
+    const ss_header *head = signal->head;
+    int column = ss_header_column(head, "a");
+    double m = note_number(head, "mass"), k = note_number(head, "stiffness");
+    double K = k + note_number(head, "contact_stiffness"), c = note_number(head, "contact_damping");
+    opts.mass = m > 0 ? m : 0;
+    opts.stiffness = k > 0 ? k : 0;
+    tool_check(ss_features_find(&f, signal, column >= 0 ? (size_t)column : 0, &opts, &err), &err);
+    printf("  transitions: %zu, with a local maximum %zu\n", f->n, f->recurring);
+    printf("  %-22s %10s %10s %10s %10s %10s\n", "", "paper", "raw", "fitted", "+-", "simulated");
+    print_row("frequency / Hz", " %10.3f", said ? 45 : NAN, f->frequency_raw.value, f->frequency,
+              sqrt(K / m - c * c / (4 * m * m)) / (2 * M_PI));
+    print_row("damping ratio", " %10.5f", NAN, NAN, f->damping_ratio, c / (2 * sqrt(K * m)));
+    print_row("total stiffness / N/m", " %10.0f", said ? 193500 : NAN, f->total_stiffness_raw.value,
+              f->total_stiffness, K);
+    ss_features_free(f);
+    ss_signal_free(signal);
+}
+
 static void
 print_figure(const char *path)
 {
@@ -141,6 +204,7 @@ print_figure(const char *path)
     printf("\n%s\n  the paper: %s\n", name, find_words(name));
     print_maxima(c);
     print_spikes(c);
+    print_contact(path, name);
     ss_coefficients_free(c);
 }
 

@@ -75,6 +75,7 @@ typedef struct request {
     const char *column, *output;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
     int stream, inverse, check;
+    int accurate;                       /* --accuracy was given */
     int transforms;                     /* an option was given that is of the transform alone */
     tool_kind kind;                     /* what is written */
 } request;
@@ -94,6 +95,7 @@ set_option(request *req, int c)
 {
     ss_morlet_opts *opts = &req->opts;
     req->grid |= c == OPT_VOICES || c == OPT_STEP || c == OPT_DENSE;
+    req->accurate |= c == OPT_ACCURACY;
     req->transforms |= c >= OPT_COLUMN && c != OPT_ACCURACY && c != OPT_INVERSE;
     switch (c) {
     case OPT_COLUMN:     req->column = optarg; break;
@@ -252,7 +254,7 @@ invert(const request *req, const char *path)
     ss_coefficients *coef = tool_read_coefficients(path);
     ss_signal *signal;
     ss_error err = { "" };
-    double error, accuracy = req->opts.accuracy;
+    double error, accuracy = req->accurate ? req->opts.accuracy : 1e-3;
     check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, &err), &err, path);
     tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
               coef->scale[0].f, coef->scale[coef->n_scales - 1].f);

@@ -91,7 +91,8 @@ parse_shard(ss_sweep_opts *opts, const char *text)
 {
     char *slash, *end;
     long i = strtol(text, &slash, 10), n = *slash == '/' ? strtol(slash + 1, &end, 10) : 0;
-    if (*slash != '/' || slash == text || end == slash + 1 || *end != '\0' || n < 1 || i < 0 || i > n)
+    if (*slash != '/' || slash == text || end == slash + 1 || *end != '\0' || n < 1 || i < 0
+        || i > n)
         tool_usage("--shard: '%s' is not I/N with I from 0 to N - 1, or from 1 to N", text);
     opts->shard = (size_t)(i % n);
     opts->shards = (size_t)n;
@@ -109,12 +110,14 @@ parse(request *req, int argc, char *argv[])
     static const struct option longopts[] = {
         { "vary", required_argument, NULL, 'y' }, { "measure", required_argument, NULL, 'm' },
         { "set", required_argument, NULL, 's' }, { "shoot", no_argument, NULL, OPT_SHOOT },
-        { "tol", required_argument, NULL, 't' }, { "max-period", required_argument, NULL, OPT_PERIOD },
+        { "tol", required_argument, NULL, 't' },
+        { "max-period", required_argument, NULL, OPT_PERIOD },
         { "max-cycles", required_argument, NULL, OPT_CYCLES },
         { "max-steps", required_argument, NULL, OPT_STEPS },
         { "settle-cycles", required_argument, NULL, OPT_SETTLE },
         { "method", required_argument, NULL, OPT_METHOD },
-        { "threads", required_argument, NULL, 'j' }, { "shard", required_argument, NULL, OPT_SHARD },
+        { "threads", required_argument, NULL, 'j' },
+        { "shard", required_argument, NULL, OPT_SHARD },
         { "resume", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
     ss_steady_opts *steady = &req->opts.steady;
     ss_error err = { "" };
@@ -274,8 +277,8 @@ report(double done, void *user)
 
 /* --- resuming ------------------------------------------------------------------------------ */
 
-/* Whole rows at the head of FILE, in the order in which they must come; dies if it is no part of this
- * sweep.  What lies behind *end was cut off in the middle of a line. */
+/* Whole rows at the head of FILE, in the order in which they must come; dies if it is no part of
+ * this sweep.  What lies behind *end was cut off in the middle of a line. */
 static size_t
 count_rows(const request *req, FILE *in, const char *header, long *end)
 {

@@ -87,9 +87,10 @@ extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no colu
 
 /* Find the transitions of one column, whose values must be finite, and what they have in common.
  * Where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
- * onset of the oscillation to the last spike within a period of its end.  Else strong spikes begin
- * transitions, and weaker ones end them; else there are the single events of ss_find_bursts.  A record too short for any scale, or with nothing in it, has none: SS_OK.  opts may be NULL.  To
- * be freed with ss_features_free. */
+ * onset of the oscillation to the last spike within a period of its end. Else strong spikes begin
+ * transitions, and weaker ones end them; else there are the single events of ss_find_bursts. A
+ * record too short for any scale, or with nothing in it, has none: SS_OK. opts may be NULL. To be
+ * freed with ss_features_free. */
 ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
                            const ss_features_opts *opts, ss_error *err);
 void ss_features_free(ss_features *features);           /* NULL is allowed */

@@ -43,7 +43,8 @@ typedef struct ss_steady_opts {
     unsigned long max_cycles;   /* > 0: then it is called aperiodic */
     unsigned long settle;       /* > 0: simulate so many cycles instead of looking for the end */
     int shoot;                  /* Newton on the period map; exact method, no SS_CYCLES */
-    const char *method;         /* of ss_sim_method_name; NULL: exact where there is one, or rk8pd */
+    const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
+                                   else as ss_sim_run chooses */
     unsigned long max_steps;    /* > 0: give up after so many */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64 };
@@ -55,15 +56,16 @@ typedef struct ss_steady {
 
 /* Find the periodic state that the scene settles to, from its initial state on, and measure it.
  *
- * The state (x, v, and y or theta) at the start of each forcing cycle is compared with that of 1, 2,
- * ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k, v in
- * those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when it differs by at most
- * tol and, going on to shrink as it has, lies within tol of its limit.  With shoot, Newton's steps
- * and residual are at most tol.  Settle, duration and rate of the scene do not count.
+ * The state (x, v, and y or theta) at the start of each forcing cycle is compared with that of 1,
+ * 2, ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k,
+ * v in those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when it differs by
+ * at most tol and, going on to shrink as it has, lies within tol of its limit.  With shoot,
+ * Newton's steps and residual are at most tol.  Settle, duration and rate of the scene do not
+ * count.
  *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
- * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the number
- * of events that are not resolved (ss_sim_stats).  Else as ss_sim_run, nothing is
+ * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the
+ * number of events that are not resolved (ss_sim_stats).  Else as ss_sim_run, nothing is
  * there. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);
@@ -111,8 +113,8 @@ enum { SS_SWEEP_THREADS_MAX = 256 };
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
 
-/* SS_EINVAL if no point can be worked out so: an axis that the model does not have or that belongs to
- * the record, a measure, a range. */
+/* SS_EINVAL if no point can be worked out so: an axis that the model does not have or that belongs
+ * to the record, a measure, a range. */
 ss_status ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
 /* Every point is worked out from the scene alone, so that rows are the same whatever the threads

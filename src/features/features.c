@@ -19,9 +19,9 @@ static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 #define CENTER 6.0
 #define SPAN 80.0               /* [dB] of the paper's contours */
 #define SIGMAS 3.0
-#define SLIGHT 0.5              /* [dB] maxima less prominent than this do not show an oscillation */
-#define BAND 0.25               /* [octaves] maxima this near to each other in frequency are of one kind */
-#define STRONG 20.0             /* [dB] below the strongest: spikes that begin a transition by themselves */
+#define SLIGHT 0.5              /* [dB] maxima less prominent show no oscillation */
+#define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
+#define STRONG 20.0             /* [dB] below the strongest: spikes that begin a transition */
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
@@ -29,7 +29,7 @@ enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 
 typedef struct search {
     const ss_signal *signal;
-    double *x;                  /* the column over its largest |value|, so that squares stay in range */
+    double *x;                  /* the column over largest, so that squares stay in range */
     double largest;
     size_t n;
     double rate;
@@ -85,8 +85,8 @@ row_of(const ss_coefficients *coef, double f)
     return row;
 }
 
-/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it, and
- * those that no contour shows. */
+/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it,
+ * and those that no contour shows. */
 static void
 drop_noise(search *s)
 {
@@ -170,6 +170,8 @@ earlier(const void *a, const void *b)
 static ss_status
 new_transitions(ss_features *out, size_t n)
 {
+    free(out->transition);
+    out->n = 0;
     out->transition = calloc(n + 1, sizeof *out->transition);
     if (out->transition == NULL)
         return SS_ENOMEM;
@@ -225,7 +227,8 @@ read_raw(search *s)
         scatter += (f[i] - mean) * (f[i] - mean);
     out->frequency_raw.value = n % 2 ? f[n / 2] : 0.5 * (f[n / 2 - 1] + f[n / 2]);
     step = f[n / 2] * (exp2(1. / ss_morlet_defaults.voices) - 1);
-    out->frequency_raw.error = sqrt(step * step / 12 + (n > 1 ? scatter / (double)(n - 1) / (double)n : 0));
+    out->frequency_raw.error = sqrt(step * step / 12
+                                    + (n > 1 ? scatter / (double)(n - 1) / (double)n : 0));
     free(f);
     return SS_OK;
 }
@@ -239,8 +242,9 @@ set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_valu
     *ratio = (ss_value){ s / r, hypot(w * w * fit[1].error, w * s * fit[0].error) / (r * r * r) };
 }
 
-/* Move the onset to the nearest jump or kink of the spikes found, within half a period; the end to the
- * last one that comes within a period of another: what is released again sticks no longer than that. */
+/* Move the onset to the nearest jump or kink of the spikes found, within half a period; the end to
+ * the last one that comes within a period of another: what is released again sticks no longer than
+ * that. */
 static void
 snap_to_spikes(const search *s, ss_transition *tr, double period)
 {
@@ -272,10 +276,10 @@ refine(search *s, const ss_maximum *swell, double f)
     if (anchor != NULL && window != NULL && each != NULL) {
         for (size_t i = 0; i < n; i++)
             anchor[i] = (size_t)(swell[i].t * s->rate);
-        st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate,
-                             isnan(out->forcing_frequency.value) ? 0
-                             : 2 * M_PI * out->forcing_frequency.value / s->rate, s->out->noise, window, all,
-                             each);
+        double forcing = isnan(out->forcing_frequency.value) ? 0
+            : 2 * M_PI * out->forcing_frequency.value / s->rate;
+        st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate, forcing,
+                             s->out->noise, window, all, each);
     }
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -404,7 +408,7 @@ find_slip_rate(search *s)
     }
     double m = (double)(n - 1), mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
     double each = round((double)n / duration / out->forcing_frequency.value);
-    out->slip_rate = (ss_value){ 1 / mean, sqrt(scatter / (m - 1 > 0 ? m - 1 : 1)) / (mean * mean) };
+    out->slip_rate = (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
     if (each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
         out->slip_rate = (ss_value){ each * out->forcing_frequency.value,
                                      each * out->forcing_frequency.error };
@@ -481,6 +485,24 @@ find_maxima(search *s)
     return keep_prominent(s);
 }
 
+/* By what rings, prominently or slightly, else by spikes, else as single events. */
+static ss_status
+find_transitions(search *s)
+{
+    ss_features *out = s->out;
+    ss_status st = SS_OK;
+    for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
+        double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
+        if (f > 0)
+            st = find_ringing(s, f);
+    }
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive)
+        st = find_spiked(s);
+    if (st == SS_OK && out->n == 0)
+        st = find_single(s);
+    return st;
+}
+
 static ss_status
 find_all(search *s)
 {
@@ -495,17 +517,7 @@ find_all(search *s)
                              NULL)) != SS_OK
         || (st = find_maxima(s)) != SS_OK)
         return st;
-    if (s->opts->drop > 0)
-        st = find_dropped(s);
-    for (int slight = 0; slight < 2 && st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0); slight++) {
-        double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
-        if (f > 0)
-            st = find_ringing(s, f);
-    }
-    if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0) && s->out->spikes->conclusive)
-        st = find_spiked(s);
-    if (st == SS_OK && s->out->n == 0 && !(s->opts->drop > 0))
-        st = find_single(s);
+    st = s->opts->drop > 0 ? find_dropped(s) : find_transitions(s);
     if (st != SS_OK)
         return st;
     count_spikes(s->out);
@@ -520,7 +532,8 @@ check(const ss_signal *signal, size_t column, const ss_features_opts *opts, ss_e
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu", column + 1);
     if (!(opts->threshold > 0 && opts->mass >= 0 && opts->stiffness >= 0 && opts->fmin >= 0
-          && opts->drop >= 0 && isfinite(opts->drop + opts->threshold + opts->mass + opts->stiffness + opts->fmin)))
+          && opts->drop >= 0 && isfinite(opts->drop + opts->threshold + opts->mass)
+          && isfinite(opts->stiffness + opts->fmin)))
         return ss_fail(err, SS_EINVAL, "threshold, mass, stiffness or fmin out of range");
     if (opts->displacement >= (int)signal->head->n_columns
         || opts->force >= (int)signal->head->n_columns)

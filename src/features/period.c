@@ -1,10 +1,10 @@
 /* period.c -- the time after which a signal repeats itself.
  *
- * The largest line of a spectrum may be any harmonic, and the fundamental may be missing; what all of
- * them share is the period.  It is the lag of the first peak of the autocorrelation that is nearly
- * as high as the highest.  The autocorrelation is that of the spectrum's magnitude instead of its
+ * The largest line of a spectrum may be any harmonic, and the fundamental may be missing; what all
+ * of them share is the period. It is the lag of the first peak of the autocorrelation that is nearly
+ * as high as the highest. The autocorrelation is that of the spectrum's magnitude instead of its
  * square (Tolonen and Karjalainen 2000, "compressed"): else one strong line makes peaks of its own
- * and a slow drift hides them all.  Peaks at the multiples of the lag then refine it, and their
+ * and a slow drift hides them all. Peaks at the multiples of the lag then refine it, and their
  * scatter is its error. */
 #include "period.h"
 
@@ -15,9 +15,9 @@
 #include <stdlib.h>
 
 #define NEARLY 0.9              /* of the highest peak: the first peak as high as this is the period's */
-/* The least correlation that counts.  That of white noise has the standard deviation n^-1/2: SIGMAS of
- * them are not reached by chance at any of 1e6 lags.  Irregular slips reach 0.05, drifting ones that
- * still repeat 0.3. */
+/* The least correlation that counts. That of white noise has the standard deviation n^-1/2: SIGMAS
+ * of them are not reached by chance at any of 1e6 lags. Irregular slips reach 0.05, drifting ones
+ * that still repeat 0.3. */
 #define LEAST 0.15
 #define SIGMAS 5.5
 
@@ -57,24 +57,6 @@ is_peak(const double *r, size_t i)
     return r[i] >= r[i - 1] && r[i] > r[i + 1];
 }
 
-/* The first peak behind the main one that is nearly the highest up to last; 0: none. */
-static size_t
-first_peak(const double *r, size_t last, double least)
-{
-    size_t from = 1;
-    double highest = 0;
-    while (from < last && r[from] > 0)
-        from++;
-    for (size_t i = from; i < last; i++)
-        highest = is_peak(r, i) ? fmax(highest, r[i]) : highest;
-    if (highest < least)
-        return 0;
-    for (size_t i = from; i < last; i++)
-        if (is_peak(r, i) && r[i] >= NEARLY * highest)
-            return i;
-    return 0;
-}
-
 /* The top of the parabola through the highest of the lags within reach of at, and its neighbours. */
 static double
 peak_near(const double *r, double at, double reach)
@@ -87,10 +69,62 @@ peak_near(const double *r, double at, double reach)
     return (double)best + fmax(-0.5, fmin(0.5, shift));
 }
 
+/* The period that the peaks at the multiples of a lag have in common, up to last and as many as
+ * most, and the height of the last of them. In *error its standard error: alone, a peak is known to
+ * the sample. */
+static double
+follow(const double *r, size_t lag, double last, double most, double *height, double *error)
+{
+    double period = (double)lag, mm = 0, ml = 0, ll = 0, count = 0;
+    for (double m = 1; m <= most && (m + 0.25) * period < last; m++) {
+        double at = peak_near(r, m * period, fmax(1, 0.125 * period / sqrt(m)));
+        mm += m * m, ml += m * at, ll += at * at, count++;
+        period = ml / mm;
+        *height = r[(size_t)(at + 0.5)];
+    }
+    double scatter = count > 1 ? fmax(0, ll - ml * ml / mm) / (count - 1) : 1. / 12;
+    *error = sqrt(scatter / mm);
+    return period;
+}
+
+/* An oscillation that decays repeats itself too, but not for long. */
+static int
+lasts(const double *r, size_t lag, size_t last)
+{
+    enum { MULTIPLES = 32 };
+    double height = r[lag], error;
+    follow(r, lag, (double)last, MULTIPLES, &height, &error);
+    return height >= 0.5 * r[lag];
+}
+
+/* The first peak behind the main one that is nearly the highest up to last, and
+ * lasts if any does; 0: none. */
+static size_t
+first_peak(const double *r, size_t last, double least)
+{
+    size_t from = 1;
+    double highest = 0;
+    while (from < last && r[from] > 0)
+        from++;
+    for (size_t i = from; i < last; i++)
+        highest = is_peak(r, i) ? fmax(highest, r[i]) : highest;
+    if (highest < least)
+        return 0;
+    size_t first = 0;
+    for (size_t i = from; i < last; i++)
+        if (is_peak(r, i) && r[i] >= NEARLY * highest) {
+            if (lasts(r, i, last))
+                return i;
+            first = first > 0 ? first : i;
+        }
+    return first;
+}
+
 ss_status
 ss_period_find(const double *x, size_t n, ss_value *period)
 {
     size_t size;
+    double height;
     *period = (ss_value){ NAN, NAN };
     if (n < 8)
         return SS_OK;
@@ -100,17 +134,8 @@ ss_period_find(const double *x, size_t n, ss_value *period)
     if (r == NULL)
         return SS_ENOMEM;
     size_t peak = first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
-    if (peak > 0) {
-        double lag = (double)peak, mm = 0, ml = 0, ll = 0, count = 0;
-        for (double m = 1; (m + 0.25) * lag < 0.75 * (double)n; m++) {
-            double reach = fmax(1, 0.125 * lag / sqrt(m)), at = peak_near(r, m * lag, reach);
-            mm += m * m, ml += m * at, ll += at * at, count++;
-            lag = ml / mm;
-        }
-        /* alone, a peak is known to the sample */
-        double scatter = count > 1 ? fmax(0, ll - ml * ml / mm) / (count - 1) : 1. / 12;
-        *period = (ss_value){ lag, sqrt(scatter / mm) };
-    }
+    if (peak > 0)
+        period->value = follow(r, peak, 0.75 * (double)n, INFINITY, &height, &period->error);
     free(r);
     return SS_OK;
 }

@@ -1,18 +1,18 @@
 /* ringdown.c -- one damped oscillation shared by many short windows of a signal.
  *
  * While the contact sticks, the signal is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) + C + D t: the
- * line stands for the slow response to the base.  w and s belong to the contact and are the same in
- * every stick; A to D are not.  So A to D are projected out of each window (variable projection,
- * Golub and Pereyra 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows at
- * once, by GSL's Levenberg-Marquardt.
+ * line stands for the slow response to the base. w and s belong to the contact and are the same in
+ * every stick; A to D are not. So A to D are projected out of each window (variable projection,
+ * Golub and Pereyra 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows
+ * at once, by GSL's Levenberg-Marquardt.
  *
- * Where a stick begins and ends is not known.  A core shorter than any stick that can be used is put
- * where an oscillation explains most; from there the window grows.  With w and s fixed, q more
+ * Where a stick begins and ends is not known. A core shorter than any stick that can be used is put
+ * where an oscillation explains most; from there the window grows. With w and s fixed, q more
  * samples raise the sum of squares by the noise's variance times chi-square of q degrees of freedom
- * if they still belong to the stick: growth ends where they raise it by more.  Micro-slips too weak
+ * if they still belong to the stick: growth ends where they raise it by more. Micro-slips too weak
  * to show in one window are looked for in all together, at the same distance from their starts.
  *
- * Errors: by the jackknife over windows, in its linearised form.  What it cannot see is a misfit that
+ * Errors: by the jackknife over windows, in its linearised form. What it cannot see is a misfit that
  * all windows share. */
 #include "ringdown.h"
 
@@ -24,8 +24,8 @@
 #include <string.h>
 
 /* In periods of the oscillation. */
-#define CORE 1.25               /* longer ones would not fit into a stick of two, wherever they lie */
-#define LEAST 2.0               /* shorter windows cannot tell the oscillation from line and decay */
+#define CORE 1.25               /* fits into a stick of two wherever that lies */
+#define LEAST 2.0               /* shorter ones cannot tell oscillation, line and decay apart */
 #define MOST 16.0               /* longer ones know no more, as the oscillation has decayed */
 #define BLOCK 0.125             /* a step of growth */
 #define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
@@ -35,12 +35,11 @@
 #define CHANCE 1e-3             /* of ending the growth at a block that belongs to the stick */
 #define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
-#define MISFIT 1e-3             /* of the oscillation's amplitude: the line's own error is taken for noise */
-#define ROUGH 0.02              /* a core is described badly if more of its oscillation's amplitude is left */
+#define MISFIT 1e-3             /* of the oscillation's amplitude: passes for noise */
+#define ROUGH 0.02              /* a core is described badly if more of its amplitude is left */
 #define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
-#define LASTS 0.15              /* and of the amplitude at its start, at its end: what is gone rang no two periods */
-#define APART 3.0               /* periods: transitions, or half-cycles of the base, shorter than that have
-                                   no room for two and a slip */
+#define LASTS 0.15              /* of its amplitude at its end: what is gone rang no two periods */
+#define APART 3.0               /* periods a transition, or half-cycle of the base: two and a slip */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 #define FINE 1e-8
@@ -53,7 +52,7 @@ typedef struct work {
     double w, s;                /* per sample */
     double noise;               /* variance */
     size_t room;                /* samples of the longest window */
-    double forcing;             /* Omega per sample: 1, cos, sin of it are the slow part; 0: 1 and t */
+    double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
     size_t columns;             /* of the slow part and of the oscillation */
     double *q[COLUMNS];         /* orthonormal; the oscillation's are the last two */
     double *r;                  /* the residual */
@@ -167,7 +166,8 @@ project(work *k, ss_window win)
     for (size_t j = 0; j < k->columns; j++)
         z[j] = take_out(k->r, k->q[j], n);
     double b = z[s] / norm[s];
-    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s], (z[c] - cross * b) / norm[c], b };
+    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s], (z[c] - cross * b) / norm[c],
+                     b };
 }
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
@@ -302,8 +302,8 @@ find_noise(work *k, const ss_window *window, size_t n)
     return SS_OK;
 }
 
-/* The window of so many periods about an anchor where the line and the oscillation leave least, among
- * the places where there is at least a quarter of the most oscillation. */
+/* The window of so many periods about an anchor where the line and the oscillation leave least,
+ * among the places where there is at least a quarter of the most oscillation. */
 static ss_window
 place(work *k, size_t anchor, double size_in_periods)
 {
@@ -342,7 +342,11 @@ grow(work *k, ss_window win, size_t room, int backwards)
     size_t added = 0;
     for (size_t step = periods(k, BLOCK); step > 0; step /= 2)
         while (added + step <= room) {
-            ss_window more = { win.first - (backwards ? step : 0), win.end + (backwards ? 0 : step) };
+            ss_window more = win;
+            if (backwards)
+                more.first -= step;
+            else
+                more.end += step;
             double now = project(k, more).rss;
             if (!belong(k, now - rss, step) || !belong(k, now - start, added + step))
                 break;
@@ -371,7 +375,7 @@ grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
 /* --- micro-slips too weak for any one window ----------------------------------------------- */
 
 /* A micro-slip changes the oscillation by a complex gain, and about equally in all sticks, at about
- * the same distance from their starts.  So at each distance the gain is tried as a third parameter
+ * the same distance from their starts. So at each distance the gain is tried as a third parameter
  * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
  * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well. */
 enum { PARAMETERS = 4 };        /* w, s, real and imaginary part of the gain */
@@ -606,9 +610,9 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
     return st;
 }
 
-/* Are the cores described badly, even when they are placed and fitted in turns?  Then it is not the
- * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor noise,
- * but that the oscillation is not quite a damped sinusoid. */
+/* Are the cores described badly, even when they are placed and fitted in turns? Then it is not the
+ * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor
+ * noise, but that the oscillation is not quite a damped sinusoid. */
 static int
 is_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white)
 {
@@ -696,8 +700,8 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
     if (st == SS_OK && ok)
         st = find_noise(k, core, n);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
-        if (st != SS_OK || !ok || !(fabs(log(k->w / start)) < M_LN2 / 2))   /* it is something else */
-            return st;
+        if (st != SS_OK || !ok || !(fabs(log(k->w / start)) < M_LN2 / 2))
+            return st;                  /* or it is something else */
         size_t longest = periods(k, limit);
         find_windows(k, core, window, n, longest);
         more = 0;
@@ -743,7 +747,8 @@ clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_v
 }
 
 static ss_status
-fit_with(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
+fit_with(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
+         ss_value *each)
 {
     ss_window *core = malloc((n + 1) * sizeof *core);
     if (core == NULL)

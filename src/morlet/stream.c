@@ -479,7 +479,7 @@ plan_group(const ss_stream *s, group *g, size_t first)
     double reach = (double)s->row[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
     size_t n_scales = scales_together(s, first);
     *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
-    if (g->plan == NULL || !(n < PTRDIFF_MAX / (2 * sizeof(double))))
+    if (g->plan == NULL || !(n < 0x1p58))
         return SS_ENOMEM;
     *g->plan = (ss_morlet){ .opts = s->opts, .n = (size_t)fmax(n, BASE), .rate = s->rate,
                             .window = 1, .scale = malloc(n_scales * sizeof *s->scale) };

@@ -1,8 +1,8 @@
 /* map.c -- a sweep over two parameters: regions of equal count, lines of equal value.
  *
- * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and each
- * a quarter of a row high into the next, so that no seams show.  Lines are traced through the grid as
- * isoline.c does, and carry their value where it covers no other. */
+ * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and
+ * each a quarter of a row high into the next, so that no seams show.  Lines are traced through the
+ * grid as isoline.c does, and carry their value where it covers no other. */
 #include "isoline.h"
 #include "script.h"
 
@@ -29,7 +29,7 @@ typedef struct axis {
 
 typedef struct grid {
     axis x, y;
-    size_t *row;                    /* of the table at x i, y j: row[j * x.n + i]; SIZE_MAX if none */
+    size_t *row;                    /* of the table at x i, y j: row[j * x.n + i]; SIZE_MAX: none */
 } grid;
 
 static int
@@ -45,7 +45,8 @@ is_log(const axis *a)
 {
     double d[2] = { INFINITY, 0 }, r[2] = { INFINITY, 0 };
     for (size_t i = 1; i < a->n; i++) {
-        double difference = a->value[i] - a->value[i - 1], ratio = log(a->value[i] / a->value[i - 1]);
+        double difference = a->value[i] - a->value[i - 1];
+        double ratio = log(a->value[i] / a->value[i - 1]);
         d[0] = fmin(d[0], difference);
         d[1] = fmax(d[1], difference);
         r[0] = fmin(r[0], ratio);
@@ -92,8 +93,8 @@ make_grid(grid *g, const ss_sweep_table *t, const ss_map_opts *map, ss_error *er
     if (st != SS_OK)
         return st;
     if (g->x.n > SIZE_MAX / sizeof *g->row / g->y.n || g->x.n * g->y.n > 16 * t->n + 100)
-        return ss_fail(err, SS_EINVAL, "the rows are no grid: %zu values of %s, %zu of %s in %zu rows",
-                       g->x.n, t->name[map->x], g->y.n, t->name[map->y], t->n);
+        return ss_fail(err, SS_EINVAL, "the rows are no grid: %zu values of %s, %zu of %s in %zu "
+                       "rows", g->x.n, t->name[map->x], g->y.n, t->name[map->y], t->n);
     g->row = malloc(g->x.n * g->y.n * sizeof *g->row);
     if (g->row == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
@@ -104,8 +105,8 @@ make_grid(grid *g, const ss_sweep_table *t, const ss_map_opts *map, ss_error *er
             continue;
         size_t *row = &g->row[find(&g->y, g->y.column[i]) * g->x.n + find(&g->x, g->x.column[i])];
         if (*row != SIZE_MAX)
-            return ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them first",
-                           t->name[map->x], t->name[map->y]);
+            return ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them "
+                           "first", t->name[map->x], t->name[map->y]);
         *row = i;
     }
     return SS_OK;
@@ -241,7 +242,8 @@ put_line_label(line_sink *s, const double (*point)[2], size_t n)
 {
     for (size_t k = 0; k < n; k++) {
         const double *at = point[k % 2 == 0 ? n / 2 - k / 2 : n / 2 + k / 2];
-        const double place[2] = { at[0] / (double)(s->g->x.n - 1), at[1] / (double)(s->g->y.n - 1) };
+        const double place[2] = { at[0] / (double)(s->g->x.n - 1),
+                                  at[1] / (double)(s->g->y.n - 1) };
         if (!is_free(s, place))
             continue;
         put_point(s->labels, s, at);
@@ -394,8 +396,8 @@ put_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
     const char *comma = "plot ";
     for (size_t i = 0; i < r->n; i++, comma = ", \\\n     ") {
         size_t s = r->n > 1 ? i * (REGIONS_MAX - 1) / (r->n > 5 ? r->n - 1 : 5) : 0;
-        fprintf(out, "%s$region%zu using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb '%s' "
-                "title '%.6g'", comma, i, shade[s], r->value[i]);
+        fprintf(out, "%s$region%zu using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder "
+                "lc rgb '%s' title '%.6g'", comma, i, shade[s], r->value[i]);
     }
     if (has_lines) {
         fprintf(out, "%s$line using 1:2 with lines lw 0.7 lc rgb line_colour notitle", comma);
@@ -430,8 +432,8 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
     put_label(out, "x_label", t, map->x);
     put_label(out, "y_label", t, map->y);
     fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
-          "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : '8')\n",
-          out);
+          "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "
+          "'8')\n", out);
     if (has_region)
         put_regions(out, g, t->value + region * t->n, r);
     if (r->missing) {
@@ -446,12 +448,13 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
     if (st != SS_OK)
         return st;
     fputs("set encoding utf8\nset title title noenhanced offset 0,-0.5\n"
-          "set lmargin at screen 0.14; set tmargin at screen 0.92; set bmargin at screen 0.14\n", out);
+          "set lmargin at screen 0.14; set tmargin at screen 0.92; set bmargin at screen 0.14\n",
+          out);
     fprintf(out, "set rmargin at screen %s\n", has_region || r->missing ? "0.835" : "0.965");
     put_axis(out, "x", &g->x);
     put_axis(out, "y", &g->y);
-    fputs("set xlabel x_label noenhanced offset 0,0.4; set label 1 y_label at screen 0.03,graph 0.5 "
-          "center rotate noenhanced\n"
+    fputs("set xlabel x_label noenhanced offset 0,0.4; set label 1 y_label at screen 0.03,graph "
+          "0.5 center rotate noenhanced\n"
           "set tics nomirror out scale 0.6; set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     if (has_region || r->missing)
@@ -476,7 +479,8 @@ check(const ss_sweep_table *t, const ss_map_opts *map, ss_error *err)
         return ss_fail(err, SS_EINVAL, "a map shows one column or two");
     for (size_t i = 0; i < sizeof column / sizeof *column; i++)
         if (column[i] >= t->n_columns)
-            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1, t->n_columns);
+            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1,
+                           t->n_columns);
     return SS_OK;
 }
 

@@ -1,7 +1,7 @@
 /* walk.h -- a motion carried from event to event, for those who ask for no samples.
  *
- * A walk is a row of legs, none of which has an event inside; a leg is stood on until ss_walk_on goes
- * to its end.  Within it the state can be asked for. */
+ * A walk is a row of legs, none of which has an event inside; a leg is stood on until ss_walk_on
+ * goes to its end.  Within it the state can be asked for. */
 #ifndef WALK_H
 #define WALK_H
 

@@ -1,9 +1,9 @@
 /* meter.c -- measures taken along a walk.
  *
  * Counts and times come from the events.  Extrema lie at the ends of legs or where a rate changes
- * sign inside them; they are looked for in parts of 1/40 of the mode's fastest period, which hold one
- * at most, and followed to 1e-9 of that, where their value is off by its square.  The work is f_k |dx|
- * in slip, elsewhere a Gauss quadrature of f v, of order 10 in each part. */
+ * sign inside them; they are looked for in parts of 1/40 of the mode's fastest period, which hold
+ * one at most, and followed to 1e-9 of that, where their value is off by its square.  The work is
+ * f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10 in each part. */
 #include "sweep/meter.h"
 
 #include <math.h>
@@ -193,7 +193,8 @@ take_part(meter *r, walk *w, const point *lo, const point *hi)
 static int
 force_varies(const motion *m)
 {
-    return m->scene->model == SS_STATE_VARIABLE || (m->scene->model == SS_COMPLIANT && m->mode == 0);
+    return m->scene->model == SS_STATE_VARIABLE
+        || (m->scene->model == SS_COMPLIANT && m->mode == 0);
 }
 
 void

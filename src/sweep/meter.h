@@ -16,7 +16,7 @@ typedef struct meter {
     int needs_course;               /* more than the ends of the legs is looked at */
     double time, stick, x_lo, x_hi, v_max, a_max, energy;
     size_t stops, microslips;
-    int slip, first_slip;           /* direction of the last; of the first, if its last is unknown */
+    int slip, first_slip;           /* directions; first_slip: if that before it is unknown */
     ring now, begun_in;             /* begun_in: of the transition that the meter began in */
     int in_first;
     double spacing;
@@ -41,7 +41,8 @@ void ss_tangent_begin(tangent *t, const motion *m);
 void ss_tangent_leg(tangent *t, const walk *w);
 void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[],
                       int is_event);
-/* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it is. */
+/* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
+ * is. */
 void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);
 /* Modulus of the largest and of the next multiplier, argument of the largest. */
 void ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);

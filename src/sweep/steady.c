@@ -1,9 +1,9 @@
 /* steady.c -- the periodic state that a scene settles to, by simulation or by shooting.
  *
- * The state at the start of each forcing cycle is a map iterated.  It has come to a period p when it
- * repeats after p cycles; as it approaches geometrically, what is left to go follows from how the last
- * differences shrink, so that a slow approach is not taken for its end.  Shooting is Newton's method
- * on that map, with its derivative from tangent.c. */
+ * The state at the start of each forcing cycle is a map iterated.  It has come to a period p when
+ * it repeats after p cycles; as it approaches geometrically, what is left to go follows from how
+ * the last differences shrink, so that a slow approach is not taken for its end.  Shooting is
+ * Newton's method on that map, with its derivative from tangent.c. */
 #include <stickslip/sweep.h>
 
 #include <float.h>
@@ -145,9 +145,9 @@ static ss_status
 go(finder *f, int cycles, meter *r, tangent *t)
 {
     walk *w = &f->w;
-    double period = 1 / f->scene->base_frequency;
+    double period = 1 / f->scene->base_frequency, none = 4 * DBL_EPSILON * period;
     instant end = instant_sample(f->n + cycles, f->scene->base_frequency);
-    for (double left; (left = instant_diff(end, w->m.origin) - w->m.u) > 4 * DBL_EPSILON * period;) {
+    for (double left; (left = instant_diff(end, w->m.origin) - w->m.u) > none;) {
         ss_event event;
         double q[MAX_DIM], rates[MAX_DIM];
         int is_event, mode = w->m.mode;
@@ -398,12 +398,13 @@ complete(const finder *f, const ss_steady *out)
         return ss_fail(f->err, SS_EDATA, "no period up to %d within %lu cycles", o->max_period,
                        o->max_cycles);
     if (f->unresolved > 0)
-        return ss_fail(f->err, SS_EDATA, "%lu events a period within what rounding or tolerance makes "
-                       "of them: not resolved", f->unresolved);
+        return ss_fail(f->err, SS_EDATA, "%lu events a period within what rounding or tolerance "
+                       "makes of them: not resolved", f->unresolved);
     for (int i = 0; i < SS_MEASURES; i++)
         if ((o->measures & 1u << i) && isnan(out->value[i]))
             return ss_fail(f->err, SS_EDATA, i == SS_TRANSITION
-                           ? "%s: no oscillation, a has no three extrema in one" : "%s: not a number",
+                           ? "%s: no oscillation, a has no three extrema in one"
+                           : "%s: not a number",
                            measure[i].name);
     return SS_OK;
 }

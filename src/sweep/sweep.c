@@ -1,8 +1,8 @@
 /* sweep.c -- the points of a grid, on several threads, their rows in grid order.
  *
- * Threads take points in batches, in order.  A finished batch waits in a ring for those before it; the
- * thread that finishes the first one missing hands on what is then in order.  A point depends on
- * nothing but the scene and its place in the grid, so the rows do not depend on the threads. */
+ * Threads take points in batches, in order.  A finished batch waits in a ring for those before it;
+ * the thread that finishes the first one missing hands on what is then in order.  A point depends
+ * on nothing but the scene and its place in the grid, so the rows do not depend on the threads. */
 #include <stickslip/sweep.h>
 
 #include <math.h>

@@ -85,7 +85,8 @@ take_row(reader *r, char *line, ss_error *err)
 {
     ss_sweep_table *t = r->table;
     if (t->n_columns == 0)
-        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->name, r->line);
+        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->name,
+                       r->line);
     if (t->n == r->room) {
         size_t more = r->room > 0 ? 2 * r->room : 1024;
         double *rows = more <= SIZE_MAX / sizeof *rows / t->n_columns
@@ -100,8 +101,8 @@ take_row(reader *r, char *line, ss_error *err)
         size_t length = strcspn(line, "\t");
         char *end;
         if (line[length] == '\0')
-            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->name, r->line,
-                           t->n_columns + 1, i + 1);
+            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->name,
+                           r->line, t->n_columns + 1, i + 1);
         line[length] = '\0';
         row[i] = ss_number_parse(line, &end);
         if (strcmp(line, "-") == 0)
@@ -109,7 +110,8 @@ take_row(reader *r, char *line, ss_error *err)
         else if (strcmp(line, "aperiodic") == 0)
             row[i] = 0;
         else if (end == line || *end != '\0')
-            return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a number", r->name, r->line, line);
+            return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a number", r->name, r->line,
+                           line);
         line += length + 1;
     }
     return SS_OK;
@@ -157,7 +159,8 @@ ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err)
         st = take_line(&r, line, err);
     free(line);
     if (st == SS_OK && (ferror(in) || errno == ENOMEM))
-        st = ss_fail(err, ferror(in) ? SS_EIO : SS_ENOMEM, "%s: %s", name, strerror(errno));
+        st = ferror(in) ? ss_fail_errno(err, name, errno)
+             : ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     if (st == SS_OK && r.line == 0)
         st = ss_fail(err, SS_EDATA, "%s: empty", name);
     if (st == SS_OK)

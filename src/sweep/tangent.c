@@ -1,9 +1,10 @@
 /* tangent.c -- the derivative of a walk by its initial state.
  *
- * Within a mode it is that of a linear equation.  At an event, which another initial state reaches at
- * another time, it jumps by the saltation matrix (Aizerman and Gantmakher 1958; Leine and Nijmeijer,
- * Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  A Coulomb stick forgets v
- * and the time at which it began, so one direction of the derivative is lost in it. */
+ * Within a mode it is that of a linear equation.  At an event, which another initial state reaches
+ * at another time, it jumps by the saltation matrix (Aizerman and Gantmakher 1958; Leine and
+ * Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  A Coulomb
+ * stick forgets v and the time at which it began, so one direction of the derivative is lost in
+ * it. */
 #include "sweep/meter.h"
 
 #include <math.h>
@@ -105,8 +106,8 @@ ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], doub
         d[k] = lost[k] ? 0 : unit[k] * a[k][3] / a[k][k];
 }
 
-/* The eigenvalues of the last two rows and columns, or of all three of which one is then 0: the mode
- * in which x_ref counts for nothing lies on the way. */
+/* The eigenvalues of the last two rows and columns, or of all three of which one is then 0: the
+ * mode in which x_ref counts for nothing lies on the way. */
 void
 ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle)
 {

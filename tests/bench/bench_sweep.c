@@ -1,10 +1,10 @@
 /* bench_sweep.c -- points a second and error of periodic states, by simulation and by shooting.
  *
- * Prints, for grids around the paper's scenes and each tolerance, the largest error of x at the start
- * of a forcing cycle over the scene's scale of x, against shooting at 1e-13 (the state variable:
- * simulation at 1e-11), points a CPU second, and cycles to settle; then the gain of a second thread
- * and of a second process, in turns with one.  Exits 1 if an error exceeds twice the tolerance, to which differences that shrink
- * unevenly may bring it. */
+ * Prints, for grids around the paper's scenes and each tolerance, the largest error of x at the
+ * start of a forcing cycle over the scene's scale of x, against shooting at 1e-13 (the state
+ * variable: simulation at 1e-11), points a CPU second, and cycles to settle; then the gain of a
+ * second thread and of a second process, in turns with one.  Exits 1 if an error exceeds twice the
+ * tolerance, to which differences that shrink unevenly may bring it. */
 #include <sys/wait.h>
 #include <unistd.h>
 #include "bench.h"
@@ -85,8 +85,8 @@ compare(const char *name, const grid *g, const double *tol, size_t n_tol)
     for (size_t i = 0; i < n_tol; i++)
         for (int shoot = 0; shoot < 2 - smooth; shoot++) {
             double seconds = sweep(g, tol[i], shoot, 1, &k), error = worst_error(g, &k, &truth);
-            printf("%-16s %6.0e  %-10s %8.1e %8.0f", name, tol[i], shoot ? "shooting" : "simulation",
-                   error, (double)k.n / seconds);
+            printf("%-16s %6.0e  %-10s %8.1e %8.0f", name, tol[i],
+                   shoot ? "shooting" : "simulation", error, (double)k.n / seconds);
             if (shoot)
                 printf("      - ");
             else
@@ -105,7 +105,8 @@ clock_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The same in two processes, each with half of the points: what the machine has to give just now. */
+/* The same in two processes, each with half of the points: what the machine has to give just
+ * now. */
 static double
 by_processes(const grid *g)
 {
@@ -137,8 +138,8 @@ gain_of_threads(const grid *g)
         processes[i] = one / by_processes(g);
     }
     double median = bench_median(threads, TURNS);
-    printf("2 threads: %.2f times as fast as 1 (best of %d: %.2f); 2 processes: %.2f\n", median, TURNS,
-           threads[TURNS - 1], bench_median(processes, TURNS));
+    printf("2 threads: %.2f times as fast as 1 (best of %d: %.2f); 2 processes: %.2f\n", median,
+           TURNS, threads[TURNS - 1], bench_median(processes, TURNS));
 }
 
 int

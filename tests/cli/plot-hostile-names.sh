@@ -55,4 +55,4 @@ for folder in '$(touch pwned)' "'; system 'touch pwned'; '"; do
     ss-signal sine | ss-plot -o "$folder/a.pdf"
     ls "$folder"
 done
-ls -A | grep -x pwned || true
+[ ! -e pwned ] || echo pwned

@@ -117,7 +117,7 @@ fuzz_check_coefficients(const ss_coefficients *c)
 
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");
-    fuzz_check(ss_coefficients_write(c, out) == SS_OK, "written");
+    fuzz_check(ss_coefficients_write(c, out, SS_TSV) == SS_OK, "written");
     fclose(out);
     FILE *in = fuzz_open(text, length);
     fuzz_check(ss_coefficients_read(&back, in, "in", &err) == SS_OK, err.text);
