@@ -154,7 +154,7 @@ static linear
 project(work *k, ss_window win)
 {
     size_t n = length(win), c = k->columns - 2, s = c + 1;
-    double z[COLUMNS], norm[COLUMNS], cross = 0;
+    double z[COLUMNS] = { 0 }, norm[COLUMNS] = { 0 }, cross = 0;
     slow_columns(k, n);
     ring_columns(k, k->q[c], k->q[s], n);
     for (size_t j = 0; j < k->columns; j++) {
@@ -281,10 +281,11 @@ fit(work *k, const ss_window *window, size_t n, double tol, int *ok)
 static ss_status
 find_noise(work *k, const ss_window *window, size_t n)
 {
-    double *variance = malloc(2 * n * sizeof *variance), *ring = variance + n;
+    double *variance = malloc(2 * n * sizeof *variance);
     size_t used = 0;
     if (variance == NULL)
         return SS_ENOMEM;
+    double *ring = variance + n;
     for (size_t i = 0; i < n; i++) {
         if (length(window[i]) <= k->columns)
             continue;

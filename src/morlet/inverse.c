@@ -194,7 +194,7 @@ static ss_status
 make_room(solver *s)
 {
     size_t n = s->plan->n, total = 2 * s->plan->total;
-    s->wave = calloc(s->plan->n_scales, sizeof *s->wave);
+    s->wave = calloc(s->plan->n_scales, sizeof(wavelet *));
     s->w = malloc(total * sizeof *s->w);
     s->rest = malloc(total * sizeof *s->rest);
     s->gradient = malloc(n * sizeof *s->gradient);

@@ -102,11 +102,11 @@ descend(match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS], doubl
     gsl_multifit_nlinear_workspace *w =
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, m->n, UNKNOWNS);
     gsl_matrix *covariance = gsl_matrix_alloc(UNKNOWNS, UNKNOWNS);
-    gsl_multifit_nlinear_fdf f = { .f = residuals, .n = m->n, .p = UNKNOWNS, .params = m };
+    gsl_multifit_nlinear_fdf sum = { .f = residuals, .n = m->n, .p = UNKNOWNS, .params = m };
     gsl_vector_view start = gsl_vector_view_array(u, UNKNOWNS);
     ss_status st = w == NULL || covariance == NULL ? SS_ENOMEM : SS_OK;
     int why;
-    if (st == SS_OK && gsl_multifit_nlinear_init(&start.vector, &f, w) == GSL_SUCCESS) {
+    if (st == SS_OK && gsl_multifit_nlinear_init(&start.vector, &sum, w) == GSL_SUCCESS) {
         /* its verdict does not matter: a rough sum of squares ends in steps that are refused */
         gsl_multifit_nlinear_driver(PASSES, 1e-9, 1e-9, 0, NULL, NULL, &why, w);
         const gsl_vector *r = gsl_multifit_nlinear_residual(w);
