@@ -242,7 +242,11 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
     }
     qsort(peak, count, sizeof *peak, earlier_first);
     fitting = realloc(peak, (count + 1) * sizeof *peak);
-    *out = fitting != NULL ? fitting : peak;
+    if (fitting == NULL) {
+        free(peak);
+        return SS_ENOMEM;
+    }
+    *out = fitting;
     *n = count;
     return SS_OK;
 }
