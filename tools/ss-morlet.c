@@ -1,8 +1,11 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
+#include <errno.h>
 #include <getopt.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 #include "common.h"
 
 static const char usage[] =
@@ -24,17 +27,16 @@ static const char usage[] =
 "      --detrend=NAME     subtract none, mean or linear first (none)\n"
 "      --force            also scales that the record does not resolve\n"
 "      --threads=N        work on N scales at a time (1)\n"
+"      --wisdom=FILE      measure the fastest FFTs, keep them in FILE for next time\n"
 "      --check            compare with the other method, say what differs\n"
 "  -o, --output=FILE      .tsv, or .h5 with the signal; - is standard output\n"
-"  -q, --quiet            no warnings\n"
-"  -v, --verbose          say what was chosen and what it cost\n"
-"  -h, --help             show this text and exit\n"
-"      --version          show the version and exit\n";
+"  -q, --quiet            no warnings; -v, --verbose: what was chosen and its cost\n"
+"  -h, --help             show this text; --version: show the version\n";
 
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
     OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE, OPT_THREADS, OPT_CHECK
+    OPT_FORCE, OPT_THREADS, OPT_WISDOM, OPT_CHECK
 };
 
 static const struct option longopts[] = {
@@ -54,6 +56,7 @@ static const struct option longopts[] = {
     { "detrend", required_argument, NULL, OPT_DETREND },
     { "force", no_argument, NULL, OPT_FORCE },
     { "threads", required_argument, NULL, OPT_THREADS },
+    { "wisdom", required_argument, NULL, OPT_WISDOM },
     { "check", no_argument, NULL, OPT_CHECK },
     TOOL_LONGOPTS
 };
@@ -65,7 +68,7 @@ static const char *const detrends[] = { "none", "mean", "linear", NULL };
 
 typedef struct request {
     ss_morlet_opts opts;
-    const char *column, *output;
+    const char *column, *output, *wisdom;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
     int check;
 } request;
@@ -107,6 +110,9 @@ set_option(request *req, int c)
                          break;
     case OPT_FORCE:      opts->force = 1; break;
     case OPT_THREADS:    opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
+                         break;
+    case OPT_WISDOM:     req->wisdom = optarg;
+                         opts->planner = SS_PLANNER_MEASURE;
                          break;
     case OPT_CHECK:      req->check = 1; break;
     case 'o':            req->output = optarg; break;
@@ -182,6 +188,35 @@ report(const request *req, const ss_signal *signal, size_t column, const ss_coef
     ss_morlet_free(plan);
 }
 
+/* What is known of FFTs, if anything is. */
+static void
+read_wisdom(const char *path)
+{
+    ss_error err = { "" };
+    FILE *in = fopen(path, "r");
+    if (in == NULL && errno == ENOENT)
+        return;
+    if (in == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    int c = getc(in);           /* an empty file is one to be filled */
+    if (c != EOF && ungetc(c, in) == c && ss_wisdom_read(in, &err) != SS_OK)
+        tool_die("%s: %s", path, err.text);
+    fclose(in);
+}
+
+static void
+write_wisdom(const char *path)
+{
+    char name[PATH_MAX];
+    int fits = snprintf(name, sizeof name, "%s.%ld", path, (long)getpid()) < (int)sizeof name;
+    FILE *out = fits ? fopen(name, "w") : NULL;
+    if (out == NULL || ss_wisdom_write(out) != SS_OK || fclose(out) != 0 || rename(name, path) != 0) {
+        int why = errno;
+        remove(name);
+        tool_die("%s: %s", path, fits ? strerror(why) : "the name is too long");
+    }
+}
+
 static void
 write_output(const char *path, const ss_signal *signal, const ss_coefficients *coef)
 {
@@ -209,11 +244,15 @@ main(int argc, char *argv[])
     tool_output_kind(req.output, 1u << TOOL_TSV | 1u << TOOL_H5, TOOL_TSV);
     const char *path = tool_input(argc, argv, optind);
 
+    if (req.wisdom != NULL)
+        read_wisdom(req.wisdom);
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t column = tool_column(signal->head, path, req.column);
     double begin = now();
     check(ss_transform(&coef, signal, column, &req.opts, &err), &err, path);
     report(&req, signal, column, coef, now() - begin, path);
+    if (req.wisdom != NULL)
+        write_wisdom(req.wisdom);
     write_output(req.output, signal, coef);
     ss_coefficients_free(coef);
     ss_signal_free(signal);

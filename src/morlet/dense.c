@@ -141,20 +141,20 @@ typedef void put_rows(const rows *r, const double *v, const double *weight, doub
 #define WIDTH 2
 #define HELD 1
 #define TARGET FAST
-#include "morlet/rows.h"
+#include "morlet/dense_loop.h"
 
 #ifdef HAVE_TARGETS
 #define ROWS_NAME rows_32
 #define WIDTH 4
 #define HELD 2
 #define TARGET FAST_FOR("avx2")
-#include "morlet/rows.h"
+#include "morlet/dense_loop.h"
 
 #define ROWS_NAME rows_64
 #define WIDTH 8
 #define HELD 4
 #define TARGET FAST_FOR("avx512f")
-#include "morlet/rows.h"
+#include "morlet/dense_loop.h"
 #endif
 
 static put_rows *

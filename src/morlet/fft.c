@@ -18,15 +18,21 @@
  * which a point stands for D samples: x is spread to its points by the same interpolation, run
  * backwards, with 16 taps and 8 points a cycle, which leaves an error below rounding.
  *
- * Error, in units of a^1/2 max|x|.  The sum over samples of the kernel's error is bounded by its
- * size near b and its decay, 1/|u|, away from it: for the cut
+ * Error.  A scale is computed for the accuracy asked for, and then what was left out is bounded by
+ * what the record's own spectrum holds: the cut leaves out at most
+ *     C/P sum over |v_k| > R of |X_k| exp(-v_k^2/2),
+ * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of |X_k| over
+ * ranges are differences of running sums, so that this costs next to nothing; R and e of the first
+ * pass are what noise needs.  If the bound exceeds what the largest |W| allows (9/10 of it, the rest
+ * being for lattices that are nearly met), the scale is done again with R and e that suffice for any
+ * signal.  For these the sum over samples of the kernel's error is bounded by its size near b and
+ * its decay, 1/|u|, away from it, in units of a^1/2 max|x|: for the cut
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
- * and for images of size e in the interpolation at most as much with 2 e in place of the
- * exponential.  A scale is computed with TOL/1000 for both together; then the promise is checked as in
- * quadrature.c, and if it does not hold the scale is done again with TAIL_FLOOR for both.
+ * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR.
  *
  * FFTW's planner is not safe for threads, so making and freeing of plans takes turns; other users
  * of FFTW in the program must not plan at the same time. */
+#include <stdio.h>         /* before it, for files of wisdom */
 #include <fftw3.h>
 #include <limits.h>
 #include <math.h>
@@ -50,8 +56,8 @@
 #define COST_TERM 1.2e-9
 #define COST_DENSE 1e-9
 #define COST_DENSE_TAP 0.05e-9
-#define COST_PLACE 70e-9
-#define COST_TAP 5e-9
+#define COST_PLACE 50e-9
+#define COST_TAP 1.5e-9
 
 enum {
     SPREAD_TAPS = 16,
@@ -759,7 +765,8 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
     if (length > 0) {
         r->kind = LATTICE;
         r->length = length;
-        best = inverse_cost(length) + COST_TERM * terms + COST_DENSE * (double)scale->n;
+        double half = f->half[0] / f->half[1];
+        best = inverse_cost(length) + COST_TERM * terms * half + COST_DENSE * (double)scale->n;
     }
     for (int o = 0; o < ODD_PARTS; o++)     /* twice as many points as the circle has, or fewer */
         for (size_t two = 1; 2 * lev->points >= two * odd_part[o]; two *= 2) {
@@ -845,31 +852,32 @@ make_tables(struct fft *f, const ss_morlet *plan)
 /* --- FFTW's plans, made while planner is held --- */
 
 static fftw_plan
-inverse_plan(struct fft *f, size_t length, fftw_complex *v, fftw_complex *terms)
+inverse_plan(struct fft *f, size_t length, fftw_complex *v, fftw_complex *terms, unsigned how)
 {
     for (size_t i = 0; i < f->n_inverse; i++)
         if (f->inverse[i].length == length)
             return f->inverse[i].plan;
     fftw_plan plan = fftw_plan_dft_1d((int)length, length > APART ? v : terms, v,
-                                      FFTW_BACKWARD, FFTW_ESTIMATE);
+                                      FFTW_BACKWARD, how);
     if (plan != NULL)
         f->inverse[f->n_inverse++] = (inverse){ length, plan };
     return plan;
 }
 
-/* v, terms and x are where the arrays will be as far as alignment is concerned, and not written to. */
+/* v, terms and x are where the arrays will be as far as alignment is concerned. */
 static ss_status
-make_plans(struct fft *f, size_t n_scales, fftw_complex *v, fftw_complex *terms, double *x)
+make_plans(struct fft *f, const ss_morlet *plan, fftw_complex *v, fftw_complex *terms, double *x)
 {
-    for (size_t i = 0; i < n_scales; i++) {
+    static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
+    unsigned how = flags[plan->opts.planner];
+    for (size_t i = 0; i < plan->n_scales; i++) {
         route *r = &f->route[i];
         level *lev = &f->level[r->level];
         if (r->kind == BY_SUM)
             continue;
-        r->inverse = inverse_plan(f, r->length, v, terms);
+        r->inverse = inverse_plan(f, r->length, v, terms, how);
         if (lev->forward == NULL)
-            lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x,
-                                                FFTW_ESTIMATE);
+            lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x, how);
         if (r->inverse == NULL || lev->forward == NULL)
             return SS_ENOMEM;
     }
@@ -891,7 +899,7 @@ plan_all(struct fft *f, const ss_morlet *plan)
     ss_status st = SS_ENOMEM;
     if (f->inverse != NULL && v != NULL) {
         pthread_mutex_lock(&planner);
-        st = make_plans(f, n_scales, (fftw_complex *)(v + 2 * MARGIN),
+        st = make_plans(f, plan, (fftw_complex *)(v + 2 * MARGIN),
                         (fftw_complex *)(v + 2 * (longest + 2 * MARGIN)), v);
         pthread_mutex_unlock(&planner);
     }
@@ -956,6 +964,25 @@ ss_fft_free(struct fft *fft)
     free(fft->inverse);
     free(fft->route);
     free(fft);
+}
+
+ss_status
+ss_wisdom_read(FILE *in, ss_error *err)
+{
+    pthread_mutex_lock(&planner);
+    int good = fftw_import_wisdom_from_file(in);
+    pthread_mutex_unlock(&planner);
+    return good ? SS_OK : ss_fail(err, SS_EINVAL, "this is no wisdom of %s on this machine",
+                                  fftw_version);
+}
+
+ss_status
+ss_wisdom_write(FILE *out)
+{
+    pthread_mutex_lock(&planner);
+    fftw_export_wisdom_to_file(out);
+    pthread_mutex_unlock(&planner);
+    return fflush(out) == 0 && !ferror(out) ? SS_OK : SS_EIO;
 }
 
 int

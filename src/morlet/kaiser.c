@@ -154,7 +154,7 @@ ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict
         y[i] += c[i];
 }
 
-void
+VERSIONS void
 ss_kaiser_weights(const kaiser *ker, double f, double weight[])
 {
     int part = (int)(f * KAISER_PARTS);

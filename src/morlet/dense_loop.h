@@ -1,4 +1,4 @@
-/* rows.h -- the loop of dense.c, for vectors of WIDTH doubles, with HELD rows in registers.
+/* dense_loop.h -- the loop of dense.c, for vectors of WIDTH doubles, with HELD rows in registers.
  *
  * Included once for each of them, with ROWS_NAME, WIDTH, HELD and TARGET defined. */
 #define ROWS_JOIN2(a, b) a##b
