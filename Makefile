@@ -5,9 +5,13 @@
 #   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench-errors
 #   make bench              error and cost, measured here, simulation against CVODE and SciPy too;
 #                           fails if an error exceeds its bound
+#   make fuzz               every reader on made-up input for FUZZ_SECONDS=60 each; needs clang
 #   make paper              the paper's figures, under build/paper; installs first what is missing
 #                           (MEASURED=FILE COLUMN=NAME FROM=S TO=S: figure 7 from a recording)
+#   make maps               maps of periodic states, under build/maps
+#   make check-cluster      sweeps by GNU parallel over ssh and by Slurm, on this machine, for real
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
+#   make dist               libstickslip-VERSION.tar.gz of what is committed, under build/
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
 #
@@ -19,6 +23,8 @@ LIBDIR     ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 SCENEDIR   ?= $(PREFIX)/share/stickslip/scenes
 MANDIR     ?= $(PREFIX)/share/man
+BASHDIR    ?= $(PREFIX)/share/bash-completion/completions
+ZSHDIR     ?= $(PREFIX)/share/zsh/site-functions
 CFLAGS     ?= -O2 -g
 BUILD      ?= build$(if $(SAN),-san)
 INSTALL    ?= install
@@ -57,8 +63,11 @@ MANUAL  := $(wildcard man/*.[1-9])
 TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
 TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst tests/%.c,%,$(wildcard tests/bench/bench_*.c))
+FUZZERS := $(patsubst tests/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
+	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -102,7 +111,19 @@ $(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
+# The library's allocations in this test go through it.  Only the linkers of ELF have that.
+WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc fftw_free
+$(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
+
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_trade: $(BUILD)/tests/oracle.o
+
+# The harness of a reader: with libFuzzer, and over files that are named.
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o $(STATIC)
+	$(CC) -fsanitize=fuzzer $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+
+$(BUILD)/tests/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o \
+		$(BUILD)/tests/fuzz/replay.o $(STATIC)
+	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 # Objects are made again when the Makefile or the flags change, and not before the packages that
 # they need are there.
@@ -145,13 +166,23 @@ check-all:
 bench-errors: $(BENCHES:%=$(BUILD)/tests/%)
 	@for b in $^; do $$b || exit 1; done
 
+# Objects instrumented for libFuzzer are a tree of their own.
+FUZZ_SECONDS ?= 60
+FUZZ_CC      ?= clang
+FUZZ_FLAGS   := -O1 -fsanitize=fuzzer-no-link -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all
+fuzz:
+	@$(MAKE) --no-print-directory fuzzers CC=$(FUZZ_CC) SANFLAGS='$(FUZZ_FLAGS)' BUILD=$(BUILD)-fuzz
+	@FUZZ_SECONDS=$(FUZZ_SECONDS) BUILD=$(BUILD)-fuzz sh tests/fuzz/run.sh $(FUZZERS)
+
+fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
+
 paper:
 	@$(DEPS) build paper
 	@$(MAKE) --no-print-directory draw-paper
 
 # make -n runs lines that name MAKE, so the tests get it by another name.
 THIS_MAKE = $(MAKE)
-run-tests: all $(TESTS:%=$(BUILD)/tests/%)
+run-tests: all $(TESTS:%=$(BUILD)/tests/%) $(REPLAYS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
 		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
 		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
@@ -159,6 +190,16 @@ run-tests: all $(TESTS:%=$(BUILD)/tests/%)
 draw-paper: all $(BUILD)/bin/paper-table
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
+
+maps:
+	@$(DEPS) build paper
+	@$(MAKE) --no-print-directory draw-maps
+
+draw-maps: all
+	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/maps sh tools/maps.sh
+
+check-cluster: all
+	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" sh tests/cluster/run.sh
 
 bench: all bench-errors
 	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
@@ -181,19 +222,30 @@ install: all
 	for t in $(TOOLS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(DESTDIR)$(BINDIR) || exit 1; done
 	for m in $(MANUAL); do d=$(DESTDIR)$(MANDIR)/man$${m##*.}; \
 		$(INSTALL) -d $$d && $(INSTALL) -m 644 $$m $$d || exit 1; done
+	$(INSTALL) -d $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
+	for t in $(TOOLS); do $(INSTALL) -m 644 data/completion/stickslip.bash $(DESTDIR)$(BASHDIR)/$$t || \
+		exit 1; done
+	$(INSTALL) -m 644 data/completion/_stickslip $(DESTDIR)$(ZSHDIR)
 
 # Directories that only we use go too.
 uninstall:
 	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
 		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
 		$(SCENES:data/scenes/%=$(DESTDIR)$(SCENEDIR)/%) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
+		$(TOOLS:%=$(DESTDIR)$(BASHDIR)/%) $(DESTDIR)$(ZSHDIR)/_stickslip \
 		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
 	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
 		rmdir $(DESTDIR)$$d 2> /dev/null || :; done
 
+# The same commit gives the same bytes.
+dist:
+	@mkdir -p $(BUILD)
+	git archive --prefix=libstickslip-$(VERSION)/ HEAD | gzip -n9 > $(BUILD)/libstickslip-$(VERSION).tar.gz
+
 clean:
 	rm -rf $(BUILD) build build-*
 
-.PHONY: all always bench bench-errors check check-all clean deps draw-paper install needs paper run-tests uninstall
+.PHONY: all always bench bench-errors check check-all check-cluster clean deps dist draw-maps \
+	draw-paper fuzz fuzzers install maps needs paper run-tests uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)

@@ -15,9 +15,12 @@
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
 #include <stickslip/trade.h>
+#include <stickslip/sweep.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/features.h>
+#include <stickslip/spikes.h>
+#include <stickslip/rank.h>
 #include <stickslip/store.h>
 #include <stickslip/plot.h>
 

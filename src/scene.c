@@ -31,25 +31,26 @@ static const struct key {
     int range;                      /* of a number */
     const char *const *words;       /* of an enumeration; NULL for a number */
     size_t offset;
+    const char *unit;               /* of a number */
 } key[] = {
-    { "model",             EVERY,     1, 0, model_words, offsetof(ss_scene, model) },
-    { "mass",              EVERY,     1, POSITIVE, NULL, offsetof(ss_scene, mass) },
-    { "stiffness",         EVERY,     1, POSITIVE, NULL, offsetof(ss_scene, stiffness) },
-    { "friction",          EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, friction) },
-    { "base_amplitude",    EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, base_amplitude) },
-    { "base_frequency",    EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, base_frequency) },
-    { "phase",             EVERY,     0, ANY, NULL, offsetof(ss_scene, phase) },
-    { "x0",                EVERY,     0, ANY, NULL, offsetof(ss_scene, x0) },
-    { "v0",                EVERY,     0, ANY, NULL, offsetof(ss_scene, v0) },
-    { "alpha",             STATE,     1, POSITIVE, NULL, offsetof(ss_scene, alpha) },
-    { "gamma",             STATE,     1, POSITIVE, NULL, offsetof(ss_scene, gamma) },
-    { "law",               STATE,     0, 0, law_words, offsetof(ss_scene, law) },
-    { "contact_stiffness", COMPLIANT, 1, POSITIVE, NULL, offsetof(ss_scene, contact_stiffness) },
-    { "contact_damping",   COMPLIANT, 1, NOT_NEGATIVE, NULL, offsetof(ss_scene, contact_damping) },
-    { "release",           COMPLIANT, 0, 0, release_words, offsetof(ss_scene, release) },
-    { "settle",            EVERY,     0, NOT_NEGATIVE, NULL, offsetof(ss_scene, settle) },
-    { "duration",          EVERY,     0, NOT_NEGATIVE, NULL, offsetof(ss_scene, duration) },
-    { "rate",              EVERY,     0, POSITIVE, NULL, offsetof(ss_scene, rate) },
+    { "model",             EVERY,     1, 0, model_words, offsetof(ss_scene, model), "" },
+    { "mass",              EVERY,     1, POSITIVE, NULL, offsetof(ss_scene, mass), "kg" },
+    { "stiffness",         EVERY,     1, POSITIVE, NULL, offsetof(ss_scene, stiffness), "N/m" },
+    { "friction",          EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, friction), "N" },
+    { "base_amplitude",    EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, base_amplitude), "m" },
+    { "base_frequency",    EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, base_frequency), "Hz" },
+    { "phase",             EVERY,     0, ANY, NULL, offsetof(ss_scene, phase), "rad" },
+    { "x0",                EVERY,     0, ANY, NULL, offsetof(ss_scene, x0), "m" },
+    { "v0",                EVERY,     0, ANY, NULL, offsetof(ss_scene, v0), "m/s" },
+    { "alpha",             STATE,     1, POSITIVE, NULL, offsetof(ss_scene, alpha), "s/m" },
+    { "gamma",             STATE,     1, POSITIVE, NULL, offsetof(ss_scene, gamma), "1/s" },
+    { "law",               STATE,     0, 0, law_words, offsetof(ss_scene, law), "" },
+    { "contact_stiffness", COMPLIANT, 1, POSITIVE, NULL, offsetof(ss_scene, contact_stiffness), "N/m" },
+    { "contact_damping",   COMPLIANT, 1, NOT_NEGATIVE, NULL, offsetof(ss_scene, contact_damping), "N s/m" },
+    { "release",           COMPLIANT, 0, 0, release_words, offsetof(ss_scene, release), "" },
+    { "settle",            EVERY,     0, NOT_NEGATIVE, NULL, offsetof(ss_scene, settle), "s" },
+    { "duration",          EVERY,     0, NOT_NEGATIVE, NULL, offsetof(ss_scene, duration), "s" },
+    { "rate",              EVERY,     0, POSITIVE, NULL, offsetof(ss_scene, rate), "Hz" },
 };
 enum { KEYS = sizeof key / sizeof *key, MODEL_KEY = 0 };
 
@@ -187,6 +188,25 @@ nearest_key(const char *name)
     return best;
 }
 
+double *
+ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *err)
+{
+    const struct key *k = find_key(name);
+    if (k == NULL) {
+        ss_fail(err, SS_EINVAL, "unknown key '%.64s'; the nearest is '%s'", name,
+                nearest_key(name));
+    } else if (!(k->models & 1u << scene->model)) {
+        ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model_words[scene->model], name);
+    } else if (k->words != NULL) {
+        ss_fail(err, SS_EINVAL, "%s is not a number", name);
+    } else {
+        if (unit != NULL)
+            *unit = k->unit;
+        return number_of(scene, k);
+    }
+    return NULL;
+}
+
 static char *
 trim(char *text)
 {
@@ -278,6 +298,8 @@ read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error
     *end = c == EOF;
     if (ferror(in))
         return ss_fail(err, SS_EIO, "%s: %s", at.name, strerror(errno));
+    if (strcspn(line, "\r") + 1 < n)
+        return fail_at(at, err, "a lone CR; lines end in LF or CRLF");
     line[strcspn(line, "#")] = '\0';
     return SS_OK;
 }

@@ -1,4 +1,5 @@
 /* status.c -- status codes to text. */
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include "error.h"
@@ -27,6 +28,8 @@ ss_version(void)
     return SS_VERSION;
 }
 
+/* Names of files and pieces of input stand in these texts: what would break the line or reach into
+ * the terminal is shown as a question mark. */
 ss_status
 ss_fail(ss_error *err, ss_status status, const char *format, ...)
 {
@@ -35,6 +38,8 @@ ss_fail(ss_error *err, ss_status status, const char *format, ...)
         va_start(args, format);
         vsnprintf(err->text, sizeof err->text, format, args);
         va_end(args);
+        for (char *p = err->text; *p != '\0'; p++)
+            *p = iscntrl((unsigned char)*p) ? '?' : *p;
     }
     return status;
 }

@@ -302,12 +302,14 @@ refer(taken *ref, taken *other, const probe *p, unsigned long max_steps, char te
         other->p = p;
         return st;
     }
+    const char *first = ss_sim_method_for(&p->scene);   /* and one whose work is of the same kind */
+    const char *second = strcmp(first, "rk8pd") == 0 ? "rkck" : "msbdf";
     ss_status st = SS_ETOL;
     for (int i = TOLERANCES - 1; st == SS_ETOL && i >= 0 && tolerance[i] <= 1e-10; i--) {
-        st = take(ref, p, "rk8pd", tolerance[i], max_steps, err);
+        st = take(ref, p, first, tolerance[i], max_steps, err);
         if (st == SS_OK)
-            st = take(other, p, "rkck", tolerance[i], max_steps, err);
-        snprintf(text, 64, "rk8pd and rkck at tol %g", tolerance[i]);
+            st = take(other, p, second, tolerance[i], max_steps, err);
+        snprintf(text, 64, "%s and %s at tol %g", first, second, tolerance[i]);
     }
     return st;
 }

@@ -320,9 +320,9 @@ static void
 contour_options_out_of_range_are_refused(void **state)
 {
     static const ss_contour_opts row[] = {
-        { 0, 80, NULL, 0, NULL, 0 },    { 101, 80, NULL, 0, NULL, 0 },
-        { 18, 0, NULL, 0, NULL, 0 },    { 18, -1, NULL, 0, NULL, 0 },
-        { 18, NAN, NULL, 0, NULL, 0 },  { 18, INFINITY, NULL, 0, NULL, 0 },
+        { 0, 80, .column = 0 },    { 101, 80, .column = 0 },
+        { 18, 0, .column = 0 },    { 18, -1, .column = 0 },
+        { 18, NAN, .column = 0 },  { 18, INFINITY, .column = 0 },
     };
     ss_coefficients *c = new_coefficients();
     (void)state;

@@ -172,7 +172,7 @@ rk8pd_equals_arbitrary_precision(void **state)
 {
     (void)state;
     for (int i = 0; i < 3; i++)
-        compare(with_events[i], ss_sim_defaults.method, ss_sim_defaults.tol, 1e-10, 1e-10);
+        compare(with_events[i], "rk8pd", ss_sim_defaults.tol, 1e-10, 1e-10);
 }
 
 int

@@ -428,12 +428,16 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
     { BYTES(HEAD "0\t1\t2\0\n"), "in:4: a NUL byte in text" },
     { BYTES(HEAD "0\t1\t2\n0.2\t1\t2\n"), "in:5: time is 0.2, expected start + 1 / rate = 0.1" },
     { BYTES("t,x\n0,1\n0.1,2,3\n"), "in:3: expected 2 columns, found 3" },
-    { BYTES("t,x\n0,1\n0.1,\n"), "in:3: column x: '' is not a number" },
+    { BYTES("t,x\n0,1\n0.1,\n"), "in:3: column x: '' is not a number"
+      "; ss-cat --gaps=split or interpolate fills the gap" },
     { BYTES("t,x\n0,1\n0.1,abc\n"), "in:3: column x: 'abc' is not a number" },
     { BYTES("t,x\n0,abc\n0.1,1\n"), "in:2: column 2: 'abc' is not a number" },
-    { BYTES("t,x\n0,1\n0.1,NaN\n"), "in:3: column x: 'NaN' is not a finite number" },
-    { BYTES("t,x\n0,nan\n0.1,1\n"), "in:2: column x: 'nan' is not a finite number" },
-    { BYTES("t,x\n0,1\n0.1,1e999\n"), "in:3: column x: '1e999' is not a finite number" },
+    { BYTES("t,x\n0,1\n0.1,NaN\n"), "in:3: column x: 'NaN' is not a finite number"
+      "; ss-cat --gaps=split or interpolate fills the gap" },
+    { BYTES("t,x\n0,nan\n0.1,1\n"), "in:2: column x: 'nan' is not a finite number"
+      "; ss-cat --gaps=split or interpolate fills the gap" },
+    { BYTES("t,x\n0,1\n0.1,1e999\n"), "in:3: column x: '1e999' is not a finite number"
+      "; ss-cat --gaps=split or interpolate fills the gap" },
     { BYTES("t,x\n0,1\n0.1,1\0\n"), "in:3: a NUL byte: this is not text of 8-bit characters" },
     { BYTES("hello\nworld\n"), "in:2: no row of numbers up to here" },
     { BYTES("t,x\n0,1\n"), "in: one row has no sample rate; give it with ss-cat --rate" },
@@ -451,8 +455,8 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
       "in:2: column x: '1,234' has a decimal comma, numbers before it have a point" },
     { BYTES("t;x\n0;1,5\n1;2\n1.5;2,5\n"),
       "in:4: column t: '1.5' has a decimal point, numbers before it have a comma" },
-    { BYTES("t,x\n0,1\n1,1\n2,1\n4,1\n5,1\n6,1\n"), "in:5: time stamps are not uniform: this one is "
-      "off by 1 sample periods, 0.1 is allowed; ss-cat --rate HZ takes the rows as uniform" },
+    { BYTES("t,x\n0,1\n1,1\n2,1\n4,1\n5,1\n6,1\n"), "in:5: 1 sample is missing before this time "
+      "stamp; ss-cat --gaps=split or interpolate fills the gap" },
     { BYTES(".snd\0\0\0\x18"), "in: truncated AU header" },
     { BYTES(".snd\0\0\0\x17" SIZE_UNKNOWN "\0\0\0\7\0\0\0\1\0\0\0\1"),
       "in: AU header: impossible offset of the data, 23" },
@@ -553,7 +557,7 @@ reads_tables_as_recorders_write_them(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         const struct table_case *c = &table[i];
-        ss_read_opts opts = { c->time, c->rate };
+        ss_read_opts opts = { .time = c->time, .rate = c->rate };
         ss_signal *s = read_text(c->text, &opts);
         char names[256] = "";
         for (size_t k = 0; k < s->head->n_columns; k++)
@@ -626,7 +630,7 @@ refuses_options_that_a_clock_excludes(void **state)
     ss_error err = { "" };
     const char *text = HEAD "0\t1\t2\n";
     (void)state;
-    ss_read_opts rate = { NULL, 20 }, time = { "x", 0 }, same = { NULL, 10 };
+    ss_read_opts rate = { .rate = 20 }, time = { .time = "x" }, same = { .rate = 10 };
     assert_int_equal(read_bytes(&s, text, strlen(text), &rate, &err), SS_EDATA);
     assert_int_equal(read_bytes(&s, text, strlen(text), &time, &err), SS_EDATA);
     ss_signal_free(read_text(text, &same));
@@ -848,6 +852,228 @@ noise_is_the_same_in_pieces(void **state)
     assert_int_equal(ss_add_noise(other, N, NAN, 4), SS_EINVAL);
 }
 
+/* The power of x at the frequencies of the record in [lo, hi], by the definition: every k-th one. */
+static double
+power_between(const double *x, size_t n, double rate, double lo, double hi)
+{
+    double power = 0;
+    for (size_t k = 1; k < n / 2; k++) {
+        double f = (double)k * rate / (double)n, re = 0, im = 0;
+        if (f < lo || f > hi)
+            continue;
+        for (size_t i = 0; i < n; i++) {
+            double angle = 2 * M_PI * (double)(i * k % n) / (double)n;
+            re += x[i] * cos(angle);
+            im += x[i] * sin(angle);
+        }
+        power += 2 * (re * re + im * im) / ((double)n * (double)n);
+    }
+    return power;
+}
+
+/* Noise of a band has its power there, flat, and the rms that was asked for.  A record that is cut out
+ * of a longer one leaks as 1 / (pi distance)^2: less than 1 % of the power, 10 frequencies away. */
+static void
+noise_of_a_band_stays_in_it(void **state)
+{
+    static const struct { size_t n; double lo, hi; } band[] = {
+        { 1024, 100, 200 }, { 1500, 100, 200 }, { 1500, 0, 1000 }, { 1500, 400, 1000 },
+        { 1024, 62.5, 62.5 } };
+    (void)state;
+    for (size_t k = 0; k < sizeof band / sizeof *band; k++) {
+        double x[1500] = { 0 }, again[1500] = { 0 }, square = 0, margin = 10 * 2000. / 1500;
+        size_t n = band[k].n;
+        ss_noise *noise;
+        for (int pass = 0; pass < 2; pass++) {
+            ss_noise_new(&noise, 7);
+            assert_int_equal(ss_noise_add_band(noise, pass == 0 ? x : again, n, 2000, band[k].lo,
+                                               band[k].hi, 0.25, NULL), SS_OK);
+            ss_noise_free(noise);
+        }
+        assert_memory_equal(x, again, sizeof x);
+        for (size_t i = 0; i < n; i++)
+            square += x[i] * x[i] / (double)n;
+        assert_true(fabs(sqrt(square) - 0.25) <= 1e-12);
+        double inside = power_between(x, n, 2000, band[k].lo - margin, band[k].hi + margin);
+        double mean = variance(x, n);           /* without the part at 0 Hz */
+        assert_true(inside >= 0.99 * mean && inside <= mean * (1 + 1e-9));
+        if (band[k].hi > band[k].lo) {          /* both halves alike: each is half but for chance */
+            double middle = (band[k].lo + band[k].hi) / 2;
+            double half = power_between(x, n, 2000, band[k].lo - margin, middle) / inside;
+            double numbers = (band[k].hi - band[k].lo) / 2000 * (double)n;  /* free ones in a half */
+            assert_true(fabs(half - 0.5) <= 5 * 0.5 / sqrt(numbers));
+        }
+    }
+}
+
+static void
+bands_without_a_frequency_are_refused(void **state)
+{
+    static const double wrong[][2] = { { -1, 5 }, { 5, 2 }, { 5, 1001 }, { 5.1, 5.2 }, { NAN, 5 } };
+    double x[100] = { 0 };
+    ss_error err = { "" };
+    ss_noise *noise;
+    (void)state;
+    ss_noise_new(&noise, 1);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, wrong[i][0], wrong[i][1], 1, &err),
+                         SS_EINVAL);
+    assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, 0, 100, -1, &err), SS_EINVAL);
+    for (size_t i = 0; i < 100; i++)
+        assert_true(x[i] == 0);
+    ss_noise_free(noise);
+}
+
+/* A ramp over more than the range: multiples of the step, the nearest, clipped; what is wrong is even
+ * between -1/2 and 1/2 of a step, so its variance is a twelfth of its square, to 1 % by the
+ * ramp's own steps, and to 5 % where these are wider than the converter's. */
+static void
+a_converter_rounds_and_clips(void **state)
+{
+    enum { N = 40001 };
+    static double x[N];
+    (void)state;
+    for (int bits = 1; bits <= 16; bits += 5) {
+        double range = 2.5, step = range / (double)(1 << (bits - 1)), square = 0;
+        size_t inside = 0;
+        for (size_t i = 0; i < N; i++)
+            x[i] = 3 * (2. * (double)i / (N - 1) - 1);
+        assert_int_equal(ss_quantise(x, N, bits, range), SS_OK);
+        for (size_t i = 0; i < N; i++) {
+            double was = 3 * (2. * (double)i / (N - 1) - 1), off = x[i] - was;
+            assert_true(x[i] / step == rint(x[i] / step));
+            assert_true(x[i] >= -range && x[i] <= range - step);
+            if (was < -range)
+                assert_true(x[i] == -range);
+            else if (was > range - step / 2)
+                assert_true(x[i] == range - step);
+            else {
+                assert_true(fabs(off) <= step / 2 * (1 + 1e-9));
+                square += off * off;
+                inside++;
+            }
+        }
+        if (bits > 1)
+            assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
+                        <= (bits > 11 ? 0.05 : 1e-2));
+    }
+    assert_int_equal(ss_quantise(x, N, 0, 1), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 53, 1), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, 0), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, INFINITY), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 52, 1e-310), SS_EINVAL);
+}
+
+/* --- gaps and other clocks ----------------------------------------------------------------- */
+
+static void
+interpolates_uneven_stamps_to_a_uniform_clock(void **state)
+{
+    (void)state;
+    /* Stamps i + 0.4 sin(i) periods; natural ends spoil a few steps there (by a factor 0.27 a step).
+     * Error of a cubic spline: 5/384 h^4 of x's fourth derivative, for the widest step, here of under 1.8 periods. */
+    enum { N = 2000 };
+    const double rate = 1000, w = 2 * M_PI * 20, h = 1.8 / rate, bound = 5. / 384 * pow(h * w, 4);
+    const ss_read_opts opts = { .resample = 800 };
+    FILE *f = tmpfile();
+    ss_signal *s;
+    fputs("t,x\n", f);
+    for (int i = 0; i < N; i++) {
+        double t = (i + 0.4 * sin(i)) / rate;
+        fprintf(f, "%.17g,%.17g\n", t, sin(w * t));
+    }
+    rewind(f);
+    assert_int_equal(ss_signal_read(&s, f, "in", &opts, NULL), SS_OK);
+    fclose(f);
+    assert_true(s->head->rate == 800 && s->head->start == 0);
+    assert_int_equal(s->n, 1600);
+    for (size_t i = 20; i < s->n - 20; i++)
+        if (!(fabs(s->values[i] - sin(w * (double)i / 800)) <= bound))
+            fail_msg("sample %zu is off by %g", i, s->values[i] - sin(w * (double)i / 800));
+    assert_null(ss_header_find_note(s->head, "gaps"));
+    ss_signal_free(s);
+}
+
+static void
+resamples_a_signal_at_its_own_samples(void **state)
+{
+    (void)state;
+    ss_wave_opts wave = ss_wave_defaults;
+    ss_signal *s, *twice, *back;
+    assert_int_equal(ss_wave_new(&s, SS_CHIRP, &wave, NULL), SS_OK);
+    assert_int_equal(ss_signal_resample(&twice, s, 2 * wave.rate), SS_OK);
+    assert_int_equal(twice->n, 2 * s->n - 1);
+    assert_int_equal(ss_signal_resample(&back, twice, wave.rate), SS_OK);
+    assert_int_equal(back->n, s->n);
+    for (size_t i = 0; i < s->n; i++)
+        if (!(fabs(back->values[i] - s->values[i]) <= 1e-9))    /* stamps are rounded: 1e-15 * 10 s */
+            fail_msg("sample %zu: %.17g became %.17g", i, s->values[i], back->values[i]);
+    ss_signal_free(back);
+    assert_int_equal(ss_signal_resample(&back, s, 0), SS_EINVAL);
+    assert_int_equal(ss_signal_resample(&back, s, NAN), SS_EINVAL);
+    ss_signal_free(twice);
+    ss_signal_free(s);
+}
+
+static void
+fills_gaps_and_says_where(void **state)
+{
+    (void)state;
+    static const struct { const char *text; size_t n; double split[6], line[6]; size_t gaps; } row[] = {
+        { "t,x\n1,5\n2,nan\n3,7\n", 3, { 5, 0, 7 }, { 5, 6, 7 }, 1 },
+        { "t,x\n1,5\n2,4\n4,8\n5,6\n6,5\n", 6, { 5, 4, 0, 8, 6, 5 }, { 5, 4, 6, 8, 6, 5 }, 1 },
+        { "t,x\n1,NaN\n2,4\n3,\n4,8\n5,INF\n", 5, { 0, 4, 0, 8, 0 }, { 4, 4, 6, 8, 8 }, 3 },
+        { "t,x\n1,5\n2,4\n3,8\n", 3, { 5, 4, 8 }, { 5, 4, 8 }, 0 },
+        { "t,x\n1,5\n,4\n3,8\n4,6\n", 4, { 5, 0, 8, 6 }, { 5, 6.5, 8, 6 }, 1 },
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (int how = SS_GAPS_SPLIT; how <= SS_GAPS_INTERPOLATE; how++) {
+            const ss_read_opts opts = { .gaps = (ss_gaps)how };
+            ss_signal *s = read_text(row[i].text, &opts);
+            ss_span *span;
+            size_t n;
+            assert_int_equal(s->n, row[i].n);
+            assert_true(s->head->rate == 1 && s->head->start == 1);
+            for (size_t k = 0; k < s->n; k++)
+                assert_true(s->values[k] == (how == SS_GAPS_SPLIT ? row[i].split : row[i].line)[k]);
+            assert_int_equal(ss_header_gaps(&span, &n, s->head), SS_OK);
+            assert_int_equal(n, row[i].gaps);
+            assert_true(n == 0 || (span[0].from >= 1 && span[0].to <= 6));
+            free(span);
+            ss_signal_free(s);
+        }
+}
+
+static void
+knows_what_is_near_a_gap(void **state)
+{
+    (void)state;
+    static const ss_span gap[] = { { 1, 2 }, { 5, 6 }, { 6.5, 6.75 } };
+    static const struct { double t, margin; int near_it; } row[] = {
+        { 0, 0.5, 0 }, { 0.6, 0.5, 1 }, { 1, 0, 1 }, { 1.5, 0, 1 }, { 2, 0, 0 }, { 2.4, 0.5, 1 },
+        { 3.5, 1, 0 }, { 3.5, 2, 1 }, { 6.2, 0.1, 0 }, { 6.2, 0.25, 1 }, { 100, 10, 0 }, { 100, 1e3, 1 } };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        assert_int_equal(ss_near_gap(gap, 3, row[i].t, row[i].margin), row[i].near_it);
+    assert_int_equal(ss_near_gap(NULL, 0, 1, 1e9), 0);
+}
+
+static void
+reads_no_gaps_from_a_damaged_note(void **state)
+{
+    (void)state;
+    static const char *const note[] = { "", "1", "1:", ":2", "2:1", "1:1", "a:b", "1:2x", "nan:2" };
+    for (size_t i = 0; i < sizeof note / sizeof *note; i++) {
+        ss_header *head = ss_header_new(1, 0);
+        ss_span *span;
+        size_t n;
+        assert_int_equal(ss_header_note(head, "gaps", note[i]), SS_OK);
+        assert_int_equal(ss_header_gaps(&span, &n, head), SS_OK);
+        assert_int_equal(n, 0);
+        free(span);
+        ss_header_free(head);
+    }
+}
+
 int
 main(void)
 {
@@ -881,6 +1107,15 @@ main(void)
         cmocka_unit_test(refuses_waves_out_of_range),
         cmocka_unit_test(noise_has_the_ratio_asked_for),
         cmocka_unit_test(noise_is_the_same_in_pieces),
+        cmocka_unit_test(noise_of_a_band_stays_in_it),
+        cmocka_unit_test(bands_without_a_frequency_are_refused),
+        cmocka_unit_test(a_converter_rounds_and_clips),
+
+        cmocka_unit_test(interpolates_uneven_stamps_to_a_uniform_clock),
+        cmocka_unit_test(resamples_a_signal_at_its_own_samples),
+        cmocka_unit_test(fills_gaps_and_says_where),
+        cmocka_unit_test(knows_what_is_near_a_gap),
+        cmocka_unit_test(reads_no_gaps_from_a_damaged_note),
     };
     return cmocka_run_group_tests_name("signal", tests, NULL, NULL);
 }

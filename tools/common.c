@@ -4,7 +4,9 @@
  * kept here as static state: an exit or a signal anywhere finds what has to be removed. */
 #include "common.h"
 
+#include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <limits.h>
@@ -132,13 +134,16 @@ tool_begin(char *argv[], const char *name, const char *usage)
     signal(SIGXFSZ, SIG_IGN);           /* a file over the limit is a failed write, not a signal */
 }
 
+/* One line, whatever stands in the names of files. */
 static void
 say(const char *format, va_list args)
 {
+    char text[2 * PATH_MAX];
+    vsnprintf(text, sizeof text, format, args);
+    for (char *p = text; *p != '\0'; p++)
+        *p = iscntrl((unsigned char)*p) ? '?' : *p;
     clear_progress();
-    fprintf(stderr, "%s: ", tool_name);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
+    fprintf(stderr, "%s: %s\n", tool_name, text);
 }
 
 #define SAY(format) do { \
@@ -246,6 +251,20 @@ tool_integer(const char *option, const char *text, long lo, long hi)
     if (errno != 0 || i < lo || i > hi)
         tool_usage("%s: %s is out of range %ld ... %ld", option, text, lo, hi);
     return i;
+}
+
+void
+tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
+          double pair[2])
+{
+    char first[64];
+    size_t n = strcspn(text, ":");
+    if (text[n] != ':' || n >= sizeof first)
+        tool_usage("%s: '%s' is not %s", option, text, form);
+    memcpy(first, text, n);
+    first[n] = '\0';
+    pair[0] = tool_number(option, first, lo, hi);
+    pair[1] = tool_number(option, text + n + 1, pair[0], hi);
 }
 
 int
@@ -401,6 +420,25 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     tool_usage("--output: the ending of '%s' picks the form and must be one of%s", path, list);
 }
 
+/* Where a file of this name is to be: a link keeps pointing where it does, and may point to a file
+ * that is yet to be made. */
+static char *
+resolve(const char *path)
+{
+    char link[PATH_MAX], next[PATH_MAX], *real = realpath(path, NULL);
+    if (real != NULL)
+        return real;
+    ssize_t length = errno == ENOENT ? readlink(path, link, sizeof link - 1) : -1;
+    if (length < 0)
+        return strdup(path);
+    link[length] = '\0';
+    const char *slash = link[0] != '/' ? strrchr(path, '/') : NULL;
+    int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
+    if (snprintf(next, sizeof next, "%.*s%s", folder, path, link) >= (int)sizeof next)
+        tool_die("%s: %s", path, strerror(ENAMETOOLONG));
+    return resolve(next);
+}
+
 const char *
 tool_output_path(const char *path)
 {
@@ -413,9 +451,9 @@ tool_output_path(const char *path)
     if (exists && !S_ISREG(st.st_mode))
         return path;                    /* a device or a FIFO: nothing to rename */
 
-    out_target = realpath(path, NULL);  /* a link keeps pointing where it does */
-    if (out_target == NULL)
-        out_target = strdup(path);
+    if (!exists && errno == ELOOP)
+        tool_die("%s: %s", path, strerror(errno));
+    out_target = resolve(path);
     if (out_target == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     const char *base = strrchr(out_target, '/');
@@ -450,6 +488,27 @@ tool_output(const char *path)
     if (out_file == NULL)
         tool_die("%s: %s", path, strerror(errno));
     return out_file;
+}
+
+FILE *
+tool_output_kept(const char *path)
+{
+    struct flock whole = { .l_type = F_WRLCK, .l_whence = SEEK_SET };
+    int fd = open(path, O_RDWR | O_CREAT, 0666);
+    if (fd >= 0 && fcntl(fd, F_SETLK, &whole) != 0)
+        tool_die("%s: %s", path, errno == EACCES || errno == EAGAIN
+                 ? "another process is writing it" : strerror(errno));
+    out_file = fd >= 0 ? fdopen(fd, "r+") : NULL;
+    if (out_file == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return out_file;
+}
+
+void
+tool_cut(FILE *out, long offset)
+{
+    if (fseek(out, offset, SEEK_SET) != 0 || ftruncate(fileno(out), offset) != 0)
+        tool_die("%s", strerror(errno));
 }
 
 void
@@ -557,6 +616,13 @@ run_gnuplot(FILE *script, FILE *out)
         tool_die("%s", reason);
     }
     fclose(words);
+}
+
+ss_plot_style
+tool_style(const char *text)
+{
+    static const char *const style[] = { "paper", "screen", NULL };
+    return tool_choice("--style", text, style) == 0 ? SS_PAPER : SS_SCREEN;
 }
 
 void

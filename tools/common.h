@@ -32,11 +32,14 @@ extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 /* Values of options; wrong ones are wrong usage. */
 double tool_number(const char *option, const char *text, double lo, double hi);
 long tool_integer(const char *option, const char *text, long lo, long hi);
+/* Two numbers "A:B", lo <= A <= B <= hi; form is what the message says is wanted. */
+void tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
+               double pair[2]);
 /* The index of text in the NULL-terminated list. */
 int tool_choice(const char *option, const char *text, const char *const choice[]);
 
 /* The options that tools share, to be put into their long options. */
-enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_FIRST };
+enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_STYLE, TOOL_OPT_FIRST };
 #define TOOL_LONGOPTS \
     { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
     { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
@@ -84,6 +87,12 @@ FILE *tool_output(const char *path);
 /* The same for a library call that wants a path: the name of the temporary file. */
 const char *tool_output_path(const char *path);
 
+/* Open a file that another run is to go on with, from its start, or make it: what is written stays
+ * there whatever happens.  Dies if another process has it open so. */
+FILE *tool_output_kept(const char *path);
+/* Go on writing at this offset; what lies behind it is dropped. */
+void tool_cut(FILE *out, long offset);
+
 /* What --format names: tsv or au. */
 tool_kind tool_format(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
@@ -93,6 +102,9 @@ void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind
  * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
 void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
+
+/* What --style names: paper or screen. */
+ss_plot_style tool_style(const char *text);
 
 /* --- long work ----------------------------------------------------------------------------- */
 

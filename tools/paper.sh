@@ -9,16 +9,25 @@ set -eu
 mkdir -p "$OUT"
 
 draw() {        # NAME TOOL ...: a picture, on the screen and on paper
-    name=$1
+    picture=$OUT/$1
     shift
-    "$@" -o "$OUT/$name.png"
-    "$@" -o "$OUT/$name.pdf"
+    "$@" -o "$picture.png"
+    "$@" -o "$picture.pdf"
+}
+
+contours() {    # NAME TITLE COLUMN [OPTION ...]: the contours, and what was read from them over these
+    name=$1 title=$2 column=$3
+    shift 3
+    ss-features ${column:+--column "$column"} -o "$OUT/$name-features.tsv" "$OUT/$name.h5"
+    draw "$name" ss-contour --title "$title" "$@" "$OUT/$name.h5"
+    draw "$name-features" ss-contour --title "$title" --features "$OUT/$name-features.tsv" "$@" \
+        "$OUT/$name.h5"
 }
 
 figure() {      # NAME SCENE TITLE: contours on the fine grid, and on the paper's
     ss-sim "$2" | ss-morlet -o "$OUT/$1.h5"
     ss-morlet --dyadic "$OUT/$1.h5" -o "$OUT/$1-dyadic.h5"
-    draw "$1" ss-contour --title "$3" "$OUT/$1.h5"
+    contours "$1" "$3" ''
     draw "$1-dyadic" ss-contour --title "$3, dyadic" "$OUT/$1-dyadic.h5"
     draw "loop-$2" ss-plot --xy x,f --title "$3" "$OUT/$1.h5"
 }
@@ -26,12 +35,11 @@ figure() {      # NAME SCENE TITLE: contours on the fine grid, and on the paper'
 # first, since only a recording can be wrong
 if [ -n "$MEASURED" ]; then
     ss-morlet ${COLUMN:+--column "$COLUMN"} --detrend mean "$MEASURED" -o "$OUT/figure7.h5"
-    draw figure7 ss-contour --title "Measured${COLUMN:+: $COLUMN}" ${FROM:+--from "$FROM"} \
-        ${TO:+--to "$TO"} "$OUT/figure7.h5"
+    contours figure7 "Measured${COLUMN:+: $COLUMN}" "$COLUMN" ${FROM:+--from "$FROM"} \
+        ${TO:+--to "$TO"}
 else
     ss-sim compliant-light | ss-noise --snr 40 | ss-morlet -o "$OUT/figure7.h5"
-    draw figure7 ss-contour --title 'Simulated, not measured: c = 25, 40 dB noise' \
-        "$OUT/figure7.h5"
+    contours figure7 'Simulated, not measured: c = 25, 40 dB noise' ''
 fi
 
 figure figure2 coulomb 'Coulomb, simulated'

@@ -11,6 +11,9 @@ static const char usage[] =
 "  -c, --column=NAME|N  take this column (repeatable, in this order), default all\n"
 "  -t, --time=NAME|N    delimited text: the column of time\n"
 "  -r, --rate=HZ        input without a clock: the sample rate\n"
+"      --gaps=HOW       samples that are missing: refuse (default), split (0 for\n"
+"                       them), interpolate (a straight line over them)\n"
+"      --resample=HZ    to a clock of this rate, also from uneven time stamps\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time, excluded [s]\n"
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
@@ -20,7 +23,7 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { OPT_FROM = TOOL_OPT_FIRST, OPT_TO, PIECE = 4096 };
+enum { OPT_FROM = TOOL_OPT_FIRST, OPT_TO, OPT_GAPS, OPT_RESAMPLE, PIECE = 4096 };
 
 static const char *path, *output;
 static const char **wanted;             /* names of columns */
@@ -62,6 +65,17 @@ static void
 copy_whole(tool_kind kind, const ss_read_opts *opts)
 {
     ss_signal *signal = tool_read_signal(path, opts), *chosen;
+    if (opts->resample > 0 && (signal->head->rate < opts->resample
+                               || signal->head->rate > opts->resample)) {
+        if (signal->n < 2)
+            tool_die("%s: one row cannot be resampled", tool_input_name(path));
+        if (signal->head->rate > opts->resample)
+            tool_warn("%s: what is above %g Hz in it folds down", tool_input_name(path),
+                      opts->resample / 2);
+        tool_check(ss_signal_resample(&chosen, signal, opts->resample), NULL);
+        ss_signal_free(signal);
+        signal = chosen;
+    }
     size_t n, *column = choose_columns(signal->head, &n);
     size_t first = ss_header_row(signal->head, from), end = ss_header_row(signal->head, to);
     end = end < signal->n ? end : signal->n;
@@ -126,9 +140,11 @@ main(int argc, char *argv[])
     static const struct option longopts[] = {
         { "column", required_argument, NULL, 'c' }, { "time", required_argument, NULL, 't' },
         { "rate", required_argument, NULL, 'r' }, { "from", required_argument, NULL, OPT_FROM },
-        { "to", required_argument, NULL, OPT_TO },
+        { "to", required_argument, NULL, OPT_TO }, { "gaps", required_argument, NULL, OPT_GAPS },
+        { "resample", required_argument, NULL, OPT_RESAMPLE },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
-    ss_read_opts opts = { NULL, 0 };
+    static const char *const gaps[] = { "refuse", "split", "interpolate", NULL };
+    ss_read_opts opts = { .rate = 0 };
     tool_kind kind = TOOL_TSV;
 
     tool_begin(argv, "ss-cat", usage);
@@ -142,6 +158,8 @@ main(int argc, char *argv[])
         case 'r': opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;
         case OPT_FROM: from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
+        case OPT_GAPS: opts.gaps = (ss_gaps)tool_choice("--gaps", optarg, gaps); break;
+        case OPT_RESAMPLE: opts.resample = tool_number("--resample", optarg, DBL_MIN, DBL_MAX); break;
         case 'o': output = optarg; break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
         default: tool_option(c);
@@ -150,7 +168,7 @@ main(int argc, char *argv[])
     if (opts.time != NULL && opts.rate > 0)
         tool_usage("--time and --rate exclude each other");
     kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
-    if (kind == TOOL_H5 || tool_is_hdf5(path))
+    if (kind == TOOL_H5 || tool_is_hdf5(path) || opts.resample > 0)
         copy_whole(kind, &opts);
     else
         copy_stream(kind, &opts);

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <float.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,9 +17,11 @@ static const char usage[] =
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
+"      --features=FILE  draw what ss-features writes: maxima, spikes, transitions\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
+"      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
@@ -27,12 +30,15 @@ static const char usage[] =
 "      --version        show the version and exit\n";
 
 enum {
-    OPT_LEVELS = TOOL_OPT_FIRST, OPT_SPAN, OPT_SIGNAL, OPT_EVENTS, OPT_TITLE, OPT_FROM, OPT_TO
+    OPT_LEVELS = TOOL_OPT_FIRST, OPT_SPAN, OPT_SIGNAL, OPT_EVENTS, OPT_FEATURES,
+    OPT_TITLE, OPT_FROM, OPT_TO
 };
 
 typedef struct drawing {
     ss_coefficients *coefficients;
     ss_contour_opts opts;
+    double *event;
+    ss_overlay overlay;
 } drawing;
 
 static ss_status
@@ -78,41 +84,130 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
     return signal;
 }
 
-/* Times: the first field of every line that is no comment, below the line that says what they are. */
+/* --- times in files ------------------------------------------------------------------------ */
+
+typedef struct lines {          /* of a file that begins with a line that says what it is */
+    FILE *in;
+    const char *path;
+    char text[4096];
+    size_t number;
+} lines;
+
 static void
-read_events(ss_contour_opts *opts, const char *path)
+open_lines(lines *l, const char *path, const char *magic, const char *what)
 {
-    static const char magic[] = "# stickslip events 1";
-    FILE *in = tool_open(path);
-    char *line = NULL, *end;
-    double *event = NULL;
-    size_t size = 0, room = 0, number = 1, n = 0;
-    ssize_t length = getline(&line, &size, in);
-    if (length >= 0)
-        line[strcspn(line, "\r\n")] = '\0';
-    if (length >= 0 ? strcmp(line, magic) != 0 : !ferror(in))
-        tool_die("%s:1: not a list of events, which begins '%s'", tool_input_name(path), magic);
-    while (getline(&line, &size, in) >= 0) {
-        number++;
-        if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0')
-            continue;
-        if (n == room) {
-            room = 2 * room + 64;
-            event = realloc(event, room * sizeof *event);
-            if (event == NULL)
-                tool_die("%s", ss_strerror(SS_ENOMEM));
-        }
-        event[n++] = ss_number_parse(line, &end);
-        if (end == line || strchr(" \t\r\n,", *end) == NULL)
-            tool_die("%s:%zu: expected a time in seconds", tool_input_name(path), number);
+    *l = (lines){ .in = tool_open(path), .path = path, .number = 1 };
+    if (fgets(l->text, sizeof l->text, l->in) != NULL)
+        l->text[strcspn(l->text, "\r\n")] = '\0';
+    if (strcmp(l->text, magic) != 0 && !ferror(l->in))
+        tool_die("%s:1: not a list of %s, which begins '%s'", tool_input_name(path), what, magic);
+}
+
+/* The next line that is not empty, or 0 at the end, when the file is closed.  Of a long comment its
+ * beginning is enough. */
+static int
+next_line(lines *l)
+{
+    while (fgets(l->text, sizeof l->text, l->in) != NULL) {
+        l->number++;
+        int c = strchr(l->text, '\n') != NULL ? '\n' : getc(l->in);
+        if (c != '\n' && c != EOF && l->text[0] != '#')
+            tool_die("%s:%zu: line too long", tool_input_name(l->path), l->number);
+        while (c != '\n' && c != EOF)
+            c = getc(l->in);
+        if (l->text[strspn(l->text, " \t\r\n")] != '\0')
+            return 1;
     }
-    if (ferror(in))
-        tool_die("%s: %s", tool_input_name(path), strerror(errno));
-    free(line);
-    if (in != stdin)
-        fclose(in);
-    opts->event = event;
-    opts->n_events = n;
+    if (ferror(l->in))
+        tool_die("%s: %s", tool_input_name(l->path), strerror(errno));
+    if (l->in != stdin)
+        fclose(l->in);
+    return 0;
+}
+
+/* The number that *text begins with, which is moved behind the blanks after it; a hyphen is NaN. */
+static double
+take_number(const lines *l, const char **text, const char *what)
+{
+    char *end;
+    double x = NAN;
+    if (**text == '-' && strchr(" \t\r\n", (*text)[1]) != NULL)
+        end = (char *)*text + 1;
+    else
+        x = ss_number_parse(*text, &end);
+    if (end == *text || strchr(" \t\r\n,", *end) == NULL)
+        tool_die("%s:%zu: expected %s", tool_input_name(l->path), l->number, what);
+    *text = end + strspn(end, " \t,");
+    return x;
+}
+
+/* Room for one more after n of that size, by doubling. */
+static void *
+make_room(void *list, size_t n, size_t size)
+{
+    if ((n & (n - 1)) != 0 && n > 0)
+        return list;
+    void *more = realloc(list, (n > 0 ? 2 * n : 1) * size);
+    if (more == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    return more;
+}
+
+/* Times: the first field of every line that is no comment. */
+static void
+read_events(drawing *d, const char *path)
+{
+    lines l;
+    open_lines(&l, path, "# stickslip events 1", "events");
+    while (next_line(&l)) {
+        const char *text = l.text;
+        if (*text == '#')
+            continue;
+        d->event = make_room(d->event, d->opts.n_events, sizeof *d->event);
+        d->event[d->opts.n_events++] = take_number(&l, &text, "a time in seconds");
+    }
+    d->opts.event = d->event;
+}
+
+/* A transition: onset, end, spikes, and time and frequency of its maximum. */
+static void
+read_transition(ss_overlay *o, const lines *l)
+{
+    const char *text = l->text;
+    double field[5];
+    for (size_t i = 0; i < 5; i++)
+        field[i] = take_number(l, &text, "onset, end, spikes, time and frequency");
+    if (!isnan(field[0]) && !isnan(field[1])) {
+        o->span = make_room(o->span, o->n_spans, sizeof *o->span);
+        memcpy(o->span[o->n_spans++], field, sizeof *o->span);
+    }
+    if (!isnan(field[3]) && !isnan(field[4])) {
+        o->maximum = make_room(o->maximum, o->n_maxima, sizeof *o->maximum);
+        memcpy(o->maximum[o->n_maxima++], field + 3, sizeof *o->maximum);
+    }
+}
+
+/* Rows are transitions; a note "spike" has its time and its kind: jumps and kinks are drawn. */
+static void
+read_features(drawing *d, const char *path)
+{
+    static const char note[] = "# spike: ";
+    ss_overlay *o = &d->overlay;
+    lines l;
+    open_lines(&l, path, "# stickslip features 1", "features");
+    while (next_line(&l)) {
+        const char *text = l.text + sizeof note - 1;
+        if (l.text[0] != '#')
+            read_transition(o, &l);
+        else if (strncmp(l.text, note, sizeof note - 1) == 0) {
+            double t = take_number(&l, &text, "the time of a spike");
+            if (strncmp(text, "jump", 4) != 0 && strncmp(text, "kink", 4) != 0)
+                continue;
+            o->spike = make_room(o->spike, o->n_spikes, sizeof *o->spike);
+            o->spike[o->n_spikes++] = t;
+        }
+    }
+    d->opts.overlay = o;
 }
 
 static int
@@ -129,12 +224,15 @@ main(int argc, char *argv[])
         { "span", required_argument, NULL, OPT_SPAN },
         { "signal", required_argument, NULL, OPT_SIGNAL }, { "column", required_argument, NULL, 'c' },
         { "events", required_argument, NULL, OPT_EVENTS },
+        { "features", required_argument, NULL, OPT_FEATURES },
         { "title", required_argument, NULL, OPT_TITLE },
+        { "style", required_argument, NULL, TOOL_OPT_STYLE },
         { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
         TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
-    drawing d = { NULL, ss_contour_defaults };
+    drawing d = { .opts = ss_contour_defaults };
     const char *output = NULL, *signal_path = NULL, *column = NULL, *events = NULL;
+    const char *features = NULL;
 
     tool_begin(argv, "ss-contour", usage);
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
@@ -144,7 +242,9 @@ main(int argc, char *argv[])
         case OPT_SIGNAL: signal_path = optarg; break;
         case 'c': column = optarg; break;
         case OPT_EVENTS: events = optarg; break;
+        case OPT_FEATURES: features = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
+        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;
@@ -154,18 +254,25 @@ main(int argc, char *argv[])
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
     if (opts.from >= opts.to)
         tool_usage("--from does not lie before --to");
-    if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events) > 1)
+    if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events)
+        + is_stdin(features) > 1)
         tool_usage("standard input can be read only once");
     d.coefficients = read_coefficients(path);
     ss_signal *signal = find_signal(&d, path, signal_path, column);
     if (column != NULL && signal == NULL)
         tool_usage("--column chooses from a signal, and there is none; give it with --signal");
     if (events != NULL)
-        read_events(&d.opts, events);
-    tool_note("%s: %zu scales of %zu samples, %zu events", tool_input_name(path),
-              d.coefficients->n_scales, d.coefficients->n, d.opts.n_events);
+        read_events(&d, events);
+    if (features != NULL)
+        read_features(&d, features);
+    tool_note("%s: %zu scales of %zu samples, %zu events; %zu transitions, %zu maxima, "
+              "%zu spikes", tool_input_name(path), d.coefficients->n_scales, d.coefficients->n,
+              d.opts.n_events, d.overlay.n_spans, d.overlay.n_maxima, d.overlay.n_spikes);
     tool_draw(output, &opts, write_script, &d);
-    free((double *)d.opts.event);
+    free(d.event);
+    free(d.overlay.span);
+    free(d.overlay.maximum);
+    free(d.overlay.spike);
     ss_signal_free(signal);
     ss_coefficients_free(d.coefficients);
     tool_end();

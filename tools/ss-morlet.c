@@ -76,15 +76,11 @@ typedef struct request {
 static void
 parse_octaves(ss_morlet_opts *opts, const char *text)
 {
-    char low[64];
-    size_t n = strcspn(text, ":");
-    if (text[n] != ':' || n >= sizeof low)
-        tool_usage("--octaves: '%s' is not M0:M1", text);
-    memcpy(low, text, n);
-    low[n] = '\0';
+    double m[2];
+    tool_pair("--octaves", text, "M0:M1", -500, 500, m);
     opts->octaves = 1;
-    opts->m0 = tool_number("--octaves", low, -500, 500);
-    opts->m1 = tool_number("--octaves", text + n + 1, opts->m0, 500);
+    opts->m0 = m[0];
+    opts->m1 = m[1];
 }
 
 static void

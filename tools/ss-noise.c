@@ -1,4 +1,4 @@
-/* ss-noise.c -- a signal with white noise added. */
+/* ss-noise.c -- a signal with noise added, or as a converter gives it. */
 #include "common.h"
 
 #include <float.h>
@@ -7,11 +7,15 @@
 #include <stdlib.h>
 
 static const char usage[] =
-"usage: ss-noise [options] --snr=DB|--rms=VALUE [FILE]\n"
-"Add Gaussian white noise to a signal; write it to standard output.\n"
+"usage: ss-noise [options] --snr=DB|--rms=VALUE|--bits=N --range=R [FILE]\n"
+"Add Gaussian white noise to a signal, or round it as a converter does, or first\n"
+"the one and then the other; write it to standard output.\n"
 "      --snr=DB         noise this far below the variance of each column [dB]\n"
 "      --rms=VALUE      noise of this standard deviation, in each column's unit\n"
+"      --band=LO:HI     noise of these frequencies only [Hz], default all\n"
 "      --seed=N         of the generator, default 1\n"
+"      --bits=N         of a converter that rounds and clips each column\n"
+"      --range=R        it spans -R to R, in each column's unit\n"
 "  -c, --column=NAME|N  only this column (repeatable), default all\n"
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
 "      --format=FORM    on standard output: tsv (default) or au\n"
@@ -20,66 +24,101 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { OPT_SNR = TOOL_OPT_FIRST, OPT_RMS, OPT_SEED, PIECE = 4096 };
+enum {
+    OPT_SNR = TOOL_OPT_FIRST, OPT_RMS, OPT_BAND, OPT_SEED, OPT_BITS, OPT_RANGE, PIECE = 4096
+};
 
 static const char *path, *output;
 static const char **wanted;             /* names of columns */
 static size_t n_wanted;
-static double snr = NAN, rms = NAN;
-static long seed = 1;
+static double snr = NAN, rms = NAN, band[2] = { NAN, NAN }, range = NAN;
+static long seed = 1, bits;
 
-/* The noise of each column, 0 where there is to be none: for --snr all 1 at first. */
+/* 1 for each column that was asked for, else 0. */
 static double *
 choose_columns(const ss_header *head)
 {
-    double *level = calloc(head->n_columns, sizeof *level), each = isnan(rms) ? 1 : rms;
-    if (level == NULL)
+    double *chosen = calloc(head->n_columns, sizeof *chosen);
+    if (chosen == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t c = 0; c < head->n_columns && n_wanted == 0; c++)
-        level[c] = each;
+        chosen[c] = 1;
     for (size_t i = 0; i < n_wanted; i++)
-        level[tool_column(head, path, wanted[i])] = each;
+        chosen[tool_column(head, path, wanted[i])] = 1;
+    return chosen;
+}
+
+static void
+add_notes(ss_header *head)
+{
+    char text[256], number[SS_NUMBER_MAX], limit[2][SS_NUMBER_MAX] = { "", "" };
+    if (!isnan(snr) || !isnan(rms)) {
+        ss_number_format(number, isnan(rms) ? snr : rms);
+        for (int i = 0; i < 2 && !isnan(band[0]); i++)
+            ss_number_format(limit[i], band[i]);
+        snprintf(text, sizeof text, "%s %s%s%s%s%s%s%s, seed %ld", isnan(rms) ? "snr" : "rms",
+                 number, isnan(rms) ? " dB" : "", isnan(band[0]) ? "" : ", ", limit[0],
+                 isnan(band[0]) ? "" : " to ", limit[1], isnan(band[0]) ? "" : " Hz", seed);
+        tool_check(ss_header_note(head, "noise", text), NULL);
+    }
+    if (bits > 0) {
+        ss_number_format(number, range);
+        snprintf(text, sizeof text, "%ld bits, range %s", bits, number);
+        tool_check(ss_header_note(head, "converter", text), NULL);
+    }
+}
+
+/* The rms of the noise of one column. */
+static double
+find_level(const ss_header *head, size_t column, const double *x, size_t n)
+{
+    const char *name = head->column[column].name;
+    double level = isnan(rms) ? ss_noise_rms(x, n, snr) : rms;
+    if (level == 0 && isnan(rms))
+        tool_warn("%s: column %s is constant: no noise added", tool_input_name(path), name);
+    tool_note("column %s: noise of rms %g", name, level);
     return level;
 }
 
+/* White noise is drawn row by row, as in a stream; that of a band for one column after the other. */
 static void
-add_note(ss_header *head)
+add_noise(ss_noise *noise, ss_signal *signal, const double *level)
 {
-    char text[128], number[SS_NUMBER_MAX];
-    ss_number_format(number, isnan(rms) ? snr : rms);
-    snprintf(text, sizeof text, "%s %s%s, seed %ld", isnan(rms) ? "snr" : "rms", number,
-             isnan(rms) ? " dB" : "", seed);
-    tool_check(ss_header_note(head, "noise", text), NULL);
+    size_t n = signal->n, columns = signal->head->n_columns;
+    ss_error err = { "" };
+    if (isnan(band[0]))
+        ss_noise_add(noise, signal->values, n, 1, columns, n, level);
+    for (size_t c = 0; c < columns && !isnan(band[0]); c++)
+        if (level[c] > 0)
+            tool_check(ss_noise_add_band(noise, signal->values + c * n, n, signal->head->rate,
+                                         band[0], band[1], level[c], &err), &err);
 }
 
-/* The variance is known only from the whole record. */
+/* The variance and the frequencies of a band are known only from the whole record. */
 static void
-noise_whole(tool_kind kind, ss_noise *noise)
+change_whole(tool_kind kind, ss_noise *noise)
 {
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t n = signal->n, columns = signal->head->n_columns;
-    double *level = choose_columns(signal->head);
-    for (size_t c = 0; c < columns; c++) {
-        double *x = signal->values + c * n;
-        if (level[c] == 0)
-            continue;
-        if (isnan(rms))
-            level[c] = ss_noise_rms(x, n, snr);
-        if (level[c] == 0)
-            tool_warn("%s: column %s is constant: no noise added", tool_input_name(path),
-                      signal->head->column[c].name);
-        tool_note("column %s: noise of rms %g", signal->head->column[c].name, level[c]);
-    }
-    ss_noise_add(noise, signal->values, n, 1, columns, n, level);
-    add_note(signal->head);
+    double *chosen = choose_columns(signal->head), *level = choose_columns(signal->head);
+    for (size_t c = 0; c < columns; c++)
+        if (chosen[c] == 1)
+            level[c] = isnan(snr) && isnan(rms) ? 0
+                : find_level(signal->head, c, signal->values + c * n, n);
+    add_noise(noise, signal, level);
+    for (size_t c = 0; c < columns && bits > 0; c++)
+        if (chosen[c] == 1)
+            tool_check(ss_quantise(signal->values + c * n, n, (int)bits, range), NULL);
+    add_notes(signal->head);
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
+    free(chosen);
     free(level);
 }
 
 /* Row by row, in constant memory and as they come. */
 static void
-noise_stream(tool_kind kind, ss_noise *noise)
+change_stream(tool_kind kind, ss_noise *noise)
 {
     ss_reader *reader;
     ss_writer *writer;
@@ -91,8 +130,10 @@ noise_stream(tool_kind kind, ss_noise *noise)
     double *rows = head != NULL ? malloc(PIECE * head->n_columns * sizeof *rows) : NULL;
     if (rows == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    double *level = choose_columns(head);
-    add_note(head);
+    double *chosen = choose_columns(head), *level = choose_columns(head);
+    for (size_t c = 0; c < head->n_columns; c++)
+        level[c] *= isnan(rms) ? 0 : rms;
+    add_notes(head);
     tool_check(ss_writer_new(&writer, tool_output(output), kind == TOOL_AU ? SS_AU : SS_TSV, head),
                NULL);
     for (;;) {
@@ -100,6 +141,9 @@ noise_stream(tool_kind kind, ss_noise *noise)
         if (n == 0)
             break;
         ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level);
+        for (size_t i = 0; i < n * head->n_columns && bits > 0; i++)
+            if (chosen[i % head->n_columns] == 1)
+                tool_check(ss_quantise(&rows[i], 1, (int)bits, range), NULL);
         tool_check(ss_writer_rows(writer, rows, n), NULL);
         tool_check(ss_writer_flush(writer), NULL);
     }
@@ -108,6 +152,7 @@ noise_stream(tool_kind kind, ss_noise *noise)
     ss_reader_free(reader);
     free(rows);
     free(level);
+    free(chosen);
 }
 
 int
@@ -115,6 +160,9 @@ main(int argc, char *argv[])
 {
     static const struct option longopts[] = {
         { "snr", required_argument, NULL, OPT_SNR }, { "rms", required_argument, NULL, OPT_RMS },
+        { "band", required_argument, NULL, OPT_BAND },
+        { "bits", required_argument, NULL, OPT_BITS },
+        { "range", required_argument, NULL, OPT_RANGE },
         { "seed", required_argument, NULL, OPT_SEED }, { "column", required_argument, NULL, 'c' },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     tool_kind kind = TOOL_TSV;
@@ -128,21 +176,31 @@ main(int argc, char *argv[])
         switch (c) {
         case OPT_SNR: snr = tool_number("--snr", optarg, -1000, 1000); break;
         case OPT_RMS: rms = tool_number("--rms", optarg, 0, DBL_MAX); break;
+        case OPT_BAND: tool_pair("--band", optarg, "LO:HI", 0, DBL_MAX, band); break;
+        case OPT_BITS: bits = tool_integer("--bits", optarg, 1, SS_BITS_MAX); break;
+        case OPT_RANGE: range = tool_number("--range", optarg, DBL_MIN * 0x1p60, DBL_MAX); break;
         case OPT_SEED: seed = tool_integer("--seed", optarg, 0, 0x7fffffff); break;
         case 'c': wanted[n_wanted++] = optarg; break;
         case 'o': output = optarg; break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
         default: tool_option(c);
         }
-    if (isnan(snr) == isnan(rms))
-        tool_usage("one of --snr and --rms is needed");
+    int noisy = !isnan(snr) || !isnan(rms);
+    if (!isnan(snr) && !isnan(rms))
+        tool_usage("--snr and --rms exclude each other");
+    if (!noisy && bits == 0)
+        tool_usage("one of --snr, --rms and --bits is needed");
+    if (!noisy && !isnan(band[0]))
+        tool_usage("--band needs --snr or --rms");
+    if ((bits > 0) == isnan(range))
+        tool_usage("--bits and --range need each other");
     path = tool_input(argc, argv, optind);
     kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
-    if (isnan(rms) || kind == TOOL_H5 || tool_is_hdf5(path))
-        noise_whole(kind, noise);
+    if (!isnan(snr) || !isnan(band[0]) || kind == TOOL_H5 || tool_is_hdf5(path))
+        change_whole(kind, noise);
     else
-        noise_stream(kind, noise);
+        change_stream(kind, noise);
     ss_noise_free(noise);
     free(wanted);
     tool_end();

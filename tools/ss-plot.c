@@ -3,18 +3,24 @@
 
 #include <float.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char usage[] =
 "usage: ss-plot [options] [FILE[:/dataset]] | gnuplot -p\n"
-"Draw a signal: one panel a column over time, or one column over another.\n"
+"Draw a signal: one panel a column over time, or one column over another; or a\n"
+"map of a sweep.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
+"      --map=X,Y,Z[,Z]  what ss-sweep wrote, over two keys: a column of few\n"
+"                       values as regions, another as lines of equal value\n"
+"      --line=FILE      a line over the map: x and y in rows\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
 "  -r, --rate=HZ        input without a clock: the sample rate\n"
+"      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
@@ -22,7 +28,7 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { OPT_XY = TOOL_OPT_FIRST, OPT_TITLE, OPT_FROM, OPT_TO };
+enum { OPT_XY = TOOL_OPT_FIRST, OPT_MAP, OPT_LINE, OPT_TITLE, OPT_FROM, OPT_TO };
 
 typedef struct drawing {
     const ss_signal *signal;
@@ -51,17 +57,110 @@ cut_pair(char *pair, const char *name[2])
     name[1] = comma + 1;
 }
 
+/* --- maps ---------------------------------------------------------------------------------- */
+
+typedef struct map_drawing {
+    ss_sweep_table *table;
+    ss_map_opts map;
+} map_drawing;
+
+static size_t
+find_column(const ss_sweep_table *t, const char *path, const char *name, size_t length)
+{
+    char list[512] = "";
+    for (size_t i = 0; i < t->n_columns; i++) {
+        if (strlen(t->name[i]) == length && strncmp(t->name[i], name, length) == 0)
+            return i;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
+                 t->name[i]);
+    }
+    tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, name, list);
+}
+
+static void
+check_map(const char *names)
+{
+    size_t commas = 0;
+    for (const char *p = names; *p != '\0'; p++)
+        commas += *p == ',';
+    if (commas < 2 || commas > 3)
+        tool_usage("--map: '%s' is not X,Y,Z or X,Y,Z,Z", names);
+}
+
+static void
+find_columns(map_drawing *d, const char *path, const char *names)
+{
+    size_t *column[] = { &d->map.x, &d->map.y, &d->map.z[0], &d->map.z[1] };
+    for (size_t i = 0; *names != '\0'; i++) {
+        size_t length = strcspn(names, ",");
+        *column[i] = find_column(d->table, path, names, length);
+        d->map.n_z = i < 2 ? 0 : i - 1;
+        names += length + (names[length] == ',');
+    }
+}
+
+/* Rows of x and y; any other row breaks the line. */
+static double *
+read_line(const char *path, size_t *n)
+{
+    FILE *in = tool_open(path);
+    char text[512], *end, *rest;
+    double *line = NULL;
+    for (size_t room = 0; fgets(text, sizeof text, in) != NULL; ++*n) {
+        if (*n == room && (line = realloc(line, (room = 2 * room + 64) * 2 * sizeof *line)) == NULL)
+            tool_die("%s", ss_strerror(SS_ENOMEM));
+        double x = ss_number_parse(text, &end), y = ss_number_parse(end, &rest);
+        line[2 * *n] = end > text && rest > end ? x : NAN;
+        line[2 * *n + 1] = y;
+    }
+    if (ferror(in))
+        tool_die("%s: read error", path);
+    fclose(in);
+    return line;
+}
+
+static ss_status
+write_map(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+{
+    const map_drawing *d = user;
+    return ss_plot_map(out, d->table, &d->map, opts, err);
+}
+
+static void
+draw_map(const char *path, const char *names, const char *line, const char *output,
+         ss_plot_opts *opts)
+{
+    map_drawing d = { NULL, { 0 } };
+    ss_error err = { "" };
+    FILE *in = tool_open(path);
+    double *curve = line != NULL ? read_line(line, &d.map.n_curve) : NULL;
+    tool_check(ss_sweep_read(&d.table, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
+    find_columns(&d, path, names);
+    d.map.curve = curve;
+    tool_note("%s: %zu points", tool_input_name(path), d.table->n);
+    tool_draw(output, opts, write_map, &d);
+    ss_sweep_table_free(d.table);
+    free(curve);
+}
+
+/* ------------------------------------------------------------------------------------------- */
+
 int
 main(int argc, char *argv[])
 {
     static const struct option longopts[] = {
         { "column", required_argument, NULL, 'c' }, { "xy", required_argument, NULL, OPT_XY },
+        { "map", required_argument, NULL, OPT_MAP }, { "line", required_argument, NULL, OPT_LINE },
         { "title", required_argument, NULL, OPT_TITLE },
+        { "style", required_argument, NULL, TOOL_OPT_STYLE },
         { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
         { "rate", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
-    ss_read_opts read_opts = { NULL, 0 };
-    const char *output = NULL, **name = malloc(((size_t)argc + 2) * sizeof *name);
+    ss_read_opts read_opts = { .rate = 0 };
+    const char *output = NULL, *map = NULL, *line = NULL;
+    const char **name = malloc(((size_t)argc + 2) * sizeof *name);
     drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
 
     tool_begin(argv, "ss-plot", usage);
@@ -75,7 +174,10 @@ main(int argc, char *argv[])
         switch (c) {
         case 'c': name[d.n++] = optarg; break;
         case OPT_XY: cut_pair(optarg, name); d.n = 2; break;
+        case OPT_MAP: map = optarg; break;
+        case OPT_LINE: line = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
+        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
         case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
         case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'r': read_opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;
@@ -87,6 +189,18 @@ main(int argc, char *argv[])
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
     if (opts.from >= opts.to)
         tool_usage("--from does not lie before --to");
+    if (map != NULL && (d.xy || d.n > 0 || !isnan(opts.from) || !isnan(opts.to)))
+        tool_usage("--map stands alone: --xy, --column, --from and --to are for signals");
+    if (line != NULL && map == NULL)
+        tool_usage("--line is drawn over a --map");
+    if (map != NULL) {
+        check_map(map);
+        draw_map(path, map, line, output, &opts);
+        free(d.column);
+        free(name);
+        tool_end();
+        return 0;
+    }
     ss_signal *signal = tool_read_signal(path, &read_opts);
     d.signal = signal;
     for (size_t i = 0; i < d.n; i++)

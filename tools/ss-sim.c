@@ -13,7 +13,8 @@ static const char usage[] =
 "  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
 "  -c, --columns LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
-"  -m, --method NAME     a GSL step type (default rk8pd), or exact: closed form\n"
+"  -m, --method NAME     a GSL step type, or exact: closed form (default rk8pd;\n"
+"                        bsimp where friction with a state is stiff)\n"
 "  -t, --tol TOL         relative local error a step (default 1e-12)\n"
 "  -a, --accuracy TOL    global error of x over max|x| instead: finds --tol and,\n"
 "                        if none is given, --method\n"
@@ -163,8 +164,11 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         tool_note("accuracy %g: method %s, tol %g", accuracy, opts->method, opts->tol);
         return;
     }
-    if (opts->method == NULL)
-        opts->method = ss_sim_defaults.method;
+    if (opts->method == NULL) {
+        opts->method = ss_sim_method_for(scene);
+        tool_note("method %s: %s", opts->method, strcmp(opts->method, "rk8pd") == 0 ? "the default"
+                  : "implicit, as the friction of this scene is stiff");
+    }
     if (opts->tol == 0)
         opts->tol = ss_sim_defaults.tol;
 }
@@ -281,6 +285,9 @@ main(int argc, char *argv[])
     tool_check(st, &err);
     tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req.opts.method,
               req.opts.tol, stats.steps, stats.rhs, stats.events);
+    if (stats.unresolved > 0 && req.accuracy == 0)     /* else the events have been counted twice */
+        tool_warn("%lu slips and touches of the limit are smaller than the error of x: x is right, "
+                  "their number and times are not resolved", stats.unresolved);
     finish(&o, scene.model != SS_STATE_VARIABLE);
     free(req.settings);
     tool_end();

@@ -4,7 +4,9 @@
 
 #include <stddef.h>
 #include <stickslip/status.h>
+#include <stickslip/signal.h>
 #include <stickslip/morlet.h>
+#include <stickslip/spikes.h>
 
 SS_BEGIN_DECLARATIONS
 
@@ -32,6 +34,65 @@ ss_status ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coeffici
  * reach this high.  f is the same for all. */
 ss_status ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
                     double range, double min_prominence);
+
+/* --- transitions --------------------------------------------------------------------------- */
+
+/* A number and its standard error; NaN where it is not known. */
+typedef struct ss_value {
+    double value, error;
+} ss_value;
+
+/* All that happens between one macroscopic slip and the next; times [s] from the first sample. */
+typedef struct ss_transition {
+    double onset, end;
+    size_t spikes;              /* jumps and kinks from onset to end */
+    ss_maximum maximum;         /* its local maximum; all NaN: none above the threshold */
+    ss_value frequency;         /* fitted to this transition alone, damped, omega / 2 pi [Hz]; NaN
+                                   where less than two periods could be fitted, as with damping_ratio */
+    ss_value damping_ratio;     /* s / sqrt(omega^2 + s^2) */
+    double from, to;            /* the span fitted [s], NaN if none was */
+} ss_transition;
+
+typedef struct ss_features {
+    size_t n;
+    ss_transition *transition;  /* in time order */
+    size_t n_maxima;
+    ss_maximum *maximum;        /* all local maxima above the threshold, in time order */
+    ss_spikes_found *spikes;    /* of the whole record; none of it is claimed unless conclusive */
+    double noise;               /* rms of white noise of the level at the shortest scales */
+    size_t recurring;           /* transitions that have a local maximum */
+
+    size_t slips;               /* macroscopic slips that begin in the record: the ends of transitions */
+    ss_value slip_rate;         /* [1/s] */
+    ss_value forcing_frequency; /* [Hz] at which the signal repeats itself */
+    ss_value frequency_raw;     /* [Hz] the paper's reading: label of the local maxima */
+    ss_value frequency;         /* [Hz] damped, one for all transitions */
+    ss_value damping_ratio;
+    ss_value total_stiffness_raw, total_stiffness;      /* [N/m] with a mass */
+    ss_value contact_stiffness, contact_damping;        /* [N/m, N s/m] with mass and stiffness; the
+                                                           damping needs the mass only */
+    ss_value contact_slope;     /* [N/m] |df/dx| in the stick, with columns of force and displacement */
+} ss_features;
+
+typedef struct ss_features_opts {
+    double threshold;           /* [dB] > 0: prominence that makes a local maximum */
+    ss_norm norm;               /* in which it is taken */
+    double mass, stiffness;     /* m [kg], k [N/m]; 0: not known */
+    double drop;                /* > 0: transitions are the falls by more than this (ss_find_drops) */
+    double fmin;                /* [Hz] lowest frequency of the map; 0: the lowest usable one */
+    int displacement, force;    /* columns for contact_slope; -1: not there */
+    int threads;                /* 1 ... SS_THREADS_MAX */
+} ss_features_opts;
+extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no columns, one thread */
+
+/* Find the transitions of one column, whose values must be finite, and what they have in common.
+ * Where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
+ * onset of the oscillation to the last spike within a period of its end.  Else strong spikes begin
+ * transitions, and weaker ones end them; else there are the single events of ss_find_bursts.  A record too short for any scale, or with nothing in it, has none: SS_OK.  opts may be NULL.  To
+ * be freed with ss_features_free. */
+ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
+                           const ss_features_opts *opts, ss_error *err);
+void ss_features_free(ss_features *features);           /* NULL is allowed */
 
 SS_END_DECLARATIONS
 #endif

@@ -126,6 +126,8 @@ typedef struct ss_coefficients {
     size_t n_scales;            /* > 0 */
     ss_scale *scale;            /* long to short; each has n > 0 */
     double *w;                  /* re, im */
+    ss_span *gap;               /* where others stand in for samples, from head's note, or NULL */
+    size_t n_gaps;
 } ss_coefficients;
 
 /* The simple case: transform one column of a signal. */
@@ -134,6 +136,9 @@ ss_status ss_transform(ss_coefficients **out, const ss_signal *signal, size_t co
 ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out);
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
 void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
+
+/* 1 inside the cone of influence, and as near to a gap or in it, else 0: translation k of scale i. */
+int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k);
 
 /* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */
 double ss_coefficients_max(const ss_coefficients *coefficients);

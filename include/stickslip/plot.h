@@ -8,9 +8,15 @@
 #include <stickslip/status.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
+#include <stickslip/sweep.h>
 #include <stickslip/trade.h>
 
 SS_BEGIN_DECLARATIONS
+
+typedef enum ss_plot_style {
+    SS_PAPER,                   /* as wide as a journal's column, 8.5 cm, with letters of 6 points */
+    SS_SCREEN                   /* 1.5 times as wide and high with letters of that size: more room */
+} ss_plot_style;
 
 typedef struct ss_plot_opts {
     const char *output;         /* the picture's file, .png, .svg or .pdf; NULL: none is named, the
@@ -18,6 +24,7 @@ typedef struct ss_plot_opts {
     const char *format;         /* "png", "svg", "pdf"; NULL: from output's ending */
     const char *title;          /* NULL: from the notes (scene, model); "": none */
     double from, to;            /* [s] on the source's clock, the span drawn; NaN: all of it */
+    ss_plot_style style;
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;
 
@@ -28,6 +35,14 @@ ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
+/* What was read from a signal, to be drawn over its contours; times on the source's clock [s]. */
+typedef struct ss_overlay {
+    size_t n_spans, n_maxima, n_spikes;
+    double (*span)[2];          /* onset and end of a transition: a bar along the bottom */
+    double (*maximum)[2];       /* time and label [Hz] of a local maximum: a ring */
+    double *spike;              /* a mark along the top */
+} ss_overlay;
+
 typedef struct ss_contour_opts {
     int levels;                 /* contour lines  1 ... 100 */
     double span;                /* [dB] that they span below the largest |W|  > 0 */
@@ -35,6 +50,7 @@ typedef struct ss_contour_opts {
     size_t column;              /* of that signal */
     const double *event;        /* [s] on the source's clock, marked by vertical lines, or NULL */
     size_t n_events;
+    const ss_overlay *overlay;  /* or NULL */
 } ss_contour_opts;
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
 
@@ -45,6 +61,18 @@ ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
 /* The work-precision diagram: worst error of x over CPU time as a multiple of the fastest row's, both
  * logarithmic, one line a method, the frontier ringed.  opts->from and to do not apply. */
 ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err);
+
+typedef struct ss_map_opts {
+    size_t x, y;                /* columns of the table that make a grid */
+    size_t z[2], n_z;           /* one or two that are drawn over it */
+    const double *curve;        /* x, y, x, y, ... of a line over all, NaN where it breaks; NULL */
+    size_t n_curve;             /* points */
+} ss_map_opts;
+
+/* A map of a sweep over two parameters: a column of at most ten different values as regions, any other
+ * as lines of equal value.  opts->from and to do not apply. */
+ss_status ss_plot_map(FILE *out, const ss_sweep_table *table, const ss_map_opts *map,
+                      const ss_plot_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -66,6 +66,24 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 /* Write every key that the model has, one a line, in the fewest digits that read back the same. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 
+/* The number of a scene that a key names, and its unit unless that is NULL; NULL if the scene's model
+ * has no such number, and err says so. */
+double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
+
+/* The ranges over which scenes are supported: there results are tested.  What lies outside is tried
+ * all the same. */
+typedef struct ss_scene_range {
+    const char *name, *unit;    /* "Omega/omega_n"; X is the largest of Z_e, |x0|, |v0|/omega_n */
+    unsigned models;            /* bits 1 << ss_model of those that it concerns */
+    double from, to;
+    int zero;                   /* 1: or 0 */
+    double (*value)(const ss_scene *scene);     /* NaN where it means nothing */
+} ss_scene_range;
+extern const ss_scene_range ss_scene_ranges[];      /* ends with a NULL name */
+
+/* SS_OK if a scene that has passed ss_scene_check lies within them, else SS_EINVAL. */
+ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
+
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
 

@@ -26,14 +26,15 @@ typedef struct ss_header {
     char **note;                /* "key: value" lines of the source, passed on; never rate, start, columns */
 } ss_header;
 
-/* Build a header: every string is copied.  NULL if there is no memory. */
+/* Build a header: every string is copied, one that is no valid UTF-8 as if it were Latin-1.  NULL if
+ * there is no memory. */
 ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
 ss_header *ss_header_copy(const ss_header *head);
 /* Append a column.  Blanks and slashes in its name become "_", and a name that is there already
  * gets "_2", "_3", ... behind it; unit may be NULL or "".  SS_EINVAL: no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
 /* Append a note; one with a key that is there already replaces it.  Newlines become blanks.
- * SS_EINVAL: the key is rate, start, columns or empty, or has a colon in it. */
+ * SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or has a colon in it. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
@@ -52,13 +53,37 @@ ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t 
 
 /* --- reading ------------------------------------------------------------------------------- */
 
+/* Samples that a recording lacks: cells that are empty or hold no finite number, and rows that a
+ * jump of the time stamps shows to be missing. */
+typedef enum ss_gaps {
+    SS_GAPS_REFUSE,             /* are an error */
+    SS_GAPS_SPLIT,              /* are 0, as the signal is outside its record */
+    SS_GAPS_INTERPOLATE         /* lie on the line between their neighbours */
+} ss_gaps;
+
+/* All zeros are the defaults. */
 typedef struct ss_read_opts {
     const char *time;           /* delimited text: column of time by name or number; NULL: found by
                                    its name (t, time, ...), or the first column if its unit is one of
                                    time, or if no column has a name and it ascends uniformly */
     double rate;                /* [Hz] for input without a clock; 0: the input must have one.  With
                                    delimited text the first row is then at 0, whatever its columns */
+    ss_gaps gaps;               /* delimited text and arrays in HDF5; where they are filled the header
+                                   gets a note, see ss_header_gaps */
+    double resample;            /* [Hz] delimited text: stamps of any spacing to a clock of this rate,
+                                   by cubic splines; 0: the stamps must be uniform */
 } ss_read_opts;
+
+/* A time from ... to before to, on the source's clock [s]. */
+typedef struct ss_span {
+    double from, to;
+} ss_span;
+
+/* Where samples were missing, in time order: the note "gaps: from:to from:to ...", from the first
+ * sample missing to the first that is there again.  *out is to be freed with free(). */
+ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
+/* 1 if t lies in one of the n gaps, in time order, or nearer than margin to one, else 0. */
+int ss_near_gap(const ss_span *gap, size_t n, double t, double margin);
 
 typedef struct ss_reader ss_reader;
 
@@ -111,6 +136,10 @@ void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flu
 
 ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format);
 
+/* A copy at another rate [Hz], by the cubic spline through each column: what lies above half the new
+ * rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate. */
+ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate);
+
 /* --- making and changing ------------------------------------------------------------------- */
 
 typedef enum ss_wave {
@@ -147,9 +176,19 @@ typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
 void ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
+/* Noise of the frequencies lo to hi [Hz] only, 0 <= lo <= hi <= rate / 2, to n samples of one column;
+ * the rms of what is added is rms.  SS_EINVAL if the record has no frequency in the band. */
+ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
+                            double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
+
+/* What a converter of so many bits makes of x, whose input spans -range to range: multiples of the
+ * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
+ * below range.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
+enum { SS_BITS_MAX = 52 };
+ss_status ss_quantise(double *x, size_t n, int bits, double range);
 
 /* --- numbers ------------------------------------------------------------------------------- */
 

@@ -43,7 +43,7 @@ typedef int ss_event_sink(const ss_event *e, void *user);
 typedef int ss_progress(double done, void *user);
 
 typedef struct ss_sim_opts {
-    const char *method;         /* one of ss_sim_method_name */
+    const char *method;         /* one of ss_sim_method_name; NULL: ss_sim_method_for the scene */
     double tol;                 /* relative local error a step, 1e-14 ... 1e-1 */
     unsigned long max_steps;    /* 0: as many as it takes */
     ss_sample_sink *samples;
@@ -51,12 +51,16 @@ typedef struct ss_sim_opts {
     ss_progress *progress;
     void *user;                 /* handed to all three, any of which may be NULL */
 } ss_sim_opts;
-extern const ss_sim_opts ss_sim_defaults;       /* rk8pd at 1e-12, no sinks */
+extern const ss_sim_opts ss_sim_defaults;       /* the scene's method at 1e-12, no sinks */
 
 typedef struct ss_sim_stats {   /* what a run cost, from the start of settling */
     unsigned long steps;        /* accepted integration steps */
     unsigned long rhs;          /* evaluations of the right-hand side */
     unsigned long events;       /* before the record too */
+    unsigned long unresolved;   /* micro-events within what the tolerance, or the closed form's rounding,
+                                   leaves of x in a step: slips no longer than that, and contacts that
+                                   only touched their limit.  x is right, to its accuracy; the number
+                                   and the times of such events are not */
 } ss_sim_stats;
 
 /* Simulate the scene from the start of settling to the end of the record, in constant memory.
@@ -87,6 +91,9 @@ ss_status ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err);
 
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
+/* rk8pd, or bsimp, an implicit method, where a state-variable scene is so stiff that this is the
+ * cheaper one.  The scene must have passed ss_scene_check. */
+const char *ss_sim_method_for(const ss_scene *scene);
 
 SS_END_DECLARATIONS
 #endif

@@ -10,34 +10,33 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <stickslip/features.h>
+#include <string.h>
+#include "maxima.h"
 
 #define NONE SIZE_MAX
 
 typedef struct point {
-    double level;               /* |W|, > 0 */
-    size_t row, k;
+    uint64_t key;               /* |W|, > 0, as its bits, which are ordered as the numbers are */
+    size_t at;                  /* the coefficient, counted from the first row's first */
 } point;
 
 typedef struct map {
     const ss_coefficients *coef;
     size_t first, last;         /* rows looked at */
+    double floor;               /* lower levels are not looked at; 0: all are */
     size_t n;                   /* points, highest first */
     point *point;
-    size_t *rank;               /* of a coefficient among the points, NONE if it is none of them */
-    size_t *pool;               /* of a point: towards its pool's peak, which is its own; NONE: dry */
+    size_t *pool;               /* of a coefficient: towards its pool's peak, which is its own; NONE: dry */
+    size_t *rank;               /* of a peak among the points */
     double *saddle;             /* of a peak: the level where its pool ended, 0 if it did not */
 } map;
 
-static int
-higher_first(const void *a, const void *b)
+static double
+level_of(uint64_t key)
 {
-    const point *p = a, *q = b;
-    if (p->level != q->level)
-        return p->level < q->level ? 1 : -1;
-    if (p->row != q->row)
-        return p->row > q->row ? 1 : -1;
-    return (p->k > q->k) - (p->k < q->k);
+    double level;
+    memcpy(&level, &key, sizeof level);
+    return level;
 }
 
 static size_t
@@ -46,42 +45,92 @@ index_of(const map *m, size_t row, size_t k)
     return m->coef->scale[row].offset - m->coef->scale[m->first].offset + k;
 }
 
+static size_t
+row_of(const map *m, size_t at)
+{
+    size_t low = m->first, high = m->last;
+    while (low < high) {
+        size_t mid = high - (high - low) / 2;
+        if (index_of(m, mid, 0) <= at)
+            low = mid;
+        else
+            high = mid - 1;
+    }
+    return low;
+}
+
 static void
 map_free(map *m)
 {
     free(m->point);
-    free(m->rank);
     free(m->pool);
+    free(m->rank);
     free(m->saddle);
 }
 
-static ss_status
-map_new(map *m, const ss_coefficients *coef, size_t first, size_t last)
+/* Highest first, equals as they stand, by counting digits from the lowest to the highest; sorted
+ * into *from, with room for as many in *to. */
+static void
+sort_points(point **from, point **to, size_t n)
 {
-    *m = (map){ .coef = coef, .first = first, .last = last };
+    enum { BITS = 11, DIGITS = 1 << BITS };
+    static const uint64_t mask = DIGITS - 1;
+    for (int shift = 0; shift < 64; shift += BITS) {
+        size_t place[DIGITS] = { 0 }, sum = 0;
+        for (size_t i = 0; i < n; i++)
+            place[(*from)[i].key >> shift & mask]++;
+        for (size_t d = DIGITS; d-- > 0;) {
+            size_t count = place[d];
+            place[d] = sum;
+            sum += count;
+        }
+        for (size_t i = 0; i < n; i++)
+            (*to)[place[(*from)[i].key >> shift & mask]++] = (*from)[i];
+        point *swap = *from;
+        *from = *to;
+        *to = swap;
+    }
+}
+
+static void
+take_points(map *m)
+{
+    for (size_t row = m->first; row <= m->last; row++) {
+        const ss_scale *scale = &m->coef->scale[row];
+        for (size_t k = 0; k < scale->n; k++) {
+            const double *w = m->coef->w + 2 * (scale->offset + k);
+            point p = { .at = index_of(m, row, k) };
+            double level = hypot(w[0], w[1]);
+            if (!(level > m->floor) || ss_coefficients_edge(m->coef, row, k))
+                continue;
+            memcpy(&p.key, &level, sizeof level);
+            m->point[m->n++] = p;
+        }
+    }
+}
+
+static ss_status
+map_new(map *m, const ss_coefficients *coef, size_t first, size_t last, double floor)
+{
+    *m = (map){ .coef = coef, .first = first, .last = last, .floor = floor };
     size_t room = index_of(m, last, coef->scale[last].n) + 1;
+    point *other = malloc(room * sizeof *other);
     m->point = malloc(room * sizeof *m->point);
-    m->rank = malloc(room * sizeof *m->rank);
+    if (other != NULL && m->point != NULL) {
+        take_points(m);
+        sort_points(&m->point, &other, m->n);
+    }
+    free(other);
     m->pool = malloc(room * sizeof *m->pool);
+    m->rank = malloc(room * sizeof *m->rank);
     m->saddle = calloc(room, sizeof *m->saddle);
-    if (m->point == NULL || m->rank == NULL || m->pool == NULL || m->saddle == NULL) {
+    if (other == NULL || m->point == NULL || m->pool == NULL || m->rank == NULL
+        || m->saddle == NULL) {
         map_free(m);
         return SS_ENOMEM;
     }
     for (size_t i = 0; i < room; i++)
-        m->rank[i] = m->pool[i] = NONE;
-    for (size_t row = first; row <= last; row++) {
-        const ss_scale *scale = &coef->scale[row];
-        for (size_t k = 0; k < scale->n; k++) {
-            const double *w = coef->w + 2 * (scale->offset + k);
-            double level = hypot(w[0], w[1]);
-            if (level > 0 && !ss_scale_edge(scale, k, coef->n, coef->head->rate))
-                m->point[m->n++] = (point){ level, row, k };
-        }
-    }
-    qsort(m->point, m->n, sizeof *m->point, higher_first);
-    for (size_t i = 0; i < m->n; i++)
-        m->rank[index_of(m, m->point[i].row, m->point[i].k)] = i;
+        m->pool[i] = NONE;
     return SS_OK;
 }
 
@@ -98,17 +147,17 @@ peak_of(map *m, size_t i)
 
 /* Let the pools of i and of the coefficient (row, k) meet at i, if both are wet. */
 static void
-meet(map *m, size_t i, size_t row, size_t k)
+meet(map *m, size_t i, double level, size_t row, size_t k)
 {
-    size_t j = m->rank[index_of(m, row, k)];
-    if (j == NONE || m->pool[j] == NONE)
+    size_t j = index_of(m, row, k);
+    if (m->pool[j] == NONE)
         return;
     size_t p = peak_of(m, i), q = peak_of(m, j);
     if (p == q)
         return;
-    size_t low = p > q ? p : q, high = p > q ? q : p;
+    size_t low = m->rank[p] > m->rank[q] ? p : q, high = low == p ? q : p;
     m->pool[low] = high;
-    m->saddle[low] = m->point[i].level;
+    m->saddle[low] = level;
 }
 
 /* The translation of scale nearest to time t. */
@@ -121,44 +170,43 @@ nearest(const ss_scale *scale, double t)
 
 /* Neighbours in another row: the nearest there, and those whose nearest here this one is. */
 static void
-meet_row(map *m, size_t i, size_t row)
+meet_row(map *m, size_t i, double level, size_t mine, size_t k, size_t row)
 {
-    const ss_scale *here = &m->coef->scale[m->point[i].row], *there = &m->coef->scale[row];
-    size_t k = m->point[i].k, at = nearest(there, ss_scale_b(here, k));
-    meet(m, i, row, at);
+    const ss_scale *here = &m->coef->scale[mine], *there = &m->coef->scale[row];
+    size_t at = nearest(there, ss_scale_b(here, k));
+    meet(m, i, level, row, at);
     for (size_t j = at; j > 0 && nearest(here, ss_scale_b(there, j - 1)) == k; j--)
-        meet(m, i, row, j - 1);
+        meet(m, i, level, row, j - 1);
     for (size_t j = at + 1; j < there->n && nearest(here, ss_scale_b(there, j)) == k; j++)
-        meet(m, i, row, j);
+        meet(m, i, level, row, j);
 }
 
 static void
 flood(map *m)
 {
     for (size_t i = 0; i < m->n; i++) {
-        size_t row = m->point[i].row, k = m->point[i].k;
-        m->pool[i] = i;
+        size_t at = m->point[i].at, row = row_of(m, at), k = at - index_of(m, row, 0);
+        double level = level_of(m->point[i].key);
+        m->pool[at] = at;
+        m->rank[at] = i;
         if (k > 0)
-            meet(m, i, row, k - 1);
+            meet(m, at, level, row, k - 1);
         if (k + 1 < m->coef->scale[row].n)
-            meet(m, i, row, k + 1);
+            meet(m, at, level, row, k + 1);
         if (row > m->first)
-            meet_row(m, i, row - 1);
+            meet_row(m, at, level, row, k, row - 1);
         if (row < m->last)
-            meet_row(m, i, row + 1);
+            meet_row(m, at, level, row, k, row + 1);
     }
 }
 
 static int
-on_border(const map *m, size_t i)
+on_border(const map *m, size_t row, size_t k)
 {
-    size_t row = m->point[i].row, k = m->point[i].k;
-    const ss_scale *scale = &m->coef->scale[row];
-    double rate = m->coef->head->rate;
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == scale->n || ss_scale_edge(scale, k - 1, m->coef->n, rate)
-        || ss_scale_edge(scale, k + 1, m->coef->n, rate);
+    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k - 1)
+        || ss_coefficients_edge(m->coef, row, k + 1);
 }
 
 static int
@@ -178,15 +226,19 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
     if (peak == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < m->n; i++) {
-        const point *p = &m->point[i];
-        const ss_scale *scale = &m->coef->scale[p->row];
-        double fall = m->saddle[i] > 0 ? 20 * log10(p->level / m->saddle[i]) : INFINITY;
-        double level = 20 * log10(p->level / top);
+        size_t at = m->point[i].at;
+        double height = level_of(m->point[i].key), saddle = m->saddle[at];
+        if (m->pool[at] != at && !(saddle > 0))
+            continue;                   /* no peak */
+        size_t row = row_of(m, at), k = at - index_of(m, row, 0);
+        const ss_scale *scale = &m->coef->scale[row];
+        double below = saddle > 0 || i == 0 ? saddle : m->floor;    /* only the highest has no saddle */
+        double fall = below > 0 ? 20 * log10(height / below) : INFINITY;
+        double level = 20 * log10(height / top);
         if (count > 0 && level < peak[0].level - range)
             break;
-        if ((m->pool[i] == i || m->saddle[i] > 0) && fall > 0 && fall >= min_prominence
-            && !on_border(m, i))
-            peak[count++] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f, level, fall };
+        if (fall > 0 && fall >= min_prominence && !on_border(m, row, k))
+            peak[count++] = (ss_maximum){ ss_scale_b(scale, k), scale->f, level, fall };
     }
     qsort(peak, count, sizeof *peak, earlier_first);
     fitting = realloc(peak, (count + 1) * sizeof *peak);
@@ -196,16 +248,23 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
 }
 
 ss_status
-ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence)
+ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
+                double min_prominence, double floor)
 {
     map m;
-    ss_status st = map_new(&m, coefficients, 0, coefficients->n_scales - 1);
+    ss_status st = map_new(&m, coefficients, 0, coefficients->n_scales - 1, floor);
     if (st != SS_OK)
         return st;
     flood(&m);
-    st = report(out, n, &m, m.n > 0 ? m.point[0].level : 1, INFINITY, min_prominence);
+    st = report(out, n, &m, ss_coefficients_max(coefficients), INFINITY, min_prominence);
     map_free(&m);
     return st;
+}
+
+ss_status
+ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence)
+{
+    return ss_maxima_above(out, n, coefficients, min_prominence, 0);
 }
 
 ss_status
@@ -215,7 +274,7 @@ ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size
     map m;
     if (scale >= coefficients->n_scales)
         return SS_EINVAL;
-    ss_status st = map_new(&m, coefficients, scale, scale);
+    ss_status st = map_new(&m, coefficients, scale, scale, 0);
     if (st != SS_OK)
         return st;
     flood(&m);

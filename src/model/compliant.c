@@ -20,14 +20,27 @@ microstick(motion *m, double x, double y)
     m->c = s->contact_damping;
     m->x_ref = x - y;
     m->f0 = s->stiffness * m->x_ref;
+    m->slack = 0;
     m->q[0] = y;
     m->q[1] = 0;
+}
+
+/* Without friction there is nothing to stick to: the mass goes where it is pulled, or will be. */
+static int
+start_free(motion *m)
+{
+    double x = m->scene->x0, force = ss_motion_drive(m, m->u) - m->scene->stiffness * x;
+    int way = force != 0 ? sign(force) : -sign(m->drive * m->omega * sin(m->theta));
+    ss_linear_slip(m, x, 0, way != 0 ? way : 1);
+    return 1;
 }
 
 static int
 start(motion *m)
 {
     const ss_scene *s = m->scene;
+    if (s->v0 == 0 && s->friction == 0)
+        return start_free(m);
     if (s->v0 == 0) {
         microstick(m, s->x0, 0);
         return 0;
@@ -48,33 +61,45 @@ guard(const motion *m, const double q[], const double dqdt[], double *slope)
         ratio = 0;
     double force = q[0] + ratio * q[1];         /* in units of K_y */
     *slope = -sign(force) * (dqdt[0] + ratio * dqdt[1]);
-    return limit - fabs(force);
+    return limit + m->slack - fabs(force);
 }
 
-/* Whether a contact at its limit only touches it: it would turn round before it is m->graze beyond
- * (sim.c says how much that is).  An undamped contact comes back to its limit exactly, each period,
- * and whether it is then released would be the rounding's decision. */
-static int
-only_touches(const motion *m)
+/* How far beyond its limit a contact would go, v' as it is, before it turns round. */
+static double
+excess(const motion *m)
 {
-    const ss_scene *s = m->scene;
     double rate[MAX_DIM], v = m->q[1];
     ss_linear_rates(m, ss_motion_drive(m, m->u), m->q, rate);
+    if (!(rate[1] * sign(m->q[0]) < 0))
+        return INFINITY;
+    return fabs(m->q[0]) - deflection_limit(m) + v / (2 * fabs(rate[1])) * v;  /* v^2 may underflow */
+}
+
+/* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most (sim.c says
+ * how much that is).  An undamped contact comes back to its limit exactly, each period, and whether
+ * it is then released would be the rounding's decision.  What it is beyond is taken as such and
+ * subtracted; stopping it at the limit would turn an error of d into one of sqrt(d). */
+static int
+only_touches(motion *m)
+{
+    const ss_scene *s = m->scene;
     if (s->release == SS_RELEASE_TOTAL && s->contact_damping > 0)
         return 0;
-    return rate[1] * sign(m->q[0]) < 0
-        && v * v <= 2 * fabs(rate[1]) * m->graze;
+    double beyond = excess(m);
+    if (!(beyond <= m->slack + m->graze))
+        return 0;
+    m->q[0] -= sign(m->q[0]) * beyond;
+    m->slack = m->graze;                /* it passes its peak without being asked again */
+    m->unresolved++;
+    return 1;
 }
 
 static int
 next(motion *m, ss_event *e)
 {
     double x = m->x_ref + m->q[0], v = m->q[1];
-    if (m->mode == 0 && only_touches(m)) {
-        m->q[0] = sign(m->q[0]) * deflection_limit(m);
-        m->q[1] = 0;
+    if (m->mode == 0 && only_touches(m))
         return 0;
-    }
     if (m->mode == 0) {
         ss_linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;

@@ -20,6 +20,10 @@ typedef struct motion {
     double phase;                   /* of the scene, reduced to [-pi, pi] */
     double x_scale;                 /* what x is measured by: absolute tolerances are tol times it */
     double graze;                   /* a contact this far beyond its limit only touches it [m] */
+    double slack;                   /* graze once it has in this microstick, else 0 */
+    double doubt;                   /* what tolerance or rounding leaves of x in a step [m] */
+    double x_begin;                 /* where the mode began */
+    unsigned long unresolved;       /* touches, and slips over no more than the doubt */
 
     int mode;
     double k, c, f0;                /* of the mode, see above */
@@ -38,6 +42,13 @@ struct model {
     /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s], and
      * what it is in the words of a diagnosis; what may be NULL. */
     double (*fastest)(const motion *m, const char **what);
+    /* What the tolerance may shorten steps for beyond that [rad/s]; NULL if nothing. */
+    double (*quickest)(const ss_scene *scene);
+    /* The longest step from the present state whose error an integrator can still judge; NULL if
+     * fastest says it all. */
+    double (*sight)(const motion *m, const double dqdt[]);
+    /* 1 if an implicit method is the cheaper one; NULL if that cannot be. */
+    int (*stiff)(const ss_scene *scene);
     /* The state's rate of change under the force of the base. */
     void (*rates)(const motion *m, double drive, const double q[], double dqdt[]);
     /* Its derivatives by the state (row after row) and by time. */

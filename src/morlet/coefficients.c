@@ -3,13 +3,13 @@
  * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the
  * grid and holds each row against it: a row that is missing, doubled or out of place is found.
  * Rows of different scales may come in any order, those of one scale with b ascending. */
-#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
 #include "morlet/plan.h"
+#include "signal/stream.h"
 
 static const char magic[] = "# stickslip coefficients 1";
 static const char columns[] = "# columns: m a/s b/s f/Hz re im edge";
@@ -27,7 +27,21 @@ ss_coefficients_free(ss_coefficients *coefficients)
     ss_header_free(coefficients->head);
     free(coefficients->scale);
     free(coefficients->w);
+    free(coefficients->gap);
     free(coefficients);
+}
+
+static int
+is_edge(const ss_coefficients *c, const ss_scale *scale, size_t k)
+{
+    return ss_scale_edge(scale, k, c->n, c->head->rate)
+        || ss_near_gap(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
+}
+
+int
+ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k)
+{
+    return is_edge(coefficients, &coefficients->scale[i], k);
 }
 
 double
@@ -40,8 +54,7 @@ ss_coefficients_max(const ss_coefficients *coefficients)
         for (size_t k = 0; k < scale->n; k++) {
             double level = hypot(w[2 * k], w[2 * k + 1]);
             all = fmax(all, level);
-            if (level > outside
-                && !ss_scale_edge(scale, k, coefficients->n, coefficients->head->rate))
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k))
                 outside = level;
         }
     }
@@ -81,7 +94,8 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
      const ss_morlet_opts *opts, ss_error *err)
 {
     ss_status st = ss_header_select(&coef->head, signal->head, &column, 1, 0);
-    if (st != SS_OK || (st = note_options(coef->head, signal, column, opts)) != SS_OK)
+    if (st != SS_OK || (st = note_options(coef->head, signal, column, opts)) != SS_OK
+        || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
         return st;
     coef->n = signal->n;
     coef->center = opts->center;
@@ -140,7 +154,7 @@ write_scale(const ss_coefficients *coef, const ss_scale *scale, FILE *out)
         fprintf(out, "%s\t", f);
         put(out, w[2 * k], '\t');
         put(out, w[2 * k + 1], '\t');
-        fputs(ss_scale_edge(scale, k, coef->n, coef->head->rate) ? "1\n" : "0\n", out);
+        fputs(is_edge(coef, scale, k) ? "1\n" : "0\n", out);
     }
 }
 
@@ -171,30 +185,28 @@ typedef struct part {
 } part;
 
 typedef struct reader {
-    FILE *in;
-    const char *name;
+    struct input in;
     ss_error *err;
-    char *text;                 /* the current line and its number */
-    size_t size, line;
+    char *text;                 /* the current line */
     ss_coefficients *coef;
     ss_morlet_opts opts;        /* what the grid follows from */
     part *part;
     size_t n_parts, room, last; /* last: the part of the row before */
+    size_t *part_of;            /* of every j that there can be, its part from 1; 0: none yet */
 } reader;
+
+enum { LARGEST_M = 500 };       /* |log2 a| */
 
 /* The next line without its end; *more = 0 if there is none. */
 static ss_status
 next_line(reader *r, int *more)
 {
-    errno = 0;
-    ssize_t n = getline(&r->text, &r->size, r->in);
-    *more = n >= 0;
-    if (n < 0)
-        return ferror(r->in) ? SS_EIO : feof(r->in) ? SS_OK : SS_ENOMEM;
-    r->line++;
-    while (n > 0 && (r->text[n - 1] == '\n' || r->text[n - 1] == '\r'))
-        r->text[--n] = '\0';
-    return SS_OK;
+    size_t length;
+    ss_status st = ss_input_line(&r->in, &r->text, &length, r->err);
+    *more = r->text != NULL;
+    if (st == SS_OK && *more && strlen(r->text) != length)
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: a NUL byte in text", r->in.name, r->in.line);
+    return st;
 }
 
 /* --- header lines */
@@ -207,14 +219,17 @@ read_note(reader *r, const char *key, const char *value)
     double *number = strcmp(key, "rate") == 0 ? &head->rate
         : strcmp(key, "start") == 0 ? &head->start : NULL;
     if (number == NULL) {
+        if (head->n_notes == MAX_NOTES)
+            return ss_fail(r->err, SS_EDATA, "%s:%lu: more than 4096 notes", r->in.name,
+                           r->in.line);
         ss_status st = ss_header_note(head, key, value);
-        return st != SS_EINVAL ? st : ss_fail(r->err, SS_EDATA, "%s:%zu: '%s' cannot be the key of a "
-                                              "note", r->name, r->line, key);
+        return st != SS_EINVAL ? st : ss_fail(r->err, SS_EDATA, "%s:%lu: '%s' cannot be the key of "
+                                              "a note", r->in.name, r->in.line, key);
     }
     *number = ss_number_parse(value, &end);
-    if (end == value || *end != '\0')
-        return ss_fail(r->err, SS_EDATA, "%s:%zu: %s '%s' is not a number", r->name, r->line, key,
-                       value);
+    if (end == value || *end != '\0' || !isfinite(*number))
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: %s '%s' is not a number", r->in.name, r->in.line,
+                       key, value);
     return SS_OK;
 }
 
@@ -222,16 +237,16 @@ static ss_status
 check_magic(const reader *r, int more)
 {
     if (!more)
-        return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", r->name);
+        return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", r->in.name);
     if (strncmp(r->text, "\211HDF", 4) == 0)
         return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
-                       r->name);
+                       r->in.name);
     if (strncmp(r->text, "# stickslip signal", 18) == 0)
         return ss_fail(r->err, SS_EDATA, "%s:1: a signal where coefficients are expected; "
-                       "ss-morlet makes them", r->name);
+                       "ss-morlet makes them", r->in.name);
     if (strcmp(r->text, magic) != 0)
         return ss_fail(r->err, SS_EDATA, "%s:1: not a coefficient stream, which begins '%s'",
-                       r->name, magic);
+                       r->in.name, magic);
     return SS_OK;
 }
 
@@ -244,9 +259,10 @@ read_header(reader *r)
     if (st != SS_OK || (st = check_magic(r, more)) != SS_OK)
         return st;
     while ((st = next_line(r, &more)) == SS_OK && more && strcmp(r->text, columns) != 0) {
-        char *colon = strstr(r->text, ": ");
         if (strncmp(r->text, "# ", 2) != 0 || strncmp(r->text, columns, 10) == 0)
-            return ss_fail(r->err, SS_EDATA, "%s:%zu: expected '%s'", r->name, r->line, columns);
+            return ss_fail(r->err, SS_EDATA, "%s:%lu: expected '%s'", r->in.name, r->in.line,
+                           columns);
+        char *colon = strstr(r->text, ": ");
         if (colon == NULL)
             continue;                   /* a comment of someone's */
         *colon = '\0';
@@ -254,7 +270,7 @@ read_header(reader *r)
             return st;
     }
     if (st == SS_OK && !more)
-        return ss_fail(r->err, SS_EDATA, "%s: ends before '%s'", r->name, columns);
+        return ss_fail(r->err, SS_EDATA, "%s: ends before '%s'", r->in.name, columns);
     return st;
 }
 
@@ -263,7 +279,7 @@ required(const reader *r, const char *key, const char **value)
 {
     *value = ss_header_find_note(r->coef->head, key);
     if (*value == NULL)
-        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->name, key);
+        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in.name, key);
     return SS_OK;
 }
 
@@ -277,7 +293,7 @@ required_number(const reader *r, const char *key, double hi, double *x)
         return st;
     *x = ss_number_parse(value, &end);
     if (end == value || *end != '\0' || !(*x > 0 && *x <= hi))
-        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->name, key, value);
+        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->in.name, key, value);
     return SS_OK;
 }
 
@@ -299,13 +315,14 @@ read_options(reader *r)
     if (!r->opts.dense && (st = required_number(r, "step", 1e100, &r->opts.step)) != SS_OK)
         return st;
     if (samples != floor(samples) || voices != floor(voices))
-        return ss_fail(r->err, SS_EDATA, "%s: samples and voices are not whole numbers", r->name);
+        return ss_fail(r->err, SS_EDATA, "%s: samples and voices are not whole numbers",
+                       r->in.name);
     coef->n = (size_t)samples;
     coef->center = r->opts.center;
     r->opts.voices = (int)voices;
     ss_error why = { "" };
     if (ss_morlet_check(coef->n, coef->head->rate, &r->opts, &why) != SS_OK)
-        return ss_fail(r->err, SS_EDATA, "%s: %s", r->name, why.text);
+        return ss_fail(r->err, SS_EDATA, "%s: %s", r->in.name, why.text);
     unit = ss_header_find_note(coef->head, "unit");
     return ss_header_add_column(coef->head, column, unit != NULL ? unit : "");
 }
@@ -320,11 +337,11 @@ read_numbers(const reader *r, double number[N_COLUMNS])
         char *end;
         number[i] = ss_number_parse(at, &end);
         if (end == at || !isfinite(number[i]))
-            return ss_fail(r->err, SS_EDATA, "%s:%zu: column %d is not a number", r->name, r->line,
-                           i + 1);
+            return ss_fail(r->err, SS_EDATA, "%s:%lu: column %d is not a number", r->in.name,
+                           r->in.line, i + 1);
         if (*end != (i + 1 < N_COLUMNS ? '\t' : '\0'))
-            return ss_fail(r->err, SS_EDATA, "%s:%zu: expected %d numbers separated by tabs",
-                           r->name, r->line, N_COLUMNS);
+            return ss_fail(r->err, SS_EDATA, "%s:%lu: expected %d numbers separated by tabs",
+                           r->in.name, r->in.line, N_COLUMNS);
         at = end + 1;
     }
     return SS_OK;
@@ -346,8 +363,8 @@ new_part(reader *r, int j, const double number[])
     *p = (part){ .n = 0 };
     if (ss_morlet_scale_at(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
         != SS_OK)
-        return ss_fail(r->err, SS_EDATA, "%s:%zu: %s", r->name, r->line, why.text);
-    r->last = r->n_parts++;
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: %s", r->in.name, r->in.line, why.text);
+    r->n_parts++;
     return SS_OK;
 }
 
@@ -356,19 +373,20 @@ static ss_status
 find_part(reader *r, const double number[])
 {
     double m = number[0], a = number[1], f = number[3], j = rint(m * r->opts.voices);
-    if (!(fabs(m) <= 500) || fabs(m * r->opts.voices - j) > 1e-9
+    if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
         || !(fabs(a / exp2(m) - 1) < 1e-12)
         || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
-        return ss_fail(r->err, SS_EDATA, "%s:%zu: m, a and f are not those of a scale with center "
-                       "%g and %d voices", r->name, r->line, r->opts.center, r->opts.voices);
-    for (size_t i = 0; i < r->n_parts; i++) {   /* the same or the next one, mostly */
-        size_t p = (r->last + i) % r->n_parts;
-        if (r->part[p].scale.j == (int)j) {
-            r->last = p;
-            return SS_OK;
-        }
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: m, a and f are not those of a scale with center "
+                       "%g and %d voices", r->in.name, r->in.line, r->opts.center, r->opts.voices);
+    size_t *known = &r->part_of[(int)j + LARGEST_M * r->opts.voices];
+    if (*known == 0) {
+        ss_status st = new_part(r, (int)j, number);
+        if (st != SS_OK)
+            return st;
+        *known = r->n_parts;
     }
-    return new_part(r, (int)j, number);
+    r->last = *known - 1;
+    return SS_OK;
 }
 
 static ss_status
@@ -397,20 +415,20 @@ read_row(reader *r)
         return st;
     part *p = &r->part[r->last];
     if (p->n == p->scale.n)
-        return ss_fail(r->err, SS_EDATA, "%s:%zu: scale %g has %zu coefficients, this is one more",
-                       r->name, r->line, p->scale.m, p->n);
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: scale %g has %zu coefficients, this is one more",
+                       r->in.name, r->in.line, p->scale.m, p->n);
     double b = ss_scale_b(&p->scale, p->n);
     if (!(fabs(number[2] - b) <= 1e-12 * b))
-        return ss_fail(r->err, SS_EDATA, "%s:%zu: b is %.9g s where the grid has %.9g s", r->name,
-                       r->line, number[2], b);
-    if (number[6] != ss_scale_edge(&p->scale, p->n, r->coef->n, r->coef->head->rate))
-        return ss_fail(r->err, SS_EDATA, "%s:%zu: edge is %g, not what the cone of influence gives",
-                       r->name, r->line, number[6]);
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: b is %.9g s where the grid has %.9g s",
+                       r->in.name, r->in.line, number[2], b);
+    if (number[6] != is_edge(r->coef, &p->scale, p->n))
+        return ss_fail(r->err, SS_EDATA, "%s:%lu: edge is %g, not what the cone of influence gives",
+                       r->in.name, r->in.line, number[6]);
     return append(p, number[4], number[5]);
 }
 
 static ss_status
-read_rows(reader *r)
+take_rows(reader *r)
 {
     int more;
     ss_status st;
@@ -435,12 +453,12 @@ assemble(reader *r)
     ss_coefficients *coef = r->coef;
     size_t total = 0;
     if (r->n_parts == 0)
-        return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->name);
+        return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->in.name);
     for (size_t i = 0; i < r->n_parts; i++) {
         const part *p = &r->part[i];
         if (p->n < p->scale.n)
-            return ss_fail(r->err, SS_EDATA, "%s:%zu: ends with %zu of the %zu coefficients of "
-                           "scale %g", r->name, r->line, p->n, p->scale.n, p->scale.m);
+            return ss_fail(r->err, SS_EDATA, "%s:%lu: ends with %zu of the %zu coefficients of "
+                           "scale %g", r->in.name, r->in.line, p->n, p->scale.n, p->scale.m);
         total += p->n;
     }
     qsort(r->part, r->n_parts, sizeof *r->part, longer_first);
@@ -466,20 +484,26 @@ read_all(reader *r)
     if (r->coef == NULL || (r->coef->head = ss_header_new(0, 0)) == NULL)
         return SS_ENOMEM;
     if ((st = read_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
-        || (st = read_rows(r)) != SS_OK)
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
         return st;
-    return assemble(r);
+    r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
+    if (r->part_of == NULL)
+        return SS_ENOMEM;
+    return (st = take_rows(r)) != SS_OK ? st : assemble(r);
 }
 
 ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
-    reader r = { .in = in, .name = name, .err = err };
-    ss_status st = read_all(&r);
+    reader r = { .err = err };
+    ss_status st = ss_input_open(&r.in, in, name, err);
+    if (st == SS_OK)
+        st = read_all(&r);
     for (size_t i = 0; i < r.n_parts; i++)
         free(r.part[i].w);
     free(r.part);
-    free(r.text);
+    free(r.part_of);
+    ss_input_close(&r.in);
     if (st == SS_OK)
         *out = r.coef;
     else

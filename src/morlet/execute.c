@@ -46,8 +46,6 @@ one_scale(const work *job, size_t i, double *scratch, ss_error *err)
     ss_status st = SS_OK;
     if (!ss_fft_takes(plan->fft, i))
         st = ss_quadrature_scale(plan, scale, &job->rec, factor, w);
-    else if (scratch == NULL)
-        st = SS_ENOMEM;
     else
         ss_fft_scale(plan, i, &job->rec, &job->spectra, scratch, factor, w);
     if (st != SS_OK || fits)
@@ -62,6 +60,10 @@ work_on(void *user)
     work *job = user;
     double *scratch = job->plan->fft != NULL ? ss_fft_scratch(job->plan->fft) : NULL;
     pthread_mutex_lock(&job->lock);
+    if (scratch == NULL && job->plan->fft != NULL) {
+        job->next = job->failed = 0;
+        job->status = SS_ENOMEM;
+    }
     while (job->next > 0) {
         size_t i = --job->next;
         ss_error err = { "" };

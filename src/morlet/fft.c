@@ -108,6 +108,7 @@ struct fft {
     inverse *inverse;
     size_t n_inverse, longest;
     kaiser *kernel[2][KERNELS];     /* for each bound; NULL: none needed */
+    int no_memory;                  /* for one of them */
     table *table;
     size_t tables;
 };
@@ -724,9 +725,13 @@ advance_kernel(struct fft *f, int round, double edge)
     if (edge > EDGE_MAX)
         return NULL;
     kaiser **at = &f->kernel[round][k];
-    if (*at == NULL && kernel_for(f, made_for, round, &ker)
-        && (*at = malloc(sizeof ker)) != NULL)
+    if (*at != NULL || !kernel_for(f, made_for, round, &ker))
+        return *at;
+    *at = malloc(sizeof ker);
+    if (*at != NULL)
         **at = ker;
+    else
+        f->no_memory = 1;
     return *at;
 }
 
@@ -935,6 +940,8 @@ ss_fft_new(ss_morlet *plan)
     choose_bounds(f, (double)plan->n / shortest, plan->opts.accuracy);
     choose_levels(f, plan);
     choose_routes(f, plan);
+    if (f->no_memory)
+        return SS_ENOMEM;
     if (any_route(f, plan->n_scales))
         return plan_all(f, plan);
     ss_fft_free(f);

@@ -17,7 +17,7 @@
 #define BLUR 0.2                /* pixels that a line may be off by leaving points out */
 #define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0 */
 
-const ss_contour_opts ss_contour_defaults = { 18, 80, NULL, 0, NULL, 0 };
+const ss_contour_opts ss_contour_defaults = { 18, 80, NULL, 0, NULL, 0, NULL };
 
 /* --- the map ------------------------------------------------------------------------------- */
 
@@ -134,26 +134,42 @@ put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
 
 /* --- what stands around it ----------------------------------------------------------------- */
 
-/* The cone of influence: a curve of times at either end, nearer than sqrt(2) a to it. */
+/* One side of a shaded area: from lo to hi Hz the times that are sqrt(2) a after t, or before it where
+ * the sign is -1, but not beyond stop. */
 static void
-put_cone(FILE *out, const ss_coefficients *c, const script_span *span, double lo, double hi)
+put_side(FILE *out, const script_span *span, double t, int sign, double stop, double center,
+         const double band[2])
 {
     enum { POINTS = 100 };
-    double start = c->head->start, length = (double)(c->n - 1) / c->head->rate;
     int decimals = ss_script_decimals(span->to - span->from);
-    for (int end = 0; end < 2; end++) {
-        fputs(end == 0 ? "$cone_left << EOD\n" : "$cone_right << EOD\n", out);
-        for (int i = -1; i <= POINTS + 1; i++) {
-            double f = lo * pow(hi / lo, fmin(fmax(i, 0), POINTS) / POINTS);
-            double edge = fmin(sqrt(2) * c->center / (2 * M_PI * f), length / 2);
-            if (i < 0 || i > POINTS)            /* close the polygon beyond the end of the record */
-                edge = -1;
-            double t = end == 0 ? start + edge : start + length - edge;
-            ss_script_put(out, fmin(fmax(t, span->from), span->to), decimals, " ");
-            ss_script_put(out, f, 6, "\n");
-        }
-        fputs("EOD\n", out);
+    for (int i = 0; i <= POINTS; i++) {
+        double part = (double)(sign > 0 ? i : POINTS - i) / POINTS;
+        double f = band[0] * pow(band[1] / band[0], part);
+        double edge = t + sign * sqrt(2) * center / (2 * M_PI * f);
+        edge = sign > 0 ? fmin(edge, stop) : fmax(edge, stop);
+        ss_script_put(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
+        ss_script_put(out, f, 6, "\n");
     }
+}
+
+/* The cone of influence, nearer than sqrt(2) a to an end of the record, and the like around gaps:
+ * closed curves, a blank line between them. */
+static void
+put_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
+{
+    double start = c->head->start, end = start + (double)(c->n - 1) / c->head->rate;
+    fputs("$cone << EOD\n", out);
+    put_side(out, span, start, 1, start + (end - start) / 2, c->center, band);
+    put_side(out, span, -INFINITY, -1, start, c->center, band);
+    putc('\n', out);
+    put_side(out, span, end, -1, end - (end - start) / 2, c->center, band);
+    put_side(out, span, INFINITY, 1, end, c->center, band);
+    for (size_t i = 0; i < c->n_gaps; i++) {
+        putc('\n', out);
+        put_side(out, span, c->gap[i].to, 1, end, c->center, band);
+        put_side(out, span, c->gap[i].from, -1, start, c->center, band);
+    }
+    fputs("EOD\n", out);
 }
 
 /* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
@@ -192,6 +208,51 @@ put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
     fputs("EOD\n", out);
 }
 
+static int
+is_inside(const script_span *span, double t)
+{
+    return t >= span->from && t <= span->to;
+}
+
+/* What of an overlay lies in the span drawn: gnuplot takes an empty block for a mistake. */
+typedef struct visible {
+    size_t spans, spikes, maxima;
+} visible;
+
+/* Spans, cut at the ends, spikes, and maxima with their frequencies. */
+static visible
+put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
+{
+    int decimals = ss_script_decimals(span->to - span->from);
+    visible seen = { 0, 0, 0 };
+    fputs("$spans << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_spans; i++) {
+        double shortest = (span->to - span->from) / COLUMNS * 2;        /* to be seen at all */
+        double from = fmax(overlay->span[i][0], span->from);
+        double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
+        if (!(from <= to))
+            continue;
+        ss_script_put(out, from, decimals, " ");
+        ss_script_put(out, to, decimals, "\n");
+        seen.spans++;
+    }
+    fputs("EOD\n$spikes << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_spikes; i++)
+        if (is_inside(span, overlay->spike[i])) {
+            ss_script_put(out, overlay->spike[i], decimals, "\n");
+            seen.spikes++;
+        }
+    fputs("EOD\n$maxima << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_maxima; i++)
+        if (is_inside(span, overlay->maximum[i][0])) {
+            ss_script_put(out, overlay->maximum[i][0], decimals, " ");
+            ss_script_put(out, overlay->maximum[i][1], 6, "\n");
+            seen.maxima++;
+        }
+    fputs("EOD\n", out);
+    return seen;
+}
+
 /* --- the script ---------------------------------------------------------------------------- */
 
 static const char around[] =
@@ -222,9 +283,26 @@ static const char panel_b[] =
     "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
     "set colorbox user origin screen right + 0.02, screen 0.12 size screen 0.025, screen top_b - 0.12\n";
 
-/* Events first, so that they stand behind the lines; then the cone, then the contours. */
+/* Bars and marks in the rims of the panel; rings in white and colour, to be seen on any ground. */
 static void
-put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range)
+put_features(FILE *out, const visible *seen)
+{
+    if (seen->spans > 0)
+        fputs(", \\\n    $spans using 1:(rim(0.02)):($2-$1):(0) with vectors nohead lw 3 "
+              "lc rgb feature_colour", out);
+    if (seen->spikes > 0)
+        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6 "
+              "lc rgb feature_colour", out);
+    if (seen->maxima > 0)
+        fputs(", \\\n    $maxima using 1:2 with points pt 6 ps 0.9 lw 3.5 lc rgb 'white', \\\n"
+              "    $maxima using 1:2 with points pt 6 ps 0.9 lw 1.5 lc rgb feature_colour", out);
+}
+
+/* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
+ * read from them. */
+static void
+put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range,
+           const visible *seen)
 {
     fputs(around, out);
     if (contour->signal != NULL) {
@@ -236,14 +314,14 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
     put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
     if (contour->signal == NULL)
         fputs("unset label 1\n", out);
-    fputs("plot $cone_left using 1:2 with filledcurves closed fs solid 1 noborder lc rgb cone_colour, "
-          "\\\n    $cone_right using 1:2 with filledcurves closed fs solid 1 noborder lc rgb "
-          "cone_colour, \\\n", out);
+    fputs("plot $cone using 1:2 with filledcurves closed fs solid 1 noborder lc rgb cone_colour, "
+          "\\\n", out);
     if (contour->n_events > 0)
         fputs("    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour, "
               "\\\n", out);
-    fputs("    $contour using 1:2:(-$3*step) with lines lw 1 lc palette\n"
-          "unset multiplot\n", out);
+    fputs("    $contour using 1:2:(-$3*step) with lines lw 1 lc palette", out);
+    put_features(out, seen);
+    fputs("\nunset multiplot\n", out);
 }
 
 static ss_status
@@ -295,6 +373,7 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
         return status;
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
     double range = 0;
+    visible seen = { 0, 0, 0 };
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
     drawn.from = span.from;
     drawn.to = span.to;
@@ -311,12 +390,16 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
         status = put_signal(out, contour, &drawn, &range, err);
     if (status != SS_OK)
         return status;
-    put_cone(out, c, &span, fmin, fmax);
+    put_cone(out, c, &span, (const double[2]){ fmin, fmax });
     if (contour->n_events > 0)
         put_events(out, contour, &span);
+    if (contour->overlay != NULL) {
+        fputs("feature_colour = '#cc3311'; rim(part) = fmin*(fmax/fmin)**part\n", out);
+        seen = put_overlay(out, contour->overlay, &span);
+    }
     status = put_contours(out, c, contour, &span);
     if (status != SS_OK)
         return status;
-    put_panels(out, c, contour, range);
+    put_panels(out, c, contour, range, &seen);
     return ss_script_end(out);
 }

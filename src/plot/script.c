@@ -1,7 +1,7 @@
 /* script.c -- what all gnuplot scripts have in common: terminal, size, text that draws and does not
  * run, numbers that no locale changes, lines thinned to the picture's width.
  *
- * A picture is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
+ * A picture on paper is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
 #include "script.h"
 
 #include <ctype.h>
@@ -12,8 +12,9 @@
 
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
+#define SCREEN 1.5              /* how much wider and higher on a screen */
 
-const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN };
+const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN, SS_PAPER };
 
 /* --- numbers and text ---------------------------------------------------------------------- */
 
@@ -176,13 +177,13 @@ terminal(const char *format)
 }
 
 static void
-put_terminal(FILE *out, const char *format, const char *output, double height)
+put_terminal(FILE *out, const char *format, const char *output, double width, double height)
 {
     int pdf = strcmp(format, "pdf") == 0;
     double per_cm = pdf ? 1 : PIXELS_PER_CM;
     const char *unit = pdf ? " cm" : "";
     fputs("width = ", out);
-    ss_script_put(out, pdf ? WIDTH : round(WIDTH * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    ss_script_put(out, pdf ? width : round(width * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
     ss_script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
@@ -217,12 +218,13 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, doub
     if ((format != NULL || opts->output != NULL) && (format == NULL || terminal(format) == NULL))
         return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
                        format != NULL ? format : opts->output);
+    double scale = opts->style == SS_SCREEN ? SCREEN : 1;
     fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
     if (format != NULL)
-        put_terminal(out, format, opts->output, height);
+        put_terminal(out, format, opts->output, scale * WIDTH, scale * height);
     else
         fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
-                "linewidth 0.5; set output 'figure.pdf'\n", 8.5, height);
+                "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
     fputs("title = ", out);
     ss_script_quote(out, find_title(opts, head));
     putc('\n', out);

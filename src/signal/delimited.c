@@ -10,11 +10,15 @@
 #include "error.h"
 #include "stream.h"
 
-enum { HEADER_LINES = 1000 };
+enum {
+    HEADER_LINES = 1000,
+    GAPS_MOST = 1000            /* samples for each that is there */
+};
 #define NONE SIZE_MAX
 
 struct table {
     struct input *in;
+    const ss_read_opts *opts;
     char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
     size_t n_columns;           /* that of time among them */
@@ -23,6 +27,7 @@ struct table {
     char *above[2];             /* the last two header lines: [1] stands right above the data */
     unsigned long above_line[2];
     size_t time;                /* column of time, or NONE */
+    double origin, increment;   /* [s] of numbered rows: the first column; increment 0: not so */
     int named;                  /* is there a row of names? */
     ss_header *names;           /* all columns, that of time among them, and the clock */
     double *value;              /* rows, one after the other */
@@ -67,7 +72,7 @@ unquote(char *p)
     return to;
 }
 
-/* Split a line, in place, into t->cell; one empty cell too many at the end is dropped.  NONE: no
+/* Split a line, in place, into t->cell; empty cells too many at the end are dropped.  NONE: no
  * memory. */
 static size_t
 split(struct table *t, char *p, char separator)
@@ -90,18 +95,30 @@ split(struct table *t, char *p, char separator)
         t->cell[n++] = trim(begin);
         p = end + more;
     }
-    if (n > 1 && n != t->n_columns && t->cell[n - 1][0] == '\0')
+    while (n > 1 && n != t->n_columns && t->cell[n - 1][0] == '\0')
         n--;
     return n;
 }
 
 enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE };
 
+/* What recorders write where there is no number. */
+static int
+is_no_number(const char *cell)
+{
+    static const char *const word[] = { "nan", "inf", "infinity", "na", "n/a", "null",
+        "\u221e", NULL };
+    cell += *cell == '-' || *cell == '+';
+    for (int i = 0; word[i] != NULL; i++)
+        if (strcasecmp(cell, word[i]) == 0)
+            return 1;
+    return 0;
+}
+
 static enum cell_kind
 read_cell(char *cell, char separator, double *x)
 {
     char *end, *comma = separator != ',' ? strchr(cell, ',') : NULL;
-    const char *word = cell + (*cell == '-' || *cell == '+');
     if (comma != NULL)
         *comma = '.';
     *x = ss_number_parse(cell, &end);
@@ -110,10 +127,7 @@ read_cell(char *cell, char separator, double *x)
         *comma = ',';
     if (number)
         return isfinite(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
-    if (strcasecmp(word, "nan") == 0 || strcasecmp(word, "inf") == 0
-        || strcasecmp(word, "infinity") == 0)
-        return CELL_NOT_FINITE;
-    return CELL_TEXT;
+    return is_no_number(cell) ? CELL_NOT_FINITE : CELL_TEXT;
 }
 
 /* How many cells a line has if they are all numbers with this separator, else 0; NONE: no memory. */
@@ -126,7 +140,7 @@ count_numbers(struct table *t, const char *line, char separator)
     size_t n = copy != NULL ? split(t, copy, separator) : NONE;
     for (size_t i = 0; n != NONE && i < n; i++) {
         enum cell_kind kind = read_cell(t->cell[i], separator, &x);
-        if (kind == CELL_TEXT)
+        if (kind == CELL_TEXT && !(t->opts->gaps != SS_GAPS_REFUSE && t->cell[i][0] == '\0'))
             n = 0;
         numbers += kind == CELL_NUMBER;
     }
@@ -297,6 +311,41 @@ name_columns(struct table *t, char *names, char *units)
     return st;
 }
 
+/* Cut a line after its first n cells. */
+static void
+cut(char *line, size_t n, char separator)
+{
+    for (; *line != '\0' && n > 0; line++)
+        if (*line == separator && --n == 0)
+            *line = '\0';
+}
+
+/* Rigol's oscilloscopes number the rows; beside the names of their columns stand Start and Increment,
+ * and below these words the times.  If that is so, take them, and leave names and units. */
+static ss_status
+find_increment(struct table *t)
+{
+    char *words = strdup(t->above[0] != NULL ? t->above[0] : ""), *numbers = NULL;
+    size_t start = NONE, increment = NONE, n = words != NULL ? split(t, words, t->separator) : NONE;
+    for (size_t i = t->n_columns; n != NONE && i < n; i++) {
+        start = strcasecmp(t->cell[i], "Start") == 0 ? i : start;
+        increment = strcasecmp(t->cell[i], "Increment") == 0 ? i : increment;
+    }
+    if (start != NONE && increment != NONE) {
+        numbers = strdup(t->above[1]);
+        n = numbers != NULL ? split(t, numbers, t->separator) : NONE;
+        if (n != NONE && start < n && increment < n
+            && read_cell(t->cell[start], t->separator, &t->origin) == CELL_NUMBER
+            && read_cell(t->cell[increment], t->separator, &t->increment) == CELL_NUMBER) {
+            cut(t->above[0], t->n_columns, t->separator);
+            cut(t->above[1], t->n_columns, t->separator);
+        }
+    }
+    free(words);
+    free(numbers);
+    return n != NONE ? SS_OK : SS_ENOMEM;
+}
+
 /* Find names and units in the last two lines above the data.
  *
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
@@ -304,10 +353,15 @@ name_columns(struct table *t, char *names, char *units)
 static ss_status
 read_names(struct table *t, ss_error *err)
 {
-    enum row_kind last = kind_of_row(t, t->above[1]), before = kind_of_row(t, t->above[0]);
     double x;
-    ss_status st;
-    if (last == ROW_NO_MEMORY || before == ROW_NO_MEMORY)
+    ss_status st = find_increment(t);
+    if (st == SS_OK && t->increment > 0) {
+        t->named = 1;
+        st = name_columns(t, t->above[0], t->above[1]);
+        return st == SS_OK ? SS_OK : out_of_memory(t, err);
+    }
+    enum row_kind last = kind_of_row(t, t->above[1]), before = kind_of_row(t, t->above[0]);
+    if (st != SS_OK || last == ROW_NO_MEMORY || before == ROW_NO_MEMORY)
         return out_of_memory(t, err);
     if (last == ROW_MIXED) {
         size_t n = split(t, t->above[1], t->separator), bad = n, numbers = 0;
@@ -343,6 +397,9 @@ next_line(struct table *t, char **line, int *comment, ss_error *err)
         if (strlen(*line) != length)
             return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters",
                            t->in->name, t->in->line);
+        if (strchr(*line, '\r') != NULL)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
+                           "makes them)", t->in->name, t->in->line);
     } while ((*line)[strspn(*line, " \t")] == '\0');
     *comment = **line == '#';
     return SS_OK;
@@ -353,7 +410,7 @@ make_room(struct table *t)
 {
     if (t->n_rows < t->room)
         return 1;
-    size_t room = t->room == 0 ? 4096 : 2 * t->room;
+    size_t room = t->room == 0 ? 1 + 65536 / t->n_columns : 2 * t->room;
     if (room > SIZE_MAX / sizeof *t->value / t->n_columns / 2)
         return 0;
     double *value = realloc(t->value, room * t->n_columns * sizeof *value);
@@ -397,10 +454,16 @@ take_row(struct table *t, char *text, ss_error *err)
     double *row = t->value + t->n_rows * n;
     for (size_t i = 0; i < n; i++) {
         enum cell_kind kind = read_cell(t->cell[i], t->separator, &row[i]);
+        int missing = kind == CELL_NOT_FINITE || t->cell[i][0] == '\0';
+        if (missing && t->opts->gaps != SS_GAPS_REFUSE) {
+            row[i] = NAN;
+            continue;
+        }
         if (kind != CELL_NUMBER)
-            return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber", name,
+            return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber%s", name,
                            line, t->names->column[i].name, t->cell[i],
-                           kind == CELL_NOT_FINITE ? "finite " : "");
+                           kind == CELL_NOT_FINITE ? "finite " : "",
+                           missing ? "; ss-cat --gaps=split or interpolate fills the gap" : "");
         ss_status st = check_mark(t, i, err);
         if (st != SS_OK)
             return st;
@@ -427,6 +490,8 @@ read_table(struct table *t, ss_error *err)
         if (!found && !keep_above(t, line + strspn(line, "# ")))
             return out_of_memory(t, err);
     }
+    if (t->n_columns > MAX_COLUMNS)
+        return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
     char *first = strdup(line);                 /* split below, and for the names */
     if (first == NULL)
         return out_of_memory(t, err);
@@ -465,7 +530,8 @@ find_time_unit(const char *name)
 static int
 is_called_time(const ss_column *c, const char **unit)
 {
-    static const char *const word[] = { "t", "time", "timestamp", "zeit", "x_value", NULL };
+    static const char *const word[] = { "t", "time", "timestamp", "zeit", "x_value",
+        "second", "seconds", NULL };
     *unit = c->unit;
     for (int i = 0; word[i] != NULL; i++) {
         size_t n = strlen(word[i]);
@@ -482,14 +548,94 @@ is_called_time(const ss_column *c, const char **unit)
     return 0;
 }
 
-/* The stamps of a column in seconds, to be freed. */
-static double *
-stamps_of(const struct table *t, size_t column, const struct time_unit *unit)
+/* Forget the rows without a time. */
+static void
+drop_rows_without(struct table *t, size_t column)
 {
+    size_t kept = 0, n = t->n_columns;
+    for (size_t i = 0; i < t->n_rows; i++)
+        if (!isnan(t->value[i * n + column])) {
+            memmove(t->value + kept * n, t->value + i * n, n * sizeof *t->value);
+            t->line[kept++] = t->line[i];
+        }
+    t->n_rows = kept;
+}
+
+/* The rows at their place among the samples, NaN between them. */
+static ss_status
+spread_rows(struct table *t, const size_t *sample, ss_error *err)
+{
+    size_t n = t->n_columns, all = sample[t->n_rows - 1] + 1;
+    if (all == t->n_rows)
+        return SS_OK;
+    if (all / GAPS_MOST > t->n_rows)
+        return ss_fail(err, SS_EDATA, "%s: of %zu samples only %zu are there", t->in->name, all,
+                       t->n_rows);
+    double *value = malloc(all * n * sizeof *value);
+    if (value == NULL)
+        return out_of_memory(t, err);
+    for (size_t i = 0; i < all * n; i++)
+        value[i] = NAN;
+    for (size_t i = 0; i < t->n_rows; i++)
+        memcpy(value + sample[i] * n, t->value + i * n, n * sizeof *value);
+    free(t->value);
+    t->value = value;
+    t->n_rows = all;
+    return SS_OK;
+}
+
+/* Rows at stamps as samples of a clock: that of the stamps, or that of --resample. */
+static ss_status
+take_samples(struct table *t, const double *stamp, ss_error *err)
+{
+    const char *name = t->in->name;
+    int gaps = t->opts->gaps != SS_GAPS_REFUSE;
+    size_t *sample = NULL, n = t->n_rows;
+    double usual, *value;
+    if (!(t->opts->resample > 0)) {
+        sample = malloc((n + 1) * sizeof *sample);
+        if (sample == NULL)
+            return out_of_memory(t, err);
+        ss_status st = ss_find_clock(name, stamp, t->line, n, gaps, sample, &t->names->rate, err);
+        if (st == SS_OK)
+            st = spread_rows(t, sample, err);
+        free(sample);
+        return st;
+    }
+    ss_status st = ss_usual_step(name, stamp, t->line, n, &usual, err);
+    t->names->rate = t->opts->resample;
+    if (st == SS_OK)
+        st = ss_resample(&value, &n, stamp, t->value, n, t->n_columns, usual, t->names->rate, name, err);
+    if (st != SS_OK)
+        return st;
+    free(t->value);
+    t->value = value;
+    t->n_rows = n;
+    for (size_t i = 0; !gaps && i < n; i++)
+        if (isnan(value[i * t->n_columns]))
+            return ss_fail(err, SS_EDATA, "%s: a gap around %g s, of more than ten usual steps of %g s; "
+                           "ss-cat --gaps=split or interpolate fills the gap", name,
+                           stamp[0] + (double)i / t->names->rate, usual);
+    return SS_OK;
+}
+
+/* The column holds times in this unit, counted from t->origin. */
+static ss_status
+take_stamps(struct table *t, size_t column, double factor, double divisor, ss_error *err)
+{
+    drop_rows_without(t, column);
     double *stamp = malloc((t->n_rows + 1) * sizeof *stamp);
-    for (size_t i = 0; stamp != NULL && i < t->n_rows; i++)
-        stamp[i] = t->value[i * t->n_columns + column] * unit->factor / unit->divisor;
-    return stamp;
+    if (stamp == NULL)
+        return out_of_memory(t, err);
+    for (size_t i = 0; i < t->n_rows; i++)
+        stamp[i] = t->origin + t->value[i * t->n_columns + column] * factor / divisor;
+    ss_status st = take_samples(t, stamp, err);
+    if (st == SS_OK) {
+        t->names->start = stamp[0];
+        t->time = column;
+    }
+    free(stamp);
+    return st;
 }
 
 static ss_status
@@ -499,14 +645,7 @@ take_clock(struct table *t, size_t column, const char *unit_name, ss_error *err)
     if (unit == NULL)
         return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
                        t->names->column[column].name, unit_name);
-    double *stamp = stamps_of(t, column, unit);
-    if (stamp == NULL)
-        return out_of_memory(t, err);
-    ss_status st = ss_find_clock(t->in->name, stamp, t->line, t->n_rows, &t->names->rate, err);
-    t->names->start = stamp[0];
-    t->time = column;
-    free(stamp);
-    return st;
+    return take_stamps(t, column, unit->factor, unit->divisor, err);
 }
 
 static ss_status
@@ -520,8 +659,9 @@ no_such_column(const struct table *t, const char *name, ss_error *err)
 }
 
 static ss_status
-choose_clock(struct table *t, const ss_read_opts *opts, ss_error *err)
+choose_clock(struct table *t, ss_error *err)
 {
+    const ss_read_opts *opts = t->opts;
     const char *unit, *first = t->names->column[0].unit;
     int chosen = opts->time != NULL ? ss_header_column(t->names, opts->time) : -1;
     if (opts->time != NULL && chosen < 0)
@@ -534,6 +674,8 @@ choose_clock(struct table *t, const ss_read_opts *opts, ss_error *err)
         t->names->rate = opts->rate;
         return SS_OK;
     }
+    if (t->increment > 0)
+        return take_stamps(t, 0, t->increment, 1, err);
     for (size_t i = 0; i < t->n_columns; i++)
         if (is_called_time(&t->names->column[i], &unit))
             return take_clock(t, i, unit, err);
@@ -595,7 +737,7 @@ ss_status
 ss_delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    struct table t = { .in = in, .time = NONE, .names = ss_header_new(0, 0) };
+    struct table t = { .in = in, .opts = opts, .time = NONE, .names = ss_header_new(0, 0) };
     ss_status st = ss_input_need(in, 3, err);
     if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
         in->lo += 3;                            /* a byte-order mark */
@@ -604,11 +746,14 @@ ss_delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st == SS_OK)
         st = read_table(&t, err);
     if (st == SS_OK)
-        st = choose_clock(&t, opts, err);
+        st = choose_clock(&t, err);
     if (st == SS_OK && t.time != NONE && t.n_columns == 1)
         st = ss_fail(err, SS_EDATA, "%s: no column but time", in->name);
     if (st == SS_OK && drop_time(&t, &reader->head) != SS_OK)
         st = out_of_memory(&t, err);
+    size_t columns = reader->head != NULL ? reader->head->n_columns : 0;
+    if (st == SS_OK && opts->gaps != SS_GAPS_REFUSE)
+        st = ss_fill_gaps(t.value, t.n_rows, columns, 1, reader->head, opts->gaps, in->name, err);
     if (st == SS_OK) {
         reader->values = t.value;
         reader->n_rows = t.n_rows;

@@ -158,28 +158,27 @@ free_suffix(const ss_header *head, const char *name)
 static char *
 clean_name(const ss_header *head, const char *name)
 {
-    size_t suffix;
-    char *clean = malloc(strlen(name) + 24), *p = clean;
+    char *clean = ss_utf8_text(name);
     if (clean == NULL)
         return NULL;
-    while (*name != '\0')
-        *p++ = clean_letter(*name++);
-    *p = '\0';
+    for (char *p = clean; *p != '\0'; p++)
+        *p = clean_letter(*p);
     if (find_name(head, clean) < 0)
         return clean;
-    if ((suffix = free_suffix(head, clean)) == 0) {
+    size_t length = strlen(clean), suffix = free_suffix(head, clean);
+    char *longer = suffix != 0 ? realloc(clean, length + 24) : NULL;
+    if (longer == NULL)
         free(clean);
-        return NULL;
-    }
-    sprintf(p, "_%zu", suffix);
-    return clean;
+    else
+        sprintf(longer + length, "_%zu", suffix);
+    return longer;
 }
 
 /* A unit whose brackets match, so that a label can be read back. */
 static char *
 clean_unit(const char *unit)
 {
-    char *clean = strdup(unit != NULL ? unit : "");
+    char *clean = ss_utf8_text(unit != NULL ? unit : "");
     int depth = 0, lowest = 0;
     if (clean == NULL)
         return NULL;
@@ -280,16 +279,20 @@ ss_status
 ss_header_note(ss_header *head, const char *key, const char *value)
 {
     const char *old;
-    size_t length = strlen(key), i = find_note(head, key, length, &old);
-    if (length == 0 || strchr(key, ':') != NULL || strcmp(key, "rate") == 0
+    if (is_blank(*key) || strchr(key, ':') != NULL || strcmp(key, "rate") == 0
         || strcmp(key, "start") == 0 || strcmp(key, "columns") == 0)
         return SS_EINVAL;
-    char *note = malloc(length + strlen(value) + 3);
+    char *raw = malloc(strlen(key) + strlen(value) + 3);
+    if (raw == NULL)
+        return SS_ENOMEM;
+    sprintf(raw, "%s: %s", key, value);
+    for (char *p = raw; (p = strpbrk(p, "\r\n")) != NULL; )
+        *p = ' ';
+    char *note = ss_utf8_text(raw);
+    free(raw);
     if (note == NULL)
         return SS_ENOMEM;
-    sprintf(note, "%s: %s", key, value);
-    for (char *p = note; (p = strpbrk(p, "\r\n")) != NULL; )
-        *p = ' ';
+    size_t i = find_note(head, note, strcspn(note, ":"), &old);
     if (i == head->n_notes) {
         char **more = realloc(head->note, (i + 1) * sizeof *more);
         if (more == NULL) {
@@ -419,6 +422,10 @@ take_columns(ss_header *head, char *p, const char **reason)
             head->has_time = 1;
             continue;
         }
+        if (head->n_columns == MAX_COLUMNS) {
+            *reason = "more than 32768 columns";
+            return SS_EDATA;
+        }
         ss_status st = ss_header_add_column(head, name, unit);
         *reason = "a column without a name";
         if (st != SS_OK)
@@ -435,7 +442,8 @@ ss_header_take(ss_header *head, char *line, const char **reason)
     if (colon == NULL)
         return SS_OK;
     *colon = '\0';
-    key += strspn(key, " \t");
+    while (*key != '\0' && is_blank(*key))
+        key++;
     char *value = colon + 1 + strspn(colon + 1, " \t");
     double x = ss_number_parse(value, &end);
     int number = end > value && *end == '\0' && isfinite(x);
@@ -453,5 +461,8 @@ ss_header_take(ss_header *head, char *line, const char **reason)
         *reason = "columns are named twice";
         return head->n_columns > 0 ? SS_EDATA : take_columns(head, value, reason);
     }
+    *reason = "more than 4096 notes";
+    if (head->n_notes == MAX_NOTES)
+        return SS_EDATA;
     return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
 }

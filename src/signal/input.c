@@ -1,4 +1,4 @@
-/* input.c -- bytes and lines of a stream, in a buffer that grows to the longest line.
+/* input.c -- bytes and lines of a stream, in a buffer that grows to the longest line, up to 16 MiB.
  *
  * A FILE cannot say whether a line can be had without waiting, so its descriptor is read instead;
  * one without a descriptor (fmemopen) is read as such. */
@@ -43,7 +43,9 @@ make_room(struct input *in, ss_error *err)
     }
     if (in->hi + PIECE / 2 <= in->capacity)
         return SS_OK;
-    char *more = in->capacity < SIZE_MAX / 2 ? realloc(in->buffer, 2 * in->capacity + 1) : NULL;
+    if (in->capacity >= MAX_LINE)
+        return ss_fail(err, SS_EDATA, "%s:%lu: a line of more than 16 MB", in->name, in->line + 1);
+    char *more = realloc(in->buffer, 2 * in->capacity + 1);
     if (more == NULL)
         return ss_fail(err, SS_ENOMEM, "%s:%lu: no memory for a line this long", in->name,
                        in->line + 1);

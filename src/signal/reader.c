@@ -140,12 +140,12 @@ ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
 static ss_status
 read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
 {
-    size_t columns = reader->head->n_columns, room = 0, got;
+    size_t columns = reader->head->n_columns, piece = 1 + 16384 / columns, room = 0, got;
     *rows = NULL;
     *n = 0;
     do {
-        if (room - *n < 1024) {
-            room = room == 0 ? 4096 : 2 * room;
+        if (room - *n < piece) {
+            room = room == 0 ? 4 * piece : 2 * room;
             double *more = room < SIZE_MAX / sizeof *more / 2 / columns
                          ? realloc(*rows, room * columns * sizeof *more) : NULL;
             if (more == NULL)

@@ -6,6 +6,9 @@
 #include <stdio.h>
 #include <stickslip/signal.h>
 
+/* More than any honest input has, so that hostile input finds an end of memory and time. */
+enum { MAX_LINE = 1 << 24, MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
+
 /* Bytes of a stream, as they come: never waits for more than is asked for. */
 struct input {
     FILE *file;
@@ -61,8 +64,24 @@ char *ss_utf8_text(const char *text);
 /* "name", "name/unit", "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);
 
-/* Time stamps t of n rows, of which row i stands in line line[i]: a uniform clock? */
+/* Time stamps t of n rows, of which row i stands in line line[i]: a uniform clock?  sample gets the
+ * number of each row's sample, from 0: its own, unless gaps are allowed. */
 ss_status ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
-                        double *rate, ss_error *err);
+                        int gaps, size_t *sample, double *rate, ss_error *err);
+/* The median step of stamps, which must ascend. */
+ss_status ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n,
+                        double *usual, ss_error *err);
+
+/* Rows of columns values each at the stamps t, n >= 2 of them, to n_out rows, to be freed, from t[0]
+ * on at this rate.  What is NaN in them is passed over; samples between stamps more than ten usual
+ * steps apart, or beyond a column's own first and last, are NaN. */
+ss_status ss_resample(double **out, size_t *n_out, const double *t, const double *value, size_t n,
+                      size_t columns, double usual_step, double rate, const char *name,
+                      ss_error *err);
+
+/* Put numbers in place of NaN in n rows, value c of row i at x[i * row + c * column], and note in
+ * head where that was. */
+ss_status ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss_gaps how,
+                       const char *name, ss_error *err);
 
 #endif

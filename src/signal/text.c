@@ -131,9 +131,7 @@ ss_text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         st = ss_input_line(in, &line, &length, err);
         if (st != SS_OK)
             break;
-        char *label = ss_utf8_text(line);
-        st = label != NULL ? ss_header_take(reader->head, label, &reason) : SS_ENOMEM;
-        free(label);
+        st = ss_header_take(reader->head, line, &reason);
         if (st != SS_OK)
             return ss_fail(err, st, "%s:%lu: %s", in->name, in->line,
                            st == SS_EDATA ? reason : ss_strerror(st));

@@ -1,11 +1,9 @@
-/* wave.c -- benchmark signals and noise.
+/* wave.c -- benchmark signals.
  *
  * A phase of 1e6 cycles in one double is only good to 1e-10 cycles, so times and phases are kept in
  * two (Dekker 1971) until whole cycles have been taken off: then it is good to 1e-16 in a record of
  * any length. */
 #include <float.h>
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdlib.h>
 #include "error.h"
@@ -131,71 +129,4 @@ ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *e
     for (size_t i = 0; wave != SS_NOISE && i < (*out)->n; i++)
         (*out)->values[i] = sample(wave, opts, i);
     return SS_OK;
-}
-
-/* --- noise --------------------------------------------------------------------------------- */
-
-struct ss_noise {
-    gsl_rng *rng;
-};
-
-ss_status
-ss_noise_new(ss_noise **out, unsigned long seed)
-{
-    ss_noise *noise = malloc(sizeof *noise);
-    *out = NULL;
-    if (noise == NULL)
-        return SS_ENOMEM;
-    noise->rng = gsl_rng_alloc(gsl_rng_mt19937);
-    if (noise->rng == NULL) {
-        free(noise);
-        return SS_ENOMEM;
-    }
-    gsl_rng_set(noise->rng, seed);
-    *out = noise;
-    return SS_OK;
-}
-
-void
-ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
-             const double *rms)
-{
-    for (size_t i = 0; i < n; i++)
-        for (size_t c = 0; c < n_columns; c++)
-            if (rms[c] > 0)
-                x[i * row + c * column] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
-}
-
-void
-ss_noise_free(ss_noise *noise)
-{
-    if (noise == NULL)
-        return;
-    gsl_rng_free(noise->rng);
-    free(noise);
-}
-
-ss_status
-ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
-{
-    ss_noise *noise;
-    if (!(rms >= 0 && isfinite(rms)))
-        return SS_EINVAL;
-    ss_status st = ss_noise_new(&noise, seed);
-    if (st != SS_OK)
-        return st;
-    ss_noise_add(noise, x, n, 1, 1, 1, &rms);
-    ss_noise_free(noise);
-    return SS_OK;
-}
-
-double
-ss_noise_rms(const double *x, size_t n, double snr_db)
-{
-    double mean = 0, square = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += (x[i] - mean) / (double)(i + 1);
-    for (size_t i = 0; i < n; i++)
-        square += (x[i] - mean) * (x[i] - mean);
-    return n > 0 ? sqrt(square / (double)n) * pow(10, -snr_db / 20) : 0;
 }

@@ -14,7 +14,7 @@
 #include <string.h>
 #include "error.h"
 
-/* A step this much shorter than 1/40 of the fastest period means that the tolerance asks for more
+/* A step this much shorter than 1/40 of the fastest period, and than the friction's own time, means that the tolerance asks for more
  * digits than double precision has; a first-order start at 1e-14 needs about 1e-7. */
 #define STEP_FLOOR 1e-12
 
@@ -29,6 +29,8 @@ typedef struct ode {
     double h_next;
     double error[MAX_DIM];
     double tol;
+    double shortest;                        /* of all steps [s] */
+    double least[MAX_DIM];                  /* what stands for a 0 of the state */
 } ode;
 
 static int
@@ -57,6 +59,9 @@ ode_begin(engine *e)
     if (o->side != NULL)
         gsl_odeiv2_step_reset(o->side);
     rhs(e->m->u, e->m->q, e->dq0, o);
+    o->shortest = STEP_FLOOR * ss_motion_step_cap(e->m);
+    if (e->m->model->quickest != NULL)
+        o->shortest = fmin(o->shortest, STEP_FLOOR / e->m->model->quickest(e->m->scene));
     return SS_OK;
 }
 
@@ -69,6 +74,21 @@ all_finite(const double q[], size_t n)
     return 1;
 }
 
+/* The state at the start of the step, to be stepped from.  GSL's bsimp gives up a step over which a
+ * part of it grows 300-fold, and takes 0 for 1 in whatever unit: there this, in the part's scale,
+ * stands for 0.  It is about the tightest tolerance, and lets the first step be over STEP_FLOOR.
+ * (Modes without friction of their own start with steps long enough to do without.) */
+#define BSIMP_ZERO 0x1p-46
+
+static void
+start_of_step(const ode *o, double q[])
+{
+    memcpy(q, o->base.m->q, sizeof o->base.m->q);
+    for (size_t i = 0; i < o->system.dimension; i++)
+        if (q[i] == 0)
+            q[i] = o->least[i];
+}
+
 /* Try steps of decreasing size from the start of the step until one keeps the tolerance. */
 static ss_status
 ode_step(engine *e, double h_max, ss_error *err)
@@ -77,12 +97,12 @@ ode_step(engine *e, double h_max, ss_error *err)
     const motion *m = e->m;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
-    double h = fmin(o->h_next, h_max), shortest = STEP_FLOOR * ss_motion_step_cap(m);
+    double h = fmin(o->h_next, h_max);
 
     for (;;) {
         double h_adjusted = h / 2;
         int verdict = GSL_ODEIV_HADJ_DEC;
-        memcpy(e->q1, m->q, sizeof e->q1);
+        start_of_step(o, e->q1);
         int failed = gsl_odeiv2_step_apply(step, m->u, h, e->q1, o->error,
                                            step->type->can_use_dydt_in ? e->dq0 : NULL, e->dq1,
                                            &o->system);
@@ -96,10 +116,10 @@ ode_step(engine *e, double h_max, ss_error *err)
                 o->h_next = h_adjusted;     /* a step cut short by h_max says nothing */
             break;
         }
-        if (!(h_adjusted >= shortest))
+        if (!(h_adjusted >= o->shortest))
             return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
                            "step fell below %.3g s", step->type->name, o->tol, m->origin.hi + m->u,
-                           shortest);
+                           o->shortest);
         o->h_next = h = h_adjusted;
     }
     if (!step->type->gives_exact_dydt_out)
@@ -175,7 +195,7 @@ ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
     (void)where;
     int inside = s > 0 && s < e->h && !e->lands_on_samples;
     if (inside && o->side != NULL) {
-        memcpy(q, m->q, sizeof m->q);
+        start_of_step(o, q);
         gsl_odeiv2_step_apply(o->side, m->u, s, q, error,
                               o->side->type->can_use_dydt_in ? e->dq0 : NULL, NULL, &o->system);
     } else if (inside) {
@@ -246,14 +266,14 @@ absolute_scales(const motion *m, double scale[MAX_DIM])
 }
 
 ss_status
-ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
+ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
 {
     size_t i = 0;
     double scale[MAX_DIM];
-    while (i < METHODS && strcmp(opts->method, method[i].name) != 0)
+    while (i < METHODS && strcmp(name, method[i].name) != 0)
         i++;
     if (i == METHODS)
-        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", opts->method);
+        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
     ode *o = calloc(1, sizeof *o);
     if (o == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
@@ -261,16 +281,22 @@ ss_ode_new(engine **out, motion *m, const ss_sim_opts *opts, ss_error *err)
                         .lands_on_samples = method[i].multistep && m->model->guard == NULL };
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
-    o->tol = opts->tol;
+    o->tol = tol;
     o->h_next = ss_motion_step_cap(m);
     absolute_scales(m, scale);
     for (size_t k = 0; k < m->model->dim; k++)
-        if (!(isfinite(scale[k]) && opts->tol * scale[k] > 0)) {
+        if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {
             ode_free(&o->base);
             return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
         }
+    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
+        && m->scene->model == SS_STATE_VARIABLE) {
+        o->least[0] = BSIMP_ZERO * scale[0];
+        o->least[1] = BSIMP_ZERO * scale[1];
+        o->least[2] = BSIMP_ZERO * m->scene->friction;
+    }
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
-                                                   opts->tol, opts->tol, 1, 0, scale);
+                                                   tol, tol, 1, 0, scale);
     int sides = m->model->derivatives == NULL && !o->multistep;
     if (sides)
         o->side = gsl_odeiv2_step_alloc(*method[i].type, m->model->dim);

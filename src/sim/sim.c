@@ -6,6 +6,7 @@
  * the samples.) */
 #include <stickslip/sim.h>
 
+#include <float.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,9 +31,7 @@ enum { CHATTER_EVENTS = 1000 };
 
 enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
 
-const ss_sim_opts ss_sim_defaults = { .method = "rk8pd", .tol = 1e-12 };
-
-#define EXACT "exact"
+const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
 
 const char *
 ss_sim_method_name(size_t i)
@@ -55,6 +54,13 @@ model_of(const ss_scene *scene)
     return model[scene->model];
 }
 
+const char *
+ss_sim_method_for(const ss_scene *scene)
+{
+    const struct model *model = model_of(scene);
+    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
+}
+
 /* --- the motion ---------------------------------------------------------------------------- */
 
 /* Let u count from the instant of the present step, with the phase there. */
@@ -74,26 +80,30 @@ ss_motion_rebase(motion *m)
 #define GRAZE_LEAST 1e-10
 #define GRAZE_MOST 1e-6
 
+/* What the closed form rounds off of x: an ulp for each of its four terms. */
+#define EXACT_DOUBT (4 * DBL_EPSILON)
+
 /* x is measured by the largest of Z_e, |x0|, |v0| / omega_n and f_k / k. */
 static void
-set_scales(motion *m, double tol)
+set_scales(motion *m, int exact, double tol)
 {
     const ss_scene *s = m->scene;
     double omega_n = sqrt(s->stiffness / s->mass), limit = s->friction / s->contact_stiffness;
     m->x_scale = fmax(fmax(s->base_amplitude, fabs(s->x0)),
                       fmax(fabs(s->v0) / omega_n, s->friction / s->stiffness));
+    m->doubt = m->x_scale * (exact ? EXACT_DOUBT : tol);
     if (s->model == SS_COMPLIANT)
         m->graze = fmin(fmax(GRAZE_TOL * tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
 }
 
-static motion
-motion_of(const ss_scene *scene, double tol)
+motion
+ss_motion_of(const ss_scene *scene, int exact, double tol)
 {
     motion m = { .scene = scene, .model = model_of(scene),
                  .omega = 2 * M_PI * scene->base_frequency,
                  .drive = scene->stiffness * scene->base_amplitude,
                  .phase = atan2(sin(scene->phase), cos(scene->phase)) };
-    set_scales(&m, tol);
+    set_scales(&m, exact, tol);
     ss_motion_rebase(&m);
     return m;
 }
@@ -229,8 +239,8 @@ guard_at(double s, void *user)
 }
 
 /* Whether the mode ends within the step just taken, and when. */
-static int
-ends_within(engine *e, double *s_event)
+int
+ss_engine_ends_within(engine *e, double *s_event)
 {
     const motion *m = e->m;
     guard_value at_0, at_h;
@@ -241,12 +251,11 @@ ends_within(engine *e, double *s_event)
     return ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
 }
 
-/* The mode has ended s after m->u: enter the next one. */
-static ss_status
-change_mode(record *r, engine *e, int still, double s)
+/* The mode has ended s after m->u: enter the next one.  1 if that is an event. */
+int
+ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 {
     motion *m = e->m;
-    ss_event event;
     if (!still) {
         double q[MAX_DIM], dqdt[MAX_DIM];
         e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
@@ -254,17 +263,28 @@ change_mode(record *r, engine *e, int still, double s)
     }
     m->u += s;
     ss_motion_rebase(m);
+    if (m->mode != 0 && fabs(m->x_ref + m->q[0] - m->x_begin) <= m->doubt)
+        m->unresolved++;
+    if (!m->model->next(m, event))
+        return 0;
+    m->x_begin = m->x_ref + m->q[0];
+    e->events++;
+    return 1;
+}
+
+static ss_status
+change_mode(record *r, engine *e, int still, double s)
+{
+    ss_event event;
     ss_status st = SS_OK;
-    if (m->model->next(m, &event)) {
-        e->events++;
-        st = write_event(r, m, &event);
-    }
+    if (ss_engine_next_mode(e, still, s, &event))
+        st = write_event(r, e->m, &event);
     return st == SS_OK ? e->type->begin(e) : st;
 }
 
 /* The step is done with, and no event was in it. */
-static void
-accept(engine *e)
+void
+ss_engine_accept(engine *e)
 {
     motion *m = e->m;
     memcpy(m->q, e->q1, sizeof m->q);
@@ -273,8 +293,8 @@ accept(engine *e)
     e->type->go_on(e);
 }
 
-static ss_status
-chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
+ss_status
+ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
 {
     double period = 2 * M_PI / m->model->fastest(m, NULL);
     *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
@@ -340,13 +360,15 @@ run(record *r, engine *e, ss_error *err)
                 double s = until_sample(r, m, r->i);
                 cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
             }
+            if (model->sight != NULL)
+                cap = fmin(cap, model->sight(m, e->dq0));
             st = e->type->step(e, cap, err);
             if (st == SS_OK && e->steps % REPORT_STEPS == 0)
                 st = report(r, m->origin.hi + m->u);
             if (st != SS_OK)
                 return st;
             h = e->h;
-            ends = ends_within(e, &h);
+            ends = ss_engine_ends_within(e, &h);
         }
         st = write_samples(r, e, still, h);
         if (st != SS_OK)
@@ -357,12 +379,12 @@ run(record *r, engine *e, ss_error *err)
         if (ends) {
             st = change_mode(r, e, still, h);
             if (st == SS_OK)
-                st = chatters(m, lasted, &in_a_row, err);
+                st = ss_motion_chatters(m, lasted, &in_a_row, err);
             if (st != SS_OK)
                 return st;
             lasted = 0;
         } else {
-            accept(e);
+            ss_engine_accept(e);
         }
     }
 }
@@ -393,23 +415,25 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate,
                  .base_further = base_turns(scene) };
-    motion m = motion_of(scene, opts->tol);
+    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
+    int exact = strcmp(method, EXACT) == 0;
+    motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
     int slips = m.model->start(&m);
+    m.x_begin = m.x_ref + m.q[0];
     st = check_length(&m, scene->settle + scene->duration, err);
     if (st != SS_OK)
         return st;
-    st = strcmp(opts->method, EXACT) == 0 ? ss_exact_new(&e, &m, err)
-                                         : ss_ode_new(&e, &m, opts, err);
+    st = exact ? ss_exact_new(&e, &m, err) : ss_ode_new(&e, &m, method, opts->tol, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)
         st = run(&r, e, err);
     if (stats != NULL && e != NULL)
-        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events };
+        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, m.unresolved };
     if (e != NULL)
         e->type->free(e);
     return st;

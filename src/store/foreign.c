@@ -3,6 +3,7 @@
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
  * or its group, which our own files have. */
+#include "../signal/stream.h"
 #include "h5.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "../error.h"
+#include "../signal/stream.h"
 
 typedef struct array {
     size_t rows, columns;
@@ -18,12 +20,18 @@ typedef struct array {
 
 /* --- what can be read ---------------------------------------------------------------------- */
 
+static const char no_memory[] = "out of memory";        /* a reason that is not the file's fault */
+
 static const char *
 refuse_type(hid_t id)
 {
     hid_t type = H5Dget_type(id);
     H5T_class_t class = H5Tget_class(type);
-    char *matlab = ss_h5_get_text(id, "MATLAB_class");
+    char *matlab;
+    if (ss_h5_get_text(id, "MATLAB_class", &matlab) != SS_OK) {
+        H5Tclose(type);
+        return no_memory;
+    }
     int text = class == H5T_STRING || (matlab != NULL && strcmp(matlab, "char") == 0);
     int pair = class == H5T_COMPOUND && H5Tget_nmembers(type) == 2
                && (H5Tget_member_index(type, "imag") >= 0 || H5Tget_member_index(type, "i") >= 0);
@@ -33,9 +41,7 @@ refuse_type(hid_t id)
         return "holds text, not numbers";
     if (pair)
         return "holds complex numbers; a signal is real";
-    if (class != H5T_INTEGER && class != H5T_FLOAT)
-        return "does not hold real numbers";
-    return NULL;
+    return ss_h5_refuse_values(id);
 }
 
 static const char *
@@ -51,11 +57,11 @@ get_shape(hid_t id, array *shape)
         return rank > 2 ? "has more than two dimensions" : "is a single value, not an array";
     if (dims[0] == 0 || dims[1] == 0)
         return "is empty";
-    if (dims[0] > H5_MAX_VALUES / dims[1])
-        return "has more values than can be read at once";
     shape->transposed = dims[0] < dims[1];
     shape->rows = (size_t)(shape->transposed ? dims[1] : dims[0]);
     shape->columns = (size_t)(shape->transposed ? dims[0] : dims[1]);
+    if (shape->columns > MAX_COLUMNS)
+        return "has more than 32768 columns";
     return NULL;
 }
 
@@ -68,7 +74,7 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
     char *list = user;
     if (info->type != H5O_TYPE_DATASET)
         return 0;
-    hid_t id = H5Dopen2(root, name, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(root, name);
     if (id >= 0 && refuse_type(id) == NULL && get_shape(id, &shape) == NULL) {
         size_t length = strlen(list), room = 300 - length;
         if (snprintf(list + length, room, " /%s", name) >= (int)room) {
@@ -95,7 +101,7 @@ ss_h5_fail_listing(h5_file *file)
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
-ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
+find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
     *start = 0;
     if (*rate > 0)
@@ -106,7 +112,7 @@ ss_find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double
     char *slash = strrchr(parent, '/');
     if (slash != NULL)
         slash[slash == parent] = '\0';
-    hid_t group = slash != NULL ? H5Gopen2(file->id, parent, H5P_DEFAULT) : -1;
+    hid_t group = slash != NULL ? ss_h5_open_group(file->id, parent) : -1;
     free(parent);
     int found = ss_h5_get_number(id, "rate", rate);
     if (found)
@@ -126,26 +132,28 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
 {
     double start;
     char name[128];
-    ss_status status = ss_find_clock(file, id, dataset, &rate, &start);
+    ss_status status = find_clock(file, id, dataset, &rate, &start);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);
     if (*out == NULL)
         return SS_ENOMEM;
     const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
-    char *unit = ss_h5_get_text(id, "units");
+    char *unit;
+    status = ss_h5_get_text(id, "units", &unit);
     for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
         int length = snprintf(name, sizeof name, "%.100s", base);
         if (shape->columns > 1)
             snprintf(name + length, sizeof name - (size_t)length, "%zu", c + 1);
-        status = ss_header_add_column(*out, name, unit != NULL ? unit : "");
+        status = ss_header_add_column(*out, name, unit);
     }
     free(unit);
     return status;
 }
 
 static ss_status
-read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, double *values)
+read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, int gaps,
+           double *values)
 {
     size_t n = shape->rows * shape->columns;
     double *raw = malloc(n * sizeof *raw);
@@ -158,7 +166,9 @@ read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, dou
         size_t row = shape->transposed ? i % shape->rows : i / shape->columns;
         size_t column = shape->transposed ? i / shape->rows : i % shape->columns;
         values[column * shape->rows + row] = raw[i];
-        if (!isfinite(raw[i])) {
+        if (!isfinite(raw[i]) && gaps)
+            values[column * shape->rows + row] = NAN;
+        else if (!isfinite(raw[i])) {
             char text[64];
             snprintf(text, sizeof text, "value %zu is not finite", i + 1);
             status = ss_h5_fail(file, SS_EDATA, 0, dataset, text);
@@ -173,8 +183,9 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
 {
     array shape;
     double rate = opts != NULL ? opts->rate : 0;
+    int gaps = opts != NULL && opts->gaps != SS_GAPS_REFUSE;
     ss_header *head = NULL;
-    hid_t id = H5Dopen2(file->id, dataset, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(file->id, dataset);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
     const char *wrong = refuse_type(id);
@@ -182,12 +193,16 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
         wrong = get_shape(id, &shape);
     if (wrong == NULL && opts != NULL && opts->time != NULL)
         wrong = "an array has no column of time to choose; give its rate in Hz";
-    ss_status status = wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
+    ss_status status = wrong == no_memory ? SS_ENOMEM
+                       : wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
                        : make_header(file, id, dataset, &shape, rate, &head);
     if (status == SS_OK)
         status = ss_signal_new(out, head, shape.rows);
     if (status == SS_OK)
-        status = read_array(file, id, dataset, &shape, (*out)->values);
+        status = read_array(file, id, dataset, &shape, gaps, (*out)->values);
+    if (status == SS_OK && gaps)
+        status = ss_fill_gaps((*out)->values, shape.rows, 1, shape.rows, (*out)->head, opts->gaps,
+                              dataset, file->err);
     ss_header_free(head);
     H5Dclose(id);
     return status;

@@ -1,10 +1,15 @@
-/* h5.c -- opening HDF5 files, reading attributes and datasets of real numbers. */
+/* h5.c -- opening HDF5 files, reading attributes and datasets of real numbers.
+ *
+ * A file may claim what it likes, so what would open other files, or ask for memory out of all
+ * proportion to the file, is refused before HDF5 is asked to do it. */
 #include "h5.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "../error.h"
+#include "../signal/stream.h"
 
 ss_status
 ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
@@ -29,6 +34,85 @@ ss_h5_open(h5_file *file)
     return SS_OK;
 }
 
+/* --- objects ------------------------------------------------------------------------------- */
+
+static herr_t
+refuse_link(const char *parent, const char *group, const char *file, const char *object,
+            unsigned *flags, hid_t access, void *user)
+{
+    (void)parent, (void)group, (void)file, (void)object, (void)flags, (void)access, (void)user;
+    return -1;
+}
+
+hid_t
+ss_h5_open_dataset(hid_t group, const char *name)
+{
+    hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_elink_cb(access, refuse_link, NULL);
+    hid_t id = H5Dopen2(group, name, access);
+    H5Pclose(access);
+    return id;
+}
+
+hid_t
+ss_h5_open_group(hid_t group, const char *name)
+{
+    hid_t access = H5Pcreate(H5P_GROUP_ACCESS);
+    H5Pset_elink_cb(access, refuse_link, NULL);
+    hid_t id = H5Gopen2(group, name, access);
+    H5Pclose(access);
+    return id;
+}
+
+/* The bytes that a file may claim for one dataset or chunk: what deflate can make of all of it, and
+ * whatever is no great matter. */
+static double
+largest_claim(hid_t object)
+{
+    hsize_t size = 0;
+    hid_t file = H5Iget_file_id(object);
+    H5Fget_filesize(file, &size);
+    H5Fclose(file);
+    return fmax(1032 * (double)size, 1 << 28);
+}
+
+static double
+chunk_values(hid_t how)
+{
+    hsize_t chunk[H5S_MAX_RANK];
+    double values = 1;
+    int rank = H5Pget_chunk(how, H5S_MAX_RANK, chunk);
+    for (int i = 0; i < rank; i++)
+        values *= (double)chunk[i];
+    return values;
+}
+
+const char *
+ss_h5_refuse_values(hid_t dataset)
+{
+    hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
+    hid_t how = H5Dget_create_plist(dataset);
+    H5T_class_t class = H5Tget_class(type);
+    size_t width = H5Tget_size(type) > 8 ? H5Tget_size(type) : 8;       /* doubles in memory */
+    H5D_layout_t layout = H5Pget_layout(how);
+    double limit = largest_claim(dataset), values = (double)H5Sget_simple_extent_npoints(space);
+    double chunk = layout == H5D_CHUNKED ? chunk_values(how) : 0;
+    const char *wrong = (class != H5T_INTEGER && class != H5T_FLOAT) || width > 16
+                        ? "does not hold real numbers"
+                        : layout == H5D_VIRTUAL || H5Pget_external_count(how) > 0
+                        ? "its values lie outside this file"
+                        : !(values >= 0 && values <= H5_MAX_VALUES)
+                        ? "has more values than can be read at once"
+                        : fmax(values, chunk) * (double)width > limit
+                        ? "claims more values than a file of this size can hold" : NULL;
+    H5Pclose(how);
+    H5Sclose(space);
+    H5Tclose(type);
+    return wrong;
+}
+
+/* --- attributes and values ----------------------------------------------------------------- */
+
 int
 ss_h5_get_number(hid_t object, const char *name, double *value)
 {
@@ -37,7 +121,7 @@ ss_h5_get_number(hid_t object, const char *name, double *value)
         return 0;
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
     H5T_class_t class = H5Tget_class(type);
-    int good = (class == H5T_INTEGER || class == H5T_FLOAT)
+    int good = (class == H5T_INTEGER || class == H5T_FLOAT) && H5Tget_size(type) <= 16
                && H5Sget_simple_extent_npoints(space) == 1
                && H5Aread(id, H5T_NATIVE_DOUBLE, value) >= 0;
     H5Sclose(space);
@@ -47,74 +131,83 @@ ss_h5_get_number(hid_t object, const char *name, double *value)
 }
 
 /* A string of either storage, fixed or variable, as a new C string. */
-static char *
-read_text(hid_t id, hid_t type)
+static ss_status
+read_text(hid_t id, hid_t type, char **text)
 {
-    char *text = NULL, *variable = NULL;
+    char *variable = NULL;
     hid_t memory = H5Tcopy(H5T_C_S1);
+    ss_status status = SS_OK;
     H5Tset_cset(memory, H5Tget_cset(type));
     if (H5Tis_variable_str(type) > 0) {
         H5Tset_size(memory, H5T_VARIABLE);
-        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL)
-            text = strdup(variable);
+        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL
+            && (*text = strdup(variable)) == NULL)
+            status = SS_ENOMEM;
         H5free_memory(variable);
-    } else {
+    } else if (H5Tget_size(type) < H5_MAX_TEXT) {
         size_t size = H5Tget_size(type) + 1;
         H5Tset_size(memory, size);
-        text = calloc(size, 1);
-        if (text != NULL && H5Aread(id, memory, text) < 0) {
-            free(text);
-            text = NULL;
+        *text = calloc(size, 1);
+        if (*text == NULL)
+            status = SS_ENOMEM;
+        else if (H5Aread(id, memory, *text) < 0) {
+            free(*text);
+            *text = NULL;
         }
     }
     H5Tclose(memory);
-    return text;
+    return status;
 }
 
-char *
-ss_h5_get_text(hid_t object, const char *name)
+ss_status
+ss_h5_get_text(hid_t object, const char *name, char **text)
 {
-    char *text = NULL;
+    ss_status status = SS_OK;
     hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
+    *text = NULL;
     if (id < 0)
-        return NULL;
+        return SS_OK;
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
     if (H5Tget_class(type) == H5T_STRING && H5Sget_simple_extent_npoints(space) == 1)
-        text = read_text(id, type);
+        status = read_text(id, type, text);
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(id);
-    return text;
+    return status;
 }
 
 ss_status
 ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n)
 {
-    hid_t id = H5Dopen2(group, name, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(group, name);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    hid_t type = H5Dget_type(id), space = H5Dget_space(id);
-    H5T_class_t class = H5Tget_class(type);
+    hid_t space = H5Dget_space(id);
     hssize_t points = H5Sget_simple_extent_npoints(space);
+    const char *wrong = ss_h5_refuse_values(id);
     ss_status status = SS_OK;
-    if (class != H5T_INTEGER && class != H5T_FLOAT)
-        status = ss_h5_fail(file, SS_EDATA, group, name, "not real numbers");
+    if (wrong != NULL)
+        status = ss_h5_fail(file, SS_EDATA, group, name, wrong);
     else if (points < 0 || (size_t)points != n)
         status = ss_h5_fail(file, SS_EDATA, group, name, "not of the length that the others have");
     else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
         status = ss_h5_fail(file, SS_EIO, group, name, "cannot be read");
     H5Sclose(space);
-    H5Tclose(type);
     H5Dclose(id);
     return status;
 }
 
 static herr_t
-read_note(hid_t root, const char *name, const H5A_info_t *info, void *head)
+read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
 {
+    ss_header *head = user;
     (void)info;
-    char *value = strcmp(name, H5_VERSION_NOTE) != 0 ? ss_h5_get_text(root, name) : NULL;
-    ss_status status = value != NULL ? ss_header_note(head, name, value) : SS_OK;
+    char *value = NULL;
+    if (head->n_notes == MAX_NOTES || strcmp(name, H5_VERSION_NOTE) == 0)
+        return 0;
+    ss_status status = ss_h5_get_text(root, name, &value);
+    if (value != NULL)
+        status = ss_header_note(head, name, value);
     free(value);
     return status != SS_OK && status != SS_EINVAL;      /* others may write what is no note of ours */
 }
@@ -122,7 +215,7 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *head)
 ss_status
 ss_h5_read_notes(h5_file *file, ss_header *head)
 {
-    hid_t root = H5Gopen2(file->id, "/", H5P_DEFAULT), how = H5Gget_create_plist(root);
+    hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
     unsigned tracked = 0;
     H5Pget_attr_creation_order(how, &tracked);
     herr_t stopped = H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,

@@ -8,6 +8,7 @@
 #include <stickslip/store.h>
 
 #define H5_MAX_VALUES 1000000000        /* in one dataset: 8 GB as doubles */
+#define H5_MAX_TEXT 1048576             /* bytes of an attribute */
 
 typedef struct h5_file {
     hid_t id;
@@ -22,15 +23,29 @@ ss_status ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *n
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */
 ss_status ss_h5_open(h5_file *file);
 
+/* Objects by their path, links out of the file not followed; < 0 if there is none. */
+hid_t ss_h5_open_dataset(hid_t group, const char *name);
+hid_t ss_h5_open_group(hid_t group, const char *name);
+/* Why the values of a dataset are not to be read, or NULL: not plain real numbers of this file, or
+ * more of them than the file can hold. */
+const char *ss_h5_refuse_values(hid_t dataset);
+
 /* Attributes of an object.  A missing one, or one of another kind, gives 0. */
 int ss_h5_get_number(hid_t object, const char *name, double *value);
-char *ss_h5_get_text(hid_t object, const char *name);      /* to be freed, or NULL */
+/* The same of text: *text is NULL, or to be freed.  SS_ENOMEM is the only failure. */
+ss_status ss_h5_get_text(hid_t object, const char *name, char **text);
 
 /* Read a whole dataset of real numbers, of n values in all, as doubles. */
 ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n);
 
 /* The notes among the root's attributes, in the order in which they were written. */
 ss_status ss_h5_read_notes(h5_file *file, ss_header *head);
+
+/* What ss_store_read_signal and ss_store_read_coefficients give, of a file that is open (read.c).
+ * On failure *out may hold a part of it. */
+ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
+                            const ss_read_opts *opts);
+ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
 
 /* The dataset at a path, whatever wrote it (foreign.c). */
 ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,

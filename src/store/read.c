@@ -44,17 +44,15 @@ get_header(h5_file *file, hid_t group, ss_header **head)
 static ss_status
 get_size(h5_file *file, hid_t group, const char *name, size_t *n)
 {
-    hid_t id = H5Dopen2(group, name, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(group, name);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
     hid_t space = H5Dget_space(id);
-    hssize_t points = H5Sget_simple_extent_npoints(space);
+    const char *wrong = ss_h5_refuse_values(id);
+    *n = wrong == NULL ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
     H5Sclose(space);
     H5Dclose(id);
-    if (points < 0 || points > H5_MAX_VALUES)
-        return ss_h5_fail(file, SS_EDATA, group, name, "more values than can be read at once");
-    *n = (size_t)points;
-    return SS_OK;
+    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, name, wrong);
 }
 
 /* --- /signal ------------------------------------------------------------------------------- */
@@ -85,12 +83,15 @@ link_at(hid_t group, H5_index_t order, hsize_t i)
 static ss_status
 add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
 {
-    hid_t id = H5Dopen2(group, link, H5P_DEFAULT);
+    hid_t id = ss_h5_open_dataset(group, link);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, link, "not a dataset");
-    char *name = ss_h5_get_text(id, "column"), *unit = ss_h5_get_text(id, "units");
-    ss_status status = ss_header_add_column(head, name != NULL ? name : link,
-                                            unit != NULL ? unit : "");
+    char *name = NULL, *unit = NULL;
+    ss_status status = ss_h5_get_text(id, "column", &name);
+    if (status == SS_OK)
+        status = ss_h5_get_text(id, "units", &unit);
+    if (status == SS_OK)
+        status = ss_header_add_column(head, name != NULL && *name != '\0' ? name : link, unit);
     free(name);
     free(unit);
     H5Dclose(id);
@@ -135,12 +136,16 @@ read_columns(h5_file *file, hid_t group, ss_header *head, char *link[], hsize_t 
 static ss_status
 read_signal(h5_file *file, ss_signal **out)
 {
-    hid_t group = H5Gopen2(file->id, "/signal", H5P_DEFAULT);
+    hid_t group = ss_h5_open_group(file->id, "/signal");
     H5G_info_t info = { 0 };
     ss_header *head = NULL;
+    if (group < 0)
+        return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
     ss_status status = get_header(file, group, &head);
     if (status == SS_OK && H5Gget_info(group, &info) < 0)
         status = ss_h5_fail(file, SS_EIO, 0, "/signal", "cannot be read");
+    if (status == SS_OK && info.nlinks > MAX_COLUMNS)
+        status = ss_h5_fail(file, SS_EDATA, 0, "/signal", "has more than 32768 columns");
     H5_index_t order = link_order(group);
     char **link = calloc(info.nlinks + 1, sizeof *link);
     if (link == NULL)
@@ -158,15 +163,30 @@ read_signal(h5_file *file, ss_signal **out)
     return status;
 }
 
+ss_status
+ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset, const ss_read_opts *opts)
+{
+    if (dataset != NULL && dataset[0] != '\0')
+        return ss_h5_read_foreign(out, file, dataset, opts);
+    if (H5Lexists(file->id, "signal", H5P_DEFAULT) <= 0)
+        return ss_h5_fail_listing(file);
+    ss_status status = read_signal(file, out);
+    if (status != SS_OK || opts == NULL)
+        return status;
+    return ss_refuse_clock(file->path, (*out)->head->rate, opts, file->err);
+}
+
 /* --- /wavelet ------------------------------------------------------------------------------ */
 
 static ss_status
 add_grid_column(hid_t group, ss_header *head)
 {
-    char *name = ss_h5_get_text(group, "column"), *unit = ss_h5_get_text(group, "column_units");
-    ss_status status = SS_OK;
-    if (name != NULL && name[0] != '\0')
-        status = ss_header_add_column(head, name, unit != NULL ? unit : "");
+    char *name = NULL, *unit = NULL;
+    ss_status status = ss_h5_get_text(group, "column", &name);
+    if (status == SS_OK)
+        status = ss_h5_get_text(group, "column_units", &unit);
+    if (status == SS_OK && name != NULL && name[0] != '\0')
+        status = ss_header_add_column(head, name, unit);
     free(name);
     free(unit);
     return status;
@@ -238,7 +258,7 @@ get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *tot
     size_t n = 0;
     ss_status status;
     snprintf(name, sizeof name, "scale%03zu", i);
-    hid_t group = H5Gopen2(parent, name, H5P_DEFAULT);
+    hid_t group = ss_h5_open_group(parent, name);
     if (group < 0)
         return ss_h5_fail(file, SS_EDATA, parent, name, "no such group");
     if ((status = get_number(file, group, "j", -1e6, 1e6, &j)) == SS_OK
@@ -262,8 +282,13 @@ get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
 {
     static const char *const name[] = { "m", "scale", "frequency", "j" };
     size_t n = c->n_scales;
+    size_t claimed;
+    ss_status status = get_size(file, group, "re", &claimed);
+    if (status == SS_OK && claimed / n != c->n)
+        status = ss_h5_fail(file, SS_EDATA, group, "re", "not a row a scale of a value a sample");
     double *row = malloc((4 * n + 1) * sizeof *row);
-    ss_status status = row != NULL ? SS_OK : SS_ENOMEM;
+    if (row == NULL)
+        status = SS_ENOMEM;
     for (size_t k = 0; status == SS_OK && k < 4; k++) {
         status = ss_h5_read_values(file, group, name[k], row + k * n, n);
         if (status == SS_OK)
@@ -311,8 +336,8 @@ read_grid(h5_file *file, hid_t group, ss_coefficients *c)
     return status;
 }
 
-static ss_status
-read_coefficients(h5_file *file, ss_coefficients **out)
+ss_status
+ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
 {
     if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
         return ss_h5_fail(file, SS_EDATA, 0, "",
@@ -320,9 +345,13 @@ read_coefficients(h5_file *file, ss_coefficients **out)
     *out = calloc(1, sizeof **out);
     if (*out == NULL)
         return SS_ENOMEM;
-    hid_t group = H5Gopen2(file->id, "wavelet", H5P_DEFAULT);
+    hid_t group = ss_h5_open_group(file->id, "wavelet");
+    if (group < 0)
+        return ss_h5_fail(file, SS_EDATA, 0, "/wavelet", "not a group of this file");
     ss_status status = read_grid(file, group, *out);
     H5Gclose(group);
+    if (status == SS_OK)
+        status = ss_header_gaps(&(*out)->gap, &(*out)->n_gaps, (*out)->head);
     return status;
 }
 
@@ -360,15 +389,8 @@ ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
     ss_status status;
     H5E_BEGIN_TRY {
         status = ss_h5_open(&file);
-        if (status == SS_OK && dataset != NULL && dataset[0] != '\0')
-            status = ss_h5_read_foreign(&signal, &file, dataset, opts);
-        else if (status == SS_OK && H5Lexists(file.id, "signal", H5P_DEFAULT) > 0) {
-            status = read_signal(&file, &signal);
-            if (status == SS_OK && opts != NULL)
-                status = ss_refuse_clock(path, signal->head->rate, opts, err);
-        }
-        else if (status == SS_OK)
-            status = ss_h5_fail_listing(&file);
+        if (status == SS_OK)
+            status = ss_h5_read_signal(&signal, &file, dataset, opts);
         status = finish(&file, status);
     } H5E_END_TRY
     if (status == SS_OK)
@@ -387,7 +409,7 @@ ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *er
     H5E_BEGIN_TRY {
         status = ss_h5_open(&file);
         if (status == SS_OK)
-            status = read_coefficients(&file, &coefficients);
+            status = ss_h5_read_coefficients(&coefficients, &file);
         status = finish(&file, status);
     } H5E_END_TRY
     if (status == SS_OK)

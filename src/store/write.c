@@ -295,7 +295,7 @@ put_coefficients(h5_file *file, hid_t group, const ss_coefficients *c, size_t fi
         return SS_ENOMEM;
     for (size_t i = 0; i < n_scales; i++)
         for (size_t k = 0; k < scale->n; k++)
-            edge[i * scale->n + k] = ss_scale_edge(&scale[i], k, c->n, c->head->rate) != 0;
+            edge[i * scale->n + k] = (unsigned char)ss_coefficients_edge(c, first + i, k);
     const variable v[] = {
         { "re", units, "real part of the wavelet coefficient", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
           c->w, 2 * scale->offset, 2 },

@@ -7,3 +7,9 @@ ss-signal sine | ss-noise --snr 1 > /dev/full || echo $?
 ss-signal --help > /dev/full || echo $?
 ss-cat --version > /dev/full || echo $?
 ss-signal sine -o /dev/full 2> /dev/null || echo $?
+for form in tsv au; do ss-sim --format $form coulomb > /dev/full || echo $?; done
+for what in --events --list --help --version; do ss-sim $what coulomb > /dev/full || echo $?; done
+ss-trade --version > /dev/full || echo $?
+ln -s /dev/full full.tsv
+ss-sim -o full.tsv coulomb || echo $?
+ss-sim --events -o full.tsv coulomb || echo $?

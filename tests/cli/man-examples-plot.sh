@@ -4,6 +4,9 @@ ss-sim compliant-light -o run.tsv
 ss-plot run.tsv -o figure1.pdf
 ss-plot --xy x,f run.tsv -o loop.png
 ss-plot -c a --from 1 --to 2 run.tsv > a.gp
+ss-sweep --shoot --vary mass=1:9:41 \
+    --vary friction=0.1:1.3:49 coulomb > map.tsv
+ss-plot --map mass,friction,stops,amplitude map.tsv -o map.png
 ss-sim compliant-light | ss-morlet -o run.h5
 ss-contour run.h5 -o figure6.pdf
 ss-sim --events compliant-light > events

@@ -5,3 +5,23 @@ ss-noise --snr 16.98970004336019 clean.tsv | grep -v '^#' > whole
 paste pieces whole | awk '{ d = $2 - $4; if (d * d > e) e = d * d } END { print (e < 1e-24) }'
 ss-noise --snr 20 --seed 5 clean.tsv | head -n 2
 printf 't,x,y\n0,1,2\n1,1,3\n' | ss-noise --snr 20 -c x
+
+# A band and a converter, whole and row by row; the band's rms is that of what was added.
+ss-noise --snr 20 --band 100:200 clean.tsv -o band.tsv
+grep -v '^#' clean.tsv > before
+grep -v '^#' band.tsv | paste before - | awk '{ s += ($2 - $4) ^ 2; n++ } END { printf "%.9f\n", s / n }'
+grep '^# noise' band.tsv
+ss-noise --bits 3 --range 0.5 --column a clean.tsv | awk '!/^#/ { print $2 }' | sort -gu | tr '\n' ' '
+echo
+ss-noise --bits 3 --range 0.5 clean.tsv -o whole.h5
+ss-noise --bits 3 --range 0.5 clean.tsv > rows.tsv
+ss-cat whole.h5 | cmp - rows.tsv
+ss-noise --rms 1 --seed 2 --bits 8 --range 3 clean.tsv -o whole.h5
+ss-noise --rms 1 --seed 2 clean.tsv | ss-noise --bits 8 --range 3 > rows.tsv
+ss-cat whole.h5 | cmp - rows.tsv
+for wrong in '' '--snr 1 --rms 1' '--band 1:2' '--bits 4' '--range 4 --rms 1' '--rms 1 --band 1' \
+        '--bits 53 --range 1'; do
+    # shellcheck disable=SC2086  # options
+    ss-noise $wrong clean.tsv || echo $?
+done
+ss-noise --rms 1 --band 10:2000 clean.tsv || echo $?

@@ -1,0 +1,138 @@
+/* stickslip/sweep.h -- the periodic state of a scene in numbers, at one point or over a grid. */
+#ifndef STICKSLIP_SWEEP_H
+#define STICKSLIP_SWEEP_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/scene.h>
+#include <stickslip/sim.h>
+
+SS_BEGIN_DECLARATIONS
+
+/* Measures are taken over one period of the motion, `a cycle' is a forcing cycle.  A model without
+ * sticks has no stops, stick and microslips; only compliant contact has a transition, or the state
+ * variable. */
+typedef enum ss_measure {
+    SS_STOPS,           /* sticks (compliant: microsticks) that begin, a cycle */
+    SS_STICK_FRACTION,  /* part of the time that is stick */
+    SS_AMPLITUDE,       /* half of max x - min x [m] */
+    SS_X_MAX,           /* max|x| [m] */
+    SS_V_MAX,           /* max|v| [m/s] */
+    SS_A_MAX,           /* max|a| [m/s^2] */
+    SS_ENERGY,          /* work against friction a cycle [J] */
+    SS_PERIOD,          /* in forcing cycles; 0: aperiodic */
+    SS_CYCLES,          /* from the scene's initial state until it is periodic */
+    SS_MICROSLIPS,      /* slips followed by one in the same direction, a half-cycle */
+    SS_TRANSITION,      /* from the times between extrema of a in transitions that have three or
+                           more of them: microsticks, or where |alpha v| < 1 [Hz] */
+    SS_X_PHASE,         /* x and v at the start of a forcing cycle, which tell basins apart [m] */
+    SS_V_PHASE,         /* [m/s] */
+    SS_FLOQUET,         /* modulus of the largest Floquet multiplier of the period */
+    SS_FLOQUET_2,       /* of the next */
+    SS_FLOQUET_ANGLE,   /* argument of the largest, 0 ... pi [rad] */
+    SS_MEASURES
+} ss_measure;
+
+const char *ss_measure_name(ss_measure measure);    /* "stops"; NULL from SS_MEASURES on */
+const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a number */
+
+typedef struct ss_steady_opts {
+    unsigned measures;          /* wanted: a set of 1u << ss_measure */
+    double tol;                 /* 1e-13 ... 1e-1: see ss_steady_find */
+    int max_period;             /* sub-harmonics looked for, 1 ... SS_PERIOD_MAX cycles */
+    unsigned long max_cycles;   /* > 0: then it is called aperiodic */
+    unsigned long settle;       /* > 0: simulate so many cycles instead of looking for the end */
+    int shoot;                  /* Newton on the period map; exact method, no SS_CYCLES */
+    const char *method;         /* of ss_sim_method_name; NULL: exact where there is one, or rk8pd */
+    unsigned long max_steps;    /* > 0: give up after so many */
+} ss_steady_opts;
+enum { SS_PERIOD_MAX = 64 };
+extern const ss_steady_opts ss_steady_defaults; /* 1e-9, 8, 10000, 0, simulation, 10^7 steps */
+
+typedef struct ss_steady {
+    double value[SS_MEASURES];  /* NaN for what was not asked for or is not there */
+} ss_steady;
+
+/* Find the periodic state that the scene settles to, from its initial state on, and measure it.
+ *
+ * The state (x, v, and y or theta) at the start of each forcing cycle is compared with that of 1, 2,
+ * ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k, v in
+ * those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when it differs by at most
+ * tol and, going on to shrink as it has, lies within tol of its limit.  With shoot, Newton's steps
+ * and residual are at most tol.  Settle, duration and rate of the scene do not count.
+ *
+ * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
+ * an aperiodic motion, which is measured over max_period cycles.  Else as ss_sim_run, nothing is
+ * there. */
+ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
+                         ss_error *err);
+/* SS_EINVAL if that can never work for the model: a measure that it does not have, a range. */
+ss_status ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err);
+
+/* --- a grid ----------------------------------------------------------------------------------- */
+
+typedef struct ss_axis {
+    char key[32];               /* a number of the scene */
+    double from, to;
+    size_t n;                   /* >= 1 values, both ends among them */
+    int log;                    /* equal ratios instead of differences; from and to > 0 */
+} ss_axis;
+
+/* From "key=from:to:n" or "key=from:to:n:log". */
+ss_status ss_axis_parse(ss_axis *axis, const char *text, ss_error *err);
+double ss_axis_value(const ss_axis *axis, size_t i);
+
+typedef struct ss_sweep_row {
+    size_t index;               /* in the grid, whose last axis varies fastest */
+    const double *vary;         /* one value an axis */
+    ss_steady steady;
+    ss_status status;           /* of ss_steady_find */
+    const char *reason;         /* "ok", or why something is missing; no tab or newline */
+} ss_sweep_row;
+
+/* Receives rows in grid order, one at a time, from any of the threads.  A non-zero return ends the
+ * sweep with SS_STOP. */
+typedef int ss_sweep_sink(const ss_sweep_row *row, void *user);
+
+typedef struct ss_sweep_opts {
+    ss_steady_opts steady;
+    const ss_axis *axis;
+    size_t n_axes;
+    size_t shard, shards;       /* the points of which the index is shard modulo shards >= 1 */
+    size_t first;               /* the first of these that is wanted, counted from 0 */
+    int threads;                /* 1 ... SS_SWEEP_THREADS_MAX */
+    ss_sweep_sink *sink;
+    ss_progress *progress;      /* as the sink; may be NULL */
+    void *user;                 /* handed to both */
+} ss_sweep_opts;
+enum { SS_SWEEP_THREADS_MAX = 256 };
+
+/* The number of points in the grid; SS_EINVAL if there are none or too many. */
+ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
+
+/* SS_EINVAL if no point can be worked out so: an axis that the model does not have or that belongs to
+ * the record, a measure, a range. */
+ss_status ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
+
+/* Every point is worked out from the scene alone, so that rows are the same whatever the threads
+ * and shards.  A point that fails is a row with its reason; SS_ENOMEM,
+ * SS_EINVAL as from ss_sweep_check, or SS_STOP end the sweep. */
+ss_status ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
+
+/* --- as text ---------------------------------------------------------------------------------- */
+
+/* A sweep's rows: every column but the status, as numbers; NaN for "-", 0 for "aperiodic". */
+typedef struct ss_sweep_table {
+    size_t n_columns, n;
+    char **name;                /* of the columns: "index", "friction", ..., without units */
+    char **unit;
+    double *value;              /* column after column */
+    char *scene;                /* what the header calls it; NULL if it does not */
+} ss_sweep_table;
+
+/* Read what ss-sweep writes, rows in any order.  SS_EDATA with file and line; SS_EIO. */
+ss_status ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err);
+void ss_sweep_table_free(ss_sweep_table *table);    /* NULL is allowed */
+
+SS_END_DECLARATIONS
+#endif

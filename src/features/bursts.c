@@ -1,0 +1,107 @@
+/* bursts.c -- the few events of a record that is quiet between them.
+ *
+ * The row of |W| in which the largest maximum stands highest above the noise shows them best,
+ * whatever their length and the colour of the noise; its maxima within a range of the largest are
+ * the events, and the next one below says how sure that is. */
+#include <math.h>
+#include <stdlib.h>
+#include "error.h"
+#include "features/rows.h"
+
+#define LONGEST 20.0            /* scales in the record at least: some of them must be quiet */
+
+static int
+stronger_first(const void *a, const void *b)
+{
+    double p = ((const peak *)a)->level, q = ((const peak *)b)->level;
+    return (p < q) - (p > q);
+}
+
+static int
+earlier_first(const void *a, const void *b)
+{
+    double p = ((const ss_burst *)a)->t, q = ((const ss_burst *)b)->t;
+    return (p > q) - (p < q);
+}
+
+/* The clearest row, left in *best; rows: how many there are. */
+static ss_status
+find_clearest(row *best, const row_source *source, size_t rows, ss_error *err)
+{
+    double f = ROW_HIGHEST * source->rate / 2;
+    *best = (row){ .rms = 1 };
+    for (size_t i = 0; i < rows; i++) {
+        row r = { 0 };
+        ss_status st = ss_row_new(&r, source, f * exp2(-(double)i / ROW_VOICES), NULL, err);
+        if (st != SS_OK)
+            return st;
+        if (r.n > 0 && r.top / r.rms > best->top / best->rms) {
+            free(best->peak);
+            *best = r;
+        } else
+            free(r.peak);
+    }
+    return SS_OK;
+}
+
+/* The peaks of the row above the threshold, those within range. */
+static ss_status
+take(ss_bursts *found, row *r, double threshold, double range)
+{
+    size_t n = 0;
+    qsort(r->peak, r->n, sizeof *r->peak, stronger_first);
+    found->burst = malloc((r->n + 1) * sizeof *found->burst);
+    if (found->burst == NULL)
+        return SS_ENOMEM;
+    found->f = r->f;
+    found->next = -INFINITY;
+    for (; n < r->n && r->peak[n].level > threshold * r->rms; n++) {
+        double level = 20 * log10(r->peak[n].level / r->top);
+        if (level < -range) {
+            found->next = level;
+            break;
+        }
+        found->burst[found->n++] = (ss_burst){ r->peak[n].t, level, r->peak[n].level / r->rms };
+    }
+    qsort(found->burst, found->n, sizeof *found->burst, earlier_first);
+    return SS_OK;
+}
+
+ss_status
+ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
+               ss_error *err)
+{
+    row_source source;
+    row best = { .rms = 1 };
+    if (!(range >= 0))
+        return ss_fail(err, SS_EINVAL, "range: 0 dB or more are needed");
+    ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, err);
+    if (st != SS_OK)
+        return st;
+    double length = (double)(n - 1) / rate, shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * rate);
+    double octaves = source.constant ? -1 : log2(length / (LONGEST * shortest));
+    size_t rows = octaves >= 0 ? (size_t)(octaves * ROW_VOICES) + 1 : 0;
+    ss_bursts *found = calloc(1, sizeof *found);
+    if (found == NULL)
+        return SS_ENOMEM;
+    st = find_clearest(&best, &source, rows, err);
+    if (st == SS_OK)
+        st = take(found, &best, ss_row_threshold(length, shortest, rows,
+                                                 ss_spike_defaults.false_alarms), range);
+    free(best.peak);
+    if (st != SS_OK) {
+        ss_bursts_free(found);
+        return st;
+    }
+    *out = found;
+    return SS_OK;
+}
+
+void
+ss_bursts_free(ss_bursts *found)
+{
+    if (found == NULL)
+        return;
+    free(found->burst);
+    free(found);
+}

@@ -1,0 +1,180 @@
+/* drops.c -- how often and how far a force drops: a sawtooth of stick and slip, read by height.
+ *
+ * Turning points are those that the signal leaves by RELOAD of the height asked for; falls between
+ * them that are higher than it are drops, so that no slow drift adds up to one.  They are read behind a running median, which takes single wrong samples away
+ * and leaves edges as they are.  Its width follows from the noise: extremes of what it leaves (3
+ * standard deviations at either end) may change a height by ERROR of the one asked for; but it is no
+ * wider than half a fall, so that it does not flatten the turning points. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include <stickslip/spikes.h>
+
+#define ERROR 0.03
+#define RELOAD 0.25             /* rise, re the height asked for, that ends a fall */
+#define NARROWEST 5             /* samples: two wrong ones side by side do no harm */
+#define MAD 0.6744897501960817  /* of a Gaussian, re its standard deviation */
+
+typedef struct drop_list {
+    size_t n, room;
+    ss_drop *drop;
+} drop_list;
+
+static int
+by_value(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+/* The standard deviation of white noise whose second differences are those of x, by their median;
+ * scratch holds n. */
+static double
+noise_rms(const double *x, size_t n, double *scratch)
+{
+    if (n < 3)
+        return 0;
+    for (size_t i = 1; i + 1 < n; i++)
+        scratch[i - 1] = fabs(x[i - 1] - 2 * x[i] + x[i + 1]);
+    qsort(scratch, n - 2, sizeof *scratch, by_value);
+    return scratch[(n - 2) / 2] / (MAD * sqrt(6));
+}
+
+/* The place of v in the n sorted values, or where it is to be put in. */
+static size_t
+place(const double *sorted, size_t n, double v)
+{
+    size_t lo = 0, hi = n;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (sorted[mid] < v)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+/* y[i] is the median of the samples i - half ... i + half, fewer at the ends, but as many on either
+ * side.  window holds 2 half + 1. */
+static void
+running_median(double *y, const double *x, size_t n, size_t half, double *window)
+{
+    size_t first = 0, end = 0, filled = 0;      /* the window has the samples [first, end) */
+    for (size_t i = 0; i < n; i++) {
+        size_t reach = half < i ? half : i;
+        reach = reach < n - 1 - i ? reach : n - 1 - i;
+        for (; end <= i + reach; end++, filled++) {
+            size_t k = place(window, filled, x[end]);
+            memmove(window + k + 1, window + k, (filled - k) * sizeof *window);
+            window[k] = x[end];
+        }
+        for (; first < i - reach; first++, filled--) {
+            size_t k = place(window, filled, x[first]);
+            memmove(window + k, window + k + 1, (filled - k - 1) * sizeof *window);
+        }
+        y[i] = window[filled / 2];
+    }
+}
+
+static ss_status
+append(drop_list *list, const double *y, size_t high, size_t low, double rate)
+{
+    if (list->n == list->room) {
+        size_t room = 2 * list->room + 64;
+        ss_drop *more = realloc(list->drop, room * sizeof *more);
+        if (more == NULL)
+            return SS_ENOMEM;
+        list->drop = more;
+        list->room = room;
+    }
+    list->drop[list->n++] = (ss_drop){ (double)high / rate, (double)low / rate, y[high] - y[low] };
+    return SS_OK;
+}
+
+static ss_status
+read_turning_points(drop_list *list, const double *y, size_t n, double rate, double height)
+{
+    size_t high = 0, low = 0;
+    int falls = 0;
+    ss_status st = SS_OK;
+    list->n = 0;
+    for (size_t i = 0; i < n && st == SS_OK; i++) {
+        if (!falls && y[i] >= y[high])
+            high = i;
+        if (falls && y[i] < y[low])
+            low = i;
+        if (!falls && y[high] - y[i] > RELOAD * height) {
+            falls = 1;
+            low = i;
+        } else if (falls && y[i] - y[low] > RELOAD * height) {
+            if (y[high] - y[low] > height)
+                st = append(list, y, high, low, rate);
+            falls = 0;
+            high = i;
+        }
+    }
+    return falls && y[high] - y[low] > height && st == SS_OK ? append(list, y, high, low, rate) : st;
+}
+
+/* Samples from turning point to turning point, the median over all drops; scratch holds n. */
+static double
+fall_length(const drop_list *list, double rate, double *scratch)
+{
+    for (size_t i = 0; i < list->n; i++)
+        scratch[i] = (list->drop[i].end - list->drop[i].t) * rate;
+    qsort(scratch, list->n, sizeof *scratch, by_value);
+    return scratch[list->n / 2];
+}
+
+static ss_status
+find(drop_list *list, const double *x, size_t n, double rate, double height, double *scratch)
+{
+    double *y = scratch, *window = scratch + n;
+    size_t half = NARROWEST / 2;
+    running_median(y, x, n, half, window);
+    ss_status st = read_turning_points(list, y, n, rate, height);
+    if (st != SS_OK || list->n == 0)
+        return st;
+    /* the median of m Gaussians has pi/2 the variance of their mean */
+    double left = ERROR * height / 6, noise = noise_rms(x, n, window);
+    double wide = M_PI / 2 * noise * noise / (left * left);
+    wide = fmin(wide, fall_length(list, rate, window) / 2);
+    if (wide <= NARROWEST)
+        return SS_OK;
+    half = (size_t)(wide / 2);
+    running_median(y, x, n, half, window);
+    return read_turning_points(list, y, n, rate, height);
+}
+
+ss_status
+ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
+              double height, ss_error *err)
+{
+    drop_list list = { 0, 0, NULL };
+    if (n == 0 || n > SIZE_MAX / 64)
+        return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
+    if (!(rate >= 1e-100 && rate <= 1e100))
+        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
+    if (!(height > 0 && isfinite(height)))
+        return ss_fail(err, SS_EINVAL, "the height of a drop must be more than 0");
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
+    double *scratch = malloc((2 * n + NARROWEST + 1) * sizeof *scratch);
+    list.drop = malloc(sizeof *list.drop);
+    list.room = 1;
+    ss_status st = scratch != NULL && list.drop != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        st = find(&list, x, n, rate, height, scratch);
+    free(scratch);
+    if (st != SS_OK) {
+        free(list.drop);
+        return st;
+    }
+    *out = list.drop;
+    *n_drops = list.n;
+    return SS_OK;
+}

@@ -1,0 +1,824 @@
+/* ringdown.c -- one damped oscillation shared by many short windows of a signal.
+ *
+ * While the contact sticks, the signal is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) + C + D t: the
+ * line stands for the slow response to the base.  w and s belong to the contact and are the same in
+ * every stick; A to D are not.  So A to D are projected out of each window (variable projection,
+ * Golub and Pereyra 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows at
+ * once, by GSL's Levenberg-Marquardt.
+ *
+ * Where a stick begins and ends is not known.  A core shorter than any stick that can be used is put
+ * where an oscillation explains most; from there the window grows.  With w and s fixed, q more
+ * samples raise the sum of squares by the noise's variance times chi-square of q degrees of freedom
+ * if they still belong to the stick: growth ends where they raise it by more.  Micro-slips too weak
+ * to show in one window are looked for in all together, at the same distance from their starts.
+ *
+ * Errors: by the jackknife over windows, in its linearised form.  What it cannot see is a misfit that
+ * all windows share. */
+#include "ringdown.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In periods of the oscillation. */
+#define CORE 1.25               /* longer ones would not fit into a stick of two, wherever they lie */
+#define LEAST 2.0               /* shorter windows cannot tell the oscillation from line and decay */
+#define MOST 16.0               /* longer ones know no more, as the oscillation has decayed */
+#define BLOCK 0.125             /* a step of growth */
+#define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
+#define TRIM_END 0.4
+
+#define GROWTH 1.25             /* of the longest window from one fit to the next */
+#define CHANCE 1e-3             /* of ending the growth at a block that belongs to the stick */
+#define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
+#define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
+#define MISFIT 1e-3             /* of the oscillation's amplitude: the line's own error is taken for noise */
+#define ROUGH 0.02              /* a core is described badly if more of its oscillation's amplitude is left */
+#define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
+#define LASTS 0.15              /* and of the amplitude at its start, at its end: what is gone rang no two periods */
+#define APART 3.0               /* periods: transitions nearer than that have no room for two and a slip */
+#define START 0.03              /* s / w that the fit starts from */
+#define COARSE 1e-4             /* tolerance of fits while the windows still grow */
+#define FINE 1e-8
+enum { FEW = 4 };               /* windows that a jackknife needs */
+enum { COLUMNS = 5, PLACES = 16 };  /* PLACES: of the core, a period */
+
+typedef struct work {
+    const double *x;
+    size_t n;
+    double w, s;                /* per sample */
+    double noise;               /* variance */
+    size_t room;                /* samples of the longest window */
+    double forcing;             /* Omega per sample: 1, cos, sin of it are the slow part; 0: 1 and t */
+    size_t columns;             /* of the slow part and of the oscillation */
+    double *q[COLUMNS];         /* orthonormal; the oscillation's are the last two */
+    double *r;                  /* the residual */
+    double *j;                  /* its derivatives by w and by s */
+    size_t n_windows;
+    const ss_window *window;
+} work;
+
+typedef struct linear {         /* what projecting a window gave */
+    double rss;                 /* sum of squares left */
+    double ring;                /* sum of squares that the oscillation explains */
+    double a, b;                /* of cos and sin */
+} linear;
+
+static const ss_value nothing = { NAN, NAN };
+
+static int
+by_size(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+static double
+period(const work *k)
+{
+    return 2 * M_PI / k->w;
+}
+
+static size_t
+periods(const work *k, double n)
+{
+    return (size_t)ceil(n * period(k));
+}
+
+static size_t
+length(ss_window win)
+{
+    return win.end - win.first;
+}
+
+static double
+dot(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Take its part along the unit vector q out of v; the part. */
+static double
+take_out(double *v, const double *q, size_t n)
+{
+    double part = dot(q, v, n);
+    for (size_t i = 0; i < n; i++)
+        v[i] -= part * q[i];
+    return part;
+}
+
+static double
+normalise(double *v, size_t n)
+{
+    double norm = sqrt(dot(v, v, n));
+    for (size_t i = 0; i < n; i++)
+        v[i] /= norm;
+    return norm;
+}
+
+/* The columns exp(-s t) cos(w t) and exp(-s t) sin(w t), by rotation. */
+static void
+ring_columns(const work *k, double *c, double *s, size_t n)
+{
+    double step = exp(-k->s), turn_c = step * cos(k->w), turn_s = step * sin(k->w);
+    c[0] = 1;
+    s[0] = 0;
+    for (size_t i = 1; i < n; i++) {
+        c[i] = c[i - 1] * turn_c - s[i - 1] * turn_s;
+        s[i] = c[i - 1] * turn_s + s[i - 1] * turn_c;
+    }
+}
+
+/* The slow part: what is not of unit size is made so. */
+static void
+slow_columns(const work *k, size_t n)
+{
+    double middle = 0.5 * (double)(n - 1);
+    for (size_t i = 0; i < n; i++) {
+        double t = (double)i - middle;
+        k->q[0][i] = 1;
+        k->q[1][i] = k->forcing > 0 ? sin(k->forcing * t) : t;
+        if (k->forcing > 0)
+            k->q[2][i] = cos(k->forcing * t);
+    }
+}
+
+/* Fill q and r for a window of more samples than columns, by modified Gram-Schmidt. */
+static linear
+project(work *k, ss_window win)
+{
+    size_t n = length(win), c = k->columns - 2, s = c + 1;
+    double z[COLUMNS], norm[COLUMNS], cross = 0;
+    slow_columns(k, n);
+    ring_columns(k, k->q[c], k->q[s], n);
+    for (size_t j = 0; j < k->columns; j++) {
+        for (size_t l = 0; l < j; l++)
+            cross = take_out(k->q[j], k->q[l], n);      /* the last one: of sin along cos */
+        norm[j] = normalise(k->q[j], n);
+    }
+    memcpy(k->r, k->x + win.first, n * sizeof *k->r);
+    for (size_t j = 0; j < k->columns; j++)
+        z[j] = take_out(k->r, k->q[j], n);
+    double b = z[s] / norm[s];
+    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s], (z[c] - cross * b) / norm[c], b };
+}
+
+/* --- the fit of w and s -------------------------------------------------------------------- */
+
+static int
+residuals(const gsl_vector *at, void *user, gsl_vector *f)
+{
+    work *k = user;
+    double *to = f->data;
+    k->w = gsl_vector_get(at, 0);
+    k->s = gsl_vector_get(at, 1);
+    for (size_t i = 0; i < k->n_windows; i++) {
+        size_t n = length(k->window[i]);
+        if (n == 0)
+            continue;
+        project(k, k->window[i]);
+        memcpy(to, k->r, n * sizeof *to);
+        to += n;
+    }
+    return GSL_SUCCESS;
+}
+
+/* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
+static void
+window_jacobian(work *k, ss_window win, double *j_w, double *j_s)
+{
+    size_t n = length(win);
+    linear fit = project(k, win);
+    ring_columns(k, j_w, j_s, n);
+    for (size_t i = 0; i < n; i++) {
+        double c = (double)i * j_w[i], s = (double)i * j_s[i];
+        j_w[i] = fit.a * s - fit.b * c;
+        j_s[i] = fit.a * c + fit.b * s;
+    }
+    for (size_t j = 0; j < k->columns; j++) {
+        take_out(j_w, k->q[j], n);
+        take_out(j_s, k->q[j], n);
+    }
+}
+
+static int
+jacobian(const gsl_vector *at, void *user, gsl_matrix *to)
+{
+    work *k = user;
+    k->w = gsl_vector_get(at, 0);
+    k->s = gsl_vector_get(at, 1);
+    for (size_t i = 0, row = 0; i < k->n_windows; i++) {
+        size_t n = length(k->window[i]);
+        double *j_w = k->j, *j_s = k->j + k->room;
+        if (n == 0)
+            continue;
+        window_jacobian(k, k->window[i], j_w, j_s);
+        for (size_t l = 0; l < n; l++, row++) {
+            gsl_matrix_set(to, row, 0, j_w[l]);
+            gsl_matrix_set(to, row, 1, j_s[l]);
+        }
+    }
+    return GSL_SUCCESS;
+}
+
+static size_t
+total(const ss_window *window, size_t n)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += length(window[i]);
+    return sum;
+}
+
+/* Fit k->w and k->s to n windows, from where they stand, to a relative tolerance.  *ok: they have
+ * converged. */
+static ss_status
+fit(work *k, const ss_window *window, size_t n, double tol, int *ok)
+{
+    enum { STEPS = 50 };
+    double w = k->w, s = k->s;
+    size_t samples = total(window, n);
+    int info;
+    *ok = 0;
+    if (samples == 0)
+        return SS_OK;
+    k->window = window;
+    k->n_windows = n;
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf problem = { .f = residuals, .df = jacobian, .n = samples, .p = 2,
+                                         .params = k };
+    gsl_multifit_nlinear_workspace *space =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, samples, 2);
+    if (space == NULL)
+        return SS_ENOMEM;
+    double start[2] = { w, s };
+    gsl_vector_view at = gsl_vector_view_array(start, 2);
+    if (gsl_multifit_nlinear_init(&at.vector, &problem, space) == GSL_SUCCESS) {
+        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, tol, 0, 0, NULL, NULL, &info, space);
+        w = gsl_vector_get(space->x, 0);
+        s = gsl_vector_get(space->x, 1);
+        /* no progress: it stands at the minimum already */
+        *ok = (how_it_ended == GSL_SUCCESS || info == GSL_ENOPROG) && w > 0 && w < M_PI
+            && isfinite(s);
+    }
+    k->w = w;
+    k->s = s;
+    gsl_multifit_nlinear_free(space);
+    return SS_OK;
+}
+
+/* --- windows ------------------------------------------------------------------------------- */
+
+/* What of the sum of squares the noise makes: its median over the windows, robust to those that
+ * hold something else; not less than the misfit allowed for. */
+static ss_status
+find_noise(work *k, const ss_window *window, size_t n)
+{
+    double *variance = malloc(2 * n * sizeof *variance), *ring = variance + n;
+    size_t used = 0;
+    if (variance == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        if (length(window[i]) <= k->columns)
+            continue;
+        linear fitted = project(k, window[i]);
+        double freedom = (double)(length(window[i]) - k->columns);
+        variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
+        ring[used++] = fitted.ring / (double)length(window[i]);
+    }
+    if (used > 0) {
+        qsort(variance, used, sizeof *variance, by_size);
+        qsort(ring, used, sizeof *ring, by_size);
+        k->noise = fmax(variance[used / 2], MISFIT * MISFIT * ring[used / 2]);
+    }
+    free(variance);
+    return SS_OK;
+}
+
+/* The window of so many periods about an anchor where the line and the oscillation leave least, among
+ * the places where there is at least a quarter of the most oscillation. */
+static ss_window
+place(work *k, size_t anchor, double size_in_periods)
+{
+    size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
+    size_t before = periods(k, 2), after = periods(k, 1);
+    ss_window best = { 0, 0 };
+    size = size > k->columns + 2 ? size : k->columns + 2;
+    double most = 0, least = INFINITY;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t first = anchor > before ? anchor - before : 0;
+             first <= anchor + after && first + size <= k->n; first += step) {
+            ss_window here = { first, first + size };
+            linear fitted = project(k, here);
+            if (pass == 0) {
+                most = fmax(most, fitted.ring);
+            } else if (fitted.ring >= 0.25 * most && fitted.rss < least) {
+                least = fitted.rss;
+                best = here;
+            }
+        }
+    return best;
+}
+
+/* Do the q samples that raise the sum of squares by rise belong to the stick? */
+static int
+belong(const work *k, double rise, size_t q)
+{
+    return rise <= k->noise * gsl_cdf_chisq_Qinv(CHANCE, (double)q);
+}
+
+/* Move one end of the window outwards, in steps down to one sample, at most room samples. */
+static ss_window
+grow(work *k, ss_window win, size_t room, int backwards)
+{
+    double start = project(k, win).rss, rss = start;
+    size_t added = 0;
+    for (size_t step = periods(k, BLOCK); step > 0; step /= 2)
+        while (added + step <= room) {
+            ss_window more = { win.first - (backwards ? step : 0), win.end + (backwards ? 0 : step) };
+            double now = project(k, more).rss;
+            if (!belong(k, now - rss, step) || !belong(k, now - start, added + step))
+                break;
+            win = more;
+            rss = now;
+            added += step;
+        }
+    return win;
+}
+
+static ss_window
+grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
+{
+    if (length(core) >= longest)
+        return core;
+    size_t most = longest - length(core), left = core.first - low;
+    if (length(core) == 0 || project(k, core).rss > k->noise
+                             * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core) - k->columns)))
+        return (ss_window){ 0, 0 };
+    ss_window win = grow(k, core, left < most ? left : most, 1);
+    size_t right = high - win.end;
+    most = longest - length(win);
+    return grow(k, win, right < most ? right : most, 0);
+}
+
+/* --- micro-slips too weak for any one window ----------------------------------------------- */
+
+/* A micro-slip changes the oscillation by a complex gain, and about equally in all sticks, at about
+ * the same distance from their starts.  So at each distance the gain is tried as a third parameter
+ * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
+ * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well. */
+enum { PARAMETERS = 4 };        /* w, s, real and imaginary part of the gain */
+typedef struct score {
+    double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
+} score;
+
+/* Add a window's at the places first, first + step, ... */
+static void
+add_scores(work *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
+{
+    size_t n = length(win);
+    double *j[PARAMETERS];
+    for (int p = 0; p < PARAMETERS; p++)
+        j[p] = k->j + (size_t)p * k->room;
+    linear fitted = project(k, win);
+    window_jacobian(k, win, j[0], j[1]);
+    for (size_t l = 0; l < n_places; l++, to++) {
+        size_t at = first + l * step;
+        int used = at < n ? PARAMETERS : 2;
+        if (at < n) {
+            ring_columns(k, j[2], j[3], n);
+            for (size_t i = 0; i < n; i++) {
+                double c = i < at ? 0 : j[2][i], s = i < at ? 0 : j[3][i];
+                j[2][i] = fitted.a * c + fitted.b * s;
+                j[3][i] = fitted.b * c - fitted.a * s;
+            }
+            for (int p = 2; p < PARAMETERS; p++)
+                for (size_t q = 0; q < k->columns; q++)
+                    take_out(j[p], k->q[q], n);
+        }
+        for (int p = 0; p < used; p++) {
+            for (int q = 0; q < used; q++)
+                to->h[p * PARAMETERS + q] += dot(j[p], j[q], n);
+            to->g[p] += dot(j[p], k->r, n);
+        }
+    }
+}
+
+/* g' H^-1 g; destroys H. */
+static double
+statistic(score *at)
+{
+    double y[PARAMETERS], sum = 0;
+    gsl_matrix_view h = gsl_matrix_view_array(at->h, PARAMETERS, PARAMETERS);
+    gsl_vector_view v = gsl_vector_view_array(y, PARAMETERS);
+    memcpy(y, at->g, sizeof y);
+    if (gsl_linalg_cholesky_decomp1(&h.matrix) != GSL_SUCCESS)
+        return 0;                       /* no window reaches there */
+    gsl_linalg_cholesky_svx(&h.matrix, &v.vector);
+    for (int p = 0; p < PARAMETERS; p++)
+        sum += at->g[p] * y[p];
+    return sum;
+}
+
+/* Where the gain changes most, if it does at all; *at is k->room if not. */
+static ss_status
+find_break(work *k, const ss_window *window, size_t n, size_t *at)
+{
+    size_t step = periods(k, BLOCK), longest = 0;
+    for (size_t i = 0; i < n; i++)
+        longest = length(window[i]) > longest ? length(window[i]) : longest;
+    size_t n_places = longest / step;
+    score *place = calloc(n_places + 1, sizeof *place);
+    if (place == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        if (length(window[i]) > 0)
+            add_scores(k, window[i], step, step, n_places, place);
+    double most = 1;
+    *at = k->room;
+    for (size_t l = 0; l < n_places; l++) {
+        double chance = (double)((l + 1) * step) < LEAST * period(k) ? BREAK_EARLY : BREAK;
+        double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
+        double over = statistic(&place[l]) / limit;
+        if (over > most) {
+            most = over;
+            *at = (l + 1) * step;
+        }
+    }
+    free(place);
+    return SS_OK;
+}
+
+/* Empty the window whose gain, taken by itself, changes most at a place. */
+static void
+drop_worst(work *k, ss_window *window, size_t n, size_t at)
+{
+    size_t worst = n;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        score s = { { 0 }, { 0 } };
+        if (length(window[i]) <= at)
+            continue;
+        add_scores(k, window[i], at, 1, 1, &s);
+        double found = statistic(&s);
+        if (found > most) {
+            most = found;
+            worst = i;
+        }
+    }
+    if (worst < n)
+        window[worst].end = window[worst].first;
+}
+
+/* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
+static ss_window
+cut(const work *k, ss_window win, size_t longest)
+{
+    size_t least = periods(k, LEAST), end = periods(k, TRIM_END);
+    if (length(win) <= longest)
+        return win;
+    win.end = win.first + longest;
+    win.end -= end < longest - least ? end : longest - least;
+    return win;
+}
+
+/* Keep off both ends as growth found them. */
+static ss_window
+trim(const work *k, ss_window win)
+{
+    size_t least = periods(k, LEAST), start = periods(k, TRIM_START);
+    if (length(win) < least)
+        return (ss_window){ win.first, win.first };
+    size_t spare = length(win) - least;
+    win.first += start < spare ? start : spare;
+    return cut(k, win, length(win) - 1);
+}
+
+/* Windows about the cores, as the w, s and noise at hand show them. */
+static void
+find_windows(work *k, const ss_window *core, ss_window *window, size_t n, size_t limit)
+{
+    for (size_t i = 0; i < n; i++) {
+        size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
+        low = low < core[i].first ? low : core[i].first;
+        high = high > core[i].end ? high : core[i].end;
+        window[i] = grow_both(k, core[i], low, high, limit);
+    }
+}
+
+/* --- standard errors ----------------------------------------------------------------------- */
+
+/* Of one window: H = J'J and g = J'r, and the sum of squares. */
+typedef struct normal {
+    double ww, ws, ss, w, s, rss;
+} normal;
+
+static normal
+normal_of(work *k, ss_window win)
+{
+    size_t n = length(win);
+    double *j_w = k->j, *j_s = k->j + k->room;
+    window_jacobian(k, win, j_w, j_s);
+    return (normal){ dot(j_w, j_w, n), dot(j_w, j_s, n), dot(j_s, j_s, n), dot(j_w, k->r, n),
+                     dot(j_s, k->r, n), dot(k->r, k->r, n) };
+}
+
+/* The variances from the curvature of the sum of squares. */
+static void
+errors_of_fit(const normal *h, double variance, ss_value value[2])
+{
+    double det = h->ww * h->ss - h->ws * h->ws;
+    value[0].error = sqrt(variance * h->ss / det);
+    value[1].error = sqrt(variance * h->ww / det);
+}
+
+/* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i. */
+static ss_status
+jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    normal *each = malloc(n * sizeof *each), all = { 0 };
+    double moved[2] = { 0, 0 }, mean[2] = { 0, 0 };
+    size_t used = 0, samples = total(window, n);
+    if (each == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        if (length(window[i]) == 0)
+            continue;
+        normal h = each[used++] = normal_of(k, window[i]);
+        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
+        all.rss += h.rss;
+    }
+    errors_of_fit(&all, all.rss / (double)(samples - k->columns * used - 2), value);
+    for (int pass = 0; pass < 2 && used >= FEW; pass++)
+        for (size_t i = 0; i < used; i++) {
+            normal h = each[i];
+            double ww = all.ww - h.ww, ws = all.ws - h.ws, ss = all.ss - h.ss;
+            double det = ww * ss - ws * ws, d[2];
+            d[0] = (ss * h.w - ws * h.s) / det;
+            d[1] = (ww * h.s - ws * h.w) / det;
+            for (int j = 0; j < 2; j++) {
+                if (pass == 0)
+                    mean[j] += d[j] / (double)used;
+                else
+                    moved[j] += (d[j] - mean[j]) * (d[j] - mean[j]);
+            }
+        }
+    for (int j = 0; j < 2 && used >= FEW; j++)
+        value[j].error = sqrt(moved[j] * (double)(used - 1) / (double)used);
+    free(each);
+    return SS_OK;
+}
+
+/* --- each transition by itself ------------------------------------------------------------- */
+
+static ss_status
+fit_one(work *k, ss_window win, ss_value each[2], linear *fitted)
+{
+    int ok;
+    double w = k->w, s = k->s;
+    ss_status st = fit(k, &win, 1, FINE, &ok);
+    if (st == SS_OK && ok) {
+        *fitted = project(k, win);
+        normal h = normal_of(k, win);
+        each[0].value = k->w;
+        each[1].value = k->s;
+        errors_of_fit(&h, h.rss / (double)(length(win) - k->columns - 2), each);
+    }
+    k->w = w, k->s = s;
+    return st;
+}
+
+static ss_status
+fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
+{
+    linear fitted;
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < n && st == SS_OK; i++)
+        if (length(window[i]) > k->columns + 2)
+            st = fit_one(k, window[i], each + 2 * i, &fitted);
+    return st;
+}
+
+/* Are the cores described badly, even when they are placed and fitted in turns?  Then it is not the
+ * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor noise,
+ * but that the oscillation is not quite a damped sinusoid. */
+static int
+is_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white)
+{
+    enum { TURNS = 3 };
+    size_t rough = 0, used = 0;
+    int ok = 1;
+    for (int turn = 0; turn < TURNS && ok; turn++) {
+        for (size_t i = 0; i < n; i++)
+            core[i] = place(k, anchor[i], CORE);
+        if (fit(k, core, n, COARSE, &ok) != SS_OK)
+            return 0;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (length(core[i]) == 0)
+            continue;
+        linear fitted = project(k, core[i]);
+        double variance = fitted.rss / (double)(length(core[i]) - k->columns);
+        used++;
+        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && variance > 9 * white * white;
+    }
+    return 2 * rough > used;
+}
+
+/* Windows of the least length where none could be grown, each fitted by itself and kept if the
+ * oscillation explains it well. */
+static ss_status
+fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
+{
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < n && st == SS_OK; i++) {
+        ss_window win = place(k, anchor[i], LEAST);
+        ss_value own[2] = { nothing, nothing };
+        linear fitted;
+        if (length(window[i]) > 0 || length(win) <= k->columns + 2)
+            continue;
+        st = fit_one(k, win, own, &fitted);
+        if (st != SS_OK || !(fabs(log(own[0].value / k->w)) < M_LN2 / 2)
+            || !(fitted.ring > EXPLAINED * (fitted.ring + fitted.rss))
+            || !(exp(-own[1].value * (double)length(win)) > LASTS))
+            continue;
+        memcpy(each + 2 * i, own, sizeof own);
+        window[i] = win;
+    }
+    return st;
+}
+
+/* The median of those fitted one by one, and its error from their scatter. */
+static ss_status
+take_median(const ss_window *window, size_t n, const ss_value *each, ss_value value[2])
+{
+    double *v = malloc((n + 1) * sizeof *v);
+    if (v == NULL)
+        return SS_ENOMEM;
+    for (int j = 0; j < 2; j++) {
+        double mean = 0, scatter = 0;
+        size_t used = 0;
+        for (size_t i = 0; i < n; i++)
+            if (length(window[i]) > 0 && !isnan(each[2 * i + j].value))
+                v[used++] = each[2 * i + j].value;
+        if (used < FEW)
+            break;
+        qsort(v, used, sizeof *v, by_size);
+        for (size_t i = 0; i < used; i++)
+            mean += v[i] / (double)used;
+        for (size_t i = 0; i < used; i++)
+            scatter += (v[i] - mean) * (v[i] - mean) / (double)(used - 1);
+        value[j].value = used % 2 ? v[used / 2] : 0.5 * (v[used / 2 - 1] + v[used / 2]);
+        value[j].error = sqrt(M_PI / 2 * scatter / (double)used);       /* of a Gaussian's median */
+    }
+    free(v);
+    return SS_OK;
+}
+
+/* --- all of it ----------------------------------------------------------------------------- */
+
+static ss_status
+fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *window,
+        ss_value value[2], ss_value *each)
+{
+    double start = k->w;
+    int ok = 0, more = 1;
+    for (size_t i = 0; i < n; i++)
+        core[i] = window[i] = place(k, anchor[i], CORE);
+    ss_status st = fit(k, core, n, COARSE, &ok);
+    if (st == SS_OK && ok)
+        st = find_noise(k, core, n);
+    for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
+        if (st != SS_OK || !ok || !(fabs(log(k->w / start)) < M_LN2 / 2))   /* it is something else */
+            return st;
+        size_t longest = periods(k, limit);
+        find_windows(k, core, window, n, longest);
+        more = 0;
+        for (size_t i = 0; i < n; i++)
+            more |= length(window[i]) == longest;
+        st = fit(k, window, n, COARSE, &ok);
+        if (st == SS_OK && ok)
+            st = find_noise(k, window, n);
+    }
+    if (st != SS_OK || !ok)
+        return st;
+    for (size_t i = 0; i < n; i++)
+        window[i] = trim(k, window[i]);
+    size_t longest;
+    do {
+        st = fit(k, window, n, FINE, &ok);
+        if (st == SS_OK && ok)
+            st = find_noise(k, window, n);
+        if (st == SS_OK && ok)
+            st = find_break(k, window, n, &longest);
+        if (st != SS_OK || !ok)
+            return st;
+        if (longest < periods(k, LEAST))
+            drop_worst(k, window, n, longest);
+        else
+            for (size_t i = 0; i < n; i++)
+                window[i] = cut(k, window[i], longest);
+    } while (longest < k->room);
+    value[0].value = k->w;
+    value[1].value = k->s;
+    st = jackknife(k, window, n, value);
+    return st == SS_OK ? fit_each(k, window, n, each) : st;
+}
+
+static ss_status
+fit_with(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
+{
+    ss_window *core = malloc((n + 1) * sizeof *core);
+    if (core == NULL)
+        return SS_ENOMEM;
+    value[0] = value[1] = nothing;
+    for (size_t i = 0; i < n; i++) {
+        window[i] = (ss_window){ anchor[i], anchor[i] };
+        each[2 * i] = each[2 * i + 1] = nothing;
+    }
+    ss_status st = fit_all(k, anchor, n, core, window, value, each);
+    free(core);
+    return st;
+}
+
+/* With either slow part; the one whose w is known better is kept. */
+static ss_status
+fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
+         ss_value *each, double forcing)
+{
+    double w = k->w;
+    ss_status st = fit_with(k, anchor, n, window, value, each);
+    if (st != SS_OK || !(forcing > 0))
+        return st;
+    ss_window *other = malloc((n + 1) * sizeof *other);
+    ss_value *other_each = malloc(2 * (n + 1) * sizeof *other_each), other_value[2];
+    st = SS_ENOMEM;
+    if (other != NULL && other_each != NULL) {
+        k->w = w;
+        k->s = START * w;
+        k->forcing = forcing;
+        k->columns = COLUMNS;
+        st = fit_with(k, anchor, n, other, other_value, other_each);
+        if (st == SS_OK && !(other_value[0].error >= value[0].error)
+            && !isnan(other_value[0].error)) {
+            memcpy(window, other, n * sizeof *window);
+            memcpy(each, other_each, 2 * n * sizeof *each);
+            memcpy(value, other_value, sizeof other_value);
+        }
+    }
+    free(other);
+    free(other_each);
+    return st;
+}
+
+/* What neither fit describes: one by one. */
+static ss_status
+fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
+           ss_value *each, double white)
+{
+    size_t strict = 0, used = 0;
+    if (n < 2 || (double)(anchor[n - 1] - anchor[0]) < APART * period(k) * (double)(n - 1))
+        return SS_OK;
+    ss_window *core = malloc((n + 1) * sizeof *core);
+    if (core == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        strict += length(window[i]) > 0;
+    int rough = 2 * strict < n && is_rough(k, anchor, core, n, white);
+    free(core);
+    if (!rough)
+        return SS_OK;
+    ss_status st = fit_rough(k, anchor, n, window, each);
+    for (size_t i = 0; i < n; i++)
+        used += length(window[i]) > 0;
+    return st == SS_OK && used > strict ? take_median(window, n, each, value) : st;
+}
+
+ss_status
+ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
+                double forcing, double white, ss_window *window, ss_value value[2],
+                ss_value *each)
+{
+    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1 };
+    k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
+    double *memory = malloc((COLUMNS + 1 + PARAMETERS) * k.room * sizeof *memory);
+    if (memory == NULL)
+        return SS_ENOMEM;
+    for (int j = 0; j < COLUMNS; j++)
+        k.q[j] = memory + (size_t)j * k.room;
+    k.r = memory + COLUMNS * k.room;
+    k.j = memory + (COLUMNS + 1) * k.room;
+    ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
+    k.w = w, k.s = START * w;
+    k.forcing = 0, k.columns = COLUMNS - 1;
+    if (st == SS_OK)
+        st = fit_singly(&k, anchor, n_anchors, window, value, each, white);
+    free(memory);
+    return st;
+}

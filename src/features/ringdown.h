@@ -1,0 +1,23 @@
+/* ringdown.h -- one damped oscillation shared by many short windows of a signal. */
+#ifndef RINGDOWN_H
+#define RINGDOWN_H
+
+#include <stddef.h>
+#include <stickslip/features.h>
+
+typedef struct ss_window {
+    size_t first, end;          /* samples [first, end) */
+} ss_window;
+
+/* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each of the n_anchors samples
+ * given, w and s shared, starting from w.  Where the forcing's omega per sample is known and that
+ * is better, a constant and a sinusoid take the place of the line; 0: it is not.  window[i] is that of anchor i on return, empty (end =
+ * first) where less than two periods could be fitted.  value gets w and s, per sample, with standard
+ * errors; each[2 i], each[2 i + 1] those of window i alone.  All are NaN if no window is left.
+ * white is the rms of the white noise: where the oscillation is much farther than that from a damped
+ * sinusoid, windows of two periods are fitted one by one, and value is their median. */
+ss_status ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
+                          double forcing, double white, ss_window *window, ss_value value[2],
+                          ss_value *each);
+
+#endif

@@ -1,0 +1,306 @@
+/* spikes.c -- jumps, kinks and glitches from the maxima of |W| along the shortest scales.
+ *
+ * Rows of |W|, one a scale, are taken from the shortest scale on.  A maximum along a row that is
+ * above the threshold, has one above the threshold beside it in the next row, and lies clear of all
+ * spikes found at shorter scales is a spike.  Once a row shows one, the rows of REACH octaves more
+ * are looked at: weaker spikes and blunter ones appear there, and what appears only later is no
+ * longer sharp.
+ */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "error.h"
+#include "features/breakpoint.h"
+#include "features/rows.h"
+#include <stickslip/spikes.h>
+
+#define DEEPEST 5.0             /* octaves looked at for the first: smooth over 100 samples is smooth */
+#define REACH 2.0               /* octaves looked at from the first row with a spike on */
+#define CLEAR 2.0               /* scales that two spikes are apart at least */
+#define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
+#define CONCLUSIVE 6.0          /* dB that the clearest spike is above the threshold at least */
+#define FIT 2.0                 /* scales on either side that the fit of a break sees */
+
+const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7 };
+
+typedef struct search {
+    row_source source;
+    const ss_spike_opts *opts;
+    size_t n_rows;
+    row *row;
+    double threshold;
+    size_t room;
+    ss_spikes_found *found;
+} search;
+
+const char *
+ss_spike_kind_name(ss_spike_kind kind)
+{
+    static const char *const name[] = { "glitch", "jump", "kink", "bend" };
+    return (unsigned)kind <= SS_SPIKE_BEND ? name[kind] : "?";
+}
+
+/* --- from row to row ----------------------------------------------------------------------- */
+
+/* The peak of the row nearest to t, or NULL if it is farther than within. */
+static const peak *
+nearest(const row *r, double t, double within)
+{
+    size_t lo = 0, hi = r->n;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (r->peak[mid].t < t)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    const peak *best = NULL;
+    if (lo < r->n && r->peak[lo].t - t <= within)
+        best = &r->peak[lo];
+    if (lo > 0 && t - r->peak[lo - 1].t <= within
+        && (best == NULL || t - r->peak[lo - 1].t < best->t - t))
+        best = &r->peak[lo - 1];
+    return best;
+}
+
+static int
+stands_out(const search *s, const row *r, const peak *p)
+{
+    return p != NULL && p->level > s->threshold * r->rms;
+}
+
+/* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most; what
+ * it has above the noise where that is most, into *clearest. */
+static double
+slope_of(const search *s, size_t i, const peak *p, double *clearest)
+{
+    *clearest = p->level / s->row[i].rms;
+    double sum = 0, weight = 0, base = log(p->level);
+    size_t last = i;
+    double level[ROW_VOICES + 1] = { 0 };
+    for (size_t k = i + 1; k < s->n_rows && k <= i + ROW_VOICES; k++) {
+        const peak *next = nearest(&s->row[k], p->t, DRIFT * s->row[k].a);
+        if (next == NULL)
+            break;
+        p = next;
+        *clearest = fmax(*clearest, p->level / s->row[k].rms);
+        level[k - i] = 20 * (log(p->level) - base) / M_LN10;
+        last = k;
+    }
+    double mid = (double)(last - i) / 2;
+    for (size_t k = 0; k <= last - i; k++) {
+        sum += ((double)k - mid) * level[k];
+        weight += ((double)k - mid) * ((double)k - mid);
+    }
+    return weight > 0 ? sum / weight * ROW_VOICES : 0;
+}
+
+/* What falls towards longer scales without standing out at the shortest ones is a pulse of some
+ * length: smooth. */
+static ss_spike_kind
+kind_of(double slope, size_t i)
+{
+    if (slope < -1.5)
+        return i < ROW_VOICES ? SS_SPIKE_GLITCH : SS_SPIKE_BEND;
+    return slope < 4 ? SS_SPIKE_JUMP : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
+}
+
+static ss_status
+add_spike(search *s, size_t i, const peak *p)
+{
+    ss_spikes_found *found = s->found;
+    const row *r = &s->row[i];
+    if (found->n == s->room) {
+        size_t room = 2 * s->room + 64;
+        ss_spike *more = realloc(found->spike, room * sizeof *more);
+        if (more == NULL)
+            return SS_ENOMEM;
+        found->spike = more;
+        s->room = room;
+    }
+    found->spike[found->n++] = (ss_spike){
+        .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms };
+    return SS_OK;
+}
+
+static int
+earlier_first(const void *a, const void *b)
+{
+    const ss_spike *p = a, *q = b;
+    return (p->t > q->t) - (p->t < q->t);
+}
+
+/* Is t clear of the n spikes found at shorter scales, which are in time order? */
+static int
+is_clear(const ss_spikes_found *found, size_t n, double t, double distance)
+{
+    size_t lo = 0, hi = n;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (found->spike[mid].t < t)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return !(lo < n && found->spike[lo].t - t < distance)
+        && !(lo > 0 && t - found->spike[lo - 1].t < distance);
+}
+
+/* The spikes that row i is the shortest to show. */
+static ss_status
+take_row(search *s, size_t i)
+{
+    const row *r = &s->row[i], *next = &s->row[i + 1];
+    size_t before = s->found->n;
+    for (size_t k = 0; k < r->n; k++) {
+        const peak *p = &r->peak[k];
+        if (!stands_out(s, r, p) || !is_clear(s->found, before, p->t, CLEAR * r->a)
+            || !stands_out(s, next, nearest(next, p->t, DRIFT * next->a)))
+            continue;
+        ss_status st = add_spike(s, i, p);
+        if (st != SS_OK)
+            return st;
+    }
+    qsort(s->found->spike, s->found->n, sizeof *s->found->spike, earlier_first);
+    return SS_OK;
+}
+
+static ss_status
+search_rows(search *s, double f, ss_error *err)
+{
+    const row_source *src = &s->source;
+    double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
+    double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
+    if (!(octaves > 0))
+        return SS_OK;           /* too short for any */
+    size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
+    s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
+    s->row = calloc(rows, sizeof *s->row);
+    if (s->row == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i <= last; i++) {
+        ss_status st = ss_row_new(&s->row[i], src, f * exp2(-(double)i / ROW_VOICES), s->found, err);
+        if (st != SS_OK)
+            return st;
+        s->n_rows = i + 1;
+        if (s->row[i].top > s->threshold * s->row[i].rms && last == rows - 1)
+            last = i + (size_t)(REACH * ROW_VOICES) < last ? i + (size_t)(REACH * ROW_VOICES) : last;
+        if (i > 0 && (st = take_row(s, i - 1)) != SS_OK)
+            return st;
+    }
+    return SS_OK;
+}
+
+/* --- times and the whole ------------------------------------------------------------------- */
+
+/* Spike i's time from the fit, which sees no farther than its neighbours. */
+static double
+refined(const search *s, size_t i)
+{
+    const ss_spikes_found *found = s->found;
+    const ss_spike *spike = &found->spike[i];
+    double rate = s->source.rate;
+    double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
+    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->source.n - 1));
+    if (spike->kind == SS_SPIKE_BEND || spike->kind == SS_SPIKE_GLITCH)
+        return spike->t;
+    if (i > 0)
+        lo = fmax(lo, found->spike[i - 1].t * rate + 1);
+    if (i + 1 < found->n)
+        hi = fmin(hi, found->spike[i + 1].t * rate - 1);
+    return ss_breakpoint(s->source.x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
+}
+
+static void
+classify(search *s, ss_spike *spike)
+{
+    double clearest;
+    size_t i = 0;
+    while (s->row[i].f != spike->f)
+        i++;
+    spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
+    spike->kind = kind_of(spike->slope, i);
+    if (spike->kind != SS_SPIKE_BEND || i == 0)
+        s->found->floor = fmin(s->found->floor, 20 * log10(s->threshold / clearest));
+}
+
+static void
+finish(search *s)
+{
+    ss_spikes_found *found = s->found;
+    found->threshold = s->threshold;
+    for (size_t i = 0; i < found->n; i++)
+        classify(s, &found->spike[i]);
+    for (size_t i = 0; i < found->n; i++)
+        found->spike[i].t = refined(s, i);
+    qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
+    for (size_t i = 0; i < found->n; i++)
+        found->f = fmax(found->f, found->spike[i].f);
+    found->conclusive = found->floor <= -CONCLUSIVE;
+}
+
+static ss_status
+check(double rate, const ss_spike_opts *opts, ss_error *err)
+{
+    if (!(opts->fmax >= 0 && opts->fmax <= ROW_HIGHEST * rate / 2 * (1 + 1e-12)))
+        return ss_fail(err, SS_EINVAL, "fmax %g Hz is not at most %g of Nyquist", opts->fmax,
+                       ROW_HIGHEST);
+    if (!(opts->false_alarms > 0 && opts->false_alarms <= 1))
+        return ss_fail(err, SS_EINVAL, "false alarms: %g is not in (0, 1]", opts->false_alarms);
+    if (!(opts->precision >= 0 && opts->precision <= 1))
+        return ss_fail(err, SS_EINVAL, "precision: %g is not in [0, 1]", opts->precision);
+    return SS_OK;
+}
+
+ss_status
+ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
+               const ss_spike_opts *opts, ss_error *err)
+{
+    search s = { .opts = opts };
+    ss_status st = check(rate, opts, err);
+    if (st == SS_OK)
+        st = ss_row_source_init(&s.source, x, n, rate, opts->precision, err);
+    if (st != SS_OK)
+        return st;
+    s.found = calloc(1, sizeof *s.found);
+    if (s.found == NULL)
+        return SS_ENOMEM;
+    if (!s.source.constant)
+        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * rate / 2, err);
+    if (st == SS_OK)
+        finish(&s);
+    for (size_t i = 0; i < s.n_rows; i++)
+        free(s.row[i].peak);
+    free(s.row);
+    if (st != SS_OK) {
+        ss_spikes_free(s.found);
+        return st;
+    }
+    *out = s.found;
+    return SS_OK;
+}
+
+ss_spike_group
+ss_spikes_within(const ss_spikes_found *found, double onset, double end, double range)
+{
+    ss_spike_group group = { 0, 0 };
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        double a = ROW_CENTER / (2 * M_PI * spike->f);
+        if (spike->kind == SS_SPIKE_GLITCH || spike->kind == SS_SPIKE_BEND
+            || spike->level < -range || spike->t < onset - a || spike->t > end + a)
+            continue;
+        group.n++;
+        group.inside += spike->t > onset + a && spike->t < end - a;
+    }
+    return group;
+}
+
+void
+ss_spikes_free(ss_spikes_found *found)
+{
+    if (found == NULL)
+        return;
+    free(found->spike);
+    free(found);
+}

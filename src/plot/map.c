@@ -1,0 +1,512 @@
+/* map.c -- a sweep over two parameters: regions of equal count, lines of equal value.
+ *
+ * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and each
+ * a quarter of a row high into the next, so that no seams show.  Lines are traced through the grid as
+ * isoline.c does, and carry their value where it covers no other. */
+#include "isoline.h"
+#include "script.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../error.h"
+
+enum { REGIONS_MAX = 10, LEVELS_MAX = 40, LABEL_POINTS = 12, LABELS_MAX = 60 };
+
+/* Light to dark, in equal steps of lightness, from pale yellow to violet: the order is seen by all
+ * kinds of colour vision, in print without colour too. */
+static const char *const shade[REGIONS_MAX] = { "#fbf3d5", "#dcebc8", "#b7dec3", "#93cdc4",
+    "#74b9c4", "#5fa3c0", "#558bb7", "#5273a9", "#505b97", "#4b4381" };
+
+/* A column's values that differ, ascending. */
+typedef struct axis {
+    const double *column;
+    double *value;
+    size_t n;
+    int log;                        /* their ratios are equal, not their differences */
+} axis;
+
+typedef struct grid {
+    axis x, y;
+    size_t *row;                    /* of the table at x i, y j: row[j * x.n + i]; SIZE_MAX if none */
+} grid;
+
+static int
+ascending(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+/* The step that varies less over the values is the grid's. */
+static int
+is_log(const axis *a)
+{
+    double d[2] = { INFINITY, 0 }, r[2] = { INFINITY, 0 };
+    for (size_t i = 1; i < a->n; i++) {
+        double difference = a->value[i] - a->value[i - 1], ratio = log(a->value[i] / a->value[i - 1]);
+        d[0] = fmin(d[0], difference);
+        d[1] = fmax(d[1], difference);
+        r[0] = fmin(r[0], ratio);
+        r[1] = fmax(r[1], ratio);
+    }
+    return a->n > 2 && a->value[0] > 0 && d[1] > d[0] * (1 + 1e-6) && r[1] / r[0] < d[1] / d[0];
+}
+
+static ss_status
+make_axis(axis *a, const ss_sweep_table *t, size_t column, ss_error *err)
+{
+    a->column = t->value + column * t->n;
+    a->value = malloc((t->n + 1) * sizeof *a->value);
+    if (a->value == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    size_t found = 0;
+    for (size_t i = 0; i < t->n; i++)
+        if (isfinite(a->column[i]))
+            a->value[found++] = a->column[i];
+    qsort(a->value, found, sizeof *a->value, ascending);
+    for (size_t i = 0; i < found; i++)
+        if (a->n == 0 || a->value[i] != a->value[a->n - 1])
+            a->value[a->n++] = a->value[i];
+    if (a->n < 2)
+        return ss_fail(err, SS_EINVAL, "a map needs two values of %s at least", t->name[column]);
+    a->log = is_log(a);
+    return SS_OK;
+}
+
+/* Where x stands among the values, as it is one of them. */
+static size_t
+find(const axis *a, double x)
+{
+    const double *at = bsearch(&x, a->value, a->n, sizeof x, ascending);
+    return (size_t)(at - a->value);
+}
+
+static ss_status
+make_grid(grid *g, const ss_sweep_table *t, const ss_map_opts *map, ss_error *err)
+{
+    ss_status st = make_axis(&g->x, t, map->x, err);
+    if (st == SS_OK)
+        st = make_axis(&g->y, t, map->y, err);
+    if (st != SS_OK)
+        return st;
+    if (g->x.n > SIZE_MAX / sizeof *g->row / g->y.n || g->x.n * g->y.n > 16 * t->n + 100)
+        return ss_fail(err, SS_EINVAL, "the rows are no grid: %zu values of %s, %zu of %s in %zu rows",
+                       g->x.n, t->name[map->x], g->y.n, t->name[map->y], t->n);
+    g->row = malloc(g->x.n * g->y.n * sizeof *g->row);
+    if (g->row == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    for (size_t i = 0; i < g->x.n * g->y.n; i++)
+        g->row[i] = SIZE_MAX;
+    for (size_t i = 0; i < t->n; i++) {
+        if (!isfinite(g->x.column[i]) || !isfinite(g->y.column[i]))
+            continue;
+        size_t *row = &g->row[find(&g->y, g->y.column[i]) * g->x.n + find(&g->x, g->x.column[i])];
+        if (*row != SIZE_MAX)
+            return ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them first",
+                           t->name[map->x], t->name[map->y]);
+        *row = i;
+    }
+    return SS_OK;
+}
+
+static double
+value_at(const grid *g, const double *column, size_t i, size_t j)
+{
+    size_t row = g->row[j * g->x.n + i];
+    return row == SIZE_MAX ? NAN : column[row];
+}
+
+static double
+along(const axis *a, double at)
+{
+    size_t i = (size_t)fmin(fmax(at, 0), (double)(a->n - 2));
+    double part = at - (double)i, lo = a->value[i], hi = a->value[i + 1];
+    return a->log ? lo * pow(hi / lo, part) : lo + part * (hi - lo);
+}
+
+/* The border between the cells of values i - 1 and i; the outermost end at their values. */
+static double
+border(const axis *a, double i)
+{
+    return along(a, fmin(fmax(i - 0.5, 0), (double)(a->n - 1)));
+}
+
+static void
+put(FILE *out, double x, char behind)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.6g", x);
+    fprintf(out, "%s%c", text, behind);
+}
+
+/* --- regions ------------------------------------------------------------------------------- */
+
+typedef struct regions {
+    double value[REGIONS_MAX];      /* ascending */
+    size_t n;
+    int missing;                    /* there are points without one */
+} regions;
+
+/* 1 if the column holds few different values, or few whole ones: a count.  In a grid, not even an
+ * amplitude that is 0 here and there is that. */
+static int
+find_regions(regions *r, const grid *g, const double *column)
+{
+    *r = (regions){ .n = 0 };
+    for (size_t k = 0; k < g->x.n * g->y.n; k++) {
+        double z = value_at(g, column, k % g->x.n, k / g->x.n);
+        size_t i = 0;
+        r->missing |= isnan(z);
+        while (i < r->n && r->value[i] != z)
+            i++;
+        if (isnan(z) || i < r->n)
+            continue;
+        if (r->n == REGIONS_MAX)
+            return 0;
+        r->value[r->n++] = z;
+    }
+    qsort(r->value, r->n, sizeof *r->value, ascending);
+    return r->n > 0;
+}
+
+static int
+same(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+/* The boxes of the points at which the column has this value, NaN where it has none. */
+static void
+put_boxes(FILE *out, const grid *g, const double *column, double value)
+{
+    for (size_t j = 0; j < g->y.n; j++)
+        for (size_t i = 0, end; i < g->x.n; i = end) {
+            for (end = i; end < g->x.n && same(value_at(g, column, end, j), value); end++)
+                ;
+            if (end == i) {
+                end++;
+                continue;
+            }
+            put(out, border(&g->x, (double)i), ' ');
+            put(out, border(&g->x, (double)end), ' ');
+            put(out, border(&g->y, (double)j), ' ');
+            put(out, border(&g->y, (double)(j + 1) + (j + 1 < g->y.n ? 0.25 : 0)), '\n');
+        }
+}
+
+static void
+put_regions(FILE *out, const grid *g, const double *column, const regions *r)
+{
+    for (size_t i = 0; i < r->n; i++) {
+        fprintf(out, "$region%zu << EOD\n", i);
+        put_boxes(out, g, column, r->value[i]);
+        fputs("EOD\n", out);
+    }
+}
+
+/* --- lines --------------------------------------------------------------------------------- */
+
+typedef struct line_sink {
+    FILE *out, *labels;
+    const grid *g;
+    const double *column;
+    double level;
+    double taken[LABELS_MAX][2];    /* places of labels, in widths and heights of the map */
+    size_t n;
+} line_sink;
+
+/* Is there room for a label? */
+static int
+is_free(const line_sink *s, const double at[2])
+{
+    int free = s->n < LABELS_MAX && fabs(at[0] - 0.5) < 0.46 && fabs(at[1] - 0.5) < 0.46;
+    for (size_t i = 0; i < s->n; i++)
+        free &= fabs(at[0] - s->taken[i][0]) > 0.09 || fabs(at[1] - s->taken[i][1]) > 0.055;
+    return free;
+}
+
+static void
+put_point(FILE *out, const line_sink *s, const double point[2])
+{
+    put(out, along(&s->g->x, point[0]), ' ');
+    put(out, along(&s->g->y, point[1]), ' ');
+    put(out, s->level, '\n');
+}
+
+/* Label a line in its middle, or else where it has room nearest to that. */
+static void
+put_line_label(line_sink *s, const double (*point)[2], size_t n)
+{
+    for (size_t k = 0; k < n; k++) {
+        const double *at = point[k % 2 == 0 ? n / 2 - k / 2 : n / 2 + k / 2];
+        const double place[2] = { at[0] / (double)(s->g->x.n - 1), at[1] / (double)(s->g->y.n - 1) };
+        if (!is_free(s, place))
+            continue;
+        put_point(s->labels, s, at);
+        memcpy(s->taken[s->n++], place, sizeof place);
+        return;
+    }
+}
+
+/* Are all corners of the cell around a point known? */
+static int
+is_known(const line_sink *s, const double point[2])
+{
+    double sum = 0;
+    for (int k = 0; k < 4; k++)
+        sum += value_at(s->g, s->column, (size_t)(k % 2 ? ceil(point[0]) : point[0]),
+                        (size_t)(k / 2 ? ceil(point[1]) : point[1]));
+    return isfinite(sum);
+}
+
+static void
+put_line(const double (*point)[2], size_t n, void *user)
+{
+    line_sink *s = user;
+    for (size_t first = 0, end; first < n; first = end + 1) {
+        for (end = first; end < n && is_known(s, point[end]); end++)
+            put_point(s->out, s, point[end]);
+        if (end > first)
+            putc('\n', s->out);
+        if (end - first >= LABEL_POINTS)
+            put_line_label(s, point + first, end - first);
+    }
+}
+
+/* Levels at 1, 2 and 5 times powers of ten where the middle 96 % of values above 0 span more than a
+ * factor of 20 and none is below, else in equal steps of that kind. */
+static size_t
+choose_levels(double level[LEVELS_MAX], double *sorted, size_t n)
+{
+    static const double digit[] = { 1, 2, 5 };
+    size_t count = 0;
+    qsort(sorted, n, sizeof *sorted, ascending);
+    double least = sorted[0];
+    while (least == 0 && n > 1 && sorted[0] == 0)
+        sorted++, n--;
+    double lo = sorted[n / 50], hi = sorted[n - 1 - n / 50];
+    if (least >= 0 && lo > 0 && hi / lo > 20) {
+        for (int e = (int)floor(log10(lo)); e <= (int)floor(log10(hi)); e++)
+            for (int i = 0; i < 3 && count < LEVELS_MAX; i++)
+                if (digit[i] * pow(10, e) >= lo && digit[i] * pow(10, e) <= hi)
+                    level[count++] = e < 0 ? digit[i] / pow(10, -e) : digit[i] * pow(10, e);
+        return count;
+    }
+    if (!(hi > lo))
+        return 0;
+    double power = pow(10, floor(log10((hi - lo) / 8))), share = (hi - lo) / 8 / power;
+    double step = power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+    for (double k = ceil(lo / step); k * step <= hi && count < LEVELS_MAX; k++)
+        level[count++] = k * step;
+    return count;
+}
+
+/* Heights for the tracing: where there is none, its neighbour's; no line is drawn there. */
+static void
+fill_heights(double *height, double *known, size_t *n_known, const grid *g, const double *column)
+{
+    double last = 0;
+    *n_known = 0;
+    for (size_t k = 0; k < g->x.n * g->y.n; k++) {
+        double z = value_at(g, column, k % g->x.n, k / g->x.n);
+        if (isfinite(z))
+            known[(*n_known)++] = last = z;
+        height[k] = last;
+    }
+}
+
+static ss_status
+put_lines(FILE *out, const grid *g, const double *column, ss_error *err)
+{
+    size_t cells = g->x.n * g->y.n, n_known, size;
+    double *height = malloc(cells * sizeof *height), *known = malloc(cells * sizeof *known);
+    double level[LEVELS_MAX];
+    char *text = NULL;
+    FILE *labels = open_memstream(&text, &size);
+    ss_status st = height != NULL && known != NULL && labels != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK) {
+        fill_heights(height, known, &n_known, g, column);
+        const isoline_map map = { g->x.n, g->y.n, height };
+        size_t levels = n_known > 0 ? choose_levels(level, known, n_known) : 0;
+        fputs("$line << EOD\n", out);
+        line_sink sink = { .out = out, .labels = labels, .g = g, .column = column };
+        for (size_t i = 0; st == SS_OK && i < levels; i++) {
+            sink.level = level[i];
+            st = ss_isolines(&map, level[i], put_line, &sink);
+        }
+        fputs("EOD\n", out);
+    }
+    if (labels != NULL && fclose(labels) != 0)
+        st = SS_ENOMEM;
+    if (st == SS_OK)
+        fprintf(out, "$label << EOD\n%sEOD\n", text);
+    free(text);
+    free(height);
+    free(known);
+    return st == SS_OK ? SS_OK : ss_fail(err, st, "%s", ss_strerror(st));
+}
+
+/* --- the script ---------------------------------------------------------------------------- */
+
+static void
+put_curve(FILE *out, const ss_map_opts *map)
+{
+    fputs("$curve << EOD\n", out);
+    for (size_t i = 0; i < map->n_curve; i++)
+        if (isfinite(map->curve[2 * i]) && isfinite(map->curve[2 * i + 1])) {
+            put(out, map->curve[2 * i], ' ');
+            put(out, map->curve[2 * i + 1], '\n');
+        } else {
+            putc('\n', out);
+        }
+    fputs("EOD\n", out);
+}
+
+static void
+put_axis(FILE *out, const char *name, const axis *a)
+{
+    fprintf(out, "set %srange [", name);
+    put(out, a->value[0], ':');
+    put(out, a->value[a->n - 1], ']');
+    fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
+}
+
+/* "base frequency / Hz" */
+static void
+put_label(FILE *out, const char *name, const ss_sweep_table *t, size_t column)
+{
+    const char *unit = t->unit[column], *brackets = strpbrk(unit, "/ ") != NULL ? "()" : "";
+    char text[256];
+    snprintf(text, sizeof text, "%s%s%.1s%s%s", t->name[column], *unit != '\0' ? " / " : "",
+             brackets, unit, *brackets != '\0' ? ")" : "");
+    for (char *p = text; p < text + strlen(t->name[column]); p++)
+        *p = *p == '_' ? ' ' : *p;
+    fprintf(out, "%s = ", name);
+    ss_script_quote(out, text);
+    putc('\n', out);
+}
+
+static void
+put_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
+{
+    const char *comma = "plot ";
+    for (size_t i = 0; i < r->n; i++, comma = ", \\\n     ") {
+        size_t s = r->n > 1 ? i * (REGIONS_MAX - 1) / (r->n > 5 ? r->n - 1 : 5) : 0;
+        fprintf(out, "%s$region%zu using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb '%s' "
+                "title '%.6g'", comma, i, shade[s], r->value[i]);
+    }
+    if (has_lines) {
+        fprintf(out, "%s$line using 1:2 with lines lw 0.7 lc rgb line_colour notitle", comma);
+        comma = ", \\\n     ";
+    }
+    if (r->missing) {
+        fprintf(out, "%s$missing using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb "
+                "missing_colour title 'none'", comma);
+        comma = ", \\\n     ";
+    }
+    if (map->n_curve > 0) {
+        fprintf(out, "%s$curve using 1:2 with lines lw 2 lc rgb curve_colour notitle", comma);
+        comma = ", \\\n     ";
+    }
+    if (has_lines)
+        fprintf(out, "%s$label using 1:2:(sprintf('%%g', $3)) with labels boxed font fine tc rgb "
+                "line_colour notitle", comma);
+    putc('\n', out);
+}
+
+static ss_status
+write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, size_t region,
+          size_t line, const ss_map_opts *map, const ss_plot_opts *opts, ss_error *err)
+{
+    ss_plot_opts titled = *opts;
+    int has_region = r->n > 0, has_lines = line != SIZE_MAX;
+    if (titled.title == NULL)
+        titled.title = t->scene != NULL ? t->scene : "";
+    ss_status st = ss_script_begin(out, &titled, NULL, 7, err);
+    if (st != SS_OK)
+        return st;
+    put_label(out, "x_label", t, map->x);
+    put_label(out, "y_label", t, map->y);
+    fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
+          "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : '8')\n",
+          out);
+    if (has_region)
+        put_regions(out, g, t->value + region * t->n, r);
+    if (r->missing) {
+        fputs("$missing << EOD\n", out);
+        put_boxes(out, g, t->value + (has_region ? region : line) * t->n, NAN);
+        fputs("EOD\n", out);
+    }
+    if (map->n_curve > 0)
+        put_curve(out, map);
+    if (has_lines)
+        st = put_lines(out, g, t->value + line * t->n, err);
+    if (st != SS_OK)
+        return st;
+    fputs("set encoding utf8\nset title title noenhanced offset 0,-0.5\n"
+          "set lmargin at screen 0.14; set tmargin at screen 0.92; set bmargin at screen 0.14\n", out);
+    fprintf(out, "set rmargin at screen %s\n", has_region || r->missing ? "0.835" : "0.965");
+    put_axis(out, "x", &g->x);
+    put_axis(out, "y", &g->y);
+    fputs("set xlabel x_label noenhanced offset 0,0.4; set label 1 y_label at screen 0.03,graph 0.5 "
+          "center rotate noenhanced\n"
+          "set tics nomirror out scale 0.6; set border lw 0.8 front\n"
+          "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
+    if (has_region || r->missing)
+        fputs("set key at screen 0.995,screen 0.92 right top Left reverse samplen 0.6 spacing 1.3 "
+              "noenhanced font fine\n", out);
+    else
+        fputs("unset key\n", out);
+    if (has_region) {
+        fputs("set key title ", out);
+        ss_script_quote(out, t->name[region]);
+        fputs(" font fine\n", out);
+    }
+    put_plot(out, map, r, has_lines);
+    return ss_script_end(out);
+}
+
+static ss_status
+check(const ss_sweep_table *t, const ss_map_opts *map, ss_error *err)
+{
+    const size_t column[] = { map->x, map->y, map->z[0], map->n_z > 1 ? map->z[1] : 0 };
+    if (map->n_z < 1 || map->n_z > 2)
+        return ss_fail(err, SS_EINVAL, "a map shows one column or two");
+    for (size_t i = 0; i < sizeof column / sizeof *column; i++)
+        if (column[i] >= t->n_columns)
+            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1, t->n_columns);
+    return SS_OK;
+}
+
+ss_status
+ss_plot_map(FILE *out, const ss_sweep_table *t, const ss_map_opts *map, const ss_plot_opts *opts,
+            ss_error *err)
+{
+    grid g = { .row = NULL };
+    regions r = { .n = 0 };
+    size_t region = SIZE_MAX, line = SIZE_MAX;
+    ss_status st = check(t, map, err);
+    if (st == SS_OK)
+        st = make_grid(&g, t, map, err);
+    for (size_t i = 0; st == SS_OK && i < map->n_z; i++) {
+        regions found;
+        int few = find_regions(&found, &g, t->value + map->z[i] * t->n);
+        size_t *place = few ? &region : &line;
+        if (*place != SIZE_MAX)
+            st = ss_fail(err, SS_EINVAL, "%s and %s are both drawn as %s: a map has one of each",
+                         t->name[*place], t->name[map->z[i]], few ? "regions" : "lines");
+        *place = map->z[i];
+        if (few || i == 0)
+            r = (regions){ .n = few ? found.n : 0, .missing = found.missing };
+        if (few)
+            memcpy(r.value, found.value, sizeof r.value);
+    }
+    if (st == SS_OK)
+        st = write_map(out, t, &g, &r, region, line, map, opts, err);
+    free(g.x.value);
+    free(g.y.value);
+    free(g.row);
+    return st;
+}

@@ -1,0 +1,353 @@
+/* fit.c -- the compliant scene that moves as a signal does.
+ *
+ * First the settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c), from the
+ * stiffness and damping that the transitions show or, where they show none, from wide about the
+ * scene's.  That finds the right motion, but a record seldom is settled to the last digit, and what is not
+ * would go into the parameters.  So the motion is then fitted to the record itself, sample by sample, with
+ * a start of its own: position and velocity within a slip, where they are all the state there is.
+ *
+ * A sample that an event crosses as a parameter moves jumps, so the sum of squares has steps.  Differences
+ * over 1e-4 have events cross in many places and see the valley; over 1e-6 hardly any does, and they
+ * lead to its floor.  (Over 1e-4 alone 0.5 % of f_k and 0.02 % of K_y remained without any noise, where
+ * both together leave 1e-12.) */
+#include <stickslip/rank.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_matrix.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_vector.h>
+#include <stickslip/sim.h>
+#include "error.h"
+#include "rank/candidate.h"
+
+enum { STARTS = 96, KEEP = 6, STEPS = 150 };
+enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
+enum { PASSES = 40 };
+#define NEAR 1.5                        /* the features' estimates are that good, as a factor */
+#define FAR 10.0
+#define UNEXPLAINED 0.5                 /* a residual above this is another model's, or none's */
+#define VAGUE 0.3                       /* a standard error above this part tells nothing */
+
+/* What is adjusted, as 1 + (its change in the unit given): differences need numbers of order 1. */
+enum { FRICTION, AMPLITUDE, STIFFNESS, DAMPING, FREQUENCY, PHASE, X0, V0, OFFSET, UNKNOWNS };
+
+typedef struct match {
+    const double *signal;               /* samples matched */
+    size_t n;
+    double *motion;                     /* room for as many */
+    int pick;
+    ss_scene start;                     /* at the first of them, in slip */
+    double x_unit, v_unit, y_unit;
+} match;
+
+/* --- motion -------------------------------------------------------------------------------- */
+
+static ss_scene
+scene_at(const match *m, const gsl_vector *u)
+{
+    double d[UNKNOWNS];
+    ss_scene s = m->start;
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        d[i] = gsl_vector_get(u, i) - 1;
+    s.friction *= exp(d[FRICTION]);
+    s.base_amplitude *= exp(d[AMPLITUDE]);
+    s.contact_stiffness *= exp(d[STIFFNESS]);
+    s.contact_damping *= exp(d[DAMPING]);
+    s.base_frequency *= exp(d[FREQUENCY]);
+    s.phase += d[PHASE];
+    s.x0 += m->x_unit * d[X0];
+    s.v0 += m->v_unit * d[V0];
+    return s;
+}
+
+static int
+residuals(const gsl_vector *u, void *user, gsl_vector *f)
+{
+    const match *m = user;
+    ss_scene s = scene_at(m, u);
+    double offset = m->y_unit * (gsl_vector_get(u, OFFSET) - 1);
+    if (!ss_candidate_run(&s, m->pick, m->motion, m->n))
+        return GSL_EDOM;
+    for (size_t i = 0; i < m->n; i++)
+        gsl_vector_set(f, i, m->motion[i] + offset - m->signal[i]);
+    return GSL_SUCCESS;
+}
+
+/* --- least squares ------------------------------------------------------------------------- */
+
+/* One descent from u, with differences over the given step; u and error only change if it helps. */
+static ss_status
+descend(const match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
+{
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    how.h_df = step;
+    gsl_multifit_nlinear_workspace *w =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, m->n, UNKNOWNS);
+    gsl_matrix *covariance = gsl_matrix_alloc(UNKNOWNS, UNKNOWNS);
+    gsl_multifit_nlinear_fdf f = { .f = residuals, .n = m->n, .p = UNKNOWNS, .params = (void *)m };
+    gsl_vector_view start = gsl_vector_view_array(u, UNKNOWNS);
+    ss_status st = w == NULL || covariance == NULL ? SS_ENOMEM : SS_OK;
+    int why;
+    if (st == SS_OK && gsl_multifit_nlinear_init(&start.vector, &f, w) == GSL_SUCCESS) {
+        /* its verdict does not matter: a rough sum of squares ends in steps that are refused */
+        gsl_multifit_nlinear_driver(PASSES, 1e-9, 1e-9, 0, NULL, NULL, &why, w);
+        const gsl_vector *r = gsl_multifit_nlinear_residual(w);
+        double squares = 0;
+        for (size_t i = 0; i < m->n; i++)
+            squares += gsl_vector_get(r, i) * gsl_vector_get(r, i);
+        gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 0, covariance);
+        for (size_t i = 0; squares / (double)m->n < *left && i < UNKNOWNS; i++) {
+            u[i] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
+            error[i] = sqrt(gsl_matrix_get(covariance, i, i) * squares
+                            / (double)(m->n - UNKNOWNS));
+        }
+        *left = fmin(*left, squares / (double)m->n);
+    }
+    gsl_multifit_nlinear_free(w);
+    gsl_matrix_free(covariance);
+    return st;
+}
+
+/* The u of least squares; error: its standard errors; *left: the mean square, infinite if the motion
+ * could not be run. */
+static ss_status
+solve(const match *m, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
+{
+    static const double step[] = { 1e-4, 1e-6 };
+    ss_status st = SS_OK;
+    *left = INFINITY;
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        u[i] = 1, error[i] = NAN;
+    for (size_t i = 0; st == SS_OK && i < sizeof step / sizeof *step; i++)
+        st = descend(m, step[i], u, error, left);
+    return st;
+}
+
+/* --- where the record starts --------------------------------------------------------------- */
+
+typedef struct moment {
+    ss_sample fastest;                  /* of the samples in slip */
+    size_t at, i;
+} moment;
+
+static int
+find_fastest(const ss_sample *s, size_t n, void *user)
+{
+    moment *m = user;
+    for (size_t i = 0; i < n; i++, m->i++)
+        if (s[i].mode != 0 && fabs(s[i].v) > fabs(m->fastest.v)) {
+            m->fastest = s[i];
+            m->at = m->i;
+        }
+    return 0;
+}
+
+/* Where in the first cycle of the record the scene slips fastest; 0 if it never does. */
+static int
+find_start(match *m, const ss_scene *settled, const double *x, size_t n)
+{
+    moment s = { .at = 0 };
+    ss_sim_opts opts = { .method = "exact", .tol = 1e-12, .samples = find_fastest, .user = &s };
+    ss_scene first = *settled;
+    double period = 1 / settled->base_frequency, rate = settled->rate, square = 0;
+    first.duration = period;
+    if (ss_sim_run(&first, &opts, NULL, NULL) != SS_OK || s.fastest.mode == 0)
+        return 0;
+    m->signal = x + s.at;
+    m->n = (size_t)fmin(fmin((double)(n - s.at), CYCLES * period * rate), MOST);
+    m->start = *settled;
+    m->start.phase += 2 * M_PI * settled->base_frequency * s.fastest.t;
+    m->start.settle = 0;
+    m->start.duration = (double)m->n / rate;
+    m->start.x0 = s.fastest.x;
+    m->start.v0 = s.fastest.v;
+    m->x_unit = fmax(fabs(s.fastest.x), settled->base_amplitude);
+    m->v_unit = fabs(s.fastest.v);
+    for (size_t i = 0; i < m->n; i++)
+        square += m->signal[i] * m->signal[i];
+    m->y_unit = sqrt(square / (double)m->n);
+    return m->n > 2 * UNKNOWNS;
+}
+
+/* --- all ----------------------------------------------------------------------------------- */
+
+static double
+variance(const double *x, size_t n)
+{
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += x[i] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        sum += (x[i] - mean) * (x[i] - mean);
+    return sum / (double)n;
+}
+
+/* Of the record less the scene's, the offset between them apart. */
+static ss_status
+residual_of(double *residual, const ss_scene *scene, int pick, const double *x, size_t n)
+{
+    double *y = malloc((n + 1) * sizeof *y);
+    if (y == NULL)
+        return SS_ENOMEM;
+    *residual = NAN;
+    if (ss_candidate_run(scene, pick, y, n)) {
+        for (size_t i = 0; i < n; i++)
+            y[i] -= x[i];
+        *residual = sqrt(variance(y, n) / variance(x, n));
+    }
+    free(y);
+    return SS_OK;
+}
+
+/* Stiffness and damping from the transitions, if they tell. */
+static ss_status
+narrow(candidate *c, const ss_signal *signal, size_t column, ss_error *err)
+{
+    ss_features *f = NULL;
+    ss_features_opts opts = ss_features_defaults;
+    opts.mass = c->scene.mass;
+    opts.stiffness = c->scene.stiffness;
+    ss_status st = ss_features_find(&f, signal, column, &opts, err);
+    if (st != SS_OK)
+        return st;
+    const double estimate[2] = { f->contact_stiffness.value, f->contact_damping.value };
+    ss_features_free(f);
+    for (size_t i = 0; i < 2; i++) {
+        int known = estimate[i] > 0;            /* NaN is not */
+        double middle = known ? log(estimate[i]) : c->own[i + 2];
+        double width = log(known ? NEAR : FAR);
+        c->lo[i + 2] = middle - width;
+        c->hi[i + 2] = middle + width;
+    }
+    return SS_OK;
+}
+
+/* The scene of the search settled long enough, in step with the record's first sample. */
+static ss_scene
+settled_scene(const candidate *c, const cycle *goal, size_t n, double rate)
+{
+    ss_scene s = ss_candidate_scene(c, goal);
+    s.rate = rate;
+    s.duration = (double)n / rate;
+    return s;
+}
+
+static ss_value
+scaled(double value, double relative)
+{
+    return (ss_value){ value, value * relative };
+}
+
+static void
+report(ss_fit *fit, const ss_scene *s, const double error[UNKNOWNS])
+{
+    fit->friction = scaled(s->friction, error[FRICTION]);
+    fit->base_amplitude = scaled(s->base_amplitude, error[AMPLITUDE]);
+    fit->contact_stiffness = scaled(s->contact_stiffness, error[STIFFNESS]);
+    fit->contact_damping = scaled(s->contact_damping, error[DAMPING]);
+    fit->base_frequency = scaled(s->base_frequency, error[FREQUENCY]);
+}
+
+static ss_status
+fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, size_t n,
+           double rate)
+{
+    double u[UNKNOWNS], error[UNKNOWNS], left;
+    ss_scene settled = settled_scene(c, goal, n, rate);
+    match m = { .pick = c->pick, .motion = malloc(n * sizeof *m.motion) };
+    if (m.motion == NULL)
+        return SS_ENOMEM;
+    if (!find_start(&m, &settled, x, n)) {
+        snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
+        free(m.motion);
+        return SS_OK;
+    }
+    ss_status st = solve(&m, u, error, &left);
+    free(m.motion);
+    if (st != SS_OK)
+        return st;
+    gsl_vector_view at = gsl_vector_view_array(u, UNKNOWNS);
+    ss_scene s = scene_at(&m, &at.vector);
+    report(fit, &s, error);
+    fit->residual_started = sqrt(left / variance(m.signal, m.n));
+    s.settle = settled.settle;
+    s.x0 = s.v0 = 0;
+    s.duration = settled.duration;
+    /* back to the first sample; whole cycles of settling leave the phase as it is */
+    s.phase = remainder(s.phase - 2 * M_PI * s.base_frequency
+                        * (double)(m.signal - x) / rate, 2 * M_PI);
+    s.settle = CANDIDATE_SETTLE / s.base_frequency;
+    st = residual_of(&fit->residual, &s, m.pick, x, n);
+    fit->scene = s;
+    return st;
+}
+
+static void
+judge(ss_fit *fit)
+{
+    const struct { const char *what; ss_value v; } told[] = {
+        { "friction", fit->friction }, { "base_amplitude", fit->base_amplitude },
+        { "contact_stiffness", fit->contact_stiffness },
+        { "contact_damping", fit->contact_damping } };
+    fit->told = 0;
+    if (fit->why[0] != '\0')
+        return;
+    if (!(fit->residual_started <= UNEXPLAINED)) {
+        snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.0f %% of the signal",
+                 100 * fit->residual_started);
+        return;
+    }
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (!(told[i].v.error <= VAGUE * told[i].v.value)) {
+            snprintf(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it",
+                     told[i].what, told[i].v.value, told[i].v.error);
+            return;
+        }
+    fit->told = 1;
+}
+
+static ss_status
+check(const ss_signal *signal, size_t column, const ss_scene *start, ss_error *err)
+{
+    if (column >= signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
+    if (start->model != SS_COMPLIANT)
+        return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
+                       ss_model_name(start->model));
+    for (size_t i = 0; i < signal->n; i++)
+        if (!isfinite(signal->values[column * signal->n + i]))
+            return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
+    return ss_scene_check(start, err);
+}
+
+ss_status
+ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
+             const ss_rank_opts *opts, ss_error *err)
+{
+    ss_status st = check(signal, column, start, err);
+    const double *x = signal->values + column * signal->n;
+    double rate = signal->head->rate;
+    cycle goal;
+    if (st != SS_OK)
+        return st;
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN };
+    st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, signal->n, rate,
+                       opts->forcing_frequency);
+    if (st != SS_OK || goal.period == 0)
+        return st;
+    candidate c = ss_candidate_of(start, (int)opts->quantity, 2);
+    c.lo[0] = c.hi[0] = c.own[0];               /* k is known */
+    st = narrow(&c, signal, column, err);
+    if (st == SS_OK)
+        st = ss_candidate_search(&c, &goal, STARTS, KEEP, STEPS);
+    if (st == SS_OK)
+        st = fit_record(fit, &c, &goal, x, signal->n, rate);
+    if (st == SS_OK)
+        judge(fit);
+    return st;
+}

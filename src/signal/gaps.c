@@ -1,0 +1,117 @@
+/* gaps.c -- samples that are missing from a record: NaN until something stands in for them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "stream.h"
+
+static const char key[] = "gaps";
+
+/* Put something in place of a run of missing values, [i, j) of n that stand a row apart. */
+static void
+fill_run(double *x, size_t row, size_t i, size_t j, size_t n, ss_gaps how)
+{
+    double left = i > 0 ? x[(i - 1) * row] : j < n ? x[j * row] : 0;
+    double right = j < n ? x[j * row] : left;
+    for (size_t k = i; k < j; k++) {
+        double part = (double)(k - i + 1) / (double)(j - i + 1);
+        x[k * row] = how == SS_GAPS_SPLIT ? 0 : (1 - part) * left + part * right;
+    }
+}
+
+/* Fill one column, marking the rows; gives how many values there were. */
+static size_t
+fill_column(double *x, size_t row, size_t n, ss_gaps how, char *missing)
+{
+    size_t there = 0;
+    for (size_t i = 0, j; i < n; i = j + 1) {
+        for (j = i; j < n && isnan(x[j * row]); j++)
+            missing[j] = 1;
+        if (j > i)
+            fill_run(x, row, i, j, n, how);
+        there += j < n;
+    }
+    return there;
+}
+
+/* "from:to from:to ...", to be freed: from the first sample missing to the next that is there. */
+static char *
+spans(const char *missing, size_t n, const ss_header *head)
+{
+    size_t room = 1, length = 0;
+    for (size_t i = 0; i < n; i++)
+        room += (missing[i] && (i == 0 || !missing[i - 1])) * (2 * SS_NUMBER_MAX + 2);
+    char *text = malloc(room);
+    for (size_t i = 0, j; text != NULL && i < n; i = j + 1) {
+        for (j = i; j < n && missing[j]; j++)
+            ;
+        if (j == i)
+            continue;
+        if (length > 0)
+            text[length++] = ' ';
+        length += ss_number_format(text + length, head->start + (double)i / head->rate);
+        text[length++] = ':';
+        length += ss_number_format(text + length, head->start + (double)j / head->rate);
+    }
+    if (text != NULL)
+        text[length] = '\0';
+    return text;
+}
+
+ss_status
+ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss_gaps how,
+             const char *name, ss_error *err)
+{
+    char *missing = calloc(n + 1, 1), *text = NULL;
+    ss_status st = missing != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t c = 0; st == SS_OK && c < head->n_columns; c++)
+        if (fill_column(x + c * column, row, n, how, missing) == 0 && n > 0)
+            st = ss_fail(err, SS_EDATA, "%s: column %s: no numbers", name, head->column[c].name);
+    if (st == SS_OK && memchr(missing, 1, n) != NULL) {
+        text = spans(missing, n, head);
+        st = text != NULL ? ss_header_note(head, key, text) : SS_ENOMEM;
+    }
+    free(text);
+    free(missing);
+    return st != SS_ENOMEM ? st : ss_fail(err, st, "%s: %s", name, ss_strerror(st));
+}
+
+ss_status
+ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
+{
+    const char *text = ss_header_find_note(head, key);
+    size_t room = 0;
+    *out = NULL;
+    *n = 0;
+    for (const char *p = text; p != NULL && *p != '\0'; p++)
+        room += *p == ':';
+    *out = malloc((room + 1) * sizeof **out);
+    if (*out == NULL)
+        return SS_ENOMEM;
+    for (char *p = (char *)text; p != NULL && *p != '\0' && *n < room; ++*n) {
+        ss_span *span = *out + *n;
+        char *end;
+        span->from = ss_number_parse(p, &end);
+        if (end == p || *end != ':')
+            break;
+        span->to = ss_number_parse(end + 1, &p);
+        if (p == end + 1 || (*p != ' ' && *p != '\0') || !(span->from < span->to))
+            break;
+        p += *p == ' ';
+    }
+    return SS_OK;
+}
+
+int
+ss_near_gap(const ss_span *gap, size_t n, double t, double margin)
+{
+    size_t lo = 0, hi = n;                      /* the last gap that begins before t + margin */
+    while (lo < hi) {
+        size_t middle = lo + (hi - lo) / 2;
+        if (gap[middle].from <= t || gap[middle].from < t + margin)
+            lo = middle + 1;
+        else
+            hi = middle;
+    }
+    return lo > 0 && gap[lo - 1].to > t - margin;
+}

@@ -1,0 +1,137 @@
+/* noise.c -- what measuring adds to a signal: white noise, noise of a band, a converter's steps.
+ *
+ * Numbers are drawn by GSL's mt19937 and its Ziggurat.  Noise of a band is made in the spectrum:
+ * Gaussian numbers at the frequencies of the band, of a power of two samples, nothing elsewhere,
+ * and what is needed of that, with the rms that was asked for. */
+#include <gsl/gsl_fft_halfcomplex.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "error.h"
+#include <stickslip/signal.h>
+
+struct ss_noise {
+    gsl_rng *rng;
+};
+
+ss_status
+ss_noise_new(ss_noise **out, unsigned long seed)
+{
+    ss_noise *noise = malloc(sizeof *noise);
+    *out = NULL;
+    if (noise == NULL)
+        return SS_ENOMEM;
+    noise->rng = gsl_rng_alloc(gsl_rng_mt19937);
+    if (noise->rng == NULL) {
+        free(noise);
+        return SS_ENOMEM;
+    }
+    gsl_rng_set(noise->rng, seed);
+    *out = noise;
+    return SS_OK;
+}
+
+void
+ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
+             const double *rms)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < n_columns; c++)
+            if (rms[c] > 0)
+                x[i * row + c * column] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
+}
+
+/* Gaussian numbers at the frequencies of a spectrum of m samples in [lo, hi], as GSL wants them:
+ * real parts from the left, imaginary ones from the right. */
+static size_t
+fill_band(ss_noise *noise, double *spectrum, size_t m, double rate, double lo, double hi)
+{
+    size_t first = (size_t)ceil(lo / rate * (double)m), last = (size_t)floor(hi / rate * (double)m);
+    last = last < m / 2 ? last : m / 2;
+    for (size_t k = first; k <= last; k++) {
+        spectrum[k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+        if (k > 0 && k < m / 2)
+            spectrum[m - k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+    }
+    return first <= last ? last - first + 1 : 0;
+}
+
+ss_status
+ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
+                  double rms, ss_error *err)
+{
+    size_t m = 2;
+    double square = 0;
+    if (!(rms >= 0 && isfinite(rms)) || !(rate > 0) || n > SIZE_MAX / 64)
+        return ss_fail(err, SS_EINVAL, "the rms of noise must be 0 or more");
+    if (!(lo >= 0 && lo <= hi && hi <= rate / 2))
+        return ss_fail(err, SS_EINVAL, "band %g to %g Hz: not between 0 and half the rate, %g Hz",
+                       lo, hi, rate / 2);
+    while (m < n)
+        m *= 2;
+    double *y = calloc(m, sizeof *y);
+    if (y == NULL)
+        return SS_ENOMEM;
+    if (fill_band(noise, y, m, rate, lo, hi) == 0) {
+        free(y);
+        return ss_fail(err, SS_EINVAL, "band %g to %g Hz: a record of %zu samples at %g Hz has no "
+                       "frequency in it", lo, hi, n, rate);
+    }
+    gsl_fft_halfcomplex_radix2_inverse(y, 1, m);
+    for (size_t i = 0; i < n; i++)
+        square += y[i] * y[i];
+    double gain = square > 0 ? rms / sqrt(square / (double)n) : 0;
+    for (size_t i = 0; i < n; i++)
+        x[i] += gain * y[i];
+    free(y);
+    return SS_OK;
+}
+
+void
+ss_noise_free(ss_noise *noise)
+{
+    if (noise == NULL)
+        return;
+    gsl_rng_free(noise->rng);
+    free(noise);
+}
+
+ss_status
+ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
+{
+    ss_noise *noise;
+    if (!(rms >= 0 && isfinite(rms)))
+        return SS_EINVAL;
+    ss_status st = ss_noise_new(&noise, seed);
+    if (st != SS_OK)
+        return st;
+    ss_noise_add(noise, x, n, 1, 1, 1, &rms);
+    ss_noise_free(noise);
+    return SS_OK;
+}
+
+double
+ss_noise_rms(const double *x, size_t n, double snr_db)
+{
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += (x[i] - mean) / (double)(i + 1);
+    for (size_t i = 0; i < n; i++)
+        square += (x[i] - mean) * (x[i] - mean);
+    return n > 0 ? sqrt(square / (double)n) * pow(10, -snr_db / 20) : 0;
+}
+
+ss_status
+ss_quantise(double *x, size_t n, int bits, double range)
+{
+    if (bits < 1 || bits > SS_BITS_MAX || !(range > 0 && isfinite(range)))
+        return SS_EINVAL;
+    double codes = ldexp(1, bits - 1), step = range / codes;
+    if (!(step > 0))
+        return SS_EINVAL;
+    for (size_t i = 0; i < n; i++)
+        x[i] = step * fmin(fmax(rint(x[i] / step), -codes), codes - 1);
+    return SS_OK;
+}

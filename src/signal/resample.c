@@ -1,0 +1,119 @@
+/* resample.c -- values at stamps of any spacing, on a uniform clock: a natural cubic spline
+ * through them, piece by piece between the gaps. */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_interp.h>
+#include <math.h>
+#include <stdlib.h>
+#include "error.h"
+#include "stream.h"
+
+#define LONGEST 10              /* median steps; stamps farther apart have a gap between them */
+#define AT_END 1e-6             /* sample periods that a sample may lie beyond the last stamp */
+
+/* Samples of one column: sample i at from + i / rate goes to x[i * row]. */
+struct target {
+    double from, rate;
+    double *x;
+    size_t n, row;
+};
+
+/* Samples between the first and the last of n values. */
+static int
+fill_piece(const struct target *to, const double *t, const double *value, size_t n)
+{
+    double first = ceil((t[0] - to->from) * to->rate - AT_END);
+    double last = floor((t[n - 1] - to->from) * to->rate + AT_END);
+    gsl_interp *spline = n > 1 ? gsl_interp_alloc(n > 2 ? gsl_interp_cspline : gsl_interp_linear, n)
+                               : NULL;
+    gsl_interp_accel at = { 0, 0, 0 };
+    if (n > 1 && (spline == NULL || gsl_interp_init(spline, t, value, n) != GSL_SUCCESS)) {
+        gsl_interp_free(spline);
+        return 0;
+    }
+    for (double i = fmax(first, 0); i <= last && i < (double)to->n; i++) {
+        double s = fmin(fmax(to->from + i / to->rate, t[0]), t[n - 1]);
+        to->x[(size_t)i * to->row] = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
+    }
+    gsl_interp_free(spline);
+    return 1;
+}
+
+/* One column of n values, a row apart: those that are there, in pieces; the rest becomes NaN. */
+static int
+fill_column(const struct target *to, const double *t, const double *value, size_t row, size_t n,
+            double longest, double *kept, double *kept_t)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < to->n; i++)
+        to->x[i * to->row] = NAN;
+    for (size_t i = 0; i < n; i++) {
+        int there = !isnan(value[i * row]);
+        if (k > 0 && (!there || t[i] - kept_t[k - 1] > longest)) {
+            if (!fill_piece(to, kept_t, kept, k))
+                return 0;
+            k = 0;
+        }
+        kept_t[k] = t[i];
+        kept[k] = value[i * row];
+        k += (size_t)there;
+    }
+    return k == 0 || fill_piece(to, kept_t, kept, k);
+}
+
+/* How many samples from the first stamp to the last; 0: more than memory holds. */
+static size_t
+count_samples(const double *t, size_t n, double rate, size_t columns)
+{
+    double samples = floor((t[n - 1] - t[0]) * rate + AT_END) + 1;
+    return samples < (double)(SIZE_MAX / sizeof *t / columns / 2) ? (size_t)samples : 0;
+}
+
+ss_status
+ss_resample(double **out, size_t *n_out, const double *t, const double *value, size_t n,
+            size_t columns, double usual_step, double rate, const char *name, ss_error *err)
+{
+    *n_out = count_samples(t, n, rate, columns);
+    double *kept = malloc(2 * n * sizeof *kept);
+    *out = *n_out > 0 ? malloc(*n_out * columns * sizeof **out) : NULL;
+    int done = kept != NULL && *out != NULL;
+    for (size_t c = 0; done && c < columns; c++) {
+        struct target to = { t[0], rate, *out + c, *n_out, columns };
+        done = fill_column(&to, t, value + c, columns, n, LONGEST * usual_step, kept, kept + n);
+    }
+    free(kept);
+    if (done)
+        return SS_OK;
+    free(*out);
+    *out = NULL;
+    return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", name);
+}
+
+ss_status
+ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate)
+{
+    const ss_header *head = signal->head;
+    size_t n = signal->n;
+    *out = NULL;
+    if (n < 2 || !(rate > 0) || !isfinite(rate))
+        return SS_EINVAL;
+    double *t = malloc(n * sizeof *t);
+    ss_header *new_head = ss_header_copy(head);
+    int done = t != NULL && new_head != NULL;
+    for (size_t i = 0; done && i < n; i++)
+        t[i] = head->start + (double)i / head->rate;
+    size_t n_out = done ? count_samples(t, n, rate, head->n_columns + 1) : 0;
+    if (done)
+        new_head->rate = rate;
+    done = n_out > 0 && ss_signal_new(out, new_head, n_out) == SS_OK;
+    for (size_t c = 0; done && c < head->n_columns; c++) {
+        struct target to = { t[0], rate, (*out)->values + c * n_out, n_out, 1 };
+        done = fill_piece(&to, t, signal->values + c * n, n);
+    }
+    ss_header_free(new_head);
+    free(t);
+    if (done)
+        return SS_OK;
+    ss_signal_free(*out);
+    *out = NULL;
+    return SS_ENOMEM;
+}

@@ -1,0 +1,171 @@
+/* table.c -- a sweep's rows read back. */
+#include <stickslip/sweep.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip/signal.h>
+#include "error.h"
+#include "signal/stream.h"
+
+typedef struct reader {
+    ss_sweep_table *table;
+    size_t room;
+    double *rows;                   /* row after row, while they come in */
+    const char *name;
+    unsigned long line;
+} reader;
+
+static ss_status
+no_memory(ss_error *err)
+{
+    return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+}
+
+void
+ss_sweep_table_free(ss_sweep_table *t)
+{
+    if (t == NULL)
+        return;
+    for (size_t i = 0; i < t->n_columns; i++) {
+        free(t->name[i]);
+        free(t->unit[i]);
+    }
+    free(t->name);
+    free(t->unit);
+    free(t->value);
+    free(t->scene);
+    free(t);
+}
+
+static ss_status
+add_column(reader *r, char *label, ss_error *err)
+{
+    ss_sweep_table *t = r->table;
+    char *name, *unit, **names = realloc(t->name, (t->n_columns + 1) * sizeof *names), **units;
+    if (names == NULL)
+        return no_memory(err);
+    t->name = names;
+    units = realloc(t->unit, (t->n_columns + 1) * sizeof *units);
+    if (units == NULL)
+        return no_memory(err);
+    t->unit = units;
+    ss_split_label(label, &name, &unit);
+    names[t->n_columns] = strdup(name);
+    units[t->n_columns] = strdup(unit);
+    t->n_columns++;
+    return names[t->n_columns - 1] != NULL && units[t->n_columns - 1] != NULL ? SS_OK
+        : no_memory(err);
+}
+
+/* "# columns: index friction/N contact_damping/(N s/m) ... status": blanks in brackets are the
+ * unit's.  The status is no number and stays out. */
+static ss_status
+take_columns(reader *r, char *text, ss_error *err)
+{
+    ss_status st = SS_OK;
+    if (r->table->n_columns > 0)
+        return SS_OK;                       /* shards one after the other: the header again */
+    while (st == SS_OK && *(text += strspn(text, " ")) != '\0') {
+        char *label = text;
+        for (int depth = 0; *text != '\0' && (depth > 0 || *text != ' '); text++)
+            depth += (*text == '(') - (*text == ')');
+        if (*text != '\0')
+            *text++ = '\0';
+        if (strcmp(label, "status") != 0)
+            st = add_column(r, label, err);
+    }
+    return st;
+}
+
+static ss_status
+take_row(reader *r, char *line, ss_error *err)
+{
+    ss_sweep_table *t = r->table;
+    if (t->n_columns == 0)
+        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->name, r->line);
+    if (t->n == r->room) {
+        size_t more = r->room > 0 ? 2 * r->room : 1024;
+        double *rows = more <= SIZE_MAX / sizeof *rows / t->n_columns
+            ? realloc(r->rows, more * t->n_columns * sizeof *rows) : NULL;
+        if (rows == NULL)
+            return no_memory(err);
+        r->rows = rows;
+        r->room = more;
+    }
+    double *row = r->rows + t->n++ * t->n_columns;
+    for (size_t i = 0; i < t->n_columns; i++) {
+        size_t length = strcspn(line, "\t");
+        char *end;
+        if (line[length] == '\0')
+            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->name, r->line,
+                           t->n_columns + 1, i + 1);
+        line[length] = '\0';
+        row[i] = ss_number_parse(line, &end);
+        if (strcmp(line, "-") == 0)
+            row[i] = NAN;
+        else if (strcmp(line, "aperiodic") == 0)
+            row[i] = 0;
+        else if (end == line || *end != '\0')
+            return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a number", r->name, r->line, line);
+        line += length + 1;
+    }
+    return SS_OK;
+}
+
+static ss_status
+take_line(reader *r, char *line, ss_error *err)
+{
+    static const char columns[] = "# columns: ", scene[] = "# scene: ";
+    line[strcspn(line, "\r\n")] = '\0';
+    if (++r->line == 1 && strcmp(line, "# stickslip sweep 1") != 0)
+        return ss_fail(err, SS_EDATA, "%s:1: not a sweep: it does not begin with "
+                       "'# stickslip sweep 1'", r->name);
+    if (strncmp(line, columns, strlen(columns)) == 0)
+        return take_columns(r, line + strlen(columns), err);
+    if (strncmp(line, scene, strlen(scene)) == 0 && r->table->scene == NULL
+        && (r->table->scene = strdup(line + strlen(scene))) == NULL)
+        return no_memory(err);
+    return line[0] == '#' || line[0] == '\0' ? SS_OK : take_row(r, line, err);
+}
+
+/* Rows become columns. */
+static ss_status
+turn_over(reader *r, ss_error *err)
+{
+    ss_sweep_table *t = r->table;
+    t->value = malloc((t->n * t->n_columns + 1) * sizeof *t->value);
+    if (t->value == NULL)
+        return no_memory(err);
+    for (size_t i = 0; i < t->n; i++)
+        for (size_t c = 0; c < t->n_columns; c++)
+            t->value[c * t->n + i] = r->rows[i * t->n_columns + c];
+    return SS_OK;
+}
+
+ss_status
+ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err)
+{
+    reader r = { .table = calloc(1, sizeof *r.table), .name = name };
+    ss_status st = r.table != NULL ? SS_OK : no_memory(err);
+    char *line = NULL;
+    size_t room = 0;
+    errno = 0;
+    while (st == SS_OK && getline(&line, &room, in) > 0)
+        st = take_line(&r, line, err);
+    free(line);
+    if (st == SS_OK && (ferror(in) || errno == ENOMEM))
+        st = ss_fail(err, ferror(in) ? SS_EIO : SS_ENOMEM, "%s: %s", name, strerror(errno));
+    if (st == SS_OK && r.line == 0)
+        st = ss_fail(err, SS_EDATA, "%s: empty", name);
+    if (st == SS_OK)
+        st = turn_over(&r, err);
+    free(r.rows);
+    if (st == SS_OK)
+        *out = r.table;
+    else
+        ss_sweep_table_free(r.table);
+    return st;
+}

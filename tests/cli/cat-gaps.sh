@@ -1,0 +1,20 @@
+# Samples that are missing, and time stamps that are uneven.
+printf 't,x,y\n0,1,1\n0.1,2,\n0.2,3,3\n0.5,6,6\n0.6,nan,7\n' > gap.csv
+ss-cat gap.csv || echo $?
+ss-cat --gaps=split gap.csv
+ss-cat --gaps=interpolate gap.csv
+printf 't,x\n0,1\n0.1,2\n0.2,3\n0.4,5\n0.5,6\n' | ss-cat || echo $?
+printf 't,x,y\n0,,1\n1,NA,2\n' | ss-cat --gaps=split || echo $?
+printf 't,x\n0,1\n1,2\n1e9,3\n' | ss-cat --gaps=split || echo $?
+
+echo '-- uneven'
+printf 't,x\n0,0\n0.12,0.12\n0.2,0.2\n0.28,0.28\n0.4,0.4\n0.5,0.5\n' > jitter.csv
+ss-cat jitter.csv || echo $?
+ss-cat --resample 5 jitter.csv
+(cat jitter.csv; printf '8,8\n8.1,8.1\n') > apart.csv
+ss-cat --resample 5 apart.csv || echo $?
+ss-cat --resample 1 --gaps=split apart.csv
+ss-signal sine --duration .005 | ss-cat --resample 1000
+ss-signal sine --duration .0005 | ss-cat --resample 1000 || echo $?
+ss-cat --resample 0 gap.csv || echo $?
+ss-cat --gaps=hide gap.csv || echo $?

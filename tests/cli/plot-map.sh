@@ -1,0 +1,24 @@
+# Maps: regions of a count, lines of another, over linear and logarithmic axes, missing points shown.
+ss-sweep --shoot -m stops,amplitude,period --vary base_frequency=2:8:13 --vary friction=0.1:1.5:15 coulomb -o a.tsv
+draw() { ss-plot "$@" || echo "exit $?"; }
+draw --map base_frequency,friction,stops,amplitude a.tsv -o a.gp
+grep -c -e '^\$region' -e '^\$line' -e '^\$label' a.gp
+draw --map base_frequency,friction,stops a.tsv | grep '^[xy]_label\|key title'
+draw --map friction,base_frequency,amplitude a.tsv | grep -c 'region' || true
+printf '2\t0.1\n4\t0.5\n\n5\t1\n' | draw --map base_frequency,friction,stops --line - a.tsv | sed -n '/^\$curve/,/^EOD/p'
+ss-sweep -m stops,amplitude --vary mass=-1:1:3 --vary stiffness=1000:4000:4:log coulomb -o b.tsv
+draw --map stiffness,mass,stops b.tsv | grep 'logscale\|none' | grep -o 'logscale x\|title .none.'
+if command -v gnuplot > /dev/null; then
+    draw --map base_frequency,friction,stops,amplitude a.tsv -o a.png && test -s a.png
+    draw --map base_frequency,friction,amplitude a.tsv -o a.pdf && test -s a.pdf
+    gnuplot -e 'set terminal svg; set output "a.svg"' a.gp 2> log || cat log
+    test -s a.svg
+    draw --map stiffness,mass,stops b.tsv -o b.svg && test -s b.svg
+fi
+draw --map base_frequency,friction a.tsv
+draw --map base_frequency,friction,speed a.tsv
+draw --map base_frequency,friction,stops,period a.tsv
+draw --map base_frequency,stops,amplitude a.tsv
+draw --map x,y,z -c a a.tsv
+draw --line a.tsv a.tsv
+ss-sim --set duration=0.01 coulomb | draw --map t,x,v

@@ -1,0 +1,9 @@
+# One row a grid point: the last key varied varies fastest, and a point that fails says why.
+rows() { awk -F '\t' -v OFS='\t' '!/^#/ { for (i = 2; i < NF; i++) if ($i + 0) $i = sprintf("%.6g", $i) } 1'; }
+ss-sweep -m stops,period,amplitude,energy --vary friction=0.6:1.4:3 --vary mass=1:4:2:log coulomb | rows
+ss-sweep -m period,cycles,x_max --vary mass=-1:2.42:2 coulomb | grep -v '^#' | rows
+ss-sweep -m transition,microslips --vary contact_damping=25:3000:2 compliant-light | grep -v '^#' | rows
+ss-sweep -m period,cycles,v_max --max-cycles 7 --vary friction=0.1:0.1:1 coulomb | grep -v '^#' | rows
+ss-sweep -m period,cycles --settle-cycles 46 --vary x0=0:1e-3:2 coulomb | grep -v '^#'
+ss-sweep -m period,amplitude --vary alpha=1000:3000:2 state-variable | grep -v '^#' | rows
+ss-sweep --vary base_frequency=0:2.5:2 -m stops --shoot coulomb | grep -v '^#'

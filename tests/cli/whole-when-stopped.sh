@@ -1,0 +1,50 @@
+# Stopped at a moment of its own, each tool leaves the file that was there or a whole new one, and
+# nothing beside it unless it was killed.  TRIES times each; tests/long tries harder.
+timeout --foreground -s INT 10 true 2> /dev/null || { echo "no timeout of GNU"; exit 77; }
+command -v gnuplot > /dev/null || { echo "no gnuplot"; exit 77; }
+# shellcheck disable=SC3045
+ulimit -c 0 2> /dev/null || true
+mkdir whole work
+ss-sim --set duration=20 coulomb > run
+ss-cat --to 5 run > short
+ss-morlet short > coefficients
+
+# make_ FILE COMMAND ...: have it made by a tool that the command runs.
+make_() {
+    file=$1
+    shift
+    case $file in
+    sim.*)       "$@" ss-sim --set duration=20 --tol 1e-13 -o "$file" coulomb ;;
+    cat.au)      "$@" ss-cat -o cat.au ../run ;;
+    noise.tsv)   "$@" ss-noise --rms 1 -o noise.tsv ../run ;;
+    signal.h5)   "$@" ss-signal noise --duration 100 -o signal.h5 ;;
+    morlet.*)    "$@" ss-morlet -o "$file" ../short ;;
+    plot.svg)    "$@" ss-plot -o plot.svg ../run ;;
+    contour.*)   "$@" ss-contour -o "$file" ../coefficients ;;
+    esac
+}
+all='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 plot.svg contour.png contour.gp'
+cd whole
+for file in $all; do make_ "$file" env; done
+cd ../work
+
+number=0
+for try in $(seq "${TRIES:-2}"); do
+    for made in $all; do
+        number=$((number + 1))
+        moment=$(awk -v seed=$number 'BEGIN { srand(seed); printf "%.3f", 0.3 * rand() }')
+        case $((number % 5)) in 0) signal=KILL ;; 1) signal=INT ;; 2) signal=TERM ;; 3) signal=HUP ;;
+            4) signal=QUIT ;; esac
+        [ $((try % 2)) = 0 ] || echo old > "$made"
+        (make_ "$made" timeout --foreground -s $signal "$moment") > ../words 2>&1 || true
+        [ $signal != KILL ] || rm -f ."$made".*
+        if [ ! -e "$made" ]; then
+            [ $((try % 2)) = 0 ] || echo "$made, $signal after $moment s: what was there is gone"
+        elif ! echo old | cmp -s - "$made" && ! cmp -s "$made" ../whole/"$made"; then
+            echo "$made, $signal after $moment s: a part of it"
+        fi
+        rm -f "$made"
+        ls -A | sed "s/^/$made, $signal after $moment s: left /"
+        rm -rf ../work/.[!.]*
+    done
+done

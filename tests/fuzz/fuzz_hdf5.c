@@ -1,0 +1,61 @@
+/* fuzz_hdf5.c -- HDF5 files, through the file image interface: as signals, as the arrays of others,
+ * as coefficients. */
+#include "store/h5.h"
+#include "fuzz.h"
+
+static hid_t
+open_image(const uint8_t *bytes, size_t size)
+{
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    H5Pset_fapl_core(access, 65536, 0);
+    H5Pset_file_image(access, (void *)bytes, size);
+    hid_t id = H5Fopen("in", H5F_ACC_RDONLY, access);
+    H5Pclose(access);
+    return id;
+}
+
+static void
+read_signal(h5_file *file, const char *dataset, const ss_read_opts *opts)
+{
+    ss_signal *signal = NULL;
+    file->err->text[0] = '\0';
+    ss_status status = ss_h5_read_signal(&signal, file, dataset, opts);
+    if (status == SS_OK)
+        fuzz_check_signal(signal);
+    else if (status != SS_ENOMEM)
+        fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
+    ss_signal_free(signal);
+}
+
+static void
+read_coefficients(h5_file *file)
+{
+    ss_coefficients *c = NULL;
+    file->err->text[0] = '\0';
+    ss_status status = ss_h5_read_coefficients(&c, file);
+    if (status != SS_OK && status != SS_ENOMEM)
+        fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
+    ss_coefficients_free(c);
+}
+
+int
+LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT };
+    ss_error err = { "" };
+    h5_file file = { -1, "in", &err };
+    if (size == 0)
+        return 0;
+    H5E_BEGIN_TRY {
+        file.id = open_image(bytes, size);
+        if (file.id >= 0) {
+            read_signal(&file, NULL, NULL);
+            read_signal(&file, "/y", &opts);
+            read_signal(&file, "/signal/a", NULL);
+            read_coefficients(&file);
+            H5Fclose(file.id);
+        }
+    } H5E_END_TRY
+    return 0;
+}

@@ -1,0 +1,52 @@
+#!/bin/sh
+# seed.sh: make the seeds of the corpus anew, with the tools in PATH; what else lies there stays.
+# Seeds are small, so that a fuzzer gets through them fast: few samples, few scales.
+set -eu
+cd "$(dirname "$0")/corpus"
+mkdir -p scene text delimited au coefficients hdf5
+short='--set settle=0 --set rate=1000'
+
+for name in coulomb state-variable compliant-light; do
+    cp ../../../data/scenes/$name.scene scene/$name
+done
+printf '%s\n' model=coulomb mass=1 stiffness=1e3 friction=0 base_amplitude=1e-3 base_frequency=2.5 \
+    x0=-1 > scene/least
+{ cat scene/least; printf '\0model = compliant\n'; } > scene/setting
+
+# shellcheck disable=SC2086  # options are a list
+{
+ss-sim $short --set duration=0.01 compliant-light > text/simulated
+ss-sim $short --set duration=0.01 --columns x,mode coulomb > text/no-time
+ss-signal step --duration 0.005 > text/step
+printf '%s\n' '# stickslip signal 1' '# k: v' '# rate: 1e3' '# start: -0.5' \
+    '# columns: x/(m (N)) x x/m' '' '-1e-300 2e300 0x' > text/odd
+ss-sim $short --set duration=0.01 --format au compliant-light > au/simulated
+ss-signal noise --duration 0.004 --format au > au/noise
+ss-sim $short --set duration=0.01 --columns t,x coulomb | ss-cat -o hdf5/signal.h5
+ss-sim $short --set duration=0.03 --columns t,a coulomb |
+    ss-morlet --voices 1 --center 2 --force -o hdf5/stepped.h5
+ss-sim $short --set duration=0.03 --columns t,a coulomb |
+    ss-morlet --voices 1 --center 2 --force --dense -o hdf5/dense.h5
+ss-sim $short --set duration=0.03 coulomb > run
+}
+ss-morlet --voices 2 --center 2 --force run > coefficients/stepped
+ss-morlet --voices 1 --center 2 --force --dense run > coefficients/dense
+ss-morlet --dyadic --center 3 --force --norm l1 run > coefficients/dyadic
+rm run
+
+# AU of 8 to 32 bits and float, two channels: 4 rows of made-up bytes.
+for encoding in 2 3 4 5 6; do
+    {
+        printf '.snd\0\0\0\030\377\377\377\377\0\0\0\00%s' "$encoding"
+        printf '\0\0\003\350\0\0\0\002abcdefgh>*b?>|#,12345678'
+    } > au/encoding$encoding
+done
+
+printf '%s\n' 'Time (ms);Force [N];x/mm' '0,0;1,5;-2' '0,5;1,25;3' '1,0;0;4' '1,5;1e-3;5' \
+    > delimited/semicolon
+printf '%s\n' '"Date","Nov, 21"' Rate,1000 '"t","a ""b"""' s,m/s^2 0,1 0.001,2 0.002,3 \
+    > delimited/comma
+printf '# x y\n 0 1\n\n 0.25  2 \r\n0.5 4\n0.75 8' > delimited/blanks
+printf '\357\273\277X_Value\tVoltage\tComment\n0\t1\t\n0.1\t2\t\n0.2\t3\t\n' > delimited/labview
+printf '1\n2\n-3e5\n' > delimited/column
+printf 't\tx\n0\tnan\n1\t\n' > delimited/refused

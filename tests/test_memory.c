@@ -1,0 +1,472 @@
+/* test_memory.c -- every allocation of the library's own fails once, alone and with all after it:
+ * the call says SS_ENOMEM, nothing crashes and nothing is lost.
+ *
+ * The linker leads the library's calls of malloc and its kin through here (--wrap); those of libc,
+ * GSL, FFTW and HDF5 stay their own.  What the library leaves to its caller is freed as a caller
+ * would, so that whatever is still there at the end of a run has been lost. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <fftw3.h>
+#include <gsl/gsl_errno.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <stickslip.h>
+
+/* --- the allocator ------------------------------------------------------------------------- */
+
+enum { MOST = 1 << 16 };
+static struct {
+    pthread_mutex_t lock;
+    int counting;
+    size_t calls, fail_at;      /* the call that fails, from 1; 0: none */
+    int and_all_after;
+    size_t live;
+    void *block[MOST];          /* there since counting began */
+} heap = { .lock = PTHREAD_MUTEX_INITIALIZER };
+
+/* May this call have memory? */
+static int
+grant(void)
+{
+    pthread_mutex_lock(&heap.lock);
+    size_t call = heap.counting ? ++heap.calls : 0;
+    int refused = call != 0 && heap.fail_at != 0
+                  && (call == heap.fail_at || (heap.and_all_after && call > heap.fail_at));
+    pthread_mutex_unlock(&heap.lock);
+    return !refused;
+}
+
+static void *
+gave(void *p)
+{
+    pthread_mutex_lock(&heap.lock);
+    if (heap.counting && p != NULL && heap.live < MOST)
+        heap.block[heap.live++] = p;
+    pthread_mutex_unlock(&heap.lock);
+    return p;
+}
+
+static void
+took(void *p)
+{
+    pthread_mutex_lock(&heap.lock);
+    for (size_t i = heap.live; i-- > 0; )
+        if (heap.block[i] == p) {
+            heap.block[i] = heap.block[--heap.live];
+            break;
+        }
+    pthread_mutex_unlock(&heap.lock);
+}
+
+void *__real_malloc(size_t);
+void *__real_calloc(size_t, size_t);
+void *__real_realloc(void *, size_t);
+char *__real_strdup(const char *);
+char *__real_strndup(const char *, size_t);
+FILE *__real_open_memstream(char **, size_t *);
+void *__real_fftw_malloc(size_t);
+void __real_fftw_free(void *);
+void __real_free(void *);
+void *__wrap_malloc(size_t);
+void *__wrap_calloc(size_t, size_t);
+void *__wrap_realloc(void *, size_t);
+char *__wrap_strdup(const char *);
+char *__wrap_strndup(const char *, size_t);
+FILE *__wrap_open_memstream(char **, size_t *);
+void *__wrap_fftw_malloc(size_t);
+void __wrap_fftw_free(void *);
+void __wrap_free(void *);
+
+void *
+__wrap_malloc(size_t size)
+{
+    return grant() ? gave(__real_malloc(size)) : NULL;
+}
+
+void *
+__wrap_calloc(size_t n, size_t size)
+{
+    return grant() ? gave(__real_calloc(n, size)) : NULL;
+}
+
+void *
+__wrap_realloc(void *p, size_t size)
+{
+    if (!grant())
+        return NULL;
+    took(p);
+    return gave(__real_realloc(p, size));
+}
+
+char *
+__wrap_strdup(const char *text)
+{
+    return grant() ? gave(__real_strdup(text)) : NULL;
+}
+
+char *
+__wrap_strndup(const char *text, size_t n)
+{
+    return grant() ? gave(__real_strndup(text, n)) : NULL;
+}
+
+FILE *
+__wrap_open_memstream(char **text, size_t *size)
+{
+    return grant() ? __real_open_memstream(text, size) : NULL;
+}
+
+void *
+__wrap_fftw_malloc(size_t size)
+{
+    return grant() ? gave(__real_fftw_malloc(size)) : NULL;
+}
+
+void
+__wrap_fftw_free(void *p)
+{
+    took(p);
+    __real_fftw_free(p);
+}
+
+void
+__wrap_free(void *p)
+{
+    took(p);
+    __real_free(p);
+}
+
+/* --- what is called ------------------------------------------------------------------------ */
+
+/* Made before, with all the memory that it takes. */
+static ss_scene scene[3];               /* one a model */
+static ss_signal *signal;
+static ss_coefficients *coefficients;
+static ss_trade *trade;
+static char text[2][20000], path[64];   /* as text, as AU; an HDF5 file */
+static size_t length[2];
+static char coefficient_text[200000];
+static size_t coefficient_length;
+static FILE *scrap;
+static ss_error err;
+
+typedef ss_status call(int variant);
+
+static ss_status
+headers(int variant)
+{
+    (void)variant;
+    static const size_t pick[] = { 1, 0, 1 };
+    ss_header *copy = NULL, *head = ss_header_new(1, 0);
+    ss_status st = head == NULL ? SS_ENOMEM : ss_header_add_column(head, "x", "m");
+    if (st == SS_OK)
+        st = ss_header_add_column(head, "x", NULL);
+    if (st == SS_OK)
+        st = ss_header_note(head, "key", "value");
+    if (st == SS_OK)
+        st = ss_header_note(head, "key", "another");
+    if (st == SS_OK)
+        st = ss_header_select(&copy, head, pick, 3, 5);
+    ss_header_free(copy);
+    copy = NULL;
+    if (st == SS_OK)
+        st = (copy = ss_header_copy(head)) != NULL ? SS_OK : SS_ENOMEM;
+    ss_header_free(copy);
+    ss_header_free(head);
+    return st;
+}
+
+static ss_status
+read_streams(int variant)
+{
+    static const char *const table[] = {
+        "time (ms);\"x\";f\ns;m;N\n0,0;1,5;2\n1,0;2,5;3\n2,0;3;4\n",
+        "# x y\n 0 1\n 0.25 2\n 0.5 4\n",
+        "\"t\",\"Kraft \xe4\"\n0,1\n1,2\n",
+        "1\t2\n2\tx\n",             /* two are malformed, and memory fails before that is found */
+        "t;x\n0;1\n0,1;2\n7;3\n",
+        "t;x\n0;1\n1;\n2;3\n4;5\n",
+        "t;x\n0;1\n1;2\n1,5;3\n3;4\n4;5\n",
+    };
+    static const ss_read_opts gaps = { .gaps = SS_GAPS_SPLIT }, uneven = { .resample = 7 };
+    ss_signal *back = NULL;
+    const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : NULL;
+    const char *from = variant < 2 ? text[variant] : table[variant - 2];
+    FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : strlen(from), "r");
+    ss_status st = ss_signal_read(&back, in, "in", opts, &err);
+    fclose(in);
+    ss_signal_free(back);
+    return st == SS_EDATA ? SS_OK : st;
+}
+
+static ss_status
+write_streams(int variant)
+{
+    rewind(scrap);
+    return ss_signal_write(signal, scrap, variant == 0 ? SS_TSV : SS_AU);
+}
+
+static ss_status
+signals(int variant)
+{
+    static const size_t pick[] = { 0 };
+    ss_signal *made = NULL;
+    ss_wave_opts opts = ss_wave_defaults;
+    opts.duration = 0.01;
+    ss_status st = variant < 6 ? ss_wave_new(&made, (ss_wave)variant, &opts, &err)
+                   : ss_signal_select(&made, signal, pick, 1, 3, 7);
+    ss_signal_free(made);
+    return st;
+}
+
+static ss_status
+simulations(int variant)
+{
+    ss_signal *made = NULL;
+    ss_status st = ss_simulate(&made, &scene[variant], &err);
+    ss_signal_free(made);
+    return st;
+}
+
+static ss_status
+closed_forms(int variant)
+{
+    ss_sim_opts opts = ss_sim_defaults;
+    opts.method = "exact";
+    return ss_sim_run(&scene[variant == 0 ? SS_COULOMB : SS_COMPLIANT], &opts, NULL, &err);
+}
+
+static ss_status
+trades(int variant)
+{
+    ss_trade *made = NULL;
+    ss_trade_opts opts = ss_trade_defaults;
+    ss_sim_opts chosen = ss_sim_defaults;
+    ss_scene brief = scene[SS_COULOMB];     /* as every allocation repeats what came before */
+    opts.budget = 1e-3;
+    chosen.method = NULL;
+    brief.duration = 0.003;
+    ss_status st = variant == 0 ? ss_trade_measure(&made, &brief, &opts, &err)
+                   : ss_trade_choose(&chosen, &brief, 1e-6, &err);
+    ss_trade_free(made);
+    return st;
+}
+
+static ss_status
+transforms(int variant)
+{
+    ss_coefficients *made = NULL;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.voices = 2;
+    opts.engine = variant < 2 ? SS_ENGINE_QUADRATURE : SS_ENGINE_FFT;
+    opts.threads = 1 + 2 * (variant % 2);
+    opts.dense = variant >= 4;
+    opts.detrend = variant == 5 ? SS_DETREND_LINEAR : SS_DETREND_NONE;
+    opts.force = 1;
+    ss_status st = ss_transform(&made, signal, 2, &opts, &err);
+    ss_coefficients_free(made);
+    return st;
+}
+
+static ss_status
+comparisons(int variant)
+{
+    ss_morlet *plan = NULL;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    double difference, point[2], *w = NULL, *x = signal->values + 2 * signal->n;
+    opts.voices = 1;
+    opts.engine = variant == 0 ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err);
+    if (st == SS_OK)
+        st = (w = malloc(2 * ss_morlet_total(plan) * sizeof *w)) != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_morlet_execute(plan, x, w, &err);
+    if (st == SS_OK)
+        st = ss_morlet_compare(plan, x, w, 3, &difference, &err);
+    if (st == SS_OK)
+        st = ss_morlet_point(x, signal->n, signal->head->rate, &opts, 0.01, 0.01, point, &err);
+    ss_morlet_free(plan);
+    free(w);
+    return st;
+}
+
+static ss_status
+read_coefficients(int variant)
+{
+    (void)variant;
+    ss_coefficients *back = NULL;
+    FILE *in = fmemopen(coefficient_text, coefficient_length, "r");
+    ss_status st = ss_coefficients_read(&back, in, "in", &err);
+    fclose(in);
+    ss_coefficients_free(back);
+    return st;
+}
+
+static ss_status
+features(int variant)
+{
+    ss_maximum *maxima = NULL;
+    size_t n;
+    ss_status st = variant == 0 ? ss_maxima(&maxima, &n, coefficients, 1)
+                   : ss_spikes(&maxima, &n, coefficients, 1, 60, 1);
+    free(maxima);
+    return st;
+}
+
+static ss_status
+plots(int variant)
+{
+    ss_contour_opts contour = ss_contour_defaults;
+    contour.signal = signal;
+    rewind(scrap);
+    switch (variant) {
+    case 0: return ss_plot_signal(scrap, signal, NULL, 0, &ss_plot_defaults, &err);
+    case 1: return ss_plot_xy(scrap, signal, 0, 1, &ss_plot_defaults, &err);
+    case 2: return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
+    }
+    return ss_plot_trade(scrap, trade, &ss_plot_defaults, &err);
+}
+
+static ss_status
+stores(int variant)
+{
+    static const ss_event event = { 0.1, 0, 0, SS_SLIP, 1 };
+    char other[80];
+    ss_record record = { signal, &event, 1, 1, variant == 0 ? coefficients : NULL };
+    snprintf(other, sizeof other, "%s.new", path);
+    ss_status st = ss_store_write(other, &record, &err);
+    if (st != SS_OK)
+        assert_int_not_equal(access(other, F_OK), 0);
+    unlink(other);
+    return st;
+}
+
+static ss_status
+loads(int variant)
+{
+    ss_signal *back = NULL;
+    ss_coefficients *c = NULL;
+    char member[80];
+    snprintf(member, sizeof member, "%s:/signal/a", path);
+    ss_status st = variant == 0 ? ss_load_signal(&back, path, NULL, &err)
+                   : variant == 1 ? ss_load_signal(&back, member, NULL, &err)
+                   : ss_store_read_coefficients(&c, path, &err);
+    ss_signal_free(back);
+    ss_coefficients_free(c);
+    return st;
+}
+
+static const struct row {
+    const char *what;
+    call *call;
+    int variants;
+    size_t shrinks;             /* the last allocations, that only give memory back */
+} row[] = {
+    { "headers", headers, 1, 0 }, { "reading streams", read_streams, 9, 0 },
+    { "writing streams", write_streams, 2, 0 }, { "signals", signals, 7, 0 },
+    { "simulations", simulations, 3, 0 }, { "closed forms", closed_forms, 2, 0 },
+    { "trades", trades, 2, 0 }, { "transforms", transforms, 6, 0 }, { "comparisons", comparisons, 2, 0 },
+    { "reading coefficients", read_coefficients, 1, 0 }, { "features", features, 2, 1 },
+    { "plots", plots, 4, 0 }, { "stores", stores, 2, 0 }, { "loads", loads, 3, 0 },
+};
+
+/* --- the tests ----------------------------------------------------------------------------- */
+
+static int
+set_up(void **state)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    gsl_set_error_handler_off();
+    for (int m = 0; m < 3; m++) {
+        scene[m] = (ss_scene){ .model = (ss_model)m, .mass = 2.42, .stiffness = 2310, .friction = 1.28,
+            .base_amplitude = 6e-4, .base_frequency = 2.5, .alpha = 3000, .gamma = 100,
+            .contact_stiffness = 209900, .contact_damping = 25, .duration = 0.1, .rate = 1000 };
+    }
+    strcpy(path, "/tmp/test_memory.XXXXXX");
+    int fd = mkstemp(path);
+    opts.voices = 2;
+    opts.force = 1;
+    if (fd < 0 || close(fd) != 0 || (scrap = tmpfile()) == NULL
+        || ss_simulate(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
+        || ss_header_note(signal->head, "key", "value") != SS_OK
+        || ss_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
+        || ss_trade_measure(&trade, &scene[SS_COULOMB], NULL, NULL) != SS_OK)
+        return -1;
+    for (int i = 0; i < 2; i++) {
+        FILE *out = fmemopen(text[i], sizeof text[i], "w");
+        if (ss_signal_write(signal, out, i == 0 ? SS_TSV : SS_AU) != SS_OK)
+            return -1;
+        length[i] = (size_t)ftell(out);
+        fclose(out);
+    }
+    FILE *out = fmemopen(coefficient_text, sizeof coefficient_text, "w");
+    if (ss_coefficients_write(coefficients, out) != SS_OK)
+        return -1;
+    coefficient_length = (size_t)ftell(out);
+    fclose(out);
+    ss_record record = { .signal = signal, .coefficients = coefficients };
+    return ss_store_write(path, &record, NULL) == SS_OK ? 0 : -1;
+}
+
+static int
+tear_down(void **state)
+{
+    (void)state;
+    unlink(path);
+    fclose(scrap);
+    ss_signal_free(signal);
+    ss_coefficients_free(coefficients);
+    ss_trade_free(trade);
+    return 0;
+}
+
+/* Run a call with the allocation fail_at failing; gives how many there were. */
+static size_t
+run(const struct row *r, int variant, size_t fail_at, int and_all_after)
+{
+    heap.calls = heap.live = 0;
+    heap.fail_at = fail_at;
+    heap.and_all_after = and_all_after;
+    heap.counting = 1;
+    ss_status status = r->call(variant);
+    heap.counting = 0;
+    int failed = fail_at != 0 && heap.calls >= fail_at;
+    if (status != (failed ? SS_ENOMEM : SS_OK))
+        fail_msg("%s %d, allocation %zu%s fails: %s: %s", r->what, variant, fail_at,
+                 and_all_after ? " and all after it" : "", ss_strerror(status), err.text);
+    if (heap.live != 0)
+        fail_msg("%s %d, allocation %zu%s fails: %zu blocks are lost", r->what, variant, fail_at,
+                 and_all_after ? " and all after it" : "", heap.live);
+    return heap.calls;
+}
+
+static void
+every_allocation_may_fail(void **state)
+{
+    const char *every = getenv("LONG");
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (int variant = 0; variant < row[i].variants; variant++) {
+            size_t calls = run(&row[i], variant, 0, 0);
+            size_t step = every && *every != 0 ? 1 : 1 + calls / 100;      /* or it takes minutes */
+            for (size_t n = 1; n + row[i].shrinks <= calls; n += step) {
+                run(&row[i], variant, n, 0);
+                run(&row[i], variant, n, 1);
+            }
+            run(&row[i], variant, 0, 0);        /* and nothing has been left in a bad state */
+        }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(every_allocation_may_fail) };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,422 @@
+/* test_random.c -- random scenes, drawn from the ranges that the library says it supports.
+ *
+ * Log-uniform in each of ss_scene_ranges, from a fixed seed; SCENES=N in the environment sets how
+ * many (tests/long/random-scenes-*.sh: 10000), FIRST=N with which one to begin. */
+#include <float.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "extremes/runs.h"
+
+enum { DEFAULT_SCENES = 150, SAMPLES = 400, STEPS = 4000 };
+
+/* --- drawing ------------------------------------------------------------------------------- */
+
+typedef struct rng { uint64_t s; } rng;
+
+/* splitmix64 (Steele, Lea & Flood 2014) */
+static double
+uniform(rng *r)
+{
+    uint64_t z = r->s += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+/* Within the named range; one time in eight 0, where that is in it. */
+static double
+draw(rng *r, const char *name)
+{
+    const ss_scene_range *range = ss_scene_ranges;
+    while (strcmp(range->name, name) != 0)
+        range++;
+    double u = uniform(r), zero = uniform(r);
+    return range->zero && zero < 0.125 ? 0 : range->from * pow(range->to / range->from, u);
+}
+
+static ss_scene
+random_scene(uint64_t number)
+{
+    rng r = { number * UINT64_C(0xd1342543de82ef95) + 1 };
+    ss_scene s = ss_scene_defaults;
+    double omega = 2 * M_PI * draw(&r, "omega_n/(2 pi)"), X = draw(&r, "X");
+    s.model = (ss_model)(3 * uniform(&r));
+    s.mass = draw(&r, "m");
+    s.stiffness = s.mass * omega * omega;
+    double base = draw(&r, "Omega/omega_n"), start = uniform(&r), angle = 2 * M_PI * uniform(&r);
+    s.base_frequency = base * omega / (2 * M_PI);
+    s.phase = 2 * M_PI * uniform(&r);
+    s.base_amplitude = start < 0.25 ? X * uniform(&r) : X;
+    if (start < 0.5) {
+        s.x0 = X * cos(angle);
+        s.v0 = X * omega * sin(angle);
+    }
+    X = fmax(s.base_amplitude, fmax(fabs(s.x0), fabs(s.v0) / omega));
+    s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
+    double fastest = fmax(1, base);
+    if (s.model == SS_COMPLIANT) {
+        s.contact_stiffness = draw(&r, "K_y/k") * s.stiffness;
+        double k = s.stiffness + s.contact_stiffness, zeta = draw(&r, "c/(2 sqrt((k + K_y) m))");
+        s.contact_damping = zeta * 2 * sqrt(k) * sqrt(s.mass);
+        s.release = uniform(&r) < 0.5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+        fastest = fmax(fastest, sqrt(k / s.stiffness) * (zeta + sqrt(fmax(1, zeta * zeta))));
+    } else if (s.model == SS_STATE_VARIABLE) {
+        s.alpha = draw(&r, "alpha X omega_n") / (X > 0 ? X * omega : 1);
+        s.gamma = draw(&r, "gamma/omega_n") * omega;
+    }
+    /* ten of the slowest periods, or STEPS of the longest steps if that is less */
+    double slow = base > 0 ? fmin(1, base) : 1;
+    s.duration = fmin(10 / slow, STEPS / 40. / fastest) * 2 * M_PI / omega;
+    s.rate = SAMPLES / s.duration;
+    return s;
+}
+
+static size_t
+from_environment(const char *name, size_t otherwise)
+{
+    const char *text = getenv(name);
+    return text != NULL ? strtoul(text, NULL, 10) : otherwise;
+}
+
+/* --- what is compared ---------------------------------------------------------------------- */
+
+/* A scene, its run, and how far that moves when the mass changes by its last bit. */
+typedef struct trial {
+    uint64_t number;
+    ss_scene scene;
+    const char *method;
+    run run;
+    double scale;               /* of x, as the library measures it */
+    double nudged;
+} trial;
+
+enum { BUDGET = 40 * STEPS };           /* of a run whose tolerance forces no shorter steps */
+enum { LONG_BUDGET = 4000000 };         /* of one that swings in the front of tanh */
+
+/* What is wrong with a scene, with all that it takes to see it again. */
+static void
+complain(const trial *t, const char *what, double got, double allowed)
+{
+    fprintf(stderr, "scene %lu: %s: %.3g, allowed %.3g\n", (unsigned long)t->number, what, got,
+            allowed);
+    ss_scene_write(&t->scene, stderr);
+    fail();
+}
+
+static void
+demand(const trial *t, const char *what, double got, double allowed)
+{
+    if (!(got <= allowed))
+        complain(t, what, got, allowed);
+}
+
+/* A run ends, or says why not. */
+static int
+ended(const trial *t, const run *r)
+{
+    if (r->status == SS_OK)
+        return 1;
+    if ((r->status != SS_ETOL && r->status != SS_ECHATTER && r->status != SS_EBUDGET)
+        || r->err.text[0] == '\0')
+        complain(t, r->err.text, r->status, 0);
+    return 0;
+}
+
+static run
+run_alike(const trial *t, const ss_scene *s)
+{
+    return run_with(s, t->method, 1e-12, t->scene.model == SS_STATE_VARIABLE ? LONG_BUDGET : BUDGET);
+}
+
+static trial
+trial_of(uint64_t number)
+{
+    trial t = { .number = number, .scene = random_scene(number) };
+    ss_error err = { "" };
+    if (ss_scene_check(&t.scene, &err) != SS_OK || ss_scene_supported(&t.scene, &err) != SS_OK)
+        complain(&t, err.text, 0, 0);
+    t.method = t.scene.model == SS_STATE_VARIABLE ? ss_sim_method_for(&t.scene) : "exact";
+    t.run = run_alike(&t, &t.scene);
+    demand(&t, t.run.err.text, t.run.status, SS_OK);
+    ss_scene nudged = t.scene;
+    nudged.mass *= 1 + DBL_EPSILON;
+    run other = run_alike(&t, &nudged);
+    t.scale = fmax(scale_of(&t.scene), max_x(&t.run));
+    t.nudged = difference(&t.run, &other, 1);
+    run_free(&other);
+    return t;
+}
+
+/* The same kinds in the same order; but an event at the very end may fall to either side of it. */
+static int
+same_events(const trial *t, const run *b)
+{
+    const run *a = &t->run;
+    double end = t->scene.duration * (1 - 1e-9);
+    size_t n = a->n_events < b->n_events ? a->n_events : b->n_events;
+    for (size_t i = 0; i < n; i++)
+        if (a->event[i].kind != b->event[i].kind)
+            return 0;
+    const run *longer = a->n_events > n ? a : b;
+    return longer->n_events == n || (longer->n_events == n + 1 && longer->event[n].t > end);
+}
+
+/* --- properties ---------------------------------------------------------------------------- */
+
+/* ss-sim(1): a tolerance is kept step by step, and x was off by at most 4 times tolerance times steps;
+ * and a motion that moves by itself when its last bit does cannot agree any better. */
+static void
+agrees_with_another_method(const trial *t)
+{
+    int state_variable = t->scene.model == SS_STATE_VARIABLE;
+    int stiff = state_variable && strcmp(t->method, "bsimp") == 0;
+    double tol = stiff ? 1e-8 : state_variable ? 1e-10 : 1e-12;
+    run b = run_with(&t->scene, stiff ? "rk4imp" : state_variable ? "rkck" : "rk8pd", tol,
+                     state_variable ? 2 * STEPS : BUDGET);
+    if (ended(t, &b)) {
+        if (t->run.stats.unresolved + b.stats.unresolved == 0 && !same_events(t, &b))
+            complain(t, "events", (double)b.n_events, (double)t->run.n_events);
+        demand(t, "another method's x over its scale", difference(&t->run, &b, 1) / t->scale,
+               4 * tol * (double)(b.stats.steps + 100) + 16 * t->nudged / t->scale);
+    }
+    run_free(&b);
+}
+
+static void
+is_mirrored(const trial *t)
+{
+    ss_scene s = t->scene;
+    s.x0 = -s.x0;
+    s.v0 = -s.v0;
+    s.phase += M_PI;
+    run b = run_alike(t, &s);
+    if (ended(t, &b))
+        demand(t, "mirrored x over its scale", difference(&t->run, &b, -1) / t->scale,
+               1e-11 + 16 * t->nudged / t->scale);
+    run_free(&b);
+}
+
+/* Powers of two change no rounding, but of the implicit method, which chooses pivots by size. */
+static void
+does_not_depend_on_the_unit_of_mass(const trial *t)
+{
+    ss_scene s = t->scene;
+    double unit = t->number % 2 ? 0x1p30 : 0x1p-30;
+    s.mass *= unit;
+    s.stiffness *= unit;
+    s.friction *= unit;
+    s.contact_stiffness *= unit;
+    s.contact_damping *= unit;
+    run b = run_alike(t, &s);
+    if (ended(t, &b))
+        demand(t, "x over its scale in another unit of mass",
+               difference(&t->run, &b, 1) / t->scale,
+               strcmp(t->method, "bsimp") == 0
+           ? 4e-12 * (double)(b.stats.steps + 100) + 16 * t->nudged / t->scale : 0);
+    run_free(&b);
+}
+
+/* --- energy -------------------------------------------------------------------------------- */
+
+/* A moment of a run, within a mode. */
+typedef struct moment {
+    double t, x, v, y, f;       /* f: of the friction; y: 0 without contact */
+    int mode;
+} moment;
+
+typedef struct balance {
+    double work, lost, turned_over;     /* by the base, in the friction; sum of all in modulus */
+} balance;
+
+/* The power of the base and its rate of change. */
+static void
+base_power(const ss_scene *s, const moment *at, double power[2])
+{
+    double w = 2 * M_PI * s->base_frequency, p = w * at->t + s->phase, Z = s->base_amplitude;
+    double z = Z * cos(p), dz = -Z * w * sin(p), ddz = -w * w * z, k = s->stiffness;
+    power[0] = k * (z - at->x) * dz;
+    power[1] = k * (dz - at->v) * dz + k * (z - at->x) * ddz;
+}
+
+static double
+energy(const ss_scene *s, const moment *at)
+{
+    double z = s->base_amplitude * cos(2 * M_PI * s->base_frequency * at->t + s->phase);
+    return s->mass * at->v * at->v / 2 + s->stiffness * (z - at->x) * (z - at->x) / 2
+        + s->contact_stiffness * at->y * at->y / 2;
+}
+
+static double
+acceleration(const ss_scene *s, const moment *at)
+{
+    double z = s->base_amplitude * cos(2 * M_PI * s->base_frequency * at->t + s->phase);
+    return (s->stiffness * (z - at->x) - at->f) / s->mass;
+}
+
+/* Of f_k |v| what lies between is known; what the contact's damper takes is c v^2. */
+static double
+friction_power(const ss_scene *s, const moment *at, double *slope)
+{
+    *slope = at->mode == 0 ? 2 * s->contact_damping * at->v * acceleration(s, at) : 0;
+    return at->mode == 0 ? s->contact_damping * at->v * at->v : 0;
+}
+
+/* From one moment to the next in the same mode, by the trapezoidal rule with its first correction. */
+static void
+add_interval(balance *sum, const ss_scene *s, const moment *a, const moment *b)
+{
+    double h = b->t - a->t, p[2], q[2], da, db, fa, fb;
+    base_power(s, a, p);
+    base_power(s, b, q);
+    fa = friction_power(s, a, &da);
+    fb = friction_power(s, b, &db);
+    double work = h / 2 * (p[0] + q[0]) + h * h / 12 * (p[1] - q[1]);
+    double lost = h / 2 * (fa + fb) + h * h / 12 * (da - db);
+    if (a->mode != 0)
+        lost += s->friction * fabs(b->x - a->x);
+    sum->work += work;
+    sum->lost += lost;
+    sum->turned_over += fabs(work) + fabs(lost) + fabs(energy(s, b) - energy(s, a));
+}
+
+/* The state of the friction at x, v in the mode of a moment before. */
+static moment
+later(const ss_scene *s, const moment *from, double t, double x, double v)
+{
+    moment at = { t, x, v, from->y, from->f, from->mode };
+    if (s->model == SS_COMPLIANT && at.mode == 0) {
+        at.y = from->y + (x - from->x);
+        at.f = s->contact_stiffness * at.y + s->contact_damping * v;
+    }
+    return at;
+}
+
+/* The same moment after an event: what the contact's spring gives up at a release is lost. */
+static moment
+after(const ss_scene *s, const moment *before, const ss_event *e, balance *sum)
+{
+    moment at = *before;
+    int side = e->direction;
+    at.mode = e->kind == SS_STICK ? 0 : e->direction;
+    if (s->model == SS_COMPLIANT)
+        at.y = side * s->friction / s->contact_stiffness;
+    at.f = e->kind == SS_STICK && s->model == SS_COULOMB ? 0 : side * s->friction;
+    double given_up = energy(s, before) - energy(s, &at);
+    sum->lost += given_up;
+    sum->turned_over += fabs(given_up);
+    return at;
+}
+
+/* The work of the base is the change of energy and what the friction took.  With 160 samples a period
+ * of what is fastest the rule is off by (2 pi / 160)^4 / 720 = 3e-9 of what it adds up; rounding of
+ * the phase, over 1e3 cycles, by 1e-12. */
+static void
+balances_its_energy(const trial *t)
+{
+    ss_scene s = t->scene;
+    balance sum = { 0, 0, 0 };
+    s.rate = 4 * STEPS / s.duration;
+    run r = run_alike(t, &s);
+    const ss_sample *first = &r.sample[0];
+    moment start = { 0, first->x, first->v, first->y, first->f, first->mode }, at = start;
+    for (size_t i = 1, e = 0; r.status == SS_OK && i < r.n; i++) {
+        for (; e < r.n_events && r.event[e].t <= r.sample[i].t; e++) {
+            if (r.event[e].t == 0)
+                continue;               /* a start in slip: the first sample knows */
+            moment end = later(&s, &at, r.event[e].t, r.event[e].x, r.event[e].v);
+            add_interval(&sum, &s, &at, &end);
+            at = after(&s, &end, &r.event[e], &sum);
+        }
+        moment next = later(&s, &at, r.sample[i].t, r.sample[i].x, r.sample[i].v);
+        add_interval(&sum, &s, &at, &next);
+        at = next;
+    }
+    double residue = sum.work - (energy(&s, &at) - energy(&s, &start)) - sum.lost;
+    if (r.status == SS_OK && r.n > 1)
+        demand(t, "work that is neither energy nor loss, of what is turned over",
+               fabs(residue) / (sum.turned_over + energy(&s, &start) + DBL_MIN), 1e-8);
+    run_free(&r);
+}
+
+/* --- the suite ----------------------------------------------------------------------------- */
+
+static void
+hold_for(ss_model model)
+{
+    size_t first = from_environment("FIRST", 0), n = from_environment("SCENES", DEFAULT_SCENES);
+    for (size_t i = first; i < first + n; i++) {
+        if (random_scene(i).model != model)
+            continue;
+        trial t = trial_of(i);
+        if (t.scale > 0) {
+            agrees_with_another_method(&t);
+            is_mirrored(&t);
+            does_not_depend_on_the_unit_of_mass(&t);
+            if (model != SS_STATE_VARIABLE)
+                balances_its_energy(&t);
+        }
+        run_free(&t.run);
+    }
+}
+
+static void
+random_coulomb_scenes_hold_every_property(void **state)
+{
+    (void)state;
+    hold_for(SS_COULOMB);
+}
+
+static void
+random_state_variable_scenes_hold_every_property(void **state)
+{
+    (void)state;
+    hold_for(SS_STATE_VARIABLE);
+}
+
+static void
+random_compliant_scenes_hold_every_property(void **state)
+{
+    (void)state;
+    hold_for(SS_COMPLIANT);
+}
+
+/* --- the manual ---------------------------------------------------------------------------- */
+
+static void
+the_manual_shows_the_ranges_drawn_from(void **state)
+{
+    const char *source = getenv("SRC");
+    char path[4096], line[256], row[256];
+    (void)state;
+    snprintf(path, sizeof path, "%s/man/stickslip-scene.5", source != NULL ? source : ".");
+    FILE *in = fopen(path, "r");
+    if (in == NULL)
+        fail_msg("%s cannot be read: run from the source tree, or set SRC", path);
+    for (const ss_scene_range *r = ss_scene_ranges; r->name != NULL; r++) {
+        int found = 0;
+        snprintf(row, sizeof row, ".It %s Ta %s Ta %g Ta %g Ta %s\n", r->name, r->unit, r->from, r->to,
+                 r->zero ? "or 0" : "\\&");
+        for (rewind(in); !found && fgets(line, sizeof line, in) != NULL;)
+            found = strcmp(line, row) == 0;
+        if (!found)
+            fail_msg("no row '%s'", row);
+    }
+    fclose(in);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_coulomb_scenes_hold_every_property),
+        cmocka_unit_test(random_state_variable_scenes_hold_every_property),
+        cmocka_unit_test(random_compliant_scenes_hold_every_property),
+        cmocka_unit_test(the_manual_shows_the_ranges_drawn_from),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

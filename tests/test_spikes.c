@@ -1,0 +1,418 @@
+/* test_spikes.c -- jumps, kinks, glitches, single events and drops whose places are known. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <float.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stickslip.h>
+#include "spike_score.h"
+
+#define RATE 2000.
+
+static ss_spikes_found *
+find(const double *x, size_t n, double rate)
+{
+    ss_spikes_found *found = NULL;
+    ss_error err = { "" };
+    if (ss_find_spikes(&found, x, n, rate, &ss_spike_defaults, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return found;
+}
+
+/* Truncated powers (t - t0)^p from t0 on: a jump, a kink, a curve that begins; and a Gaussian ten
+ * samples wide, of which a spectrum that falls faster than any power is left. */
+static double
+shape(int which, double t)
+{
+    switch (which) {
+    case 0:  return fabs(t) < 0.5 / RATE;
+    case 1:  return t >= 0;
+    case 2:  return t >= 0 ? 50 * t : 0;
+    default: return exp(-0.5 * (t * RATE / 10) * (t * RATE / 10));
+    }
+}
+
+/* The slopes that the spectra of the sampled shapes give between the shortest scale a and 2 a: that
+ * of a jump is 1/(2 sin(w/2)), so between f = 0.582 and 0.291 of Nyquist it falls by 0.9 dB less than
+ * the 6 dB of 1/w; of a kink twice that; where between two samples it is, and the wavelet's width, add 0.5 dB. */
+static void
+tells_jumps_from_kinks_bends_and_glitches(void **state)
+{
+    static const struct { ss_spike_kind kind; double lo, hi; } want[] = {
+        { SS_SPIKE_GLITCH, -3.1, -2.9 }, { SS_SPIKE_JUMP, 3.01 - 0.9 - 0.5, 3.01 },
+        { SS_SPIKE_KINK, 9.03 - 1.8 - 0.5, 9.03 + 0.5 }, { SS_SPIKE_BEND, 22, 100 } };
+    (void)state;
+    for (int which = 0; which < 4; which++)
+        for (int part = 0; part < 4; part++) {
+            enum { N = 2000 };
+            double x[N], t0 = (1000 + (which == 0 ? 0 : part / 4.)) / RATE;
+            for (size_t i = 0; i < N; i++)
+                x[i] = 7 + shape(which, (double)i / RATE - t0);
+            ss_spikes_found *found = find(x, N, RATE);
+            assert_true(found->n >= 1 && found->conclusive == (which < 3));
+            const ss_spike *s = &found->spike[0];
+            for (size_t i = 1; i < found->n; i++)       /* a bend has shoulders too */
+                s = found->spike[i].level > s->level ? &found->spike[i] : s;
+            if (s->kind != want[which].kind || s->slope < want[which].lo
+                || s->slope > want[which].hi || (which < 3 && found->n > 1))
+                fail_msg("shape %d: %zu spikes, a %s of slope %g", which, found->n,
+                         ss_spike_kind_name(s->kind), s->slope);
+            double allow = which == 1 ? 0.5 : which == 2 ? 0.02 : 0.25;    /* samples */
+            if (which < 3 && !(fabs(s->t - t0) * RATE <= allow + 1e-9))
+                fail_msg("shape %d at %g: %g samples off", which, t0, (s->t - t0) * RATE);
+            ss_spikes_free(found);
+        }
+}
+
+/* Every spike is what it was in other units, about another mean, at another rate and backwards. */
+static void
+units_and_clocks_do_not_matter(void **state)
+{
+    score_scene s;
+    (void)state;
+    score_scene_make(&s, "compliant-light", RATE, 1, 0);
+    double *x = malloc(s.n * sizeof *x);
+    ss_spikes_found *want = score_find(&s, 40, 1), *found;
+    static const struct { double gain, offset, rate; } change[] = {
+        { 1e-9, 0, RATE }, { -1e150, 0, RATE }, { 1, 100, RATE }, { 1, 0, 1e-3 }, { 1, 0, 1e9 } };
+    for (size_t k = 0; k < sizeof change / sizeof *change; k++) {
+        memcpy(x, s.a, s.n * sizeof *x);
+        ss_add_noise(x, s.n, ss_noise_rms(x, s.n, 40), 1);
+        for (size_t i = 0; i < s.n; i++)
+            x[i] = change[k].gain * x[i] + change[k].offset;
+        found = find(x, s.n, change[k].rate);
+        if (found->n != want->n)
+            fail_msg("change %zu: %zu spikes, not %zu", k, found->n, want->n);
+        for (size_t i = 0; i < found->n; i++) {
+            assert_int_equal(found->spike[i].kind, want->spike[i].kind);
+            /* rounding of samples 100 times larger; scales stand on a grid of 1/4 octave from 1 s, so that
+             * another rate moves them by up to half of that, and the span of the fit with them */
+            double allow = change[k].rate == RATE ? 1e-3 : 0.75;
+            double off = found->spike[i].t * change[k].rate - want->spike[i].t * RATE;
+            if (!(fabs(off) <= allow))
+                fail_msg("change %zu: spike %zu is %g samples off", k, i, off);
+        }
+        ss_spikes_free(found);
+    }
+    ss_spikes_free(want);
+    free(x);
+    ss_signal_free(s.signal);
+}
+
+/* All events of the clean scenes, within a sample.  16 transitions: the first micro-slip lasts 0.10 ms. */
+static void
+finds_every_event_of_clean_scenes(void **state)
+{
+    static const struct { const char *name; double rate; } scene[] = {
+        { "coulomb", RATE }, { "compliant-heavy", RATE }, { "compliant-light", RATE },
+        { "compliant-light", 20000 } };
+    (void)state;
+    for (size_t k = 0; k < sizeof scene / sizeof *scene; k++) {
+        score_scene s;
+        score sc = { 0 };
+        size_t slips = 0, seen = 0;
+        score_scene_make(&s, scene[k].name, scene[k].rate, 3.2, 0);
+        ss_spikes_found *found = score_find(&s, INFINITY, 1);
+        score_add(&sc, &s, found);
+        assert_true(found->conclusive);
+        if (sc.wrong > 0 || sc.near != sc.right)
+            fail_msg("%s: %zu wrong, %zu of %zu within a sample", scene[k].name, sc.wrong, sc.near,
+                     sc.right);
+        for (size_t e = 0; e < s.n_events; e++) {
+            int pair = score_micro_slip(&s, e) > 0 || (e > 0 && score_micro_slip(&s, e - 1) > 0);
+            if (!pair && !sc.seen[e])
+                fail_msg("%s: no spike at %g s", scene[k].name, s.event[e].t);
+        }
+        score_slips(&s, &sc, 0, 1, &slips, &seen);
+        assert_int_equal(seen, slips);
+        assert_int_equal(sc.transitions, 16);
+        int light = strcmp(scene[k].name, "compliant-light") == 0;
+        assert_int_equal(slips, light ? 16 : 0);
+        if (light ? sc.grouped < 15 : sc.grouped > 0)
+            fail_msg("%s at %g Hz: %zu grouped", scene[k].name, scene[k].rate, sc.grouped);
+        ss_spikes_free(found);
+        ss_signal_free(s.signal);
+    }
+}
+
+static void
+coulomb_friction_makes_one_spike_a_transition(void **state)
+{
+    score_scene s;
+    size_t strong = 0;
+    (void)state;
+    score_scene_make(&s, "coulomb", RATE, 3.2, 0);
+    ss_spikes_found *found = score_find(&s, INFINITY, 1);
+    for (size_t i = 0; i < found->n; i++) {
+        strong += found->spike[i].level >= -30;
+        assert_int_equal(found->spike[i].kind,
+                         found->spike[i].level >= -30 ? SS_SPIKE_JUMP : SS_SPIKE_KINK);
+    }
+    assert_int_equal(strong, 16);
+    for (size_t e = 0; e + 1 < s.n_events; e += 2)
+        assert_int_equal(ss_spikes_within(found, s.event[e].t, s.event[e + 1].t, 30).n, 1);
+    ss_spikes_free(found);
+    ss_signal_free(s.signal);
+}
+
+static void
+a_smooth_law_bends_and_never_breaks(void **state)
+{
+    score_scene s;
+    score sc = { 0 };
+    (void)state;
+    score_scene_make(&s, "state-variable", RATE, 3.2, 0);
+    ss_spikes_found *found = score_find(&s, INFINITY, 1);
+    score_add(&sc, &s, found);
+    assert_true(sc.bends >= 32 && found->conclusive);
+    assert_int_equal(sc.jumps + sc.kinks + sc.glitches, 0);
+    ss_spikes_free(found);
+    ss_signal_free(s.signal);
+}
+
+/* 20 seeds, fixed: what the bench prints for more of them. */
+static void
+finds_micro_slips_40_dB_above_the_noise(void **state)
+{
+    static const char *const name[] = { "compliant-light", "compliant-heavy", "coulomb" };
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        score_scene s;
+        score sc = { 0 };
+        size_t slips = 0, seen = 0;
+        score_scene_make(&s, name[k], RATE, 3.2, 0);
+        for (unsigned long seed = 1; seed <= 20; seed++) {
+            ss_spikes_found *found = score_find(&s, 40, seed);
+            score_add(&sc, &s, found);
+            score_slips(&s, &sc, 1.3e-3, 1, &slips, &seen);
+            assert_true(found->conclusive);
+            ss_spikes_free(found);
+        }
+        if (sc.wrong > 3 || (double)sc.near < 0.80 * (double)sc.right
+            || (double)sc.good < 0.95 * (double)sc.right || (double)seen < 0.95 * (double)slips)
+            fail_msg("%s: %zu wrong in %zu transitions; of %zu spikes %zu within 1 sample and %zu "
+                     "within 2; %zu of %zu slips seen", name[k], sc.wrong, sc.transitions, sc.right,
+                     sc.near, sc.good, seen, slips);
+        assert_true(k == 0 ? sc.grouped > 240 : sc.grouped == 0);
+        ss_signal_free(s.signal);
+    }
+}
+
+static void
+claims_nothing_20_dB_above_the_noise(void **state)
+{
+    static const char *const name[] = { "compliant-light", "compliant-heavy" };
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        score_scene s;
+        score_scene_make(&s, name[k], RATE, 3, 0);
+        for (unsigned long seed = 1; seed <= 20; seed++) {
+            ss_spikes_found *found = score_find(&s, 20, seed);
+            assert_false(found->conclusive);
+            ss_spikes_free(found);
+        }
+        ss_signal_free(s.signal);
+    }
+}
+
+/* One record in a hundred or fewer may have a false one: of 100, at most 5 (Poisson's tail at mean 1
+ * is then below 0.1 %), white or coloured. */
+static void
+noise_alone_has_no_spikes(void **state)
+{
+    enum { N = 3000, RECORDS = 50 };
+    double x[N];
+    size_t wrong = 0;
+    (void)state;
+    for (unsigned long seed = 1; seed <= 2 * RECORDS; seed++) {
+        memset(x, 0, sizeof x);
+        ss_add_noise(x, N, 1, seed);
+        for (size_t i = 1; i < N && seed > RECORDS; i++)
+            x[i] += 0.9 * x[i - 1];             /* red */
+        ss_spikes_found *found = find(x, N, RATE);
+        wrong += found->n;
+        ss_spikes_free(found);
+    }
+    if (wrong > 5)
+        fail_msg("%zu spikes in %d records of noise", wrong, 2 * RECORDS);
+}
+
+/* A converter rounds a slow sine to steps of its own: no jumps are found in it. */
+static void
+a_converter_makes_no_spikes(void **state)
+{
+    enum { N = 4000 };
+    double x[N];
+    (void)state;
+    for (size_t i = 0; i < N; i++)
+        x[i] = sin(2 * M_PI * 7.3 * (double)i / RATE);
+    assert_int_equal(ss_quantise(x, N, 10, 1), SS_OK);
+    ss_spikes_found *found = find(x, N, RATE);
+    assert_int_equal(found->n, 0);
+    ss_spikes_free(found);
+    for (size_t i = N / 2; i < N; i++)
+        x[i] += 0.25;
+    found = find(x, N, RATE);
+    assert_int_equal(found->n, 1);
+    assert_true(fabs(found->spike[0].t * RATE - (N / 2 - 0.5)) <= 1);
+    ss_spikes_free(found);
+}
+
+static void
+short_constant_and_improper_records_are_answered(void **state)
+{
+    double x[64] = { 0 };
+    ss_spikes_found *found = NULL;
+    ss_spike_opts bad[] = { ss_spike_defaults, ss_spike_defaults, ss_spike_defaults,
+                            ss_spike_defaults };
+    ss_bursts *bursts = NULL;
+    ss_error err;
+    (void)state;
+    for (size_t n = 1; n <= 64; n++) {
+        for (int last = 0; last < 2; last++) {          /* constant, then not */
+            x[n - 1] = last;
+            found = find(x, n, RATE);
+            assert_true(last == 1 || found->n == 0);
+            ss_spikes_free(found);
+            assert_int_equal(ss_find_bursts(&bursts, x, n, RATE, 15, NULL), SS_OK);
+            ss_bursts_free(bursts);
+        }
+        x[n - 1] = 0;
+    }
+    bad[0].fmax = 700, bad[1].false_alarms = 0, bad[2].precision = NAN, bad[3].fmax = -1;
+    for (size_t i = 0; i < 4; i++)
+        assert_int_equal(ss_find_spikes(&found, x, 64, RATE, &bad[i], &err), SS_EINVAL);
+    assert_int_equal(ss_find_spikes(&found, x, 0, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_find_spikes(&found, x, 64, NAN, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_find_bursts(&bursts, x, 64, RATE, -1, &err), SS_EINVAL);
+    x[3] = NAN;
+    assert_int_equal(ss_find_spikes(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_string_equal(err.text, "sample 4 is not a finite number");
+    x[3] = -DBL_MAX, x[4] = DBL_MAX;
+    assert_int_equal(ss_find_spikes(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    ss_spikes_free(NULL);
+    ss_bursts_free(NULL);
+}
+
+/* --- single events --------------------------------------------------------------------------- */
+
+/* Pulses of 40 samples at 3000 and, at a tenth of the height, at 7000, in red noise and on a drift. */
+static void
+finds_the_one_event(void **state)
+{
+    enum { N = 10000 };
+    static double x[N];
+    ss_bursts *found = NULL;
+    (void)state;
+    ss_add_noise(x, N, 0.001, 5);
+    for (size_t i = 1; i < N; i++)
+        x[i] += 0.8 * x[i - 1];
+    for (size_t i = 0; i < N; i++)
+        x[i] += 1e-4 * (double)i + 1 / cosh(((double)i - 3000) / 20)
+            + 0.1 / cosh(((double)i - 7000) / 20);
+    assert_int_equal(ss_find_bursts(&found, x, N, 50000, 15, NULL), SS_OK);
+    assert_int_equal(found->n, 1);
+    assert_true(fabs(found->burst[0].t * 50000 - 3000) <= 20 && found->burst[0].level == 0);
+    assert_true(fabs(found->next + 20) <= 0.5);
+    ss_bursts_free(found);
+    assert_int_equal(ss_find_bursts(&found, x, N, 50000, 25, NULL), SS_OK);
+    assert_int_equal(found->n, 2);
+    assert_true(fabs(found->burst[1].level + 20) <= 0.5 && found->next < -25);
+    ss_bursts_free(found);
+}
+
+/* --- drops ----------------------------------------------------------------------------------- */
+
+/* A sawtooth: it climbs for 0.9 s and falls within 0.1 s, tooth i by heights[i]. */
+static void
+saw(double *x, size_t n, const double *heights, size_t teeth)
+{
+    for (size_t i = 0; i < n; i++) {
+        double t = (double)i / RATE, in = t - floor(t);
+        size_t k = (size_t)t % teeth;
+        x[i] = heights[k] * (in < 0.9 ? in / 0.9 : (1 - in) / 0.1);
+    }
+}
+
+static void
+counts_drops_by_their_height(void **state)
+{
+    enum { N = 20000 };
+    static const double height[10] = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 };
+    static double x[N], y[N];
+    (void)state;
+    saw(x, N, height, 10);
+    for (int kind = 0; kind < 5; kind++) {
+        memcpy(y, x, sizeof y);
+        if (kind > 0)
+            ss_add_noise(y, N, 0.1, 1);
+        for (size_t i = 0; i < N; i++) {
+            y[i] += kind == 2 ? -0.3 * (double)i / RATE : 0;            /* drift */
+            y[i] += kind == 3 && i % 97 == 0 ? (i % 2 ? 50 : -50) : 0;  /* wrong samples */
+            y[i] = kind == 4 ? 1e-6 * y[i] - 3 : y[i];
+        }
+        for (int above = 1; above < 10; above++) {
+            ss_drop *drop = NULL;
+            size_t n = 0;
+            double unit = kind == 4 ? 1e-6 : 1;
+            assert_int_equal(ss_find_drops(&drop, &n, y, N, RATE, (above + 0.5) * unit, NULL), SS_OK);
+            if (n != 10 - (size_t)above)
+                fail_msg("kind %d: %zu drops above %d.5", kind, n, above);
+            for (size_t i = 0; i < n; i++) {
+                double tooth = above + 1 + (double)i, at = tooth - 0.1;
+                double allow = 0.03 * (above + 0.5) + 0.06 * tooth; /* as stated, and its cut corners */
+                assert_true(fabs(drop[i].height / unit - tooth) <= allow);
+                assert_true(fabs(drop[i].t - at) <= 0.05 && drop[i].end > drop[i].t);
+            }
+            free(drop);
+        }
+    }
+}
+
+static void
+a_slow_drift_is_no_drop(void **state)
+{
+    enum { N = 20000 };
+    static const double height[1] = { 1 };
+    static double x[N];
+    ss_drop *drop = NULL;
+    size_t n = 9;
+    (void)state;
+    saw(x, N, height, 1);
+    for (size_t i = 0; i < N; i++)
+        x[i] -= 0.5 * (double)i / RATE;
+    assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 1.5, NULL), SS_OK);
+    assert_int_equal(n, 0);
+    free(drop);
+    assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 0, NULL), SS_EINVAL);
+    x[7] = NAN;
+    assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_find_drops(&drop, &n, x, 1, RATE, 1, NULL), SS_OK);
+    assert_int_equal(n, 0);
+    free(drop);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tells_jumps_from_kinks_bends_and_glitches),
+        cmocka_unit_test(units_and_clocks_do_not_matter),
+        cmocka_unit_test(finds_every_event_of_clean_scenes),
+        cmocka_unit_test(coulomb_friction_makes_one_spike_a_transition),
+        cmocka_unit_test(a_smooth_law_bends_and_never_breaks),
+        cmocka_unit_test(finds_micro_slips_40_dB_above_the_noise),
+        cmocka_unit_test(claims_nothing_20_dB_above_the_noise),
+        cmocka_unit_test(noise_alone_has_no_spikes),
+        cmocka_unit_test(a_converter_makes_no_spikes),
+        cmocka_unit_test(short_constant_and_improper_records_are_answered),
+        cmocka_unit_test(finds_the_one_event),
+        cmocka_unit_test(counts_drops_by_their_height),
+        cmocka_unit_test(a_slow_drift_is_no_drop),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,652 @@
+/* test_sweep.c -- periodic states and their measures against closed forms and other routes.
+ *
+ * Truth is Den Hartog (1931) for motion without stops, free decay and free oscillation in closed
+ * form, the settled numbers of independent programs listed beside the rows, and records of ss_sim_run
+ * by rk8pd, which share no code with the way from event to event that is tested here. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <stickslip.h>
+
+#define BIT(m) (1u << (m))
+
+static ss_scene
+shipped(const char *name)
+{
+    ss_scene scene;
+    const ss_shipped_scene *s = ss_shipped_scenes;
+    while (strcmp(s->name, name) != 0)
+        s++;
+    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
+    assert_int_equal(ss_scene_read(&scene, in, name, NULL), SS_OK);
+    fclose(in);
+    return scene;
+}
+
+/* omega_n = 2 pi, k = Z_e = 1: base_frequency is r, friction is beta. */
+static ss_scene
+den_hartog(double r, double beta)
+{
+    ss_scene s = ss_scene_defaults;
+    s.mass = 1 / (4 * M_PI * M_PI);
+    s.stiffness = s.base_amplitude = 1;
+    s.base_frequency = r;
+    s.friction = beta;
+    return s;
+}
+
+static ss_steady
+steady_of(const ss_scene *scene, unsigned measures, int shoot)
+{
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady out;
+    ss_error err = { "" };
+    opts.measures = measures;
+    opts.shoot = shoot;
+    if (ss_steady_find(&out, scene, &opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return out;
+}
+
+static void
+is_near(double x, double truth, double allow, const char *what)
+{
+    if (!(fabs(x - truth) <= allow))
+        fail_msg("%s: %.15g, not %.15g +- %.1e", what, x, truth, allow);
+}
+
+/* --- without stops ------------------------------------------------------------------------- */
+
+static double
+den_hartog_amplitude(double r, double beta)
+{
+    double U = sin(M_PI / r) / (r * (1 + cos(M_PI / r))), V = 1 / (1 - r * r);
+    return sqrt(V * V - beta * beta * U * U);
+}
+
+/* S as its definition has it, by sampling tau: the sup is reached inside or as tau -> 0, where it
+ * is 1. */
+static double
+den_hartog_limit(double r)
+{
+    enum { SAMPLES = 20000 };
+    double U = sin(M_PI / r) / (r * (1 + cos(M_PI / r))), V = 1 / (1 - r * r), S = 1;
+    for (int i = 1; i < SAMPLES; i++) {
+        double tau = M_PI * i / SAMPLES;
+        S = fmax(S, (r * sin(tau / r) + U * r * r * (cos(tau) - cos(tau / r))) / sin(tau));
+    }
+    return sqrt(V * V / (U * U + S * S / (r * r * r * r)));
+}
+
+static void
+gives_den_hartogs_amplitude(void **state)
+{
+    /* to the digits of programs of their own, and beyond them by the formula */
+    static const struct { double r, beta, X; } row[] = {
+        { 1.25, 0.5, 1.282557 }, { 0.8, 0.5, 2.332235 }, { 2, 0.3, 0.297676 } };
+    (void)state;
+    for (size_t i = 0; i < 3; i++)
+        is_near(den_hartog_amplitude(row[i].r, row[i].beta), row[i].X, 5e-7, "the formula");
+    for (double r = 0.65; r < 2; r += 0.09)
+        for (double part = 0.3; part < 1; part += 0.3)
+            for (int shoot = 0; shoot < 2; shoot++) {
+                double beta = part * den_hartog_limit(r), X = den_hartog_amplitude(r, beta);
+                ss_scene s = den_hartog(r, beta);
+                ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_AMPLITUDE) | BIT(SS_STOPS)
+                                         | BIT(SS_ENERGY) | BIT(SS_PERIOD), shoot);
+                /* the state is within tol of its limit, in units of Z_e; v adds at most 1/r of it;
+                 * the last cycle is measured, a little nearer to or farther from it */
+                double allow = 4e-9;
+                if (at.value[SS_STOPS] != 0 || at.value[SS_PERIOD] != 1)
+                    fail_msg("r = %g, beta = %g: %g stops", r, beta, at.value[SS_STOPS]);
+                is_near(at.value[SS_X_MAX], X, allow, "max|x|");
+                is_near(at.value[SS_AMPLITUDE], X, allow, "amplitude");
+                is_near(at.value[SS_ENERGY], 4 * beta * X, 4 * beta * allow, "energy");
+            }
+}
+
+static void
+knows_den_hartogs_limits(void **state)
+{
+    static const double row[][2] = { { .3, .086407 }, { .4, .143890 }, { .6, .531513 },
+        { .8, .817406 }, { 1.1, .746772 }, { 1.25, .698821 }, { 1.5, .646579 }, { 2, .596285 } };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        is_near(den_hartog_limit(row[i][0]), row[i][1], 1e-6, "beta_lim");
+}
+
+typedef struct map {
+    size_t n_beta, wrong, farther, rows;
+    double step;
+} map;
+
+/* A point may be on the wrong side of the limit only if it is nearer than a step of the grid. */
+static int
+compare_with_limit(const ss_sweep_row *row, void *user)
+{
+    map *m = user;
+    double beta = row->vary[1], limit = den_hartog_limit(row->vary[0]);
+    m->rows++;
+    assert_int_equal(row->index, m->rows - 1);
+    assert_string_equal(row->reason, "ok");
+    int stops = row->steady.value[SS_STOPS] > 0 || row->steady.value[SS_AMPLITUDE] == 0;
+    if (stops != (beta > limit)) {
+        m->wrong++;
+        m->farther += fabs(beta - limit) > m->step;
+    }
+    return 0;
+}
+
+static void
+stops_where_den_hartog_says(void **state)
+{
+    ss_axis axis[2];
+    ss_scene s = den_hartog(1, 1);
+    map m = { .step = 0.025 };
+    (void)state;
+    assert_int_equal(ss_axis_parse(&axis[0], "base_frequency=0.31:2.01:35", NULL), SS_OK);
+    assert_int_equal(ss_axis_parse(&axis[1], "friction=0.025:0.975:39", NULL), SS_OK);
+    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+                           .threads = 2, .sink = compare_with_limit, .user = &m };
+    opts.steady.shoot = 1;
+    opts.steady.measures = BIT(SS_STOPS) | BIT(SS_AMPLITUDE);
+    opts.steady.max_cycles = 2000;
+    assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_OK);
+    assert_int_equal(m.rows, 35 * 39);
+    print_message("on the wrong side of the limit: %zu of %zu, farther than a step: %zu\n", m.wrong,
+                  m.rows, m.farther);
+    assert_int_equal(m.farther, 0);
+}
+
+/* --- with stops ---------------------------------------------------------------------------- */
+
+static void
+gives_the_settled_numbers(void **state)
+{
+    /* |x| in stick, max|v| (of samples at 2 kHz, which miss (30/s)^2 h^2 / 8 of it and the last digit
+     * given) and the times of events of the Coulomb scene; max|x| and times of the
+     * compliant ones, of programs of their own, to the digits given */
+    static const struct { const char *name; double x, v, dx, stops, stick, dstick, microslips; }
+    row[] = {
+        { "coulomb", 3.661076025e-4, 1.067523e-2, 1e-13, 2,
+          (0.120289695385 - 0.044012760662) / 0.2, 1e-11, 0 },
+        { "compliant-heavy", 3.0391e-4, NAN, 5e-9, 4,
+          (119.186 - 47.167 + 132.404 - 126.924) / 200, 1e-5, 1 },
+        { "compliant-light", 2.7095e-4, NAN, 5e-9, 4,
+          (100.862 - 48.363 + 119.228 - 102.022) / 200, 1e-5, 1 } };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (int shoot = 0; shoot < 2; shoot++) {
+            ss_scene s = shipped(row[i].name);
+            ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_V_MAX) | BIT(SS_STOPS)
+                                     | BIT(SS_STICK_FRACTION) | BIT(SS_MICROSLIPS), shoot);
+            double tol = 2 * ss_steady_defaults.tol * s.base_amplitude;
+            is_near(at.value[SS_X_MAX], row[i].x, row[i].dx + tol, row[i].name);
+            if (!isnan(row[i].v))
+                is_near(at.value[SS_V_MAX], row[i].v, 3.3e-7, row[i].name);
+            is_near(at.value[SS_STICK_FRACTION], row[i].stick, row[i].dstick + 1e-7, row[i].name);
+            assert_true(at.value[SS_STOPS] == row[i].stops);
+            assert_true(at.value[SS_MICROSLIPS] == row[i].microslips);
+        }
+}
+
+typedef struct record {
+    size_t n;
+    double work, v_max, a_max, last_power, last_v, drive, interval;
+    double strobe[64][2];
+} record;
+
+static int
+integrate(const ss_sample *s, size_t n, void *user)
+{
+    record *r = user;
+    for (size_t i = 0; i < n; i++, r->n++) {
+        double power = r->drive * s[i].z * s[i].v;
+        r->work += r->n > 0 ? (power + r->last_power) / 2 * r->interval : 0;
+        r->last_power = power;
+        r->v_max = fmax(r->v_max, fabs(s[i].v));
+        r->a_max = fmax(r->a_max, fabs(s[i].a));
+    }
+    return 0;
+}
+
+/* What friction takes away in a cycle is what the base puts in, k z v integrated over a record. */
+static void
+balances_energy(void **state)
+{
+    static const char *const name[] = { "coulomb", "compliant-heavy", "compliant-light",
+                                        "state-variable" };
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        ss_scene s = shipped(name[i]);
+        ss_steady at = steady_of(&s, BIT(SS_ENERGY) | BIT(SS_V_MAX) | BIT(SS_A_MAX), 0);
+        s.settle = 60 / s.base_frequency;
+        s.rate = 40000;
+        s.duration = 1 / s.base_frequency + 1 / s.rate;     /* both ends */
+        record r = { .drive = s.stiffness, .interval = 1 / s.rate };
+        ss_sim_opts opts = ss_sim_defaults;
+        opts.samples = integrate;
+        opts.user = &r;
+        assert_int_equal(ss_sim_run(&s, &opts, NULL, NULL), SS_OK);
+        /* the trapezoidal rule errs by h^2 / 12 f''; samples miss a maximum by h^2 / 8 of its
+         * curvature, and a jump by h times the slope before it: contact at 300 rad/s */
+        double h = 1 / s.rate, w = 300;
+        is_near(r.work / at.value[SS_ENERGY], 1, h * h * w * w + 2 * h * h * w, name[i]);
+        is_near(r.v_max / at.value[SS_V_MAX], 1, h * h * w * w, name[i]);
+        is_near(r.a_max / at.value[SS_A_MAX], 1, h * w, name[i]);
+        assert_true(r.v_max <= at.value[SS_V_MAX] * (1 + 1e-8));
+        assert_true(r.a_max <= at.value[SS_A_MAX] * (1 + 1e-8));
+    }
+}
+
+static int
+keep_strobe(const ss_sample *s, size_t n, void *user)
+{
+    record *r = user;
+    for (size_t i = 0; i < n && r->n < 64; i++, r->n++) {
+        r->strobe[r->n][0] = s[i].x;
+        r->strobe[r->n][1] = s[i].v;
+    }
+    return 0;
+}
+
+/* A sample a forcing cycle: its distance from the last shrinks by the largest multiplier. */
+static void
+multipliers_are_the_rate_of_approach(void **state)
+{
+    static const struct { const char *name; int from; } row[] = { { "coulomb", 25 },
+        { "compliant-heavy", 50 }, { "compliant-light", 42 } };
+    (void)state;
+    for (size_t i = 0; i < 3; i++)
+        for (int shoot = 0; shoot < 2; shoot++) {
+            ss_scene s = shipped(row[i].name);
+            ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE)
+                                     | BIT(SS_X_PHASE) | BIT(SS_V_PHASE), shoot);
+            record r = { 0 };
+            ss_sim_opts opts = ss_sim_defaults;
+            opts.samples = keep_strobe;
+            opts.user = &r;
+            s.settle = 0;
+            s.rate = s.base_frequency;
+            s.duration = 64 / s.base_frequency;
+            assert_int_equal(ss_sim_run(&s, &opts, NULL, NULL), SS_OK);
+            int n = row[i].from;
+            double ratio = pow((r.strobe[n + 6][0] - r.strobe[n + 5][0])
+                               / (r.strobe[n][0] - r.strobe[n - 1][0]), 1. / 6);
+            is_near(at.value[SS_FLOQUET], ratio, 2e-3, row[i].name);
+            assert_true(at.value[SS_FLOQUET_ANGLE] == 0);
+            assert_true(at.value[SS_FLOQUET_2] < at.value[SS_FLOQUET]);
+        }
+}
+
+/* Non-stop motion: no direction is lost, and the product of the multipliers is that of the two
+ * saltations, since an undamped oscillator keeps areas: each multiplies v by a+/a-. */
+static void
+multipliers_have_the_product_of_the_jumps(void **state)
+{
+    static const double row[][2] = { { 1.25, 0.5 }, { 0.8, 0.5 }, { 2, 0.3 }, { 1.7, 0.1 } };
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        double r = row[i][0], beta = row[i][1], X = den_hartog_amplitude(r, beta);
+        ss_scene s = den_hartog(r, beta);
+        ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2), 1);
+        /* at x = X: drive - k x -+ beta, where drive = k Z_e cos(phase) with X/V = cos(phase) + ...:
+         * from Den Hartog, cos of the phase at the turning point is X / V */
+        double force = X * (1 - r * r) - X;
+        double factor = (force + beta) / (force - beta);
+        is_near(at.value[SS_FLOQUET] * at.value[SS_FLOQUET_2], factor * factor, 1e-7,
+                "product of multipliers");
+    }
+}
+
+/* A released mass loses 4 f_k / k of amplitude a cycle and rests where the spring cannot move it. */
+static void
+free_decay_ends_where_it_must(void **state)
+{
+    (void)state;
+    for (double x0 = 0.001; x0 < 0.03; x0 += 0.00137) {
+        ss_scene s = shipped("coulomb");
+        double zone = s.friction / s.stiffness, x = x0, half = M_PI * sqrt(s.mass / s.stiffness);
+        size_t halves = 0;
+        s.base_amplitude = 0;
+        s.x0 = x0;
+        for (; fabs(x) > zone; halves++)
+            x = -(x - copysign(2 * zone, x));
+        ss_steady at = steady_of(&s, BIT(SS_X_PHASE) | BIT(SS_AMPLITUDE) | BIT(SS_STICK_FRACTION)
+                                 | BIT(SS_CYCLES), 0);
+        is_near(at.value[SS_X_PHASE], x, 1e-14 * (double)(halves + 1), "rest");
+        assert_true(at.value[SS_AMPLITUDE] == 0 && at.value[SS_STICK_FRACTION] == 1);
+        /* seen one cycle after the first that begins at rest */
+        assert_true(at.value[SS_CYCLES]
+                    == ceil((double)halves * half * s.base_frequency) + 1);
+    }
+}
+
+/* --- periods ------------------------------------------------------------------------------- */
+
+/* Without friction the free oscillation never dies: at r = p it closes after p cycles. */
+static void
+finds_sub_harmonics(void **state)
+{
+    (void)state;
+    for (int p = 2; p <= 8; p++) {
+        ss_scene s = den_hartog(p, 0);
+        ss_steady at = steady_of(&s, BIT(SS_PERIOD) | BIT(SS_CYCLES) | BIT(SS_X_MAX), 0);
+        assert_true(at.value[SS_PERIOD] == p);
+        assert_true(at.value[SS_CYCLES] <= 4 * p);
+        /* from rest: (cos(Omega t) - cos(omega_n t)) / (1 - r^2), at most 2 / (r^2 - 1) */
+        assert_true(at.value[SS_X_MAX] <= 2.0 / (p * p - 1) * (1 + 1e-12));
+        assert_true(at.value[SS_X_MAX] >= 1.0 / (p * p - 1));
+    }
+}
+
+static void
+says_what_has_no_period(void **state)
+{
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_scene s = den_hartog(sqrt(2), 0);
+    ss_steady at;
+    ss_error err = { "" };
+    (void)state;
+    opts.measures = BIT(SS_PERIOD) | BIT(SS_CYCLES) | BIT(SS_X_MAX);
+    opts.max_cycles = 500;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+    assert_string_equal(err.text, "no period up to 8 within 500 cycles");
+    assert_true(at.value[SS_PERIOD] == 0 && isnan(at.value[SS_CYCLES]));
+    assert_true(at.value[SS_X_MAX] > 0.9 && at.value[SS_X_MAX] <= 2);
+    s.friction = 0.3;
+    opts.max_period = 1;
+    opts.settle = 3;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+    assert_string_equal(err.text, "no period up to 1 after 3 cycles");
+    opts.settle = 200;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_OK);
+    assert_true(at.value[SS_PERIOD] == 1 && at.value[SS_CYCLES] == 200);
+}
+
+/* Every method comes to the same motion. */
+static void
+methods_agree(void **state)
+{
+    static const char *const name[] = { "coulomb", "compliant-heavy", "compliant-light" };
+    const unsigned measures = (BIT(SS_PERIOD) << 1) - 1;
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        ss_scene s = shipped(name[i]);
+        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady by_steps, exact = steady_of(&s, measures, 0);
+        opts.measures = measures;
+        opts.method = "rk8pd";
+        assert_int_equal(ss_steady_find(&by_steps, &s, &opts, NULL), SS_OK);
+        for (int m = 0; m <= SS_PERIOD; m++)
+            is_near(by_steps.value[m], exact.value[m], 1e-8 * fabs(exact.value[m]),
+                    ss_measure_name((ss_measure)m));
+    }
+}
+
+/* In microstick the contact rings at sqrt((k + K_y)/m - s^2); the base, slow, shifts the extrema of a
+ * by little. */
+static void
+hears_the_transition_frequency(void **state)
+{
+    static const char *const name[] = { "compliant-heavy", "compliant-light" };
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        ss_scene s = shipped(name[i]);
+        double decay = s.contact_damping / (2 * s.mass);
+        double f = sqrt((s.stiffness + s.contact_stiffness) / s.mass - decay * decay) / (2 * M_PI);
+        ss_steady at = steady_of(&s, BIT(SS_TRANSITION), 0);
+        is_near(at.value[SS_TRANSITION] / f, 1, 2e-4, name[i]);
+    }
+    ss_scene s = shipped("compliant-light");
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady at;
+    ss_error err = { "" };
+    opts.measures = BIT(SS_TRANSITION);
+    s.contact_damping = 3000;                   /* beyond critical: nothing rings */
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+    assert_string_equal(err.text, "transition: no oscillation, a has no three extrema in one");
+    assert_true(isnan(at.value[SS_TRANSITION]));
+}
+
+/* --- extremes ------------------------------------------------------------------------------ */
+
+static void
+every_value_is_there_or_the_status_says_why(void **state)
+{
+    static const double scale[] = { 0, 1e-9, 1e-3, 0.5, 0.99, 1, 1.01, 2, 30, 1e3, 1e6 };
+    static const char *const key[] = { "friction", "base_frequency", "stiffness", "mass",
+        "base_amplitude", "contact_stiffness", "contact_damping", "x0", "v0" };
+    static const char *const name[] = { "coulomb", "compliant-light" };
+    size_t good = 0, bad = 0;
+    (void)state;
+    for (size_t i = 0; i < 2; i++)
+        for (size_t k = 0; k < sizeof key / sizeof *key; k++)
+            for (size_t j = 0; j < sizeof scale / sizeof *scale; j++)
+                for (int shoot = 0; shoot < 2; shoot++) {
+                    ss_scene s = shipped(name[i]);
+                    ss_error err = { "" };
+                    ss_steady at;
+                    ss_steady_opts opts = { .measures = BIT(SS_PERIOD) * 2 - 1, .tol = 1e-6,
+                        .max_period = 4, .max_cycles = 100, .shoot = shoot, .max_steps = 5000 };
+                    double *x = ss_scene_number(&s, key[k], NULL, NULL);
+                    if (x == NULL)
+                        continue;
+                    *x = (*x != 0 ? *x : 1e-3) * scale[j];
+                    ss_status st = ss_steady_find(&at, &s, &opts, &err);
+                    for (int m = 0; m <= SS_PERIOD && st == SS_OK; m++)
+                        if (!isfinite(at.value[m]))
+                            fail_msg("%s, %s x %g: %s is %g", name[i], key[k], scale[j],
+                                     ss_measure_name((ss_measure)m), at.value[m]);
+                    assert_true(st == SS_OK || err.text[0] != '\0');
+                    good += st == SS_OK;
+                    bad += st != SS_OK;
+                }
+    print_message("%zu points with all values, %zu with a reason\n", good, bad);
+    assert_true(good > bad);
+}
+
+static void
+refuses_what_cannot_be_measured(void **state)
+{
+    ss_error err = { "" };
+    ss_steady at;
+    ss_scene s = shipped("state-variable");
+    ss_steady_opts opts = ss_steady_defaults;
+    (void)state;
+    opts.measures = BIT(SS_STOPS);
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    opts.measures = BIT(SS_AMPLITUDE);
+    opts.shoot = 1;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    opts.shoot = 0;
+    opts.method = "exact";
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    opts = ss_steady_defaults;
+    opts.tol = NAN;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    opts.tol = 1e-9;
+    opts.max_period = SS_PERIOD_MAX + 1;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    opts = ss_steady_defaults;
+    s = shipped("coulomb");
+    s.base_frequency = 0;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    s.base_frequency = NAN;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+}
+
+/* --- grids --------------------------------------------------------------------------------- */
+
+static void
+reads_axes(void **state)
+{
+    static const char *const bad[] = { "", "x0", "x0=", "x0=1:2", "x0=1:2:", "x0=1:2:0", "x0=1:2:x",
+        "x0=1:2:3:lin", "=1:2:3", "x0=0:1:3:log", "x0=1:inf:3", "x0=nan:1:3", "x0=1:2:-3",
+        "x0=1:2:3:log:", "a-key-that-is-longer-than-any-that-there-is=1:2:3" };
+    ss_axis axis;
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_int_equal(ss_axis_parse(&axis, bad[i], NULL), SS_EINVAL);
+    assert_int_equal(ss_axis_parse(&axis, "x0=-1:2:4", NULL), SS_OK);
+    for (int i = 0; i < 4; i++)
+        assert_true(ss_axis_value(&axis, (size_t)i) == i - 1);
+    assert_int_equal(ss_axis_parse(&axis, "x0=1e-3:10:5:log", NULL), SS_OK);
+    for (int i = 0; i < 5; i++)
+        is_near(ss_axis_value(&axis, (size_t)i), pow(10, i - 3), 1e-15 * pow(10, i - 3), "decade");
+    assert_int_equal(ss_axis_parse(&axis, "x0=7:8:1", NULL), SS_OK);
+    assert_true(ss_axis_value(&axis, 0) == 7);
+}
+
+typedef struct seen {
+    size_t n, index[64], stop_at;
+    double vary[64][2], amplitude[64];
+} seen;
+
+static int
+see(const ss_sweep_row *row, void *user)
+{
+    seen *s = user;
+    s->index[s->n] = row->index;
+    memcpy(s->vary[s->n], row->vary, sizeof s->vary[0]);
+    s->amplitude[s->n++] = row->steady.value[SS_AMPLITUDE];
+    return s->n == s->stop_at;
+}
+
+static void
+shards_threads_and_starts_give_the_same_rows(void **state)
+{
+    ss_axis axis[2];
+    ss_scene s = shipped("coulomb");
+    seen whole = { 0 }, part;
+    (void)state;
+    assert_int_equal(ss_axis_parse(&axis[0], "friction=0.8:1.2:5", NULL), SS_OK);
+    assert_int_equal(ss_axis_parse(&axis[1], "mass=2:3:8", NULL), SS_OK);
+    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+                           .threads = 1, .sink = see, .user = &whole };
+    opts.steady.measures = BIT(SS_AMPLITUDE);
+    assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_OK);
+    assert_int_equal(whole.n, 40);
+    assert_true(fabs(whole.vary[9][0] - 0.9) < 1e-15 && fabs(whole.vary[9][1] - 15. / 7) < 1e-15);
+    opts.user = &part;
+    for (opts.shards = 1; opts.shards < 50; opts.shards += 6)
+        for (opts.shard = 0; opts.shard < opts.shards; opts.shard++)
+            for (opts.first = 0; opts.first < 3; opts.first++) {
+                part = (seen){ 0 };
+                opts.threads = 1 + (int)(opts.shard % 5);
+                assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_OK);
+                for (size_t i = 0; i < part.n; i++) {
+                    size_t index = opts.shard + (opts.first + i) * opts.shards;
+                    assert_int_equal(part.index[i], index);
+                    assert_true(part.amplitude[i] == whole.amplitude[index]);
+                    assert_memory_equal(part.vary[i], whole.vary[index], sizeof part.vary[i]);
+                }
+                size_t points = opts.shard < 40 ? (39 - opts.shard) / opts.shards + 1 : 0;
+                assert_int_equal(part.n, points > opts.first ? points - opts.first : 0);
+            }
+    opts.shards = 1;
+    opts.shard = opts.first = 0;
+    part = (seen){ .stop_at = 7 };
+    opts.threads = 3;
+    assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_STOP);
+    assert_int_equal(part.n, 7);
+    opts.shard = 1;
+    assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_EINVAL);
+}
+
+static void
+refuses_grids_that_mean_nothing(void **state)
+{
+    static const char *const bad[] = { "alpha=1:2:3", "model=1:2:3", "rate=1:2:3", "nonsense=1:2:3",
+                                       "mass=1:2:3" };
+    ss_axis axis[3];
+    ss_scene s = shipped("coulomb");
+    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+                           .threads = 1, .sink = see };
+    size_t n;
+    (void)state;
+    assert_int_equal(ss_axis_parse(&axis[0], "mass=1:2:3", NULL), SS_OK);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(ss_axis_parse(&axis[1], bad[i], NULL), SS_OK);
+        assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_EINVAL);
+    }
+    assert_int_equal(ss_axis_parse(&axis[0], "mass=1:2:4000000000", NULL), SS_OK);
+    assert_int_equal(ss_axis_parse(&axis[1], "x0=1:2:4000000000", NULL), SS_OK);
+    assert_int_equal(ss_axis_parse(&axis[2], "v0=1:2:4000000000", NULL), SS_OK);
+    opts.n_axes = 3;
+    assert_int_equal(ss_sweep_points(&opts, &n, NULL), SS_EINVAL);
+    opts.n_axes = 0;
+    assert_int_equal(ss_sweep_points(&opts, &n, NULL), SS_EINVAL);
+}
+
+static ss_status
+read_text(ss_sweep_table **table, const char *text, ss_error *err)
+{
+    FILE *in = fmemopen((void *)text, strlen(text), "r");
+    ss_status st = ss_sweep_read(table, in, "a.tsv", err);
+    fclose(in);
+    return st;
+}
+
+static void
+reads_rows_back(void **state)
+{
+    static const char good[] = "# stickslip sweep 1\n# columns: index contact_damping/(N s/m) period "
+        "amplitude/m status\n1\t2.5\taperiodic\t-\tno period\n0\t2\t1\t1e-4\tok\n"
+        "# stickslip sweep 1\n# columns: index contact_damping/(N s/m) period amplitude/m status\n"
+        "2\t3\t2\t0.5\tok\r\n";
+    static const struct { const char *text, *why; } bad[] = {
+        { "x\n", "a.tsv:1: not a sweep: it does not begin with '# stickslip sweep 1'" },
+        { "# stickslip sweep 1\n1\t2\tok\n", "a.tsv:2: no '# columns:' line in the header" },
+        { "# stickslip sweep 1\n# columns: index x status\n1\tok\n",
+          "a.tsv:3: expected 3 columns, found 2" },
+        { "# stickslip sweep 1\n# columns: index x status\n1\ttwo\tok\n",
+          "a.tsv:3: 'two' is not a number" } };
+    ss_sweep_table *t = NULL;
+    ss_error err = { "" };
+    (void)state;
+    assert_int_equal(read_text(&t, good, NULL), SS_OK);
+    assert_int_equal(t->n_columns, 4);
+    assert_int_equal(t->n, 3);
+    assert_string_equal(t->name[1], "contact_damping");
+    assert_string_equal(t->unit[1], "N s/m");
+    assert_true(t->value[0] == 1 && t->value[4] == 2 && t->value[6] == 0 && isnan(t->value[9]));
+    ss_sweep_table_free(t);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(read_text(&t, bad[i].text, &err), SS_EDATA);
+        assert_string_equal(err.text, bad[i].why);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gives_den_hartogs_amplitude),
+        cmocka_unit_test(knows_den_hartogs_limits),
+        cmocka_unit_test(stops_where_den_hartog_says),
+        cmocka_unit_test(gives_the_settled_numbers),
+        cmocka_unit_test(balances_energy),
+        cmocka_unit_test(multipliers_are_the_rate_of_approach),
+        cmocka_unit_test(multipliers_have_the_product_of_the_jumps),
+        cmocka_unit_test(free_decay_ends_where_it_must),
+        cmocka_unit_test(finds_sub_harmonics),
+        cmocka_unit_test(says_what_has_no_period),
+        cmocka_unit_test(methods_agree),
+        cmocka_unit_test(hears_the_transition_frequency),
+        cmocka_unit_test(every_value_is_there_or_the_status_says_why),
+        cmocka_unit_test(refuses_what_cannot_be_measured),
+        cmocka_unit_test(reads_axes),
+        cmocka_unit_test(shards_threads_and_starts_give_the_same_rows),
+        cmocka_unit_test(refuses_grids_that_mean_nothing),
+        cmocka_unit_test(reads_rows_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

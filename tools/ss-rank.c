@@ -1,0 +1,256 @@
+/* ss-rank -- which friction model explains a signal, criterion by criterion; or the scene that fits. */
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "common.h"
+
+static const char usage[] =
+"usage: ss-rank [options] [SIGNAL [SCENE...]]\n"
+"Adjust each scene to the signal within the spread of its parameters, compare\n"
+"what both show, and write one row a scene, the best first; or say that nothing\n"
+"can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
+"four shipped ones).\n"
+"  -c, --column COL      name or number (default: a, else the only one)\n"
+"  -a, --as QUANTITY     what it is of: x, v, a or f (default: its own name, else\n"
+"                        f if its unit is one of force, else a)\n"
+"  -s, --set KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
+"  -p, --spread PERCENT  how far the rig's parameters may be from a scene's\n"
+"                        (default 30)\n"
+"  -F, --forcing HZ      frequency of the base (default: found)\n"
+"      --fit             write instead the compliant scene that moves as the\n"
+"                        signal does, from SCENE's mass, stiffness and release\n"
+"                        rule (default compliant-light)\n"
+"  -o, --output FILE     .tsv; with --fit any name (default: standard output)\n"
+"  -q, --quiet           no progress; -v, --verbose: what was done\n"
+"  -h, --help            show this text; --version: show the version\n";
+
+enum { OPT_FIT = TOOL_OPT_FIRST };
+
+typedef struct job {
+    const char *signal_path, *column_name, *as, *output;
+    const char **settings, **scenes;
+    size_t n_settings, n_scenes;
+    ss_rank_opts opts;
+} job;
+
+/* --- the quantity -------------------------------------------------------------------------- */
+
+static const char *const quantities[] = { "x", "v", "a", "f", NULL };
+
+static int
+is_force(const char *unit)
+{
+    static const char *const units[] = { "N", "kN", "MN", "mN", "lbf", "kip", "kgf", NULL };
+    for (size_t i = 0; units[i] != NULL; i++)
+        if (strcmp(unit, units[i]) == 0)
+            return 1;
+    return 0;
+}
+
+static ss_quantity
+quantity_of(const ss_column *column, const char *as)
+{
+    if (as != NULL)
+        return (ss_quantity)tool_choice("--as", as, quantities);
+    for (int i = 0; quantities[i] != NULL; i++)
+        if (strcmp(column->name, quantities[i]) == 0)
+            return (ss_quantity)i;
+    return is_force(column->unit) ? SS_FORCE : SS_ACCELERATION;
+}
+
+/* --- rows ---------------------------------------------------------------------------------- */
+
+static void
+put(FILE *out, double x, const char *behind)
+{
+    if (isnan(x))
+        fputs("-", out);
+    else
+        fprintf(out, "%.4g", x);
+    fputs(behind, out);
+}
+
+static void
+write_head(FILE *out, const ss_ranking *r, const char *column, ss_quantity quantity,
+           char *const name[])
+{
+    fprintf(out, "# column: %s\n# quantity: %s\n", column, quantities[quantity]);
+    fputs("# forcing_frequency: ", out);
+    put(out, r->forcing_frequency, "\n# thresholds:");
+    for (int i = 0; i < SS_CRITERIA; i++)
+        fprintf(out, "%s %s %.4g", i ? "," : "", ss_criterion_rules[i].name,
+                ss_criterion_rules[i].threshold);
+    fputs("\n# signal:", out);
+    for (int i = SS_BY_MAXIMUM; i < SS_BY_MAP; i++) {
+        fprintf(out, "%s %s ", i > SS_BY_MAXIMUM ? "," : "", ss_criterion_rules[i].name);
+        put(out, r->value[i], "");
+    }
+    if (r->told)
+        fprintf(out, "\n# answer: %s\n", name[r->row[0].scene]);
+    else
+        fprintf(out, "\n# answer: cannot tell: %s\n", r->why);
+}
+
+/* Where a threshold 20 % lower or higher changes the order, the order that it gives. */
+static void
+write_orders(FILE *out, const ss_ranking *r, char *const name[])
+{
+    static const double factor[] = { 0.8, 1.2 };
+    size_t *order = calloc(r->n, sizeof *order);
+    int changes = 0;
+    if (order == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (int i = 0; i < SS_CRITERIA; i++)
+        for (size_t k = 0; k < 2; k++) {
+            if (!ss_ranking_order(r, (ss_criterion)i, factor[k], order))
+                continue;
+            changes++;
+            fprintf(out, "# order with %s x %g:", ss_criterion_rules[i].name, factor[k]);
+            for (size_t j = 0; j < r->n; j++)
+                fprintf(out, " %s", name[r->row[order[j]].scene]);
+            fputc('\n', out);
+        }
+    if (changes == 0)
+        fputs("# order: the same with any threshold 20 % lower or higher\n", out);
+    free(order);
+}
+
+static void
+write_rows(FILE *out, const ss_ranking *r, char *const name[])
+{
+    fputs("# columns: rank scene total", out);
+    for (int i = 0; i < SS_CRITERIA; i++) {
+        const ss_criterion_rule *rule = &ss_criterion_rules[i];
+        fprintf(out, " %s%s%s %s_score", rule->name, *rule->unit ? "/" : "", rule->unit, rule->name);
+    }
+    fputc('\n', out);
+    for (size_t i = 0; i < r->n; i++) {
+        const ss_rank_row *row = &r->row[i];
+        int compared = !isnan(r->forcing_frequency);
+        if (r->told)
+            fprintf(out, "%zu\t%s\t", i + 1, name[row->scene]);
+        else
+            fprintf(out, "-\t%s\t", name[row->scene]);
+        put(out, compared ? row->total : NAN, "");
+        for (int k = 0; k < SS_CRITERIA; k++) {
+            fputc('\t', out);
+            put(out, compared ? row->value[k] : NAN, "\t");
+            put(out, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, "");
+        }
+        fputc('\n', out);
+    }
+}
+
+/* --- work ---------------------------------------------------------------------------------- */
+
+/* The signal's own notes, but for what describes a scene: this is no scene's record. */
+static void
+rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
+{
+    enum { NAME_SIZE = 256 };
+    ss_scene *scene = calloc(j->n_scenes, sizeof *scene);
+    char **name = calloc(j->n_scenes, sizeof *name);
+    ss_ranking *r = NULL;
+    ss_error err = { "" };
+    if (scene == NULL || name == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (size_t i = 0; i < j->n_scenes; i++) {
+        scene[i] = tool_read_scene(j->scenes[i], j->settings, j->n_settings);
+        name[i] = malloc(NAME_SIZE);
+        if (name[i] == NULL)
+            tool_die("%s", ss_strerror(SS_ENOMEM));
+        tool_name_scene(name[i], NAME_SIZE, j->scenes[i], j->settings, j->n_settings);
+    }
+    tool_check(ss_rank(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
+    if (r->told)
+        tool_note("%s is ahead by %.3g thresholds", name[r->row[0].scene],
+                  r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY);
+    FILE *out = tool_output(j->output);
+    fprintf(out, "# stickslip ranking 1\n# signal_name: %s\n", tool_input_name(j->signal_path));
+    fprintf(out, "# spread: %.4g\n", 100 * opts->spread);
+    write_head(out, r, signal->head->column[column].name, opts->quantity, name);
+    if (!isnan(r->forcing_frequency))
+        write_orders(out, r, name);
+    write_rows(out, r, name);
+    for (size_t i = 0; i < j->n_scenes; i++)
+        free(name[i]);
+    free(name);
+    free(scene);
+    ss_ranking_free(r);
+}
+
+static void
+fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
+{
+    ss_scene start = tool_read_scene(j->scenes[0], j->settings, j->n_settings);
+    ss_fit f;
+    ss_error err = { "" };
+    tool_check(ss_fit_scene(&f, signal, column, &start, opts, &err), &err);
+    if (!f.told)
+        tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);
+    const struct { const char *key; ss_value v; } told[] = {
+        { "friction", f.friction }, { "base_amplitude", f.base_amplitude },
+        { "base_frequency", f.base_frequency }, { "contact_stiffness", f.contact_stiffness },
+        { "contact_damping", f.contact_damping } };
+    FILE *out = tool_output(j->output);
+    fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness and release rule\n"
+            "# are those given; standard errors:\n", tool_input_name(j->signal_path),
+            signal->head->column[column].name);
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        fprintf(out, "#   %-17s %.2g %%\n", told[i].key, 100 * told[i].v.error / told[i].v.value);
+    fprintf(out, "# Left of the signal: %.3g %%, and %.3g %% if the motion need not be settled.\n",
+            100 * f.residual, 100 * f.residual_started);
+    if (ss_scene_write(&f.scene, out) != SS_OK)
+        tool_die("write failed");
+}
+
+int
+main(int argc, char *argv[])
+{
+    static const struct option longopts[] = {
+        { "column", required_argument, NULL, 'c' }, { "as", required_argument, NULL, 'a' },
+        { "set", required_argument, NULL, 's' }, { "spread", required_argument, NULL, 'p' },
+        { "forcing", required_argument, NULL, 'F' }, { "fit", no_argument, NULL, OPT_FIT },
+        TOOL_LONGOPTS };
+    job j = { .settings = calloc((size_t)argc, sizeof *j.settings), .opts = ss_rank_defaults };
+    int fits = 0;
+
+    tool_begin(argv, "ss-rank", usage);
+    if (j.settings == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (int c; (c = getopt_long(argc, argv, "c:a:s:p:F:o:qvh", longopts, NULL)) != -1;)
+        switch (c) {
+        case 'c': j.column_name = optarg; break;
+        case 'a': j.as = optarg; break;
+        case 's': j.settings[j.n_settings++] = optarg; break;
+        case 'p': j.opts.spread = tool_number("--spread", optarg, 0, 99) / 100; break;
+        case 'F': j.opts.forcing_frequency = tool_number("--forcing", optarg, 1e-9, 1e12); break;
+        case OPT_FIT: fits = 1; break;
+        case 'o': j.output = optarg; break;
+        default: tool_option(c);
+        }
+    quantity_of(&(ss_column){ "", "" }, j.as);          /* a wrong word is wrong usage at once */
+    if (fits && argc - optind > 2)
+        tool_usage("--fit takes one scene");
+    if (!fits)
+        tool_output_kind(j.output, 1u << TOOL_TSV, TOOL_TSV);
+    j.signal_path = optind < argc ? argv[optind] : "-";
+    const char *shipped[16];
+    size_t n = 0;
+    while (ss_shipped_scenes[n].name != NULL && n < sizeof shipped / sizeof *shipped)
+        shipped[n] = ss_shipped_scenes[n].name, n++;
+    j.scenes = optind + 1 < argc ? (const char **)argv + optind + 1 : shipped;
+    j.n_scenes = optind + 1 < argc ? (size_t)(argc - optind - 1) : n;
+    if (fits && optind + 1 >= argc)
+        shipped[0] = "compliant-light";
+
+    ss_signal *signal = tool_read_signal(j.signal_path, NULL);
+    size_t column = tool_column(signal->head, j.signal_path, j.column_name);
+    j.opts.quantity = quantity_of(&signal->head->column[column], j.as);
+    (fits ? fit : rank)(&j, signal, column, &j.opts);
+    ss_signal_free(signal);
+    free(j.settings);
+    tool_end();
+    return 0;
+}
