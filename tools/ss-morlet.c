@@ -27,10 +27,10 @@ static const char usage[] =
 "      --detrend=NAME     subtract none, mean or linear first (none)\n"
 "      --force            also scales that the record does not resolve\n"
 "      --threads=N        work on N scales at a time (1)\n"
-"      --wisdom=FILE      measure the fastest FFTs, keep them in FILE for next time\n"
+"      --wisdom=FILE      measure the fastest FFTs; FILE keeps them\n"
 "      --check            compare with the other method, say what differs\n"
 "  -o, --output=FILE      .tsv, or .h5 with the signal; - is standard output\n"
-"  -q, --quiet            no warnings; -v, --verbose: what was chosen and its cost\n"
+"  -q, --quiet            no warnings; -v, --verbose: what was done\n"
 "  -h, --help             show this text; --version: show the version\n";
 
 enum {
