@@ -167,7 +167,7 @@ print_row(const char *name, const char *format, double words, double raw, ss_val
 
 /* The paper's estimate of the contact, ours by the same reading, the fit, and what was simulated. */
 static void
-print_contact(const char *path, const char *name)
+print_contact(const char *path, const char *name, const char *column_name)
 {
     ss_signal *signal = NULL;
     ss_features *f = NULL;
@@ -176,12 +176,14 @@ print_contact(const char *path, const char *name)
     int said = strncmp(name, "figure2", 7) != 0 && strncmp(name, "figure3", 7) != 0;
     tool_check(ss_load_signal(&signal, path, NULL, &err), &err);
     const ss_header *head = signal->head;
-    int column = ss_header_column(head, "a");
+    int column = ss_header_column(head, column_name);
     double m = note_number(head, "mass"), k = note_number(head, "stiffness");
     double K = k + note_number(head, "contact_stiffness"), c = note_number(head, "contact_damping");
     opts.mass = m > 0 ? m : 0;
     opts.stiffness = k > 0 ? k : 0;
-    tool_check(ss_features_find(&f, signal, column >= 0 ? (size_t)column : 0, &opts, &err), &err);
+    if (column < 0)
+        tool_die("%s: no column %s beside its coefficients", path, column_name);
+    tool_check(ss_features_find(&f, signal, (size_t)column, &opts, &err), &err);
     printf("  transitions: %zu, with a local maximum %zu\n", f->n, f->recurring);
     printf("  %-22s %10s %10s %10s %10s %10s\n", "", "paper", "raw", "fitted", "+-", "simulated");
     print_row("frequency / Hz", " %10.3f", said ? 45 : NAN, f->frequency_raw.value, f->frequency,
@@ -204,7 +206,7 @@ print_figure(const char *path)
     printf("\n%s\n  the paper: %s\n", name, find_words(name));
     print_maxima(c);
     print_spikes(c);
-    print_contact(path, name);
+    print_contact(path, name, c->head->column[0].name);
     ss_coefficients_free(c);
 }
 

@@ -11,7 +11,7 @@ static const char usage[] =
 "Find the transitions between stick and slip in one column of a signal.  Write a\n"
 "row each: onset, end, spikes, local maximum of |W|, fitted oscillation; then a\n"
 "summary.  What is not there or not known is -.\n"
-"      --column=NAME|N     column to look at (a, or the only one)\n"
+"  -c, --column=NAME|N     column to look at (a, or the only one)\n"
 "      --threshold=DB      prominence that makes a local maximum (80/18)\n"
 "      --norm=l2|l1        in which it is taken, a^-1/2 or 1/a (l2)\n"
 "      --fmin=HZ           lowest frequency of the map (the lowest usable one)\n"
@@ -28,12 +28,12 @@ static const char usage[] =
 "      --version           show the version and exit\n";
 
 enum {
-    OPT_COLUMN = TOOL_OPT_FIRST, OPT_THRESHOLD, OPT_NORM, OPT_FMIN, OPT_MASS, OPT_STIFFNESS,
+    OPT_THRESHOLD = TOOL_OPT_FIRST, OPT_NORM, OPT_FMIN, OPT_MASS, OPT_STIFFNESS,
     OPT_DISPLACEMENT, OPT_FORCE, OPT_DROP, OPT_THREADS
 };
 
 static const struct option longopts[] = {
-    { "column", required_argument, NULL, OPT_COLUMN },
+    { "column", required_argument, NULL, 'c' },
     { "threshold", required_argument, NULL, OPT_THRESHOLD },
     { "norm", required_argument, NULL, OPT_NORM },
     { "fmin", required_argument, NULL, OPT_FMIN },
@@ -57,7 +57,7 @@ set_option(request *req, int c)
     static const char *const norms[] = { "l2", "l1", NULL };    /* as in ss_norm */
     ss_features_opts *opts = &req->opts;
     switch (c) {
-    case OPT_COLUMN:       req->column = optarg; break;
+    case 'c':              req->column = optarg; break;
     case OPT_THRESHOLD:    opts->threshold = tool_number("--threshold", optarg, 1e-3, 1000); break;
     case OPT_NORM:         opts->norm = (ss_norm)tool_choice("--norm", optarg, norms); break;
     case OPT_FMIN:         opts->fmin = tool_number("--fmin", optarg, 1e-100, 1e100); break;
@@ -190,7 +190,7 @@ main(int argc, char *argv[])
     ss_error err = { "" };
 
     tool_begin(argv, "ss-features", usage);
-    for (int c; (c = getopt_long(argc, argv, "o:qvh", longopts, NULL)) != -1;)
+    for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
         set_option(&req, c);
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");

@@ -31,7 +31,7 @@ static const char usage[] =
 "      --inverse          read coefficients, write the signal that has them\n"
 "      --wisdom=FILE      measure the fastest FFTs; FILE keeps them\n"
 "      --check            compare with the other method, say what differs\n"
-"  -o, --output=FILE      .tsv, .au, .h5 with the signal; --format=tsv|au: no FILE\n"
+"  -o, --output=FILE      .tsv, .au, .h5 with the signal; --format=tsv|au if none\n"
 "  -q, --quiet            no warnings; -v, --verbose: what was done\n"
 "  -h, --help             show this text; --version: show the version\n";
 

@@ -1,4 +1,5 @@
-/* ss-rank -- which friction model explains a signal, criterion by criterion; or the scene that fits. */
+/* ss-rank -- which friction model explains a signal, criterion by criterion; or the scene that
+ * fits. */
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,8 +13,8 @@ static const char usage[] =
 "can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
 "four shipped ones).\n"
 "  -c, --column COL      name or number (default: a, else the only one)\n"
-"  -a, --as QUANTITY     what it is of: x, v, a or f (default: its own name, else\n"
-"                        f if its unit is one of force, else a)\n"
+"  -a, --as QUANTITY     what it is of: x, v, a or f (default: its own name,\n"
+"                        else f if its unit is one of force, else a)\n"
 "  -s, --set KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
 "  -p, --spread PERCENT  how far the rig's parameters may be from a scene's\n"
 "                        (default 30)\n"
@@ -122,7 +123,8 @@ write_rows(FILE *out, const ss_ranking *r, char *const name[])
     fputs("# columns: rank scene total", out);
     for (int i = 0; i < SS_CRITERIA; i++) {
         const ss_criterion_rule *rule = &ss_criterion_rules[i];
-        fprintf(out, " %s%s%s %s_score", rule->name, *rule->unit ? "/" : "", rule->unit, rule->name);
+        fprintf(out, " %s%s%s %s_score", rule->name, *rule->unit ? "/" : "", rule->unit,
+                rule->name);
     }
     fputc('\n', out);
     for (size_t i = 0; i < r->n; i++) {
@@ -144,7 +146,6 @@ write_rows(FILE *out, const ss_ranking *r, char *const name[])
 
 /* --- work ---------------------------------------------------------------------------------- */
 
-/* The signal's own notes, but for what describes a scene: this is no scene's record. */
 static void
 rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
 {

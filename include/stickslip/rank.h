@@ -15,15 +15,15 @@ typedef enum ss_quantity { SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FOR
 
 /* What models are judged by: a number of the signal and of each scene, and their distance. */
 typedef enum ss_criterion {
-    SS_BY_RESIDUAL,             /* of the mean cycle's power, left by the model; above the least [dB] */
+    SS_BY_RESIDUAL,             /* power of the mean cycle that is left, above the least [dB] */
     SS_BY_ADJUSTMENT,           /* of the scene's parameters, rms in units of the spread */
     SS_BY_MAXIMUM,              /* part of the transitions with a local maximum */
     SS_BY_FREQUENCY,            /* of the transition oscillation, as a natural logarithm */
     SS_BY_DAMPING,              /* its damping ratio, as a natural logarithm */
-    SS_BY_JUMP,                 /* a cycle's largest |W| at the shortest scales re that at all [dB] */
+    SS_BY_JUMP,                 /* largest |W| at the shortest scale re the largest of all [dB] */
     SS_BY_SPIKES,               /* spikes a transition */
     SS_BY_SLOPE,                /* of the spikes across scales [dB an octave] */
-    SS_BY_STIFFNESS,            /* df/dx in the stick, as a natural logarithm, where x and f are there */
+    SS_BY_STIFFNESS,            /* df/dx in the stick, as a natural logarithm, with x and f */
     SS_BY_MAP,                  /* rms difference of the contour maps [dB] */
     SS_CRITERIA
 } ss_criterion;
@@ -39,8 +39,8 @@ extern const ss_criterion_rule ss_criterion_rules[SS_CRITERIA];
 
 typedef struct ss_rank_opts {
     ss_quantity quantity;       /* that the column is of */
-    double spread;              /* the rig's parameters are within a factor 1 - spread ... 1 + spread of
-                                   the scene's  0 <= spread < 1 */
+    double spread;              /* the parameters of the rig are within a factor 1 -+ spread
+                                   of those of the scene  0 <= spread < 1 */
     double forcing_frequency;   /* [Hz]; 0: found from what repeats */
 } ss_rank_opts;
 extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found */
@@ -49,7 +49,7 @@ typedef struct ss_rank_row {
     size_t scene;               /* its index among those given */
     ss_scene adjusted;          /* within the spread, of the signal's rate, span, size and phase */
     double value[SS_CRITERIA];      /* of the adjusted scene; NaN where it has none */
-    double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one of the two has a value */
+    double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one has a value */
     double total;
 } ss_rank_row;
 
@@ -57,22 +57,22 @@ typedef struct ss_ranking {
     int told;                   /* 1: the first row is the answer; 0: cannot tell */
     char why[256];              /* why not, or by how much */
     double value[SS_CRITERIA];  /* of the signal; NaN where it has none */
-    double forcing_frequency;   /* [Hz]; NaN: nothing repeats, then rows are as given, without values */
+    double forcing_frequency;   /* [Hz]; NaN: nothing repeats, rows are as given without values */
     size_t n;
     ss_rank_row *row;           /* best first */
 } ss_ranking;
 
-/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Each is adjusted to the
- * signal's mean cycle within the spread, run for the signal's span at its rate with white noise of the
- * signal's own level, and compared.  That nothing can be told is an answer: SS_OK.  opts may be NULL.
- * To be freed with ss_ranking_free. */
+/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Each is adjusted to
+ * the signal's mean cycle within the spread, run for the signal's span at its rate with white
+ * noise of the signal's own level, and compared.  That nothing can be told is an answer: SS_OK.
+ * opts may be NULL. To be freed with ss_ranking_free. */
 ss_status ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
 /* Score of a row by one criterion with its threshold multiplied by factor. */
 double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor);
-/* The order in which the rows, by their index, would be with one threshold multiplied by factor, into
- * order[0 ... n-1]; 1 if it is another than theirs. */
+/* The order in which the rows, by their index, would be with one threshold multiplied by factor,
+ * into order[0 ... n-1]; 1 if it is another than theirs. */
 int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
                      size_t *order);
 
@@ -85,15 +85,15 @@ typedef struct ss_fit {
     ss_value friction, base_amplitude;              /* with standard errors */
     ss_value contact_stiffness, contact_damping;
     ss_value base_frequency;
-    double residual;            /* rms of record less scene over that of the record about its mean */
-    double residual_started;    /* the same if the motion may start from any state: what is left then
-                                   is noise, or not this model */
+    double residual;            /* rms of record less scene over the record about its mean */
+    double residual_started;    /* the same if the motion may start from any state: what is left
+                                   then is noise, or not this model */
 } ss_fit;
 
-/* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column of
- * SI units, whose values must be finite; m, k and the release rule are taken from the scene.  Errors
- * are those of white noise of the residual's size.  That nothing can be told is an answer: SS_OK.
- * opts may be NULL; its spread is not used.  SS_EINVAL for another model. */
+/* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column
+ * of SI units, whose values must be finite; m, k and the release rule are taken from the scene.
+ * Errors are those of white noise of the residual's size.  That nothing can be told is an answer:
+ * SS_OK. opts may be NULL; its spread is not used.  SS_EINVAL for another model. */
 ss_status ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 

@@ -1,11 +1,12 @@
 /* candidate.c -- adjust a scene to a mean cycle, within a range about its own parameters.
  *
- * A scene names one set of parameters and the rig that was measured has another, known to within some
- * tenths; a model is judged by the best that it can do within these.  Size and phase are free and
- * found in closed form (cycle.c): motion is proportional to f_k and Z_e together, if alpha goes down
- * as they go up.  What is left to search is two to four numbers.  Events move, appear and vanish as
- * these change, so the misfit has steps and creases; hence no slopes but points all over the range
- * (Sobol's, always the same) and a simplex (Nelder and Mead 1965) from the best of them. */
+ * A scene names one set of parameters and the rig that was measured has another, known to within
+ * some tenths; a model is judged by the best that it can do within these.  Size and phase are free
+ * and found in closed form (cycle.c): motion is proportional to f_k and Z_e together, if alpha
+ * goes down as they go up.  What is left to search is two to four numbers.  Events move, appear
+ * and vanish as these change, so the misfit has steps and creases; hence no slopes but points all
+ * over the range (Sobol's, always the same) and a simplex (Nelder and Mead 1965) from the best of
+ * them. */
 #include "rank/candidate.h"
 
 #include <math.h>
@@ -200,7 +201,8 @@ static ss_status
 descend(start *s, size_t free, size_t steps, problem *p)
 {
     double first[CANDIDATE_KEYS] = { 0.3, 0.3, 0.3, 0.3 };     /* of the range: about a seventh */
-    gsl_vector_view u = gsl_vector_view_array(s->u, free), step = gsl_vector_view_array(first, free);
+    gsl_vector_view u = gsl_vector_view_array(s->u, free);
+    gsl_vector_view step = gsl_vector_view_array(first, free);
     gsl_multimin_function f = { height, free, p };
     gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2,
                                                                free);
@@ -249,7 +251,7 @@ ss_candidate_scene(const candidate *c, const cycle *goal)
         s.base_amplitude *= c->size;
         s.alpha /= c->size;
     }
-    s.phase = -2 * M_PI * c->shift;     /* the cycle begins when so much of the settled one has passed */
+    s.phase = -2 * M_PI * c->shift;     /* the cycle begins so much before the settled one */
     return s;
 }
 
@@ -259,7 +261,8 @@ ss_candidate_distance(const candidate *c)
     double sum = 0, of_mass = 0, squares = 0;
     for (size_t i = 0; i < c->n; i++) {
         double d = c->best[i] - c->own[i];
-        int by_mass = i == CANDIDATE_STIFFNESS || (i > CANDIDATE_RATIO && c->scene.model == SS_COMPLIANT);
+        int by_mass = i == CANDIDATE_STIFFNESS
+                      || (i > CANDIDATE_RATIO && c->scene.model == SS_COMPLIANT);
         sum += by_mass ? d : 0;
         of_mass += by_mass;
         squares += d * d;

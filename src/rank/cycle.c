@@ -85,7 +85,7 @@ double
 ss_cycle_period(const double *x, size_t n, double rate, double period, double part)
 {
     double best = period;
-    /* jumps repeat within a bin or two only: the first steps are no wider than that over 8 cycles */
+    /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
     for (double width = part; width > 1e-6; width /= GRID) {
         double middle = best, most = -1;
         for (int i = -GRID; i <= GRID; i++) {
@@ -97,8 +97,8 @@ ss_cycle_period(const double *x, size_t n, double rate, double period, double pa
     return best;
 }
 
-/* What repeats after a period does so after two and three of them: if nearly all of its power is left
- * at a part of it, that part is the period.  (Half a cycle of a model has none of its power.) */
+/* What repeats after a period does so after two and three of them: if nearly all of its power is
+ * left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
 static double
 shortest(const double *x, size_t n, double rate, double period)
 {
@@ -168,7 +168,8 @@ ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift)
         if (y[i] > y[peak])
             peak = i;
     /* a parabola through the correlation's three highest values finds the shift between bins */
-    double left = y[(peak + n - 1) % n], right = y[(peak + 1) % n], bend = 2 * y[peak] - left - right;
+    double left = y[(peak + n - 1) % n], right = y[(peak + 1) % n];
+    double bend = 2 * y[peak] - left - right;
     double offset = bend > 0 ? 0.5 * (right - left) / bend : 0;
     double top = fmax(y[peak] + 0.25 * (right - left) * offset, 0) / (double)n;
     *shift = ((double)peak + offset) / (double)n;

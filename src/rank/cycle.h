@@ -12,7 +12,7 @@ typedef struct cycle {
     size_t n;                   /* bins, a power of two, CYCLE_LEAST ... CYCLE_MOST */
     double y[CYCLE_MOST];       /* means of the samples in each bin, about their own mean */
     double power;               /* of y: its mean square */
-    double noise;               /* of a bin's mean: variance, from the scatter within bins; what does
+    double noise;               /* variance of a bin's mean, from the scatter within bins: what does
                                    not repeat is in it too */
 } cycle;
 
@@ -23,13 +23,14 @@ ss_status ss_cycle_fold(cycle *c, const double *x, size_t n, double rate, double
 /* The period within part of the given one (0.01: from 0.99 to 1.01) at which most power repeats. */
 double ss_cycle_period(const double *x, size_t n, double rate, double period, double part);
 
-/* The cycle of a signal whose values are finite: at the frequency [Hz] given or, if that is 0, found.  *why
- * (of the given size) is filled in where there is none that says anything, and c->period is then 0. */
+/* The cycle of a signal whose values are finite: at the frequency [Hz] given or, if that is 0,
+ * found.  *why (of the given size) is filled in where there is none that says anything, and
+ * c->period is then 0. */
 ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, double rate,
                         double frequency);
 
-/* The mean square that is left of c when a times m, shifted by *shift cycles, is taken from it, a >= 0
- * and the shift being the best.  m has c's n bins. */
+/* The mean square that is left of c when a times m, shifted by *shift cycles, is taken from it, a
+ * >= 0 and the shift being the best.  m has c's n bins. */
 double ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift);
 
 #endif

@@ -1,15 +1,17 @@
 /* fit.c -- the compliant scene that moves as a signal does.
  *
- * First the settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c), from the
- * stiffness and damping that the transitions show or, where they show none, from wide about the
- * scene's.  That finds the right motion, but a record seldom is settled to the last digit, and what is not
- * would go into the parameters.  So the motion is then fitted to the record itself, sample by sample, with
- * a start of its own: position and velocity within a slip, where they are all the state there is.
+ * First the settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c),
+ * from the stiffness and damping that the transitions show or, where they show none, from wide
+ * about the scene's.  That finds the right motion, but a record seldom is settled to the last
+ * digit, and what is not would go into the parameters.  So the motion is then fitted to the record
+ * itself, sample by sample, with a start of its own: position and velocity within a slip, where
+ * they are all the state there is.
  *
- * A sample that an event crosses as a parameter moves jumps, so the sum of squares has steps.  Differences
- * over 1e-4 have events cross in many places and see the valley; over 1e-6 hardly any does, and they
- * lead to its floor.  (Over 1e-4 alone 0.5 % of f_k and 0.02 % of K_y remained without any noise, where
- * both together leave 1e-12.) */
+ * A sample that an event crosses as a parameter moves jumps, so the sum of squares has steps.
+ * Differences over 1e-3 and 1e-4 have events cross in many places and see the valley; over 1e-6
+ * hardly any does, and they lead to its floor, from where the next ones may find a lower.  (Over
+ * 1e-4 alone 0.5 % of f_k and 0.02 % of K_y remained without any noise, where all leave 1e-14; at
+ * 40 dB fewer passes left 0.2 % of f_k where these leave 0.02 %.) */
 #include <stickslip/rank.h>
 
 #include <math.h>
@@ -28,8 +30,9 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 enum { PASSES = 40 };
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
 #define FAR 10.0
-#define UNEXPLAINED 0.1                 /* of the rms: what leaves more, and more than MARGIN times */
-#define MARGIN 1.5                      /* its noise, is another model's or none's */
+/* Who leaves more of the rms than this, and than MARGIN times its noise, is another model's. */
+#define UNEXPLAINED 0.1
+#define MARGIN 1.5
 #define VAGUE 0.3                       /* a standard error above this part tells nothing */
 
 /* What is adjusted, as 1 + (its change in the unit given): differences need numbers of order 1. */
@@ -112,12 +115,12 @@ descend(const match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS],
     return st;
 }
 
-/* The u of least squares; error: its standard errors; *left: the mean square, infinite if the motion
- * could not be run. */
+/* The u of least squares; error: its standard errors; *left: the mean square, infinite if the
+ * motion could not be run. */
 static ss_status
 solve(const match *m, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
 {
-    static const double step[] = { 1e-4, 1e-6 };
+    static const double step[] = { 1e-3, 1e-4, 1e-6, 1e-4, 1e-6 };
     ss_status st = SS_OK;
     *left = INFINITY;
     for (size_t i = 0; i < UNKNOWNS; i++)

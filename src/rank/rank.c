@@ -1,11 +1,11 @@
 /* rank.c -- which scene explains a signal: its mean cycle, and what its contours show.
  *
- * A scene stands for all rigs within the spread of its parameters.  So each is first adjusted to the
- * signal's mean cycle (candidate.c), then run for as long and with as much noise as the signal has,
- * and from then on both are treated alike: the same features, the same transform, the same phase.
- * The residual of the mean cycle tells most, as every sample of a signal of known period takes part in
- * it; but a model of a real rig is wrong in details that this sees too, and the other criteria then
- * say which model shows what the signal shows. */
+ * A scene stands for all rigs within the spread of its parameters.  So each is first adjusted to
+ * the signal's mean cycle (candidate.c), then run for as long and with as much noise as the signal
+ * has, and from then on both are treated alike: the same features, the same transform, the same
+ * phase. The residual of the mean cycle tells most, as every sample of a signal of known period
+ * takes part in it; but a model of a real rig is wrong in details that this sees too, and the
+ * other criteria then say which model shows what the signal shows. */
 #include <stickslip/rank.h>
 
 #include <math.h>
@@ -18,9 +18,10 @@
 #include "error.h"
 #include "rank/candidate.h"
 
-/* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the spread
- * itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the damping or
- * stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one contour. */
+/* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the
+ * spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the
+ * damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
+ * contour. */
 const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
     [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
@@ -39,7 +40,7 @@ const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0
 enum { STARTS = 32, KEEP = 2, STEPS = 60 };     /* of the search: more find nothing better */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
 #define DOUBTFUL 0.5                    /* a lead by less than half a threshold is none */
-#define UNEXPLAINED 0.1                 /* of the cycle's power left by the best: none explains it */
+#define UNEXPLAINED 0.1                 /* of the cycle's power: a best that leaves more is none */
 #define SELDOM 0.5                      /* a half cycle: less is no transition */
 #define SPAN 80.0                       /* [dB] of a contour map */
 
@@ -49,6 +50,7 @@ typedef struct look {
     double value[SS_CRITERIA];
     double noise;                       /* rms */
     int countable;                      /* spikes can be counted */
+    int has_slope;                      /* there are columns for df/dx */
     ss_coefficients *map;
 } look;
 
@@ -75,7 +77,8 @@ level(const look *l, size_t c, double top)
     return fmax(size > 0 ? 20 * log10(size / top) : -SPAN, -SPAN);
 }
 
-/* The median over half cycles of the largest |W| in each along the shortest scale [dB re the map's]. */
+/* The median over half cycles of the largest |W| in each along the shortest scale [dB re the
+ * map's]. */
 static ss_status
 look_at_jumps(look *l, double half)
 {
@@ -132,6 +135,7 @@ look_at_transitions(look *l, const ss_signal *signal, size_t column, double half
         return st;
     double halves = floor((double)signal->n / signal->head->rate / half);
     l->noise = f->noise;
+    l->has_slope = opts.displacement >= 0 && opts.force >= 0;
     l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / halves, 1);
     l->value[SS_BY_FREQUENCY] = f->frequency.value;
     l->value[SS_BY_DAMPING] = f->damping_ratio.value;
@@ -215,6 +219,10 @@ compare(ss_rank_row *row, const look *signal, const look *model)
     /* where noise hides spikes, their number and kind tell of the noise */
     if (!signal->countable)
         row->distance[SS_BY_SPIKES] = row->distance[SS_BY_SLOPE] = 0;
+    if (!signal->has_slope) {
+        row->value[SS_BY_STIFFNESS] = NAN;
+        row->distance[SS_BY_STIFFNESS] = 0;
+    }
     row->value[SS_BY_MAP] = row->distance[SS_BY_MAP] = map_distance(signal, model);
 }
 
@@ -278,7 +286,8 @@ double
 ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor)
 {
     double d = row->distance[criterion];
-    return isnan(d) ? 1 : fmin(d / (factor * ss_criterion_rules[criterion].threshold), SS_SCORE_MOST);
+    double threshold = factor * ss_criterion_rules[criterion].threshold;
+    return isnan(d) ? 1 : fmin(d / threshold, SS_SCORE_MOST);
 }
 
 static double
@@ -433,8 +442,8 @@ ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene
     for (size_t i = 0; i < n; i++)
         r->row[i].scene = i;
     *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
-    st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n, signal->n,
-                       signal->head->rate, opts->forcing_frequency);
+    st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
+                       signal->n, signal->head->rate, opts->forcing_frequency);
     r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
     if (st == SS_OK && w->goal.period > 0)
         st = rank_all(r, signal, scene, w, err);

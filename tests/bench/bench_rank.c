@@ -1,12 +1,13 @@
-/* bench_rank -- which scene ss_rank puts first for signals of known models.
+/* bench_rank -- which scene ss_rank puts first for signals of known models; errors of fits.
  *
- *     bench_rank [EACH [SEED [v]]]       signals of each model (8), seed (1); v: every row that is not right
+ *     bench_rank [EACH [SEED [v]]]   signals of each model (8), seed (1); v: what is not right
  *
- * Signals are of the shipped scenes with every parameter drawn within +-30 %, at 40 and 20 dB.  f_k /
- * (k Z_e) is drawn from .90 to .97: elsewhere most do not move, or stick for less than two periods.
- * These draws too are made ("free"): there "cannot tell" is the right answer wherever the signal
- * shows no oscillation.  Fails if more than one signal in ten has another than its own model first, or
- * if one in ten free draws is told wrongly. */
+ * Signals are of the shipped scenes with every parameter drawn within +-30 %, at 40 and 20 dB.
+ * f_k / (k Z_e) is drawn from .90 to .97: elsewhere most do not move, or stick for less than two
+ * periods.  These draws too are made ("free"): there "cannot tell" is the right answer wherever the
+ * signal shows no oscillation.  Then the compliant scenes are fitted.  Fails if more than one signal
+ * in ten has another than its own model first, if one in ten free draws is told wrongly, or if a
+ * fit's rms error is above the noise in the signal. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_rng.h>
 #include "bench.h"
@@ -84,21 +85,33 @@ count(tally *t, const ss_ranking *r, int model, int verbose)
         show(r, model);
 }
 
+/* The scene's acceleration alone with noise, or without above 200 dB. */
+static ss_signal *
+acceleration(const ss_scene *scene, double snr, unsigned long seed)
+{
+    const size_t a = SS_ACCELERATION;
+    ss_signal *all = NULL, *one = NULL;
+    ss_error err;
+    if (ss_simulate(&all, scene, &err) != SS_OK
+        || ss_signal_select(&one, all, &a, 1, 0, all->n) != SS_OK) {
+        printf("# %s\n", err.text);
+        exit(1);
+    }
+    ss_signal_free(all);
+    if (snr < 200)
+        ss_add_noise(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
+    return one;
+}
+
 static void
 one_signal(tally *t, const ss_scene *scene, const ss_scene shipped[MODELS], int model, double snr,
            unsigned long seed, int verbose)
 {
-    ss_signal *g = NULL;
+    ss_signal *g = acceleration(scene, snr, seed);
     ss_ranking *r = NULL;
     ss_error err;
-    if (ss_simulate(&g, scene, &err) != SS_OK) {
-        printf("# %s\n", err.text);
-        exit(1);
-    }
-    double *a = g->values + SS_ACCELERATION * g->n;
-    ss_add_noise(a, g->n, ss_noise_rms(a, g->n, snr), seed);
     double began = bench_seconds();
-    if (ss_rank(&r, g, SS_ACCELERATION, shipped, MODELS, NULL, &err) != SS_OK) {
+    if (ss_rank(&r, g, 0, shipped, MODELS, NULL, &err) != SS_OK) {
         printf("# %s\n", err.text);
         exit(1);
     }
@@ -130,12 +143,13 @@ told_wrong(const tally *t)
 static void
 print(const tally *t, const char *what, double snr, unsigned long seed)
 {
-    printf("# %s, %g dB, seed %lu: right first in %d of %d, told wrongly %d; %.2f s each\n", what, snr,
-           seed, right(t), t->n, told_wrong(t), t->seconds / t->n);
+    printf("# %s, %g dB, seed %lu: right first in %d of %d, told wrongly %d; %.2f s each\n", what,
+           snr, seed, right(t), t->n, told_wrong(t), t->seconds / t->n);
     printf("# compliant signals without an oscillation: %d, told: %d\n", t->silent, t->silent_told);
     printf("# by one criterion alone:");
     for (int c = 0; c < SS_CRITERIA; c++)
-        printf(" %s %d%s", ss_criterion_rules[c].name, t->alone[c], c + 1 < SS_CRITERIA ? "," : "\n");
+        printf(" %s %d%s", ss_criterion_rules[c].name, t->alone[c],
+               c + 1 < SS_CRITERIA ? "," : "\n");
     for (int m = 0; m < MODELS; m++) {
         printf("%s\t%g\t%s", what, snr, ss_shipped_scenes[m].name);
         for (int i = 0; i < MODELS; i++)
@@ -146,6 +160,49 @@ print(const tally *t, const char *what, double snr, unsigned long seed)
         printf("\n");
     }
     fflush(stdout);
+}
+
+/* --- fits ---------------------------------------------------------------------------------- */
+
+enum { FITTED = 4 };
+
+/* Errors of ss_fit_scene for one scene, its noise drawn anew each time; the start has half its K_y
+ * and twice its c.  1 if an rms is over its bound. */
+static int
+fits(const char *name, const ss_scene *scene, double snr, int each, gsl_rng *rng)
+{
+    static const char *const what[FITTED] = { "f_k", "Z_e", "K_y", "c" };
+    const double truth[FITTED] = { scene->friction, scene->base_amplitude,
+                                   scene->contact_stiffness, scene->contact_damping };
+    double square[FITTED] = { 0 }, bound = snr > 200 ? 1e-8 : pow(10, -snr / 20);
+    int within[FITTED] = { 0 }, told = 0, failed = 0;
+    for (int k = 0; k < each; k++) {
+        ss_signal *g = acceleration(scene, snr, gsl_rng_get(rng));
+        ss_scene start = *scene;
+        ss_fit fit;
+        start.contact_stiffness /= 2;
+        start.contact_damping *= 2;
+        if (ss_fit_scene(&fit, g, 0, &start, NULL, NULL) != SS_OK)
+            exit(1);
+        const ss_value found[FITTED] = { fit.friction, fit.base_amplitude, fit.contact_stiffness,
+                                         fit.contact_damping };
+        for (int i = 0; i < FITTED; i++) {
+            double error = found[i].value / truth[i] - 1;
+            square[i] += error * error;
+            within[i] += fabs(found[i].value - truth[i]) <= found[i].error;
+        }
+        told += fit.told;
+        ss_signal_free(g);
+    }
+    printf("fit\t%g\t%s\ttold %d of %d; rms error, within its standard error:", snr, name, told,
+           each);
+    for (int i = 0; i < FITTED; i++) {
+        double rms = sqrt(square[i] / each);
+        printf(" %s %.2g %% %d%s", what[i], 100 * rms, within[i], i + 1 < FITTED ? "," : "\n");
+        failed |= !(rms <= bound);
+    }
+    fflush(stdout);
+    return failed || told < each;
 }
 
 int
@@ -177,6 +234,11 @@ main(int argc, char *argv[])
         print(&t, run[i].what, run[i].snr, seed + i);
         failed |= 10 * told_wrong(&t) > t.n || (!run[i].is_free && 10 * right(&t) < 9 * t.n);
     }
+    static const double snr[] = { INFINITY, 40, 20 };
+    for (size_t i = 0; i < sizeof snr / sizeof *snr; i++)
+        for (int m = 0; m < MODELS; m++)
+            if (shipped[m].model == SS_COMPLIANT)
+                failed |= fits(ss_shipped_scenes[m].name, &shipped[m], snr[i], each, rng);
     gsl_rng_free(rng);
     return failed;
 }
