@@ -17,6 +17,7 @@
 #include <string.h>
 #include <time.h>
 #include "error.h"
+#include "trade.h"
 
 /* Samples compared at most.  A prime: however many cycles the base goes through in a record, the
  * samples fall on all of its phases. */
@@ -79,8 +80,8 @@ typedef struct taken {              /* what a run gave */
     double done, share;
 } taken;
 
-static double
-cpu_time(void)
+double
+ss_trade_cpu_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -126,7 +127,7 @@ static int
 watch(double done, void *user)
 {
     taken *k = user;
-    double spent = cpu_time() - k->began;
+    double spent = ss_trade_cpu_time() - k->began;
     if (k->budget > 0 && (spent > k->budget
                           || (spent > k->budget / 50 && spent > 2 * k->budget * done))) {
         k->seconds = spent / done;
@@ -147,13 +148,13 @@ take(taken *k, const probe *p, const char *method, double tol, unsigned long max
     k->seen = k->n_events = 0;
     k->over = 0;
     k->stats = (ss_sim_stats){ 0 };
-    k->began = cpu_time();
+    k->began = ss_trade_cpu_time();
     ss_status st = ss_sim_run(&p->scene, &opts, &k->stats, err);
     if (k->no_memory)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
     if (st == SS_STOP && k->over)
         return SS_EBUDGET;
-    k->seconds = cpu_time() - k->began;
+    k->seconds = ss_trade_cpu_time() - k->began;
     return st;
 }
 
@@ -410,22 +411,18 @@ ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Time the short rows again, in turns, so that what disturbs the machine falls on all alike. */
-static ss_status
-repeat(table *t)
+/* In turns, so that what disturbs the machine falls on all alike; the medians count. */
+ss_status
+ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
 {
-    ss_trade *trade = t->trade;
     double (*seconds)[REPEATS] = calloc(trade->n, sizeof *seconds);
     ss_status st = seconds != NULL ? SS_OK : SS_ENOMEM;
-    t->run.budget = 0;
     for (int k = 0; st == SS_OK && k < REPEATS; k++)
         for (size_t i = 0; st == SS_OK && i < trade->n; i++) {
             const ss_trade_row *row = &trade->row[i];
-            if (row->status != SS_OK || row->seconds > SHORT)
-                continue;
-            t->run.done = 0.7 + 0.3 * ((double)k + (double)i / (double)trade->n) / REPEATS;
-            st = take_row(t, row, NULL);
-            seconds[i][k] = t->run.seconds;
+            double done = 0.7 + 0.3 * ((double)k + (double)i / (double)trade->n) / REPEATS;
+            if (row->status == SS_OK && row->seconds <= SHORT)
+                st = again(user, row, done, &seconds[i][k]);
         }
     for (size_t i = 0; st == SS_OK && i < trade->n; i++)
         if (trade->row[i].status == SS_OK && trade->row[i].seconds <= SHORT) {
@@ -436,8 +433,19 @@ repeat(table *t)
     return st;
 }
 
-static void
-mark_frontier(ss_trade *trade)
+static ss_status
+take_again(void *user, const ss_trade_row *row, double done, double *seconds)
+{
+    table *t = user;
+    t->run.budget = 0;
+    t->run.done = done;
+    ss_status st = take_row(t, row, NULL);
+    *seconds = t->run.seconds;
+    return st;
+}
+
+void
+ss_trade_mark_frontier(ss_trade *trade)
 {
     for (size_t i = 0; i < trade->n; i++) {
         ss_trade_row *row = &trade->row[i];
@@ -478,9 +486,9 @@ fill_table(table *t, ss_error *err)
     }
     t->run.share = 0;
     if (st == SS_OK)
-        st = repeat(t);
+        st = ss_trade_repeat(trade, take_again, t);
     if (st == SS_OK)
-        mark_frontier(trade);
+        ss_trade_mark_frontier(trade);
     return st;
 }
 

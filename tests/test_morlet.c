@@ -1,5 +1,6 @@
 /* test_morlet.c -- wavelet coefficients against their sum in long double, against the integral of a
  * continuous signal by GSL, and by the properties that a wavelet transform has. */
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -176,6 +177,72 @@ threads_change_nothing(void **state)
     free(v);
     ss_morlet_free(one);
     ss_morlet_free(five);
+}
+
+/* Plans made, used and freed by several threads at a time, as FFTW itself would not allow. */
+static void *
+make_plans(void *user)
+{
+    enum { N = 500 };
+    double x[N], *w;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet *plan;
+    size_t *failures = user;
+    make(TONE, x, N);
+    opts.engine = SS_ENGINE_FFT;
+    for (opts.voices = 1; opts.voices <= 12; opts.voices++) {
+        *failures += ss_morlet_new(&plan, N - (size_t)opts.voices, 2000, &opts, NULL) != SS_OK;
+        w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+        *failures += ss_morlet_execute(plan, x, w, NULL) != SS_OK;
+        free(w);
+        ss_morlet_free(plan);
+    }
+    return NULL;
+}
+
+static void
+threads_may_plan_at_the_same_time(void **state)
+{
+    pthread_t thread[4];
+    size_t failures[4] = { 0 };
+    (void)state;
+    for (size_t i = 0; i < LENGTH(thread); i++)
+        assert_int_equal(pthread_create(&thread[i], NULL, make_plans, &failures[i]), 0);
+    for (size_t i = 0; i < LENGTH(thread); i++) {
+        pthread_join(thread[i], NULL);
+        assert_int_equal(failures[i], 0);
+    }
+}
+
+/* Measured FFTs keep the bound, and what was found is read back. */
+static void
+wisdom_is_kept_and_keeps_the_bound(void **state)
+{
+    enum { N = 401 };
+    double x[N];
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_error err = { "" };
+    FILE *file = tmpfile();
+    (void)state;
+    opts.engine = SS_ENGINE_FFT, opts.planner = SS_PLANNER_MEASURE, opts.dense = 1;
+    opts.voices = 2;
+    make(NOISE, x, N);
+    ss_morlet *plan = plan_of(N, 2000, &opts);
+    double *w = transform(plan, x);
+    assert_true(worst_error(plan, x, N, 2000, &opts, w, 7) <= 1);
+    assert_int_equal(ss_wisdom_write(file), SS_OK);
+    rewind(file);
+    assert_int_equal(ss_wisdom_read(file, &err), SS_OK);
+    rewind(file);
+    fputs("nonsense", file);
+    rewind(file);
+    assert_int_equal(ss_wisdom_read(file, &err), SS_EINVAL);
+    assert_non_null(strstr(err.text, "no wisdom"));
+    opts.planner = (ss_planner)3;
+    assert_int_equal(ss_morlet_new(&plan, N, 2000, &opts, NULL), SS_EINVAL);
+    fclose(file);
+    free(w);
+    ss_morlet_free(plan);
 }
 
 static void
@@ -959,6 +1026,8 @@ main(void)
         cmocka_unit_test(forced_scales_keep_the_bound),
         cmocka_unit_test(long_scales_by_fft_keep_the_bound),
         cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(threads_may_plan_at_the_same_time),
+        cmocka_unit_test(wisdom_is_kept_and_keeps_the_bound),
         cmocka_unit_test(engines_agree_and_damage_is_seen),
         cmocka_unit_test(error_of_one_point_is_rounding),
         cmocka_unit_test(agrees_with_the_integral_of_what_the_sampling_resolves),

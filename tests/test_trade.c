@@ -3,6 +3,7 @@
  * Truth for Coulomb and compliant scenes is tests/oracle.c (closed form, long double); for the state
  * variable, which has none, rk8pd at 1e-14, a method and tolerance of which an error of 1e-13 is
  * known (rkck and bsimp at 1e-14 agree with it to 2e-13). */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -392,6 +393,49 @@ stops_when_asked(void **state)
     assert_int_equal(ss_sim_run(&s, &run_opts, NULL, NULL), SS_STOP);
 }
 
+/* A strong slow tone under a weak burst: each engine keeps what it is asked for, and nothing that
+ * would take too long is begun. */
+static void
+measures_every_engine_on_a_signal(void **state)
+{
+    enum { N = 1500 };
+    double x[N];
+    ss_trade *trade = NULL;
+    ss_trade_opts opts = ss_trade_defaults;
+    ss_morlet_opts grid = ss_morlet_defaults;
+    (void)state;
+    for (int i = 0; i < N; i++) {
+        double t = i / 2000., u = (t - 0.4) / 0.02;
+        x[i] = cos(2 * M_PI * 2.5 * t) + 1e-4 * exp(-u * u) * cos(2 * M_PI * 47 * t);
+    }
+    grid.voices = 2;
+    assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_OK);
+    assert_int_equal(trade->n, 3 * 12);
+    assert_true(trade->transform && trade->samples > 0 && trade->events == 0);
+    for (size_t k = 0; k < trade->n; k++) {
+        const ss_trade_row *row = &trade->row[k];
+        assert_true(row->status == SS_OK && row->seconds > 0);
+        assert_true(row->error_x >= DBL_EPSILON && row->error_x <= row->tol);
+    }
+    const ss_trade_row *cheapest = ss_trade_cheapest(trade, 1e-7);
+    assert_true(cheapest != NULL && 2 * cheapest->error_x <= 1e-7);
+    assert_true(row_of(trade, "quadrature", 1e-2)->error_x
+                > row_of(trade, "quadrature", 1e-12)->error_x);
+    ss_trade_free(trade);
+
+    opts.budget = 1e-9;
+    assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_OK);
+    assert_int_equal(row_of(trade, "quadrature", 1e-6)->status, SS_EBUDGET);
+    assert_int_equal(row_of(trade, "fft", 1e-6)->status, SS_OK);
+    ss_trade_free(trade);
+
+    opts.budget = 0;
+    assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_EINVAL);
+    assert_int_equal(ss_trade_transform(&trade, x, 10, 2000, &grid, NULL, NULL), SS_ESCALE);
+    opts = (ss_trade_opts){ .budget = 1, .progress = stop };
+    assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_STOP);
+}
+
 int
 main(void)
 {
@@ -405,6 +449,7 @@ main(void)
         cmocka_unit_test(measures_every_method),
         cmocka_unit_test(counts_the_events_that_a_method_loses),
         cmocka_unit_test(stops_when_asked),
+        cmocka_unit_test(measures_every_engine_on_a_signal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

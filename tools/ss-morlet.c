@@ -1,9 +1,12 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
+#include <errno.h>
 #include <getopt.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 #include "common.h"
 
 static const char usage[] =
@@ -15,8 +18,7 @@ static const char usage[] =
 "      --step=B0          translation step in units of the scale (0.25)\n"
 "      --dense            one coefficient a sample at every scale\n"
 "      --dyadic           the paper's grid: one voice, step 1\n"
-"      --fmin=HZ          lowest frequency (4 cycles a record)\n"
-"      --fmax=HZ          highest frequency (the highest that sampling resolves)\n"
+"      --fmin=HZ, --fmax=HZ  (4 cycles a record, the highest that is resolved)\n"
 "      --octaves=M0:M1    scales from 2^M0 to 2^M1 seconds instead\n"
 "      --method=NAME      auto, quadrature or fft (auto)\n"
 "      --accuracy=TOL     error relative to the largest of a scale (1e-6)\n"
@@ -27,18 +29,16 @@ static const char usage[] =
 "      --threads=N        work on N scales at a time (1)\n"
 "      --stream           give coefficients as they are complete; needs --fmin\n"
 "      --inverse          read coefficients, write the signal that has them\n"
+"      --wisdom=FILE      measure the fastest FFTs; FILE keeps them\n"
 "      --check            compare with the other method, say what differs\n"
-"  -o, --output=FILE      .tsv, .au, or .h5 with the signal\n"
-"      --format=FORM      on standard output: tsv (default) or au\n"
-"  -q, --quiet            no warnings\n"
-"  -v, --verbose          say what was chosen and what it cost\n"
-"  -h, --help             show this text and exit\n"
-"      --version          show the version and exit\n";
+"  -o, --output=FILE      .tsv, .au, .h5 with the signal; --format=tsv|au if none\n"
+"  -q, --quiet            no warnings; -v, --verbose: what was done\n"
+"  -h, --help             show this text; --version: show the version\n";
 
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
     OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_CHECK
+    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_WISDOM, OPT_CHECK
 };
 
 static const struct option longopts[] = {
@@ -60,6 +60,7 @@ static const struct option longopts[] = {
     { "threads", required_argument, NULL, OPT_THREADS },
     { "stream", no_argument, NULL, OPT_STREAM },
     { "inverse", no_argument, NULL, OPT_INVERSE },
+    { "wisdom", required_argument, NULL, OPT_WISDOM },
     { "check", no_argument, NULL, OPT_CHECK },
     { "format", required_argument, NULL, TOOL_OPT_FORMAT },
     TOOL_LONGOPTS
@@ -72,7 +73,7 @@ static const char *const detrends[] = { "none", "mean", "linear", NULL };
 
 typedef struct request {
     ss_morlet_opts opts;
-    const char *column, *output;
+    const char *column, *output, *wisdom;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
     int stream, inverse, check;
     int accurate;                       /* --accuracy was given */
@@ -118,6 +119,9 @@ set_option(request *req, int c)
                          break;
     case OPT_STREAM:     req->stream = 1; break;
     case OPT_INVERSE:    req->inverse = 1; break;
+    case OPT_WISDOM:     req->wisdom = optarg;
+                         opts->planner = SS_PLANNER_MEASURE;
+                         break;
     case OPT_CHECK:      req->check = 1; break;
     case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
     case 'o':            req->output = optarg; break;
@@ -201,6 +205,36 @@ report(const request *req, const ss_signal *signal, size_t column, const ss_coef
                   "at %d coefficients of each", difference, (int)EACH);
     }
     ss_morlet_free(plan);
+}
+
+/* What is known of FFTs, if anything is. */
+static void
+read_wisdom(const char *path)
+{
+    ss_error err = { "" };
+    FILE *in = fopen(path, "r");
+    if (in == NULL && errno == ENOENT)
+        return;
+    if (in == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    int c = getc(in);           /* an empty file is one to be filled */
+    if (c != EOF && ungetc(c, in) == c && ss_wisdom_read(in, &err) != SS_OK)
+        tool_die("%s: %s", path, err.text);
+    fclose(in);
+}
+
+static void
+write_wisdom(const char *path)
+{
+    char name[PATH_MAX];
+    int fits = snprintf(name, sizeof name, "%s.%ld", path, (long)getpid()) < (int)sizeof name;
+    FILE *out = fits ? fopen(name, "w") : NULL;
+    if (out == NULL || ss_wisdom_write(out) != SS_OK || fclose(out) != 0
+        || rename(name, path) != 0) {
+        int why = errno;
+        remove(name);
+        tool_die("%s: %s", path, fits ? strerror(why) : "the name is too long");
+    }
 }
 
 static ss_format
@@ -390,12 +424,16 @@ main(int argc, char *argv[])
         set_option(&req, c);
     check_request(&req);
     const char *path = tool_input(argc, argv, optind);
+    if (req.wisdom != NULL)
+        read_wisdom(req.wisdom);
     if (req.inverse)
         invert(&req, path);
     else if (req.stream)
         transform_stream(&req, path);
     else
         transform_whole(&req, path);
+    if (req.wisdom != NULL)
+        write_wisdom(req.wisdom);
     tool_end();
     return 0;
 }

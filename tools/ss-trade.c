@@ -1,21 +1,27 @@
-/* ss-trade -- what accuracy costs on a scene, method by method, measured here and now. */
+/* ss-trade -- what accuracy costs on a scene, or in the transform of a signal, method by method,
+ * measured here and now. */
+#include <ctype.h>
 #include <float.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include "common.h"
 
 static const char usage[] =
-"usage: ss-trade [options] SCENE\n"
-"Run a scene with every method at tolerances 1e-2 ... 1e-13, here and now, and\n"
-"write one row each: errors, events lost, cost, and whether nothing else is both\n"
-"faster and more accurate.  SCENE is a file, - for standard input, or the name of\n"
-"a shipped scene.\n"
+"usage: ss-trade [options] SCENE|SIGNAL\n"
+"Simulate a scene, or transform a signal, with every method at tolerances 1e-2\n"
+"... 1e-13, here and now, and write one row each: errors, cost, and whether\n"
+"nothing else is both faster and more accurate.  A file whose first line that is\n"
+"no comment reads KEY = VALUE is a scene, and so is the name of a shipped one;\n"
+"- is standard input.\n"
 "  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
+"      --column NAME|N   of the signal (a, or the only one)\n"
+"      --dense           transform to a coefficient a sample at every scale\n"
 "  -b, --budget S        CPU time of a row at most [s] (default 10); a longer one\n"
 "                        has its estimated time and no errors\n"
-"  -t, --target TOL      write instead the options of ss-sim that are the fastest\n"
-"                        to keep x within TOL x max|x|\n"
+"  -t, --target TOL      write instead the options of ss-sim, or of ss-morlet,\n"
+"                        that are the fastest to keep x, or W, within TOL\n"
 "  -o, --output FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
 "                        or .pdf (default: rows on standard output)\n"
 "  -q, --quiet           no progress; -v, --verbose: what was measured\n"
@@ -30,14 +36,18 @@ put(FILE *out, double x, const char *behind)
 }
 
 static void
-write_row(FILE *out, const ss_trade_row *row, double fastest)
+write_row(FILE *out, const ss_trade_row *row, int transform, double fastest)
 {
     fprintf(out, "%s\t", row->method);
     if (row->tol > 0)
         put(out, row->tol, "\t");
     else
         fputs("-\t", out);
-    if (row->status == SS_OK) {
+    if (row->status == SS_OK && transform) {
+        put(out, row->error_x, "\t");
+    } else if (transform) {
+        fputs("-\t", out);
+    } else if (row->status == SS_OK) {
         put(out, row->error_x, "\t");
         put(out, row->error_a, "\t");
         put(out, row->error_t, "\t");
@@ -54,23 +64,29 @@ write_row(FILE *out, const ss_trade_row *row, double fastest)
 }
 
 static void
-write_rows(FILE *out, const ss_trade *trade, const char *scene)
+write_rows(FILE *out, const ss_trade *trade, const char *name)
 {
     double fastest = DBL_MAX;
     for (size_t i = 0; i < trade->n; i++)
         if (trade->row[i].status == SS_OK && trade->row[i].seconds < fastest)
             fastest = trade->row[i].seconds;
-    fprintf(out, "# stickslip trade 1\n# scene: %s\n# reference: %s\n", scene, trade->reference);
-    fprintf(out, "# compared: %zu samples, %zu events\n", trade->samples, trade->events);
-    fputs("# known: x ", out);
-    put(out, trade->known_x, ", a ");
-    put(out, trade->known_a, ", t ");
-    put(out, trade->known_t, " s\n# fastest: ");
+    fprintf(out, "# stickslip trade 1\n# %s: %s\n# reference: %s\n",
+            trade->transform ? "signal" : "scene", name, trade->reference);
+    if (trade->transform) {
+        fprintf(out, "# compared: %zu coefficients\n# fastest: ", trade->samples);
+    } else {
+        fprintf(out, "# compared: %zu samples, %zu events\n", trade->samples, trade->events);
+        fputs("# known: x ", out);
+        put(out, trade->known_x, ", a ");
+        put(out, trade->known_a, ", t ");
+        put(out, trade->known_t, " s\n# fastest: ");
+    }
     put(out, fastest, " s\n");
-    fputs("# columns: method tol x_error a_error event_error/s missed invented rhs steps time "
+    fputs(trade->transform ? "# columns: method accuracy error time frontier state\n"
+          : "# columns: method tol x_error a_error event_error/s missed invented rhs steps time "
           "frontier state\n", out);
     for (size_t i = 0; i < trade->n; i++)
-        write_row(out, &trade->row[i], fastest);
+        write_row(out, &trade->row[i], trade->transform, fastest);
 }
 
 static void
@@ -79,11 +95,12 @@ write_options(FILE *out, const ss_trade *trade, double target)
     const ss_trade_row *row = ss_trade_cheapest(trade, target);
     char tol[SS_NUMBER_MAX];
     if (row == NULL)
-        tool_die("no method was seen to keep x within %g of its maximum", target);
+        tool_die("no method was seen to keep %s within %g of its maximum",
+                 trade->transform ? "W" : "x", target);
     fprintf(out, "--method %s", row->method);
     if (row->tol > 0) {
         ss_number_format(tol, row->tol);
-        fprintf(out, " --tol %s", tol);
+        fprintf(out, " --%s %s", trade->transform ? "accuracy" : "tol", tol);
     }
     fputc('\n', out);
 }
@@ -94,54 +111,153 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     return ss_plot_trade(out, user, opts, err);
 }
 
+/* What the command line asks for. */
+typedef struct request {
+    const char **settings, *column, *output, *path;
+    size_t n_settings;
+    int dense;
+    ss_trade_opts opts;
+    char name[256];
+} request;
+
+/* What cannot be read twice is copied to a file that can. */
+static void
+keep_input(void)
+{
+    FILE *copy = lseek(STDIN_FILENO, 0, SEEK_CUR) < 0 ? tmpfile() : NULL;
+    char part[65536];
+    if (copy == NULL)
+        return;
+    for (size_t n; (n = fread(part, 1, sizeof part, stdin)) > 0;)
+        if (fwrite(part, 1, n, copy) != n)
+            tool_die("<stdin>: cannot be kept in a temporary file");
+    if (ferror(stdin) || fflush(copy) != 0 || dup2(fileno(copy), STDIN_FILENO) < 0
+        || fseek(stdin, 0, SEEK_SET) != 0)
+        tool_die("<stdin>: cannot be read");
+    fclose(copy);
+}
+
+/* 1 if its first line that is neither empty nor a comment begins with a name and an equals sign. */
+static int
+reads_as_scene(FILE *in)
+{
+    char line[4096];
+    const char *p;
+    while (fgets(line, sizeof line, in) != NULL) {
+        if (strncmp(line, "# stickslip signal", 18) == 0)
+            return 0;
+        for (p = line; isspace((unsigned char)*p); p++)
+            ;
+        if (*p == '#' || *p == '\0')
+            continue;
+        for (; isalnum((unsigned char)*p) || *p == '_'; p++)
+            ;
+        while (*p == ' ' || *p == '\t')
+            p++;
+        return *p == '=';
+    }
+    return 1;       /* of nothing at all the scene's reader says best what is wrong */
+}
+
+static int
+is_scene(const char *path)
+{
+    int standard = strcmp(path, "-") == 0, scene;
+    if (!standard && tool_is_hdf5(path))
+        return 0;
+    if (standard)
+        keep_input();
+    FILE *in = standard ? stdin : fopen(path, "rb");
+    if (in == NULL)
+        return 1;               /* shipped, or a name that is told to be wrong */
+    scene = reads_as_scene(in);
+    if (!standard)
+        fclose(in);
+    else if (fseek(in, 0, SEEK_SET) != 0)
+        tool_die("<stdin>: cannot be read twice");
+    return scene;
+}
+
+static ss_trade *
+measure_scene(request *req)
+{
+    ss_trade *trade = NULL;
+    ss_error err = { "" };
+    if (req->column != NULL || req->dense)
+        tool_usage("--column and --dense are for a signal, and %s is a scene", req->path);
+    ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
+    tool_name_scene(req->name, sizeof req->name, req->path, req->settings, req->n_settings);
+    tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
+    tool_note("%zu rows against %s, which knows x within %.2g of its maximum", trade->n,
+              trade->reference, trade->known_x);
+    return trade;
+}
+
+static ss_trade *
+measure_signal(request *req)
+{
+    ss_trade *trade = NULL;
+    ss_error err = { "" };
+    ss_morlet_opts grid = ss_morlet_defaults;
+    if (req->n_settings > 0)
+        tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));
+    ss_signal *signal = tool_read_signal(req->path, NULL);
+    size_t column = tool_column(signal->head, req->path, req->column);
+    const char *name = strrchr(req->path, '/');
+    snprintf(req->name, sizeof req->name, "%s",
+             tool_input_name(name != NULL ? name + 1 : req->path));
+    grid.dense = req->dense;
+    tool_check(ss_trade_transform(&trade, signal->values + column * signal->n, signal->n,
+                                  signal->head->rate, &grid, &req->opts, &err), &err);
+    tool_note("%zu rows, %zu coefficients of each compared", trade->n, trade->samples);
+    ss_signal_free(signal);
+    return trade;
+}
+
 int
 main(int argc, char *argv[])
 {
+    enum { OPT_COLUMN = TOOL_OPT_FIRST, OPT_DENSE };
     static const struct option longopts[] = {
         { "set", required_argument, NULL, 's' }, { "budget", required_argument, NULL, 'b' },
-        { "target", required_argument, NULL, 't' }, TOOL_LONGOPTS };
-    const char **settings = calloc((size_t)argc, sizeof *settings), *output = NULL;
-    size_t n_settings = 0;
-    ss_trade_opts opts = ss_trade_defaults;
+        { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, OPT_COLUMN },
+        { "dense", no_argument, NULL, OPT_DENSE }, TOOL_LONGOPTS };
+    request req = { .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
     ss_plot_opts plot = ss_plot_defaults;
-    ss_trade *trade = NULL;
-    ss_error err = { "" };
 
     tool_begin(argv, "ss-trade", usage);
-    if (settings == NULL)
+    if (req.settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (int c; (c = getopt_long(argc, argv, "s:b:t:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
-        case 's': settings[n_settings++] = optarg; break;
-        case 'b': opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
-        case 't': opts.target = tool_number("--target", optarg, 1e-14, 1); break;
-        case 'o': output = optarg; break;
+        case 's': req.settings[req.n_settings++] = optarg; break;
+        case 'b': req.opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
+        case 't': req.opts.target = tool_number("--target", optarg, 1e-14, 1); break;
+        case 'o': req.output = optarg; break;
+        case OPT_COLUMN: req.column = optarg; break;
+        case OPT_DENSE: req.dense = 1; break;
         default: tool_option(c);
         }
     if (optind == argc)
-        tool_usage("which scene? give a file, or a shipped one by its name");
+        tool_usage("of what? give a scene, a shipped one by its name, or a signal");
     if (optind + 1 != argc)
         tool_usage("unexpected argument '%s'", argv[optind + 1]);
-    tool_kind kind = tool_output_kind(output, 1u << TOOL_TSV | TOOL_PICTURES, TOOL_TSV);
-    if (opts.target > 0 && kind != TOOL_TSV)
+    tool_kind kind = tool_output_kind(req.output, 1u << TOOL_TSV | TOOL_PICTURES, TOOL_TSV);
+    if (req.opts.target > 0 && kind != TOOL_TSV)
         tool_usage("--target writes options, not a picture");
 
-    ss_scene scene = tool_read_scene(argv[optind], settings, n_settings);
-    char name[256];
-    tool_name_scene(name, sizeof name, argv[optind], settings, n_settings);
-    opts.progress = tool_progress;
-    tool_check(ss_trade_measure(&trade, &scene, &opts, &err), &err);
-    tool_note("%zu rows against %s, which knows x within %.2g of its maximum", trade->n,
-              trade->reference, trade->known_x);
-    plot.title = name;
+    req.path = argv[optind];
+    req.opts.progress = tool_progress;
+    ss_trade *trade = is_scene(req.path) ? measure_scene(&req) : measure_signal(&req);
+    plot.title = req.name;
     if (kind != TOOL_TSV)
-        tool_draw(output, &plot, write_script, trade);
-    else if (opts.target > 0)
-        write_options(tool_output(output), trade, opts.target);
+        tool_draw(req.output, &plot, write_script, trade);
+    else if (req.opts.target > 0)
+        write_options(tool_output(req.output), trade, req.opts.target);
     else
-        write_rows(tool_output(output), trade, name);
+        write_rows(tool_output(req.output), trade, req.name);
     ss_trade_free(trade);
-    free(settings);
+    free(req.settings);
     tool_end();
     return 0;
 }

@@ -35,6 +35,11 @@ typedef enum ss_engine {
 
 enum { SS_THREADS_MAX = 256 };
 
+/* How long FFTW looks for a fast way to do an FFT.  Measured ways are up to twice as fast, but may
+ * take seconds to find for each of the lengths that a plan needs, and may differ from run to run, so
+ * that results do in their last bits; but see ss_wisdom_read. */
+typedef enum ss_planner { SS_PLANNER_ESTIMATE, SS_PLANNER_MEASURE, SS_PLANNER_PATIENT } ss_planner;
+
 typedef struct ss_morlet_opts {
     double center;              /* omega_c  2 ... 1000 */
     int voices;                 /* V, scales an octave  1 ... 1024 */
@@ -53,6 +58,7 @@ typedef struct ss_morlet_opts {
     ss_detrend detrend;         /* what is subtracted from the record first */
     int force;                  /* 1: also scales that sampling or record do not resolve */
     int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
+    ss_planner planner;
 } ss_morlet_opts;
 /* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
  * the lowest usable frequency, if that is higher), fmax the highest usable one. */
@@ -77,6 +83,11 @@ typedef struct ss_morlet ss_morlet;     /* a plan: a grid for records of one len
  * program that plans with FFTW itself keeps clear of that.  SS_ESCALE if scales are asked for that are not usable (unless force) or none is left. */
 ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts,
                         ss_error *err);
+/* What FFTW's planner has found out in this process, FFTW's own state: with what was read, plans for
+ * the same lengths are made at once, whatever the planner, and always the same.  SS_EINVAL if in holds no
+ * wisdom of this FFTW and machine, SS_EIO if out refuses it. */
+ss_status ss_wisdom_read(FILE *in, ss_error *err);
+ss_status ss_wisdom_write(FILE *out);
 size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */
 const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* owned by the plan */
 ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that scale i is left to */

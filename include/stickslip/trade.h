@@ -1,8 +1,10 @@
-/* stickslip/trade.h -- the trade between accuracy and time of a scene's simulation, measured. */
+/* stickslip/trade.h -- the trade between accuracy and time, of a scene's simulation and of a signal's
+ * wavelet transform, measured. */
 #ifndef STICKSLIP_TRADE_H
 #define STICKSLIP_TRADE_H
 
 #include <stddef.h>
+#include <stickslip/morlet.h>
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
 
@@ -31,6 +33,7 @@ typedef struct ss_trade {
     size_t samples, events;     /* compared */
     size_t n;
     ss_trade_row *row;
+    int transform;              /* 1: of a transform, see ss_trade_transform */
 } ss_trade;
 
 typedef struct ss_trade_opts {
@@ -48,6 +51,15 @@ extern const ss_trade_opts ss_trade_defaults;       /* 10 s, no target */
  * ss_trade_free. */
 ss_status ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opts,
                            ss_error *err);
+/* Transform n samples with every engine at accuracies 1e-2, 1e-3, ... 1e-13, here and now, on one
+ * thread and on the scales that grid asks for and that 1e-13 resolves.  The rows' methods are those
+ * of ss-morlet, tol is the accuracy asked for, error_x the worst error of W over the largest |W| of its
+ * scale, less the 16 DBL_EPSILON a^1/2 max|x| of rounding that no accuracy promises; there are no
+ * events.  The reference is the definition at some 40 translations a scale, its largest |W| among
+ * them, samples the number of coefficients compared.  A plan is not part of the time.  As above; and
+ * SS_EINVAL or SS_ESCALE as from ss_morlet_new. */
+ss_status ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
+                             const ss_morlet_opts *grid, const ss_trade_opts *opts, ss_error *err);
 void ss_trade_free(ss_trade *trade);                /* NULL is allowed */
 
 /* The fastest row that keeps x within accuracy of max|x|, with a margin of 2 and the right events;

@@ -18,15 +18,21 @@
  * which a point stands for D samples: x is spread to its points by the same interpolation, run
  * backwards, with 16 taps and 8 points a cycle, which leaves an error below rounding.
  *
- * Error, in units of a^1/2 max|x|.  The sum over samples of the kernel's error is bounded by its
- * size near b and its decay, 1/|u|, away from it: for the cut
+ * Error.  A scale is computed for the accuracy asked for, and then what was left out is bounded by
+ * what the record's own spectrum holds: the cut leaves out at most
+ *     C/P sum over |v_k| > R of |X_k| exp(-v_k^2/2),
+ * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of |X_k| over
+ * ranges are differences of running sums, so that this costs next to nothing; R and e of the first
+ * pass are what noise needs.  If the bound exceeds what the largest |W| allows (9/10 of it, the rest
+ * being for lattices that are nearly met), the scale is done again with R and e that suffice for any
+ * signal.  For these the sum over samples of the kernel's error is bounded by its size near b and
+ * its decay, 1/|u|, away from it, in units of a^1/2 max|x|: for the cut
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
- * and for images of size e in the interpolation at most as much with 2 e in place of the
- * exponential.  A scale is computed with TOL/1000 for both together; then the promise is checked as in
- * quadrature.c, and if it does not hold the scale is done again with TAIL_FLOOR for both.
+ * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR.
  *
  * FFTW's planner is not safe for threads, so making and freeing of plans takes turns; other users
  * of FFTW in the program must not plan at the same time. */
+#include <stdio.h>         /* before it, for files of wisdom */
 #include <fftw3.h>
 #include <limits.h>
 #include <math.h>
@@ -35,28 +41,30 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "morlet/dense.h"
 #include "morlet/kaiser.h"
 #include "morlet/plan.h"
 #include "morlet/versions.h"
 
-#define EDGE_MAX 0.32               /* of a kernel's band, in cycles a point */
+#define EDGE_MAX 0.4                /* of a kernel's band, in cycles a point */
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 
 /* [s], measured by tests/bench/bench_morlet: a point of an inverse FFT times log2 of its length, a
  * term of the series, a coefficient and a tap of it at places that repeat, and at others. */
-#define COST_FFT 0.6e-9
-#define COST_TERM 4e-9
-#define COST_DENSE 3e-9
-#define COST_DENSE_TAP 0.3e-9
-#define COST_PLACE 70e-9
-#define COST_TAP 5e-9
+#define COST_FFT 0.25e-9
+#define COST_TERM 1.2e-9
+#define COST_DENSE 1e-9
+#define COST_DENSE_TAP 0.05e-9
+#define COST_PLACE 50e-9
+#define COST_TAP 1.5e-9
 
 enum {
     SPREAD_TAPS = 16,
-    TERMS = 64, ROOT = 8,           /* terms at a time, ROOT^2 */
-    BLOCK = 32, LANES = 8,          /* points, and samples, at a time */
-    MARGIN = 64,                    /* points before and after the circle that repeat it */
-    PHASES_MAX = 128,               /* places that repeat */
+    BLOCKS = 32768,                 /* of terms, about */
+    APART = 16384,                  /* to this length FFTW is faster from one array to another */
+    TERMS = KAISER_AT_ONCE,         /* terms at a time */
+    LANES = 8,                      /* samples at a time */
+    MARGIN = DENSE_MARGIN,          /* points before and after the circle that repeat it */
     KERNELS = 40, STEPS = 4         /* kernels for bands apart by 2^(1/STEPS) */
 };
 
@@ -65,6 +73,7 @@ typedef struct level {
     size_t points, samples;
     fftw_plan forward;
     size_t reach;                   /* samples that zeros allow a wavelet to reach beyond */
+    size_t block;                   /* terms of the spectrum whose sizes are summed up together */
 } level;
 
 typedef struct route {
@@ -72,7 +81,14 @@ typedef struct route {
     int level;
     size_t length;                  /* L */
     fftw_plan inverse;              /* owned by the list of them */
+    const weights *weights[2];          /* for each bound; owned likewise */
 } route;
+
+typedef struct table {
+    const kaiser *kernel;
+    size_t phases;
+    weights *weights;
+} table;
 
 typedef struct inverse {
     size_t length;
@@ -83,8 +99,8 @@ struct fft {
     size_t n;
     double rate;
     double center, second;          /* exp(-omega_c^2/2) if admissible, else 0 */
-    double log_factor;              /* the largest 1 + log(1 + n d/2) */
-    double bound[2];                /* a scale is computed with the first, again with the last */
+    double half[2];                 /* of the band, in 1/a: a scale is computed with the first, */
+    double images[2];               /* again with the last; and of interpolation */
     level level[2];
     int levels;
     route *route;
@@ -93,19 +109,13 @@ struct fft {
     kaiser *kernel[2][KERNELS];     /* for each bound; NULL: none needed */
     double cost;                    /* of all that is done here, about [s] */
     int no_memory;                  /* for one of them */
+    table *table;
+    size_t tables;
 };
 
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 /* --- the series of a scale -------------------------------------------------------------------- */
-
-/* Half the width of the band, in units of 1/a, that keeps the cut below bound/2. */
-static double
-reach_for(const struct fft *f, double bound)
-{
-    double factor = 2.4 * f->log_factor * (f->second > 0 ? 2 : 1);
-    return sqrt(2 * log(2 * factor / bound));
-}
 
 /* The admissible wavelet has a hump about v = -omega_c, which must be inside, too. */
 static double
@@ -115,23 +125,23 @@ half_width(const struct fft *f, double reach)
     return f->second > 0 && reach > c ? c + sqrt(reach * reach - c * c) : reach;
 }
 
-/* Images that interpolation may leave for the same half. */
-static double
-images_for(const struct fft *f, double bound)
-{
-    return bound / 2 / (4.8 * f->log_factor);
-}
-
 typedef struct band {
     double h, h_low;                /* v_k = k h - omega_c */
     ptrdiff_t lo, mid, hi;          /* k */
 } band;
 
+/* Samples around it. */
+static size_t
+circle_of(const level *lev)
+{
+    return lev->points * lev->samples;
+}
+
 static band
 band_of(const struct fft *f, const level *lev, double a, double half)
 {
     const double two_pi = 6.2831853071795865, two_pi_low = 2.4492935982947064e-16;
-    double points = (double)lev->points * (double)lev->samples;
+    double points = (double)circle_of(lev);
     double p = a * f->rate, p_low = fma(a, f->rate, -p);
     double s = two_pi * p, s_low = fma(two_pi, p, -s) + two_pi * p_low + two_pi_low * p;
     band b = { .h = s / points };
@@ -150,24 +160,43 @@ edge_of(const band *b, size_t length)
     return most / (double)length;
 }
 
-/* exp(-(v + i h)^2/2) for i < n: products of exps that are each good to an ulp where h is small. */
-static void
-gaussian(double v, double h, double *g, size_t n)
+static const double inverse_of[] = { 0, 1, 1 / 2., 1 / 3., 1 / 4., 1 / 5., 1 / 6., 1 / 7., 1 / 8.,
+    1 / 9., 1 / 10., 1 / 11., 1 / 12., 1 / 13. };
+
+/* y = -(v + i h)^2/2 for i < TERMS */
+VERSIONS static void
+exponents(double v, double h, double *restrict y)
 {
-    double fine[ROOT];
-    if (h * (double)n > 1) {
-        for (size_t i = 0; i < n; i++)
-            g[i] = exp(-(v + h * (double)i) * (v + h * (double)i) / 2);
-        return;
+    for (int i = 0; i < TERMS; i++) {
+        double u = v + h * i;
+        y[i] = -u * u / 2;
     }
-    for (size_t j = 0; j < ROOT; j++)
-        fine[j] = exp(-h * (double)j * (v + h * (double)j / 2));
-    for (size_t i = 0; i < n; i += ROOT) {
-        double u = v + h * (double)i, coarse = exp(-u * u / 2), cross = exp(-h * h * (double)i);
-        double power = 1;           /* exp(-h^2 i j) */
-        for (size_t j = 0; j < ROOT && i + j < n; j++, power *= cross)
-            g[i + j] = coarse * fine[j] * power;
+}
+
+/* g = scale exp(y), y being above -690 or taken for that: 2^k times a Taylor polynomial about 0 of
+ * what is left of the logarithm, |r| <= log(2)/2. */
+VERSIONS static void
+exponentials(const double *restrict y, double scale, double *restrict g)
+{
+    const double ln2 = 0x1.62e42fefa0000p-1, ln2_low = 0x1.cf79abc9e3b3ap-40, shift = 0x1.8p52;
+    double r[TERMS], k[TERMS];
+    uint64_t bits[TERMS];
+    for (int i = 0; i < TERMS; i++) {
+        double z = y[i] < -690 ? -690 : y[i];
+        k[i] = z * (1 / M_LN2) + shift;
+        r[i] = z - (k[i] - shift) * ln2 - (k[i] - shift) * ln2_low;
     }
+    memcpy(bits, k, sizeof bits);
+    for (int i = 0; i < TERMS; i++)
+        bits[i] = (bits[i] + 1023) << 52;
+    memcpy(k, bits, sizeof bits);
+    for (int i = 0; i < TERMS; i++)
+        g[i] = 1;
+    for (int n = 13; n > 0; n--)
+        for (int i = 0; i < TERMS; i++)
+            g[i] = 1 + g[i] * r[i] * inverse_of[n];
+    for (int i = 0; i < TERMS; i++)
+        g[i] *= k[i] * scale;
 }
 
 /* to += g x over n terms, of which term k of the spectrum of m points is the first. */
@@ -201,33 +230,45 @@ add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, dou
     }
 }
 
-/* The L values of the series in units of a^1/2: term k at k - origin modulo L, divided by the
- * response of ker, unless that is NULL. */
+/* The admissible wavelet's second term, v being that of the first: y becomes its exponents. */
+static void
+subtract_second(const struct fft *f, double u, double h, double v, double *y, double scale,
+                double *g)
+{
+    double of_first[TERMS], of_second[TERMS], second[TERMS];
+    exponents(v, h, of_first);
+    exponents(u, h, of_second);
+    for (size_t i = 0; i < TERMS; i++)
+        y[i] += of_second[i] - of_first[i];
+    exponentials(y, scale * f->second, second);
+    for (size_t i = 0; i < TERMS; i++)
+        g[i] -= second[i];
+}
+
+/* The L values of the series in units of a^1/2: term k at k - origin modulo L of c, which may be v,
+ * divided by the response of ker, unless that is NULL. */
 static void
 series(const struct fft *f, const route *r, const band *b, const double *x, ptrdiff_t origin,
-       const kaiser *ker, double *v)
+       const kaiser *ker, double *v, double *c)
 {
     const level *lev = &f->level[r->level];
     ptrdiff_t length = (ptrdiff_t)r->length, k = b->lo;
     double scale = PI_M14 * sqrt(2 * M_PI) / (double)lev->points / (double)lev->samples;
-    memset(v, 0, 2 * r->length * sizeof *v);
+    memset(c, 0, 2 * r->length * sizeof *c);
     while (k <= b->hi) {
-        double g[TERMS], first = fma((double)k, b->h, -f->center) + (double)k * b->h_low;
+        double g[TERMS], y[TERMS], first = fma((double)k, b->h, -f->center) + (double)k * b->h_low;
         size_t n = b->hi - k < TERMS ? (size_t)(b->hi - k) + 1 : TERMS;
-        gaussian(first, b->h, g, n);
-        for (size_t i = 0; f->second > 0 && i < n; i++) {
-            double u = (double)(k + (ptrdiff_t)i) * b->h;
-            g[i] -= f->second * exp(-u * u / 2);
-        }
-        for (size_t i = 0; i < n; i++)
-            g[i] *= scale;
+        exponents(first, b->h, y);
         if (ker != NULL)
-            ss_kaiser_correct(ker, (double)(k - b->mid), 1 / (double)length, g, n);
+            ss_kaiser_correct(ker, (double)(k - b->mid), 1 / (double)length, y);
+        exponentials(y, scale, g);
+        if (f->second > 0)
+            subtract_second(f, (double)k * b->h, b->h, first, y, scale, g);
         ptrdiff_t at = (k - origin) % length;
-        add_terms(x, lev->points, k, g, n, v, r->length, (size_t)(at < 0 ? at + length : at));
+        add_terms(x, lev->points, k, g, n, c, r->length, (size_t)(at < 0 ? at + length : at));
         k += (ptrdiff_t)n;
     }
-    fftw_execute_dft(r->inverse, (fftw_complex *)v, (fftw_complex *)v);
+    fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
 }
 
 /* Make the points before and after the circle repeat it. */
@@ -243,110 +284,41 @@ close_circle(double *v, size_t length)
 
 /* --- output ----------------------------------------------------------------------------------- */
 
-/* exp(2 pi i k c/m) */
-static void
-turn(size_t k, size_t c, size_t m, double e[2])
-{
-    double p = 2 * M_PI * (double)((uint64_t)(k % m) * (c % m) % m) / (double)m;    /* m < 2^32 */
-    e[0] = cos(p);
-    e[1] = sin(p);
-}
-
 /* Samples between the translations of a lattice. */
 static double
 step_of(const level *lev, const route *r)
 {
-    return (double)lev->points * (double)lev->samples / (double)r->length;
-}
-
-/* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
-static double
-put_lattice(const double *v, size_t n, double factor, double *w)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++) {
-        most = fmax(most, v[2 * i] * v[2 * i] + v[2 * i + 1] * v[2 * i + 1]);
-        w[2 * i] = v[2 * i] * factor;
-        w[2 * i + 1] = v[2 * i + 1] * factor;
-    }
-    return most;
-}
-
-/* Sums over taps for BLOCK places that lie equally far after v's points; taps are even. */
-VERSIONS static void
-sum_taps(const double *restrict v, const double *restrict weight, int taps, double *restrict s)
-{
-    for (size_t l = 0; l < 2 * BLOCK; l++)
-        s[l] = weight[0] * v[l] + weight[1] * v[l + 2];
-    for (int i = 2; i < taps; i += 2) {
-        const double *restrict u = v + 2 * i;
-        double a = weight[i], b = weight[i + 1];
-        for (size_t l = 0; l < 2 * BLOCK; l++)
-            s[l] += a * u[l] + b * u[l + 2];
-    }
-}
-
-/* The n <= BLOCK sums s, times start e, are coefficients. */
-VERSIONS static double
-put_block(double *restrict s, const double start[2], const double *restrict re,
-          const double *restrict im, double factor, double *restrict w, size_t stride, size_t n)
-{
-    double x[BLOCK], y[BLOCK], size[BLOCK], most = 0;
-    for (size_t i = 0; i < BLOCK; i++) {
-        double c = start[0] * re[i] - start[1] * im[i], d = start[0] * im[i] + start[1] * re[i];
-        x[i] = s[2 * i] * c - s[2 * i + 1] * d;
-        y[i] = s[2 * i] * d + s[2 * i + 1] * c;
-        size[i] = x[i] * x[i] + y[i] * y[i];
-    }
-    for (size_t i = 0; i < n; i++) {
-        most = size[i] > most ? size[i] : most;
-        w[2 * stride * i] = x[i] * factor;
-        w[2 * stride * i + 1] = y[i] * factor;
-    }
-    return most;
+    return (double)circle_of(lev) / (double)r->length;
 }
 
 /* How many places between points repeat. */
 static size_t
 phases_of(const level *lev, const route *r)
 {
-    return lev->points / r->length * lev->samples;
+    return circle_of(lev) / r->length;
 }
 
-/* DENSE: coefficient c lies c/phases points along the circle; n from row on, counted in points. */
-static double
-put_dense(const struct fft *f, const route *r, const band *b, const kaiser *ker, const double *v,
-          double *table, size_t row, size_t n_all, double factor, double *w)
+/* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
+VERSIONS static double
+put_lattice(const double *restrict v, size_t n, double factor, double *restrict w)
 {
-    size_t phases = phases_of(&f->level[r->level], r), circle = r->length * phases;
-    size_t mid = (size_t)b->mid, rows = (n_all + phases - 1) / phases;
-    double *weight = table, *shift = weight + phases * (size_t)ker->taps, most = 0;
-    double re[BLOCK], im[BLOCK];
-    for (size_t p = 0; p < phases; p++) {
-        ss_kaiser_weights(ker, (double)p / (double)phases, weight + p * (size_t)ker->taps);
-        turn(mid, p, circle, shift + 2 * p);
-    }
-    for (size_t i = 0; i < BLOCK; i++) {
-        double e[2];
-        turn(mid, i, r->length, e);
-        re[i] = e[0];
-        im[i] = e[1];
-    }
-    v += 2 * row;
-    for (size_t j = 0; j < rows; j += BLOCK) {
-        double start[2];
-        turn(mid, row + j, r->length, start);
-        for (size_t p = 0; p < phases && j * phases + p < n_all; p++) {
-            const double *q = shift + 2 * p;
-            double e[2] = { start[0] * q[0] - start[1] * q[1], start[0] * q[1] + start[1] * q[0] };
-            double sum[2 * BLOCK];
-            size_t first = j * phases + p, n = (n_all - first + phases - 1) / phases;
-            sum_taps(v + 2 * j - (ker->taps - 2), weight + p * (size_t)ker->taps, ker->taps, sum);
-            most = fmax(most, put_block(sum, e, re, im, factor, w + 2 * first, phases,
-                                        n < BLOCK ? n : BLOCK));
+    double most[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            double re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
+            most[l] = size > most[l] ? size : most[l];
+            w[2 * (i + l)] = re * factor;
+            w[2 * (i + l) + 1] = im * factor;
         }
+    for (; i < n; i++) {
+        most[0] = fmax(most[0], v[2 * i] * v[2 * i] + v[2 * i + 1] * v[2 * i + 1]);
+        w[2 * i] = v[2 * i] * factor;
+        w[2 * i + 1] = v[2 * i + 1] * factor;
     }
-    return most;
+    for (size_t l = 1; l < LANES; l++)
+        most[0] = fmax(most[0], most[l]);
+    return most[0];
 }
 
 /* ANYWHERE: each coefficient at its own b, tau samples after sample c. */
@@ -356,8 +328,8 @@ put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale 
              double *w)
 {
     const level *lev = &f->level[r->level];
-    double per_sample = (double)r->length / ((double)lev->points * (double)lev->samples), most = 0;
-    size_t circle = lev->points * lev->samples;
+    double per_sample = (double)r->length / (double)circle_of(lev), most = 0;
+    size_t circle = circle_of(lev);
     for (size_t i = 0; i < part.n; i++) {
         double at = ss_scale_b(scale, part.first + i), c = rint(at * f->rate);
         double tau = c / f->rate == at ? 0 : fma(at, f->rate, -c);
@@ -385,18 +357,86 @@ put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale 
     return most;
 }
 
+/* --- what is left out ------------------------------------------------------------------------- */
+
+/* sums[i] = sum of |Re X_k| + |Im X_k|, which is no less than |X_k|, over k < i block. */
+VERSIONS static void
+sum_sizes(const double *restrict x, size_t terms, size_t block, double *restrict sums)
+{
+    double sum = 0;
+    size_t at = 0;
+    for (size_t k = 0; k < terms; k += block) {
+        size_t n = terms - k < block ? terms - k : block;
+        double part[LANES] = { 0 };
+        sums[at++] = sum;
+        size_t i = 2 * k, end = 2 * (k + n);
+        for (; i + LANES <= end; i += LANES)
+            for (size_t l = 0; l < LANES; l++)
+                part[l] += fabs(x[i + l]);
+        for (; i < end; i++)
+            part[0] += fabs(x[i]);
+        for (size_t l = 0; l < LANES; l++)
+            sum += part[l];
+    }
+    sums[at] = sum;
+}
+
+/* Sum over terms 0 to k, or less k to 0, of the periodic spectrum; up to a block too much or, if
+ * not up, too little. */
+static double
+sum_to(const level *lev, const double *sums, ptrdiff_t k, int up)
+{
+    ptrdiff_t m = (ptrdiff_t)lev->points, turns = k >= 0 ? k / m : -((m - 1 - k) / m);
+    size_t rest = (size_t)(k - turns * m), blocks = (lev->points / 2) / lev->block + 1;
+    double half = sums[blocks], all = 2 * half;
+    int mirrored = rest > lev->points / 2;
+    size_t to = mirrored ? lev->points - rest + 1 : rest;
+    size_t i = (to + (up != mirrored ? lev->block - 1 : 0)) / lev->block;
+    double sum = sums[i < blocks ? i : blocks];
+    return (double)turns * all + (mirrored ? all - sum : sum);
+}
+
+/* No less than the sum of |X_k| over lo <= k < hi.  (The mean and Nyquist count twice.) */
+static double
+size_of(const level *lev, const double *sums, ptrdiff_t lo, ptrdiff_t hi)
+{
+    return sum_to(lev, sums, hi, 1) - sum_to(lev, sums, lo, 0);
+}
+
+/* Bound on what the cut, and interpolation, leave out of any coefficient of a scale. */
+static double
+left_out(const struct fft *f, const level *lev, const band *b, const double *sums, int images)
+{
+    static const double beyond[] = { 0, 0.1, 0.2, 0.4, 0.7, 1, 1.5, 2, 3 };
+    enum { STEPS_BEYOND = sizeof beyond / sizeof *beyond };
+    double sum = images ? f->images[0] * size_of(lev, sums, b->lo, b->hi + 1) : 0;
+    ptrdiff_t lo = b->lo, hi = b->hi + 1;
+    for (int i = 0; i < STEPS_BEYOND; i++) {
+        double v = f->half[0] + beyond[i], u = fmax(0, v - f->center);
+        double most = exp(-v * v / 2) + f->second * exp(-u * u / 2), part;
+        if (i + 1 < STEPS_BEYOND) {
+            double far = f->half[0] + beyond[i + 1];
+            ptrdiff_t next_lo = (ptrdiff_t)ceil((f->center - far) / b->h);
+            ptrdiff_t next_hi = (ptrdiff_t)floor((f->center + far) / b->h) + 1;
+            part = size_of(lev, sums, next_lo, lo) + size_of(lev, sums, hi, next_hi);
+            lo = next_lo;
+            hi = next_hi;
+        } else      /* the circle twice, and once more for all turns after that */
+            part = 3 * size_of(lev, sums, 0, (ptrdiff_t)lev->points);
+        sum += most * part;
+    }
+    return PI_M14 * sqrt(2 * M_PI) / (double)circle_of(lev) * sum;
+}
+
 /* --- a scale ---------------------------------------------------------------------------------- */
 
-/* A kernel for a band to edge <= EDGE_MAX at this bound, with tables; 0 if none is good enough. */
+/* A kernel for a band to edge <= EDGE_MAX in this round; 0 if none is good enough. */
 static int
-kernel_for(const struct fft *f, double edge, double bound, kaiser *out)
+kernel_for(const struct fft *f, double edge, int round, kaiser *out)
 {
-    kaiser_band shape = { .edge = edge, .reach = half_width(f, reach_for(f, bound)),
-                          .center = f->center, .second = f->second };
-    if (!ss_kaiser_choose(out, &shape, images_for(f, bound)))
-        return 0;
-    ss_kaiser_prepare(out);
-    return 1;
+    kaiser_band shape = { .edge = edge, .reach = f->half[round], .center = f->center,
+                          .second = f->second };
+    return ss_kaiser_choose(out, &shape, f->images[round]);
 }
 
 /* Which of the kernels made in advance is for this band, and the edge that it is made for. */
@@ -409,6 +449,21 @@ kernel_index(double edge, double *made_for)
     return i;
 }
 
+/* The kernel that a scale needs in a round. */
+static kaiser *
+kernel_of(const struct fft *f, const route *r, const band *b, int round)
+{
+    double made_for;
+    return f->kernel[round][kernel_index(edge_of(b, r->length), &made_for)];
+}
+
+/* Where the terms of a short series are put, after its values v. */
+static double *
+terms_of(const struct fft *f, double *v)
+{
+    return v + 2 * (f->longest + MARGIN);
+}
+
 /* One pass over part of a scale at one of the bounds.  Returns the largest |W|^2. */
 static double
 pass(const ss_morlet *plan, size_t i, const double *x, ptrdiff_t origin, span part, int round,
@@ -417,45 +472,48 @@ pass(const ss_morlet *plan, size_t i, const double *x, ptrdiff_t origin, span pa
     const struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const ss_scale *scale = &plan->scale[i];
-    double half = half_width(f, reach_for(f, f->bound[round]));
-    band b = band_of(f, &f->level[r->level], scale->a, half);
-    double made_for;
-    const kaiser *ker = r->kind == LATTICE ? NULL
-        : f->kernel[round][kernel_index(edge_of(&b, r->length), &made_for)];
-    series(f, r, &b, x, r->kind == LATTICE ? 0 : b.mid, ker, v);
+    const level *lev = &f->level[r->level];
+    band b = band_of(f, lev, scale->a, f->half[round]);
+    const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, round);
+    series(f, r, &b, x, r->kind == LATTICE ? 0 : b.mid, ker, v,
+           r->length > APART ? v : terms_of(f, v));
     if (r->kind == LATTICE) {
-        double before = rint((double)origin / step_of(&f->level[r->level], r));
+        double before = rint((double)origin / step_of(lev, r));
         ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
         return put_lattice(v + 2 * first, part.n, factor, w);
     }
     close_circle(v, r->length);
     if (r->kind == ANYWHERE)
         return put_anywhere(f, r, &b, scale, ker, v, origin, part, factor, w);
-    double *table = v + 2 * (r->length + MARGIN);
-    size_t row = (size_t)((ptrdiff_t)part.first - origin) / phases_of(&f->level[r->level], r);
-    return put_dense(f, r, &b, ker, v, table, row, part.n, factor, w);
+    return ss_dense_put(r->weights[round], v, (size_t)b.mid, circle_of(lev),
+                        (size_t)((ptrdiff_t)part.first - origin), part.n, factor,
+                        terms_of(f, v) + 2 * APART, w);
 }
 
 void
 ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
              span part, double factor, double *most, double *w)
 {
-    const double *x = s->level[plan->fft->route[i].level];
+    const struct fft *f = plan->fft;
+    const route *r = &f->route[i];
+    const level *lev = &f->level[r->level];
     double before = *most;
     for (int round = 0; round < 2; round++) {
-        *most = fmax(before, sqrt(pass(plan, i, x, rec->origin, part, round,
+        *most = fmax(before, sqrt(pass(plan, i, s->level[r->level], rec->origin, part, round,
                                        scratch + 2 * MARGIN, factor, w)));
-        double bound = plan->fft->bound[round];
-        if (rec->x_max == 0
-            || bound <= TAIL_FLOOR + plan->opts.accuracy * fmax(0, *most / rec->x_max - bound))
-            break;
+        if (round == 1 || f->half[0] == f->half[1] || rec->x_max == 0)
+            return;
+        band b = band_of(f, lev, plan->scale[i].a, f->half[0]);
+        double error = left_out(f, lev, &b, s->size[r->level], r->kind != LATTICE);
+        if (error <= TAIL_FLOOR * rec->x_max + 0.9 * plan->opts.accuracy * fmax(0, *most - error))
+            return;
     }
 }
 
 double *
 ss_fft_scratch(const struct fft *fft)
 {
-    size_t room = 2 * (fft->longest + 2 * MARGIN) + PHASES_MAX * (KAISER_TAPS_MAX + 2);
+    size_t room = 2 * (fft->longest + 2 * MARGIN + APART) + ss_dense_room(fft->n);
     return fftw_malloc(room * sizeof(double));
 }
 
@@ -535,26 +593,43 @@ forward_level(const level *lev, const record *rec, double **out)
     return SS_OK;
 }
 
+static ss_status
+sizes_of_level(const level *lev, const double *x, double **out)
+{
+    size_t terms = lev->points / 2 + 1;
+    *out = malloc((terms / lev->block + 2) * sizeof **out);
+    if (*out == NULL)
+        return SS_ENOMEM;
+    sum_sizes(x, terms, lev->block, *out);
+    return SS_OK;
+}
+
 ss_status
 ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 {
     ss_status st = SS_OK;
     for (int i = 0; st == SS_OK && i < fft->levels; i++)
-        if (fft->level[i].forward != NULL)
+        if (fft->level[i].forward != NULL) {
             st = forward_level(&fft->level[i], rec, &out->level[i]);
+            if (st == SS_OK && fft->half[0] < fft->half[1])
+                st = sizes_of_level(&fft->level[i], out->level[i], &out->size[i]);
+        }
     return st;
 }
 
 void
 ss_fft_release(spectra *s)
 {
-    fftw_free(s->level[0]);
-    fftw_free(s->level[1]);
+    for (int i = 0; i < 2; i++) {
+        fftw_free(s->level[i]);
+        free(s->size[i]);
+    }
 }
 
 /* --- planning --------------------------------------------------------------------------------- */
 
-static const size_t odd_part[] = { 1, 9, 5, 3, 15 };    /* in a circle's points; gaps of 25 % */
+/* in a circle's points; gaps of 12 % */
+static const size_t odd_part[] = { 1, 9, 5, 21, 45, 3, 7, 15 };
 enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
 
 /* The smallest good number of points, at least so many and a multiple of factor. */
@@ -593,11 +668,26 @@ samples_reached(const ss_scale *scale, double rate)
     return reach < 0x1p50 ? (size_t)reach : (size_t)1 << 50;
 }
 
+/* See above; nd is the record's length in units of the shortest scale. */
+static void
+choose_bounds(struct fft *f, double nd, double accuracy)
+{
+    double factor = 2.4 * (1 + log1p(nd / 2)), hump = f->second > 0 ? 2 : 1;
+    double cut = TAIL_FLOOR / 2 / (factor * hump), images = TAIL_FLOOR / 2 / (2 * factor);
+    double first = accuracy * 4 / hump / sqrt(nd);
+    f->half[1] = half_width(f, sqrt(-2 * log(cut)));
+    f->half[0] = half_width(f, sqrt(-2 * log(fmin(0.1, fmax(cut, first)))));
+    f->images[1] = images;
+    f->images[0] = fmin(0.01, fmax(images, accuracy * 0.16 / sqrt(nd)));
+    if (f->half[0] == f->half[1])
+        f->images[0] = images;
+}
+
 /* Samples that a point may stand for, the shortest scale being so many samples. */
 static size_t
 samples_for(const struct fft *f, double shortest, size_t most)
 {
-    double omega = (f->center + half_width(f, reach_for(f, TAIL_FLOOR))) / shortest;
+    double omega = (f->center + f->half[1]) / shortest;
     size_t samples = 1;
     while ((double)(16 * samples) * omega <= 2 * M_PI && samples < most)
         samples *= 2;
@@ -652,7 +742,7 @@ static size_t
 lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy,
                int window)
 {
-    double circle = (double)lev->points * (double)lev->samples;
+    double circle = (double)circle_of(lev);
     int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5, dense = scale->b_den != 1;
     double step = dense ? 1 : scale->b_num * f->rate, parts = rint(circle / step);
     double off = (fabs(circle / parts - step) + 2e-16 * step) * (double)scale->n;
@@ -669,7 +759,8 @@ lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, dou
 static double
 inverse_cost(size_t length)
 {
-    return COST_FFT * (double)length * log2((double)length + 1);
+    double cost = COST_FFT * (double)length * log2((double)length + 1);
+    return length < 4096 ? cost : 1.6 * cost;
 }
 
 /* The kernel for a band to this edge, made now if need be; NULL if there is none or no memory. */
@@ -682,7 +773,7 @@ advance_kernel(struct fft *f, int round, double edge)
     if (edge > EDGE_MAX)
         return NULL;
     kaiser **at = &f->kernel[round][k];
-    if (*at != NULL || !kernel_for(f, made_for, f->bound[round], &ker))
+    if (*at != NULL || !kernel_for(f, made_for, round, &ker))
         return *at;
     *at = malloc(sizeof ker);
     if (*at != NULL)
@@ -699,7 +790,7 @@ interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int d
     const kaiser *kernel[2];
     band b = { 0 };
     for (int round = 1; round >= 0; round--) {
-        b = band_of(f, lev, scale->a, half_width(f, reach_for(f, f->bound[round])));
+        b = band_of(f, lev, scale->a, f->half[round]);
         kernel[round] = advance_kernel(f, round, edge_of(&b, length));
         if (kernel[round] == NULL)
             return INFINITY;
@@ -719,7 +810,7 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
     int dense = plan->opts.dense;
     if (lev->points == 0)
         return INFINITY;
-    band fine = band_of(f, lev, scale->a, half_width(f, reach_for(f, TAIL_FLOOR)));
+    band fine = band_of(f, lev, scale->a, f->half[1]);
     double best = INFINITY, terms = (double)(fine.hi - fine.lo) + 1;
     size_t length = lattice_length(f, lev, scale, plan->opts.accuracy, plan->window && !dense);
     if (terms > (double)lev->points)
@@ -727,14 +818,15 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
     if (length > 0) {
         r->kind = LATTICE;
         r->length = length;
-        best = inverse_cost(length) + COST_TERM * terms + COST_DENSE * (double)scale->n;
+        double half = f->half[0] / f->half[1];
+        best = inverse_cost(length) + COST_TERM * terms * half + COST_DENSE * (double)scale->n;
     }
     for (int o = 0; o < ODD_PARTS; o++)     /* twice as many points as the circle has, or fewer */
         for (size_t two = 1; 2 * lev->points >= two * odd_part[o]; two *= 2) {
             size_t part = two * odd_part[o], phases = part / 2 * lev->samples;
             size_t points = 2 * lev->points / part;
             if (2 * lev->points % part != 0 || points > INT_MAX || points < 8
-                || (dense && (part % 2 != 0 || phases > PHASES_MAX)))
+                || (dense && (part % 2 != 0 || phases > DENSE_PHASES_MAX)))
                 continue;
             if ((double)points * EDGE_MAX * 2 < terms)
                 break;
@@ -779,33 +871,72 @@ choose_routes(struct fft *f, const ss_morlet *plan)
             f->route[i].kind = BY_SUM;
 }
 
+/* --- weights of dense scales --- */
+
+static const weights *
+table_of(struct fft *f, const kaiser *kernel, size_t phases)
+{
+    table *t = f->table;
+    for (; t < f->table + f->tables; t++)
+        if (t->kernel == kernel && t->phases == phases)
+            return t->weights;
+    *t = (table){ kernel, phases, ss_dense_new(kernel, phases) };
+    f->tables += t->weights != NULL;
+    return t->weights;
+}
+
+static ss_status
+make_tables(struct fft *f, const ss_morlet *plan)
+{
+    f->table = calloc(2 * plan->n_scales, sizeof *f->table);
+    if (f->table == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < 2 * plan->n_scales; i++) {
+        route *r = &f->route[i / 2];
+        if (r->kind != DENSE && r->kind != ANYWHERE)
+            continue;
+        const level *lev = &f->level[r->level];
+        band b = band_of(f, lev, plan->scale[i / 2].a, f->half[i % 2]);
+        kaiser *kernel = kernel_of(f, r, &b, (int)(i % 2));
+        if (!kernel->prepared)
+            ss_kaiser_prepare(kernel);
+        if (r->kind == DENSE)
+            r->weights[i % 2] = table_of(f, kernel, circle_of(lev) / r->length);
+        if (r->kind == DENSE && r->weights[i % 2] == NULL)
+            return SS_ENOMEM;
+    }
+    return SS_OK;
+}
+
 /* --- FFTW's plans, made while planner is held --- */
 
 static fftw_plan
-inverse_plan(struct fft *f, size_t length, fftw_complex *v)
+inverse_plan(struct fft *f, size_t length, fftw_complex *v, fftw_complex *terms, unsigned how)
 {
     for (size_t i = 0; i < f->n_inverse; i++)
         if (f->inverse[i].length == length)
             return f->inverse[i].plan;
-    fftw_plan plan = fftw_plan_dft_1d((int)length, v, v, FFTW_BACKWARD, FFTW_ESTIMATE);
+    fftw_plan plan = fftw_plan_dft_1d((int)length, length > APART ? v : terms, v,
+                                      FFTW_BACKWARD, how);
     if (plan != NULL)
         f->inverse[f->n_inverse++] = (inverse){ length, plan };
     return plan;
 }
 
-/* v and x are where the arrays will be as far as alignment is concerned, and not written to. */
+/* v, terms and x are where the arrays will be as far as alignment is concerned. */
 static ss_status
-make_plans(struct fft *f, size_t n_scales, fftw_complex *v, double *x)
+make_plans(struct fft *f, const ss_morlet *plan, fftw_complex *v, fftw_complex *terms, double *x)
 {
-    for (size_t i = 0; i < n_scales; i++) {
+    static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
+    unsigned how = flags[plan->opts.planner];
+    for (size_t i = 0; i < plan->n_scales; i++) {
         route *r = &f->route[i];
         level *lev = &f->level[r->level];
         if (r->kind == BY_SUM)
             continue;
-        r->inverse = inverse_plan(f, r->length, v);
+        r->inverse = inverse_plan(f, r->length, v, terms, how);
         if (lev->forward == NULL)
-            lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x,
-                                                FFTW_ESTIMATE);
+            lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x, how);
         if (r->inverse == NULL || lev->forward == NULL)
             return SS_ENOMEM;
     }
@@ -813,8 +944,9 @@ make_plans(struct fft *f, size_t n_scales, fftw_complex *v, double *x)
 }
 
 static ss_status
-plan_all(struct fft *f, size_t n_scales)
+plan_all(struct fft *f, const ss_morlet *plan)
 {
+    size_t n_scales = plan->n_scales;
     size_t longest = f->level[0].points > f->level[1].points ? f->level[0].points
         : f->level[1].points;
     for (size_t i = 0; i < n_scales; i++)
@@ -822,15 +954,18 @@ plan_all(struct fft *f, size_t n_scales)
             f->longest = f->route[i].length;
     longest = longest > f->longest ? longest : f->longest;
     f->inverse = calloc(n_scales, sizeof *f->inverse);
-    double *v = fftw_malloc(2 * (longest + 2 * MARGIN) * sizeof *v);
+    double *v = fftw_malloc(2 * (longest + 2 * MARGIN + APART) * sizeof *v);
     ss_status st = SS_ENOMEM;
     if (f->inverse != NULL && v != NULL) {
         pthread_mutex_lock(&planner);
-        st = make_plans(f, n_scales, (fftw_complex *)(v + 2 * MARGIN), v);
+        st = make_plans(f, plan, (fftw_complex *)(v + 2 * MARGIN),
+                        (fftw_complex *)(v + 2 * (longest + 2 * MARGIN)), v);
         pthread_mutex_unlock(&planner);
     }
     fftw_free(v);
-    return st;
+    for (int i = 0; i < f->levels; i++)
+        f->level[i].block = f->level[i].points / 2 / BLOCKS + 1;
+    return st == SS_OK ? make_tables(f, plan) : st;
 }
 
 static int
@@ -850,14 +985,13 @@ ss_fft_new(ss_morlet *plan)
     struct fft *f = plan->fft = calloc(1, sizeof *f);
     if (f == NULL || (f->route = calloc(plan->n_scales, sizeof *f->route)) == NULL)
         return SS_ENOMEM;
-    double wc = plan->opts.center, shortest = plan->scale[plan->n_scales - 1].a * plan->rate;
+    double wc = plan->opts.center;
+    double shortest = plan->scale[plan->n_scales - 1].a * plan->rate;
     f->n = plan->n;
     f->rate = plan->rate;
     f->center = wc;
     f->second = plan->opts.admissible ? exp(-wc * wc / 2) : 0;
-    f->log_factor = 1 + log1p((double)plan->n * (plan->window ? 2 : 1) / shortest / 2);
-    f->bound[0] = fmax(plan->opts.accuracy / 1000, TAIL_FLOOR);
-    f->bound[1] = TAIL_FLOOR;
+    choose_bounds(f, (double)plan->n * (plan->window ? 2 : 1) / shortest, plan->opts.accuracy);
     if (plan->window)
         choose_window(f, plan);
     else
@@ -866,7 +1000,7 @@ ss_fft_new(ss_morlet *plan)
     if (f->no_memory)
         return SS_ENOMEM;
     if (any_route(f, plan->n_scales))
-        return plan_all(f, plan->n_scales);
+        return plan_all(f, plan);
     ss_fft_free(f);
     plan->fft = NULL;
     return SS_OK;
@@ -888,9 +1022,31 @@ ss_fft_free(struct fft *fft)
         free(fft->kernel[0][i]);
         free(fft->kernel[1][i]);
     }
+    for (size_t i = 0; i < fft->tables; i++)
+        ss_dense_free(fft->table[i].weights);
+    free(fft->table);
     free(fft->inverse);
     free(fft->route);
     free(fft);
+}
+
+ss_status
+ss_wisdom_read(FILE *in, ss_error *err)
+{
+    pthread_mutex_lock(&planner);
+    int good = fftw_import_wisdom_from_file(in);
+    pthread_mutex_unlock(&planner);
+    return good ? SS_OK : ss_fail(err, SS_EINVAL, "this is no wisdom of %s on this machine",
+                                  fftw_version);
+}
+
+ss_status
+ss_wisdom_write(FILE *out)
+{
+    pthread_mutex_lock(&planner);
+    fftw_export_wisdom_to_file(out);
+    pthread_mutex_unlock(&planner);
+    return fflush(out) == 0 && !ferror(out) ? SS_OK : SS_EIO;
 }
 
 int

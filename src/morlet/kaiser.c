@@ -80,6 +80,7 @@ ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
             out->taps = taps;
             out->beta = beta;
             out->edge = band->edge;
+            out->prepared = 0;
             return 1;
         }
     return 0;
@@ -128,38 +129,32 @@ ss_kaiser_prepare(kaiser *ker)
     for (int i = 0; i < KAISER_FIT; i++) {
         double s = (1 + node(i, KAISER_FIT)) / 2;
         ker->node[i] = node(i, KAISER_FIT);
-        ker->fit[i] = 1 / ss_kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge);
+        ker->fit[i] = -log(ss_kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge));
     }
     divided_differences(ker->fit, ker->node, KAISER_FIT);
     for (int part = 0; part < KAISER_PARTS; part++)
         prepare_part(ker, part);
+    ker->prepared = 1;
 }
 
-VERSIONS static void
-correction(const kaiser *ker, double first, double step, double *restrict c)
+VERSIONS void
+ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y)
 {
-    double y[KAISER_AT_ONCE];
+    double x[KAISER_AT_ONCE], c[KAISER_AT_ONCE];
     step /= ker->edge;
-    for (size_t i = 0; i < KAISER_AT_ONCE; i++) {
-        double s = (first + (double)i) * step;
-        y[i] = 2 * s * s - 1;
+    for (int i = 0; i < KAISER_AT_ONCE; i++) {
+        double s = (first + i) * step;
+        x[i] = 2 * s * s - 1;
         c[i] = ker->fit[KAISER_FIT - 1];
     }
     for (int m = KAISER_FIT - 2; m >= 0; m--)
-        for (size_t i = 0; i < KAISER_AT_ONCE; i++)
-            c[i] = ker->fit[m] + (y[i] - ker->node[m]) * c[i];
+        for (int i = 0; i < KAISER_AT_ONCE; i++)
+            c[i] = ker->fit[m] + (x[i] - ker->node[m]) * c[i];
+    for (int i = 0; i < KAISER_AT_ONCE; i++)
+        y[i] += c[i];
 }
 
-void
-ss_kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n)
-{
-    double c[KAISER_AT_ONCE];
-    correction(ker, first, step, c);
-    for (size_t i = 0; i < n; i++)
-        g[i] *= c[i];
-}
-
-void
+VERSIONS void
 ss_kaiser_weights(const kaiser *ker, double f, double weight[])
 {
     int part = (int)(f * KAISER_PARTS);
@@ -167,10 +162,9 @@ ss_kaiser_weights(const kaiser *ker, double f, double weight[])
     double y = 2 * (f * KAISER_PARTS - part) - 1, basis[KAISER_NODES] = { 1 };
     for (int m = 1; m < KAISER_NODES; m++)
         basis[m] = basis[m - 1] * (y - part_node[m - 1]);
-    for (int i = 0; i < ker->taps; i++) {
-        double w = 0;
-        for (int m = KAISER_NODES - 1; m >= 0; m--)
-            w += basis[m] * ker->table[part][m][i];
-        weight[i] = w;
-    }
+    for (int i = 0; i < ker->taps; i++)
+        weight[i] = basis[KAISER_NODES - 1] * ker->table[part][KAISER_NODES - 1][i];
+    for (int m = KAISER_NODES - 2; m >= 0; m--)
+        for (int i = 0; i < ker->taps; i++)
+            weight[i] += basis[m] * ker->table[part][m][i];
 }

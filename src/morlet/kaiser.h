@@ -17,7 +17,8 @@ enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 20, KAISER_PARTS = 16, KAISER_NODES = 
 typedef struct kaiser {
     int taps;                   /* even */
     double beta, edge;
-    double node[KAISER_FIT], fit[KAISER_FIT];   /* of 1/response over (nu/edge)^2 */
+    int prepared;               /* what follows is filled in */
+    double node[KAISER_FIT], fit[KAISER_FIT];   /* of -log(response) over (nu/edge)^2 */
     double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];
 } kaiser;
 
@@ -25,8 +26,8 @@ typedef struct kaiser {
 int ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
 /* Fill in what correct and weights use. */
 void ss_kaiser_prepare(kaiser *ker);
-/* g[i] *= 1/response at nu = (first + i) step, n <= KAISER_AT_ONCE. */
-void ss_kaiser_correct(const kaiser *ker, double first, double step, double *g, size_t n);
+/* y[i] -= log(response) at nu = (first + i) step, i < KAISER_AT_ONCE; nonsense beyond the edge. */
+void ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y);
 /* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is taps/2 - 1 - i points
  * before it. */
 void ss_kaiser_weights(const kaiser *ker, double f, double weight[]);

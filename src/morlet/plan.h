@@ -92,6 +92,7 @@ int ss_fft_takes(const struct fft *fft, size_t i);     /* scale i */
 /* The record's spectra, which threads share, and the same for scale i. */
 typedef struct spectra {
     double *level[2];
+    double *size[2];        /* sums of their sizes, in steps; NULL: not needed */
 } spectra;
 ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out);
 void ss_fft_release(spectra *s);

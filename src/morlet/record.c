@@ -3,19 +3,47 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "error.h"
 #include "morlet/plan.h"
+#include "morlet/versions.h"
+
+enum { LANES = 8 };
+
+/* max|x|; NaN and infinity are infinity. */
+VERSIONS static double
+largest(const double *x, size_t n)
+{
+    double most[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            most[l] = fabs(x[i + l]) <= most[l] ? most[l]
+                : fabs(x[i + l]) <= DBL_MAX ? fabs(x[i + l]) : INFINITY;
+    for (; i < n; i++)
+        most[0] = fabs(x[i]) <= most[0] ? most[0] : fabs(x[i]) <= DBL_MAX ? fabs(x[i]) : INFINITY;
+    for (size_t l = 1; l < LANES; l++)
+        most[0] = fmax(most[0], most[l]);
+    return most[0];
+}
+
+VERSIONS static void
+multiply(double *x, size_t n, double factor)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] *= factor;
+}
 
 static void
 normalise(record *rec)
 {
-    double most = 0;
     int e;
-    for (size_t i = 0; i < rec->n; i++)
-        most = fmax(most, fabs(rec->x[i]));
-    rec->x_max = frexp(most, &e);
-    for (size_t i = 0; i < rec->n; i++)
-        rec->x[i] = ldexp(rec->x[i], -e);
+    rec->x_max = frexp(largest(rec->x, rec->n), &e);
+    for (int left = -e; left != 0;) {       /* 2^-e may be too large for a double */
+        int step = left > 1000 ? 1000 : left < -1000 ? -1000 : left;
+        multiply(rec->x, rec->n, ldexp(1, step));
+        left -= step;
+    }
     rec->exponent += e;
 }
 
@@ -41,15 +69,15 @@ subtract(record *rec, ss_detrend detrend)
 ss_status
 ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
 {
-    for (size_t i = 0; i < n; i++)
+    size_t i = largest(x, n) <= DBL_MAX ? n : 0;
+    for (; i < n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", i + 1,
                            isnan(x[i]) ? "NaN" : "infinite");
     *rec = (record){ .n = n, .x = n <= SIZE_MAX / sizeof *x ? malloc(n * sizeof *x) : NULL };
     if (rec->x == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        rec->x[i] = x[i];
+    memcpy(rec->x, x, n * sizeof *x);
     normalise(rec);
     if (detrend != SS_DETREND_NONE) {
         subtract(rec, detrend);

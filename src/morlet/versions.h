@@ -4,13 +4,28 @@
 
 #include <stdlib.h>             /* for __GLIBC__ */
 
-/* Where compiler and C library support that, and no sanitizer runs before its own start.  None has
- * fused multiply-add: the result is the same. */
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) \
+/* None of them fuses a multiplication with an addition: the result is the same. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define FAST __attribute__((optimize("O3")))
+#define UNROLL _Pragma("GCC unroll 8")
+#else
+#define FAST
+#define UNROLL
+#endif
+
+/* A function for machines of one kind, to be called if __builtin_cpu_supports that. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define HAVE_TARGETS
+#define FAST_FOR(kind) __attribute__((target(kind), optimize("O3")))
+#endif
+
+/* A function that is compiled for several kinds, where compiler and C library support that, and no
+ * sanitizer runs before its own start. */
+#if defined(HAVE_TARGETS) && defined(__GLIBC__) \
     && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define VERSIONS __attribute__((target_clones("default", "avx2", "avx512f"), optimize("O3")))
 #else
-#define VERSIONS
+#define VERSIONS FAST
 #endif
 
 #endif

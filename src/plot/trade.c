@@ -1,4 +1,4 @@
-/* trade.c -- the work-precision diagram: error of x over CPU time, one line a method. */
+/* trade.c -- the work-precision diagram: error over CPU time, one line a method. */
 #include "script.h"
 
 #include <math.h>
@@ -83,10 +83,11 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
           "set logscale xy; set format x '%g'; set format y '%.0e'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
-          "set ylabel 'worst error of x / max|x|' noenhanced offset 0.5,0\n"
           "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
           "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
           "set key outside below horizontal maxrows 4 samplen 2 noenhanced\n", out);
+    fprintf(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
+            trade->transform ? "W / largest |W| of its scale" : "x / max|x|");
     put_plot(out, trade);
     return ss_script_end(out);
 }

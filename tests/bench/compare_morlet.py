@@ -26,7 +26,7 @@ except ImportError:
 WORKS = (("W1", 10000, 10, 16, True), ("W2", 1 << 17, 10, 32, True),
          ("W3", 1 << 20, 10, 8, True), ("W4", 1 << 20, 16, 1, False))
 OMEGA_C = 6.0
-REPEAT = 3
+REPEAT = 5
 
 
 class Opts(ctypes.Structure):
@@ -36,7 +36,7 @@ class Opts(ctypes.Structure):
                 ("octaves", ctypes.c_int), ("m0", ctypes.c_double), ("m1", ctypes.c_double),
                 ("engine", ctypes.c_int), ("accuracy", ctypes.c_double), ("norm", ctypes.c_int),
                 ("admissible", ctypes.c_int), ("detrend", ctypes.c_int), ("force", ctypes.c_int),
-                ("threads", ctypes.c_int)]
+                ("threads", ctypes.c_int), ("planner", ctypes.c_int)]
 
 
 def best(call):
@@ -92,7 +92,7 @@ def error_of(x, scales, rows):
     return worst
 
 
-def ours(library, accuracy):
+def ours(library, accuracy, planner=0, threads=1):
     def run(x, scales, voices, dense):
         lib = ctypes.CDLL(library)
         opts = Opts.in_dll(lib, "ss_morlet_defaults")
@@ -100,6 +100,7 @@ def ours(library, accuracy):
         mine.voices, mine.step, mine.dense, mine.accuracy = voices, 1, dense, accuracy
         mine.octaves, mine.m0, mine.m1 = 1, math.log2(scales[0]), math.log2(scales[-1])
         mine.force, mine.engine = 1, 2
+        mine.planner, mine.threads = planner, threads
         plan = ctypes.c_void_p()
         lib.ss_morlet_total.restype = ctypes.c_size_t
         if lib.ss_morlet_new(ctypes.byref(plan), ctypes.c_size_t(len(x)), ctypes.c_double(1),
@@ -164,6 +165,10 @@ def main():
         scales = scales_of(octaves, voices)
         fft = one_fft(x)
         runs = [("ours, accuracy %.0e" % tol, ours(library, tol)) for tol in (1e-3, 1e-6, 1e-12)]
+        if n <= 1 << 17:        # measuring FFTs for longer records takes minutes
+            runs.append(("the same, measured", ours(library, 1e-12, planner=1)))
+        if os.cpu_count() > 1:
+            runs.append(("1e-12, 2 threads", ours(library, 1e-12, threads=2)))
         for what, run in runs + list(others):
             try:
                 seconds, rows = run(x, scales, voices, dense)
