@@ -12,7 +12,7 @@
 static const char usage[] =
 "usage: ss-morlet [options] [FILE] > coefficients\n"
 "Morlet wavelet coefficients of a signal, from FILE or standard input.\n"
-"      --column=NAME|N    column to transform (a, or the only one)\n"
+"  -c, --column=NAME|N    column to transform (a, or the only one)\n"
 "      --center=WC        omega_c, angular centre frequency of the wavelet (6)\n"
 "      --voices=V         scales an octave (16)\n"
 "      --step=B0          translation step in units of the scale (0.25)\n"
@@ -274,7 +274,9 @@ transform_whole(const request *req, const char *path)
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t column = tool_column(signal->head, path, req->column);
     double begin = now();
-    check(ss_transform(&coef, signal, column, &req->opts, &err), &err, path);
+    ss_morlet_opts opts = req->opts;
+    opts.progress = tool_progress;
+    check(ss_transform(&coef, signal, column, &opts, &err), &err, path);
     report(req, signal, column, coef, now() - begin, path);
     write_output(req, signal, coef);
     ss_coefficients_free(coef);
@@ -420,8 +422,8 @@ main(int argc, char *argv[])
     request req = { .opts = ss_morlet_defaults, .kind = TOOL_TSV };
 
     tool_begin(argv, "ss-morlet", usage);
-    for (int c; (c = getopt_long(argc, argv, "o:qvh", longopts, NULL)) != -1;)
-        set_option(&req, c);
+    for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
+        set_option(&req, c == 'c' ? OPT_COLUMN : c);
     check_request(&req);
     const char *path = tool_input(argc, argv, optind);
     if (req.wisdom != NULL)

@@ -59,6 +59,9 @@ typedef struct ss_morlet_opts {
     int force;                  /* 1: also scales that sampling or record do not resolve */
     int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
     ss_planner planner;
+    ss_progress *progress;      /* or NULL: called after every scale of a whole record, by one thread
+                                   at a time */
+    void *user;                 /* handed to it */
 } ss_morlet_opts;
 /* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
  * the lowest usable frequency, if that is higher), fmax the highest usable one. */

@@ -38,17 +38,13 @@ typedef struct ss_event {
 typedef int ss_sample_sink(const ss_sample *s, size_t n, void *user);
 typedef int ss_event_sink(const ss_event *e, void *user);
 
-/* Receives how far a run has come, from 0 to 1, every few hundred steps or samples.  A non-zero
- * return ends the run with SS_STOP. */
-typedef int ss_progress(double done, void *user);
-
 typedef struct ss_sim_opts {
     const char *method;         /* one of ss_sim_method_name; NULL: ss_sim_method_for the scene */
     double tol;                 /* relative local error a step, 1e-14 ... 1e-1 */
     unsigned long max_steps;    /* 0: as many as it takes */
     ss_sample_sink *samples;
     ss_event_sink *events;
-    ss_progress *progress;
+    ss_progress *progress;      /* called every few hundred steps or samples */
     void *user;                 /* handed to all three, any of which may be NULL */
 } ss_sim_opts;
 extern const ss_sim_opts ss_sim_defaults;       /* the scene's method at 1e-12, no sinks */

@@ -42,6 +42,9 @@ typedef struct ss_error {
     char text[512];
 } ss_error;
 
+/* Receives how far long work has come, from 0 to 1.  A non-zero return ends it with SS_STOP. */
+typedef int ss_progress(double done, void *user);
+
 const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
 const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */
 

@@ -460,6 +460,23 @@ find_slope(search *s)
 
 /* --- all of it ----------------------------------------------------------------------------- */
 
+/* Parts of the work, roughly. */
+#define TRANSFORMED 0.35
+#define FLOODED 0.6
+#define FITTED 0.9
+
+static ss_status
+come_to(const search *s, double part)
+{
+    return s->opts->progress != NULL && s->opts->progress(part, s->opts->user) != 0 ? SS_STOP : SS_OK;
+}
+
+static int
+transformed(double done, void *user)
+{
+    return come_to(user, TRANSFORMED * done) != SS_OK;
+}
+
 /* From the lowest usable frequency on; SS_ESCALE where there is none. */
 static ss_status
 transform(search *s, size_t column, ss_error *err)
@@ -470,6 +487,8 @@ transform(search *s, size_t column, ss_error *err)
     opts.norm = s->opts->norm;
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
+    opts.progress = transformed;
+    opts.user = s;
     return ss_transform(&s->coef, s->signal, column, &opts, err);
 }
 
@@ -516,10 +535,10 @@ find_all(search *s)
                                                 / (period.value * period.value) };
     if ((st = ss_find_spikes(&s->out->spikes, s->x, s->n, s->rate, &ss_spike_defaults,
                              NULL)) != SS_OK
-        || (st = find_maxima(s)) != SS_OK)
+        || (st = find_maxima(s)) != SS_OK || (st = come_to(s, FLOODED)) != SS_OK)
         return st;
     st = s->opts->drop > 0 ? find_dropped(s) : find_transitions(s);
-    if (st != SS_OK)
+    if (st != SS_OK || (st = come_to(s, FITTED)) != SS_OK)
         return st;
     count_spikes(s->out);
     find_slip_rate(s);

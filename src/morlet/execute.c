@@ -53,6 +53,7 @@ typedef struct work {
     double *w;
     pthread_mutex_t lock;       /* of what follows */
     size_t next;                /* scales below it are to do */
+    size_t done;                /* coefficients */
     size_t failed;              /* the longest scale that failed, how and why */
     ss_status status;
     ss_error error;
@@ -72,6 +73,7 @@ static void *
 work_on(void *user)
 {
     work *job = user;
+    const ss_morlet_opts *opts = &job->plan->opts;
     double *scratch = job->plan->fft != NULL ? ss_fft_scratch(job->plan->fft) : NULL;
     pthread_mutex_lock(&job->lock);
     if (scratch == NULL && job->plan->fft != NULL) {
@@ -88,6 +90,12 @@ work_on(void *user)
             job->failed = i;
             job->status = st;
             job->error = err;
+        }
+        job->done += job->plan->scale[i].n;
+        if (opts->progress != NULL && job->status == SS_OK
+            && opts->progress((double)job->done / (double)job->plan->total, opts->user) != 0) {
+            job->next = 0;
+            job->status = SS_STOP;
         }
     }
     pthread_mutex_unlock(&job->lock);

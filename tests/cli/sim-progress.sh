@@ -5,3 +5,9 @@ script -qec 'timeout -s INT 5 ss-sim --set duration=1e6 coulomb > /dev/null' /de
 tr '\r' '\n' < log | grep -q 'ss-sim:  *[0-9]* %, [0-9]* s left' || echo "no progress"
 script -qec 'timeout -s INT 3 ss-sim -q --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
 grep '%' log || true
+# So do transforms and what looks at them.
+ss-signal noise --rate 20000 --duration 20 -o long.au
+for command in 'ss-morlet --dense --fmin 10 long.au -o w.au' 'ss-features long.au -o f.tsv'; do
+    script -qec "$command" /dev/null < /dev/null > log || true
+    tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
+done
