@@ -361,7 +361,7 @@ tool_read_scene(const char *path, const char *const settings[], size_t n)
     ss_error err = { "" };
     const ss_shipped_scene *s = shipped(path);
     if (s == NULL && strcmp(path, "-") != 0 && access(path, F_OK) != 0)
-        tool_die("%s: %s, and no shipped scene has this name (--list shows them)", path,
+        tool_die("%s: %s, and no shipped scene has this name (ss-sim --list shows them)", path,
                  strerror(errno));
     FILE *in = s != NULL ? fmemopen((void *)s->text, strlen(s->text), "r") : tool_open(path);
     if (in == NULL)

@@ -34,9 +34,9 @@ figure() {      # NAME SCENE TITLE: contours on the fine grid, and on the paper'
 
 # first, since only a recording can be wrong
 if [ -n "$MEASURED" ]; then
-    ss-morlet ${COLUMN:+--column "$COLUMN"} --detrend mean "$MEASURED" -o "$OUT/figure7.h5"
-    contours figure7 "Measured${COLUMN:+: $COLUMN}" "$COLUMN" ${FROM:+--from "$FROM"} \
-        ${TO:+--to "$TO"}
+    ss-cat ${FROM:+--from "$FROM"} ${TO:+--to "$TO"} "$MEASURED" |
+        ss-morlet ${COLUMN:+--column "$COLUMN"} --detrend mean -o "$OUT/figure7.h5"
+    contours figure7 "Measured${COLUMN:+: $COLUMN}" "$COLUMN"
 else
     ss-sim compliant-light | ss-noise --snr 40 | ss-morlet -o "$OUT/figure7.h5"
     contours figure7 'Simulated, not measured: c = 25, 40 dB noise' ''

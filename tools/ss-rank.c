@@ -35,6 +35,14 @@ typedef struct job {
     ss_rank_opts opts;
 } job;
 
+/* What outputs call the signal: the same wherever the file lies. */
+static const char *
+signal_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL && strstr(path, ":/") == NULL ? slash + 1 : tool_input_name(path);
+}
+
 /* --- the quantity -------------------------------------------------------------------------- */
 
 static const char *const quantities[] = { "x", "v", "a", "f", NULL };
@@ -57,7 +65,11 @@ quantity_of(const ss_column *column, const char *as)
     for (int i = 0; quantities[i] != NULL; i++)
         if (strcmp(column->name, quantities[i]) == 0)
             return (ss_quantity)i;
-    return is_force(column->unit) ? SS_FORCE : SS_ACCELERATION;
+    if (is_force(column->unit))
+        return SS_FORCE;
+    if (column->name[0] != '\0')
+        tool_warn("column %s is taken as an acceleration; --as says what it is", column->name);
+    return SS_ACCELERATION;
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */
@@ -168,7 +180,7 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
         tool_note("%s is ahead by %.3g thresholds", name[r->row[0].scene],
                   r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY);
     FILE *out = tool_output(j->output);
-    fprintf(out, "# stickslip ranking 1\n# signal_name: %s\n", tool_input_name(j->signal_path));
+    fprintf(out, "# stickslip ranking 1\n# signal_name: %s\n", signal_name(j->signal_path));
     fprintf(out, "# spread: %.4g\n", 100 * opts->spread);
     write_head(out, r, signal->head->column[column].name, opts->quantity, name);
     if (!isnan(r->forcing_frequency))
@@ -196,7 +208,7 @@ fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *op
         { "contact_damping", f.contact_damping } };
     FILE *out = tool_output(j->output);
     fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness and release rule\n"
-            "# are those given; standard errors:\n", tool_input_name(j->signal_path),
+            "# are those given; standard errors:\n", signal_name(j->signal_path),
             signal->head->column[column].name);
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
         fprintf(out, "#   %-17s %.2g %%\n", told[i].key, 100 * told[i].v.error / told[i].v.value);

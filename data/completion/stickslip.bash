@@ -3,7 +3,7 @@
 
 _stickslip_options()    # TOOL: "-c", "--column=" ... a line each
 {
-    "$1" --help 2> /dev/null | sed -n 's/^ *\(-[^ ].*\)$/ \1/p' |
+    "$1" --help 2> /dev/null | sed -n -e '/^ *-/!d' -e 's/^ *//' -e 's/   *[^ -].*//p' -e '/^-/p' |
         grep -oE '(^| |,)(-[a-zA-Z]|--[a-z0-9-]+=?)' | tr -d ' ,' | sort -u
 }
 

@@ -391,7 +391,8 @@ count_spikes(ss_features *out)
 }
 
 /* From the times between the transitions; where the signal repeats itself, from how many of them
- * there are in a repetition, which leaves out none that is too weak to be seen. */
+ * there are in a repetition, which leaves out none that is too weak to be seen.  Drops are counted as
+ * they are: those below the height asked for are none. */
 static void
 find_slip_rate(search *s)
 {
@@ -409,7 +410,7 @@ find_slip_rate(search *s)
     double m = (double)(n - 1), mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
     double each = round((double)n / duration / out->forcing_frequency.value);
     out->slip_rate = (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
-    if (each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
+    if (!(s->opts->drop > 0) && each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
         out->slip_rate = (ss_value){ each * out->forcing_frequency.value,
                                      each * out->forcing_frequency.error };
 }
@@ -431,7 +432,7 @@ find_stiffness(ss_features *out, double m, double k)
     out->total_stiffness = (ss_value){ total, total * hypot(2 * df / f, 2 * z * dz / q) };
     out->contact_damping = (ss_value){ 2 * m * r * z,
                                        2 * m * r * hypot(z * df / f, dz / q) };
-    if (k > 0)
+    if (k > 0 && total > k)
         out->contact_stiffness = (ss_value){ total - k, out->total_stiffness.error };
 }
 

@@ -273,7 +273,7 @@ static const char panel_a[] =
     "unset title; set offsets 0,0,0,0\n";
 
 static const char panel_b[] =
-    "set bmargin at screen 0.12; set tmargin at screen top_b\n"
+    "set bmargin at screen bottom; set tmargin at screen top_b\n"
     "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
     "set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
     "set label 2 'frequency / Hz' at screen 0.03,graph 0.5 center rotate\n"
@@ -281,7 +281,7 @@ static const char panel_b[] =
     "set palette defined (@colours) maxcolors levels\n"
     "set cbrange [-span - step/2 : -step/2]\n"
     "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
-    "set colorbox user origin screen right + 0.02, screen 0.12 size screen 0.025, screen top_b - 0.12\n";
+    "set colorbox user origin screen right + 0.02, screen bottom size screen 0.025, screen top_b - bottom\n";
 
 /* Bars and marks in the rims of the panel; rings in white and colour, to be seen on any ground. */
 static void
@@ -309,7 +309,8 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
         ss_script_put_tics(out, "ytics", range, 5);
         fputs(panel_a, out);
     }
-    fprintf(out, "top_b = %s\n", contour->signal != NULL ? "0.68" : "0.925");
+    fputs(contour->signal != NULL ? "bottom = 0.12; top_b = 0.68\n"
+                                  : "bottom = 0.16; top_b = 0.925\n", out);
     fputs(panel_b, out);
     put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
     if (contour->signal == NULL)

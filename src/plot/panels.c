@@ -64,7 +64,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
             fputs("set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n", out);
         fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
                 "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
-        fprintf(out, "set label 1 label%zu at screen 0.035,graph 0.5 center rotate noenhanced\n", i);
+        fprintf(out, "set label 1 label%zu at screen 0.03,graph 0.5 center rotate noenhanced\n", i);
         ss_script_put_tics(out, "ytics", ranges[i - 1], 5);
         fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
         if (i == 1)

@@ -123,8 +123,10 @@ add_unit(label *l, const char *unit)
 static size_t
 line_break(const label *l)
 {
-    size_t best = 0;
-    for (size_t i = 1; l->n > 16 && i + 1 < l->n; i++) {
+    size_t best = 0, letters = 0;
+    for (size_t i = 0; i < l->n; i++)
+        letters += ((unsigned char)l->text[i] & 0xc0) != 0x80;      /* of UTF-8 */
+    for (size_t i = 1; letters > 18 && i + 1 < l->n; i++) {
         long off = labs(2 * (long)(i + 1) - (long)l->n);
         if (strchr(" _/", l->text[i]) != NULL
             && (best == 0 || off < labs(2 * (long)best - (long)l->n)))

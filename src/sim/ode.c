@@ -28,27 +28,59 @@ typedef struct ode {
     int has_curve;                          /* of the last step; asked for by the first at() in it */
     double curve[2 * ORDERS + 2][MAX_DIM];  /* its coefficients in s / h */
     double h_next;
-    double error[MAX_DIM];
     double tol;
     double shortest;                        /* of all steps [s] */
-    double least[MAX_DIM];                  /* what stands for a 0 of the state */
+    double unit[MAX_DIM];                   /* in which GSL has the state: y = q / unit */
+    double zero[MAX_DIM];                   /* what stands for a y of 0 */
 } ode;
 
-static int
-rhs(double u, const double q[], double dqdt[], void *params)
+static void
+rates(ode *o, double u, const double q[], double dqdt[])
 {
-    ode *o = params;
     const motion *m = o->base.m;
     o->base.rhs++;
     m->model->rates(m, ss_motion_drive(m, u), q, dqdt);
+}
+
+/* To and from GSL's units, which are powers of two: nothing is rounded.  Implicit methods solve
+ * equations in which x, v and theta stand side by side; where these are 1e20 apart, as m and rad/s
+ * and N can be, the solution is nothing but rounding. */
+static void
+to_units(const ode *o, const double q[], double y[])
+{
+    for (size_t i = 0; i < o->system.dimension; i++)
+        y[i] = q[i] / o->unit[i];
+}
+
+static void
+from_units(const ode *o, const double y[], double q[])
+{
+    for (size_t i = 0; i < o->system.dimension; i++)
+        q[i] = y[i] * o->unit[i];
+}
+
+static int
+rhs(double u, const double y[], double dydt[], void *params)
+{
+    ode *o = params;
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    from_units(o, y, q);
+    rates(o, u, q, dqdt);
+    to_units(o, dqdt, dydt);
     return GSL_SUCCESS;
 }
 
 static int
-jacobian(double u, const double q[], double *dfdq, double dfdt[], void *params)
+jacobian(double u, const double y[], double *dfdy, double dfdt[], void *params)
 {
     const ode *o = params;
-    o->base.m->model->jacobian(o->base.m, u, q, dfdq, dfdt);
+    size_t n = o->system.dimension;
+    double q[MAX_DIM] = { 0 };
+    from_units(o, y, q);
+    o->base.m->model->jacobian(o->base.m, u, q, dfdy, dfdt);
+    to_units(o, dfdt, dfdt);
+    for (size_t i = 0; i < n * n; i++)
+        dfdy[i] *= o->unit[i % n] / o->unit[i / n];
     return GSL_SUCCESS;
 }
 
@@ -59,7 +91,7 @@ ode_begin(engine *e)
     gsl_odeiv2_step_reset(o->driver->s);
     if (o->side != NULL)
         gsl_odeiv2_step_reset(o->side);
-    rhs(e->m->u, e->m->q, e->dq0, o);
+    rates(o, e->m->u, e->m->q, e->dq0);
     o->shortest = STEP_FLOOR * ss_motion_step_cap(e->m);
     if (e->m->model->quickest != NULL)
         o->shortest = fmin(o->shortest, STEP_FLOOR / e->m->model->quickest(e->m->scene));
@@ -75,19 +107,25 @@ all_finite(const double q[], size_t n)
     return 1;
 }
 
-/* The state at the start of the step, to be stepped from.  GSL's bsimp gives up a step over which a
- * part of it grows 300-fold, and takes 0 for 1 in whatever unit: there this, in the part's scale,
- * stands for 0.  It is about the tightest tolerance, and lets the first step be over STEP_FLOOR.
+/* GSL's bsimp gives up a step over which a part of the state grows 300-fold, and takes 0 for 1: there
+ * this stands for 0.  It is about the tightest tolerance, and lets the first step be over STEP_FLOOR.
  * (Modes without friction of their own start with steps long enough to do without.) */
 #define BSIMP_ZERO 0x1p-46
 
-static void
-start_of_step(const ode *o, double q[])
+/* One step over h from the start of the present one, in GSL's units; dydt or NULL gets the rate of
+ * change at its end from methods that know it. */
+static int
+apply(ode *o, gsl_odeiv2_step *step, double h, double y[], double error[], double dydt[])
 {
-    memcpy(q, o->base.m->q, sizeof o->base.m->q);
+    const engine *e = &o->base;
+    double dydt_in[MAX_DIM];
+    to_units(o, e->m->q, y);
+    to_units(o, e->dq0, dydt_in);
     for (size_t i = 0; i < o->system.dimension; i++)
-        if (q[i] == 0)
-            q[i] = o->least[i];
+        if (y[i] == 0)
+            y[i] = o->zero[i];
+    return gsl_odeiv2_step_apply(step, e->m->u, h, y, error,
+                                 step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
 }
 
 /* Try steps of decreasing size from the start of the step until one keeps the tolerance. */
@@ -98,19 +136,15 @@ ode_step(engine *e, double h_max, ss_error *err)
     const motion *m = e->m;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
-    double h = fmin(o->h_next, h_max);
+    double h = fmin(o->h_next, h_max), y[MAX_DIM], dydt[MAX_DIM], error[MAX_DIM];
 
     for (;;) {
         double h_adjusted = h / 2;
         int verdict = GSL_ODEIV_HADJ_DEC;
-        start_of_step(o, e->q1);
-        int failed = gsl_odeiv2_step_apply(step, m->u, h, e->q1, o->error,
-                                           step->type->can_use_dydt_in ? e->dq0 : NULL, e->dq1,
-                                           &o->system);
-        if (!failed && all_finite(e->q1, dim) && all_finite(o->error, dim)) {
+        int failed = apply(o, step, h, y, error, dydt);
+        if (!failed && all_finite(y, dim) && all_finite(error, dim)) {
             h_adjusted = h;
-            verdict = gsl_odeiv2_control_hadjust(o->driver->c, step, e->q1, o->error, e->dq1,
-                                                 &h_adjusted);
+            verdict = gsl_odeiv2_control_hadjust(o->driver->c, step, y, error, dydt, &h_adjusted);
         }
         if (verdict != GSL_ODEIV_HADJ_DEC) {
             if (h >= o->h_next || h_adjusted > o->h_next)
@@ -123,8 +157,11 @@ ode_step(engine *e, double h_max, ss_error *err)
                            o->shortest);
         o->h_next = h = h_adjusted;
     }
-    if (!step->type->gives_exact_dydt_out)
-        rhs(m->u + h, e->q1, e->dq1, o);
+    from_units(o, y, e->q1);
+    if (step->type->gives_exact_dydt_out)
+        from_units(o, dydt, e->dq1);
+    else
+        rates(o, m->u + h, e->q1, e->dq1);
     e->h = h;
     e->steps++;
     o->has_curve = 0;
@@ -192,13 +229,12 @@ ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 {
     ode *o = (ode *)e;
     const motion *m = e->m;
-    double error[MAX_DIM];
+    double y[MAX_DIM], error[MAX_DIM];
     (void)where;
     int inside = s > 0 && s < e->h && !e->lands_on_samples;
     if (inside && o->side != NULL) {
-        start_of_step(o, q);
-        gsl_odeiv2_step_apply(o->side, m->u, s, q, error,
-                              o->side->type->can_use_dydt_in ? e->dq0 : NULL, NULL, &o->system);
+        apply(o, o->side, s, y, error, NULL);
+        from_units(o, y, q);
     } else if (inside) {
         if (!o->has_curve)
             draw_curve(o);
@@ -285,17 +321,18 @@ ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
     o->tol = tol;
     o->h_next = ss_motion_step_cap(m);
     absolute_scales(m, scale);
-    for (size_t k = 0; k < m->model->dim; k++)
+    for (size_t k = 0; k < m->model->dim; k++) {
         if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {
             ode_free(&o->base);
             return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
         }
-    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
-        && m->scene->model == SS_STATE_VARIABLE) {
-        o->least[0] = BSIMP_ZERO * scale[0];
-        o->least[1] = BSIMP_ZERO * scale[1];
-        o->least[2] = BSIMP_ZERO * m->scene->friction;
+        o->unit[k] = ldexp(1, ilogb(scale[k]));
+        scale[k] /= o->unit[k];
     }
+    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
+        && m->scene->model == SS_STATE_VARIABLE)
+        for (size_t k = 0; k < 3; k++)
+            o->zero[k] = k < 2 || m->scene->friction > 0 ? BSIMP_ZERO : 0;
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
                                                    tol, tol, 1, 0, scale);
     int sides = m->model->derivatives == NULL && !o->multistep;

@@ -1,0 +1,3 @@
+# A million forcing cycles of this scene.
+scene=coulomb
+. "$SRC/tests/long/million-cycles.inc"
