@@ -196,7 +196,7 @@ THIS_MAKE = $(MAKE)
 run-tests: all $(TESTS:%=$(BUILD)/tests/%) $(REPLAYS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
 		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
-		LIBS=$(call quote,$(LIBS)) sh tests/run.sh $(TESTS)
+		LIBS=$(call quote,$(LIBS)) INCLUDES=$(call quote,$(INCLUDES)) sh tests/run.sh $(TESTS)
 
 draw-paper: all $(BUILD)/bin/paper-table
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \

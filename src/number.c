@@ -154,6 +154,8 @@ lay_out(char *p, const char *digit, int n, int point)
 size_t
 ss_number_format(char text[SS_NUMBER_MAX], double x)
 {
+    if (text == NULL)
+        return 0;
     char *p = text, digit[20];
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -289,6 +291,11 @@ strtod_in_c(const char *text)
 double
 ss_number_parse(const char *text, char **end)
 {
+    if (text == NULL) {
+        if (end != NULL)
+            *end = NULL;
+        return 0;
+    }
     static const double pow10[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     struct decimal d = { 0, 0, 0 };

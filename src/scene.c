@@ -61,12 +61,14 @@ enum { KEYS = sizeof key / sizeof *key, MODEL_KEY = 0 };
 const char *
 ss_model_name(ss_model model)
 {
-    return model_words[model];
+    return (unsigned)model <= SS_COMPLIANT ? model_words[model] : "?";
 }
 
 size_t
 ss_scene_samples(const ss_scene *scene)
 {
+    if (scene == NULL)
+        return 0;
     double n = nearbyint(scene->duration * scene->rate);
     return n < 0x1p53 ? (size_t)n : SIZE_MAX;
 }
@@ -195,6 +197,10 @@ nearest_key(const char *name)
 double *
 ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *err)
 {
+    if (scene == NULL || name == NULL || (unsigned)scene->model > SS_COMPLIANT) {
+        ss_fail(err, SS_EINVAL, "no scene of a known model, or no key");
+        return NULL;
+    }
     const struct key *k = find_key(name);
     if (k == NULL) {
         ss_fail(err, SS_EINVAL, "unknown key '%.64s'; the nearest is '%s'", name,
@@ -372,7 +378,7 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
 ss_status
 ss_scene_write(const ss_scene *scene, FILE *out)
 {
-    if (scene == NULL || out == NULL)
+    if (scene == NULL || out == NULL || ss_scene_check(scene, NULL) != SS_OK)
         return SS_EINVAL;
     ss_scene copy = *scene;
     for (size_t i = 0; i < KEYS; i++) {

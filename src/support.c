@@ -90,6 +90,10 @@ const ss_scene_range ss_scene_ranges[] = {
 ss_status
 ss_scene_supported(const ss_scene *scene, ss_error *err)
 {
+    if (scene == NULL)
+        return SS_FAIL_NULL(err);
+    if ((unsigned)scene->model > SS_COMPLIANT)
+        return ss_fail(err, SS_EINVAL, "model is no known choice");
     for (const ss_scene_range *r = ss_scene_ranges; r->name != NULL; r++) {
         if ((r->models & 1u << scene->model) == 0)
             continue;

@@ -340,6 +340,8 @@ keeps(const ss_trade_row *row, double accuracy)
 const ss_trade_row *
 ss_trade_cheapest(const ss_trade *trade, double accuracy)
 {
+    if (trade == NULL)
+        return NULL;
     const ss_trade_row *best = NULL;
     for (size_t i = 0; i < trade->n; i++)
         if (keeps(&trade->row[i], accuracy)
@@ -493,6 +495,8 @@ fill_table(table *t, ss_error *err)
 ss_status
 ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opts, ss_error *err)
 {
+    if (out == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = ss_scene_check(scene, err);
     if (st != SS_OK)
         return st;
@@ -649,6 +653,8 @@ choose(search *s, ss_sim_opts *opts, ss_error *err)
 ss_status
 ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_error *err)
 {
+    if (opts == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = ss_scene_check(scene, err);
     if (st != SS_OK)
         return st;

@@ -4,8 +4,8 @@
 # Tests are the CMocka programs named, from $BUILD/tests, and the scripts tests/cli/*.sh and
 # tests/build/*.sh, with LONG=1 also tests/long/*.sh.  A script is run by sh -eu in an empty
 # directory, with the tools in PATH and $SRC, $BUILD, $CC, $CCLD (compiler with flags for linking),
-# $LIBS, $MAKE and $SAN set.  It must give what NAME.out, NAME.err and NAME.exit beside it hold
-# (nothing, nothing and 0 if they are absent).  Exit 77 skips it, its first line saying why.
+# $LIBS, $INCLUDES, $MAKE and $SAN set.  It must give what NAME.out, NAME.err and NAME.exit beside it
+# hold (nothing, nothing and 0 if they are absent).  Exit 77 skips it, its first line saying why.
 set -u
 SRC=$(cd "$(dirname "$0")/.." && pwd)
 : "${LIMIT:=600}" "${JOBS:=$(getconf _NPROCESSORS_ONLN)}"
@@ -93,7 +93,7 @@ LC_ALL=C
 ASAN_OPTIONS=detect_stack_use_after_return=1
 [ "$(uname)" = Darwin ] || ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=1
 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-export SRC WORK BUILD PATH HOME LC_ALL ASAN_OPTIONS UBSAN_OPTIONS LIMIT CC CCLD LIBS MAKE SAN
+export SRC WORK BUILD PATH HOME LC_ALL ASAN_OPTIONS UBSAN_OPTIONS LIMIT CC CCLD LIBS INCLUDES MAKE SAN
 unset CDPATH GNUTERM DISPLAY
 
 cd "$SRC" || exit 1

@@ -146,13 +146,20 @@ __wrap_free(void *p)
 
 /* Made before, with all the memory that it takes. */
 static ss_scene scene[3];               /* one a model */
-static ss_signal *signal;
+static ss_signal *signal, *cycles;      /* a tenth of a second; some slips in noise */
+static ss_sweep_table *sweep;
 static ss_coefficients *coefficients;
 static ss_trade *trade;
 static char text[2][20000], path[64];   /* as text, as AU; an HDF5 file */
 static size_t length[2];
 static char coefficient_text[200000];
 static size_t coefficient_length;
+static char sweep_text[] = "# stickslip sweep 1\n# scene: s\n"
+    "# columns: index mass/kg friction/N amplitude/m period status\n"
+    "0\t1\t1\t1\t1\tok\n1\t1\t2\t2\t2\tok\n2\t1\t3\t3\taperiodic\tok\n"
+    "3\t2\t1\t4\t1\tok\n4\t2\t2\t5\t2\tok\n5\t2\t3\t6\t1\tok\n"
+    "6\t3\t1\t7\t1\tok\n7\t3\t2\t8\t2\tok\n8\t3\t3\t9\t1\tok\n"
+    "9\t4\t1\t10\t1\tok\n10\t4\t2\t11\t2\tok\n11\t4\t3\t12\t1\tok\n";
 static FILE *scrap;
 static ss_error err;
 
@@ -217,11 +224,29 @@ signals(int variant)
 {
     static const size_t pick[] = { 0 };
     ss_signal *made = NULL;
+    if (variant == 7) {
+        ss_status resampled = ss_signal_resample(&made, signal, 700);
+        ss_signal_free(made);
+        return resampled;
+    }
     ss_wave_opts opts = ss_wave_defaults;
     opts.duration = 0.01;
     ss_status st = variant < 6 ? ss_wave_new(&made, (ss_wave)variant, &opts, &err)
                    : ss_signal_select(&made, signal, pick, 1, 3, 7);
     ss_signal_free(made);
+    return st;
+}
+
+static ss_status
+noises(int variant)
+{
+    double x[100] = { 0 };
+    ss_noise *noise = NULL;
+    ss_status st = ss_noise_new(&noise, 1);
+    (void)variant;
+    if (st == SS_OK)
+        st = ss_noise_add_band(noise, x, 100, 100, 10, 20, 1, &err);
+    ss_noise_free(noise);
     return st;
 }
 
@@ -296,6 +321,47 @@ comparisons(int variant)
     return st;
 }
 
+static int
+drop_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
+          void *user)
+{
+    (void)scale, (void)first, (void)n, (void)w, (void)samples, (void)user;
+    return 0;
+}
+
+static ss_status
+streams(int variant)
+{
+    ss_stream *stream = NULL;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.voices = 2;
+    opts.fmin = 20;
+    opts.threads = 1 + variant % 2;
+    opts.dense = variant / 2;
+    const double *x = signal->values;
+    ss_status st = ss_stream_new(&stream, signal->head->rate, &opts, drop_rows, NULL, &err);
+    if (st == SS_OK)
+        st = ss_stream_push(stream, x, signal->n / 2, &err);
+    if (st == SS_OK)
+        st = ss_stream_drain(stream, &err);
+    if (st == SS_OK)
+        st = ss_stream_push(stream, x + signal->n / 2, signal->n - signal->n / 2, &err);
+    if (st == SS_OK)
+        st = ss_stream_end(stream, &err);
+    ss_stream_free(stream);
+    return st;
+}
+
+static ss_status
+inverses(int variant)
+{
+    ss_signal *made = NULL;
+    (void)variant;
+    ss_status st = ss_morlet_inverse(&made, coefficients, 1e-2, NULL, &err);
+    ss_signal_free(made);
+    return st;
+}
+
 static ss_status
 read_coefficients(int variant)
 {
@@ -320,15 +386,102 @@ features(int variant)
 }
 
 static ss_status
+searches(int variant)
+{
+    ss_spikes_found *spikes = NULL;
+    ss_bursts *bursts = NULL;
+    ss_drop *drops = NULL;
+    size_t n;
+    const double *a = cycles->values + 2 * cycles->n, *f = cycles->values + 3 * cycles->n;
+    double rate = cycles->head->rate;
+    ss_status st = variant == 0 ? ss_find_spikes(&spikes, a, cycles->n, rate, &ss_spike_defaults,
+                                                 &err)
+        : variant == 1 ? ss_find_bursts(&bursts, a, cycles->n, rate, 20, &err)
+        : ss_find_drops(&drops, &n, f, cycles->n, rate, 1, &err);
+    ss_spikes_free(spikes);
+    ss_bursts_free(bursts);
+    free(drops);
+    return st;
+}
+
+static ss_status
+transitions(int variant)
+{
+    ss_features *found = NULL;
+    ss_features_opts opts = ss_features_defaults;
+    opts.drop = variant;
+    opts.mass = scene[0].mass;
+    opts.stiffness = scene[0].stiffness;
+    opts.displacement = 0;
+    opts.force = 3;
+    ss_status st = ss_features_find(&found, cycles, variant == 0 ? 2 : 3, &opts, &err);
+    ss_features_free(found);
+    return st;
+}
+
+static ss_status
+rankings(int variant)
+{
+    ss_ranking *made = NULL;
+    (void)variant;
+    ss_status st = ss_rank(&made, cycles, 2, &scene[SS_COULOMB], 1, NULL, &err);
+    ss_ranking_free(made);
+    return st;
+}
+
+static ss_status
+fits(int variant)
+{
+    ss_fit fit;
+    (void)variant;
+    return ss_fit_scene(&fit, cycles, 2, &scene[SS_COMPLIANT], NULL, &err);
+}
+
+static int
+drop_row(const ss_sweep_row *r, void *user)
+{
+    (void)r, (void)user;
+    return 0;
+}
+
+static ss_status
+sweeps(int variant)
+{
+    static const ss_axis axis[] = { { "friction", 1, 2, 2, 0 }, { "mass", 2, 3, 2, 0 } };
+    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+                           .threads = 1 + variant % 2, .sink = drop_row };
+    opts.steady.measures = 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
+    opts.steady.max_cycles = 20;
+    opts.steady.shoot = variant / 2 == 1;
+    if (variant / 2 == 2)
+        opts.steady.method = "rk8pd";
+    return ss_sweep_run(&scene[SS_COMPLIANT], &opts, &err);
+}
+
+static ss_status
+read_sweeps(int variant)
+{
+    ss_sweep_table *back = NULL;
+    FILE *in = fmemopen(sweep_text, sizeof sweep_text - 1, "r");
+    (void)variant;
+    ss_status st = ss_sweep_read(&back, in, "in", &err);
+    fclose(in);
+    ss_sweep_table_free(back);
+    return st;
+}
+
+static ss_status
 plots(int variant)
 {
     ss_contour_opts contour = ss_contour_defaults;
     contour.signal = signal;
+    const ss_map_opts map = { .x = 1, .y = 2, .z = { 3, 4 }, .n_z = 2 };
     rewind(scrap);
     switch (variant) {
     case 0: return ss_plot_signal(scrap, signal, NULL, 0, &ss_plot_defaults, &err);
     case 1: return ss_plot_xy(scrap, signal, 0, 1, &ss_plot_defaults, &err);
     case 2: return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
+    case 3: return ss_plot_map(scrap, sweep, &map, &ss_plot_defaults, &err);
     }
     return ss_plot_trade(scrap, trade, &ss_plot_defaults, &err);
 }
@@ -366,15 +519,20 @@ static const struct row {
     const char *what;
     call *call;
     int variants;
-    size_t shrinks;             /* the last allocations, that only give memory back */
+    size_t most;                /* allocations that fail in turn, spread over all; 20 times that
+                                   with LONG=1, which is all of them for most rows */
 } row[] = {
-    { "headers", headers, 1, 0 }, { "reading streams", read_streams, 9, 0 },
-    { "writing streams", write_streams, 2, 0 }, { "signals", signals, 7, 0 },
-    { "simulations", simulations, 3, 0 }, { "closed forms", closed_forms, 2, 0 },
-    { "trades", trades, 2, 0 }, { "transforms", transforms, 6, 0 },
-    { "comparisons", comparisons, 2, 0 },
-    { "reading coefficients", read_coefficients, 1, 0 }, { "features", features, 2, 1 },
-    { "plots", plots, 4, 0 }, { "stores", stores, 2, 0 }, { "loads", loads, 3, 0 },
+    { "headers", headers, 1, 100 }, { "reading streams", read_streams, 9, 100 },
+    { "writing streams", write_streams, 2, 100 }, { "signals", signals, 8, 100 },
+    { "noises", noises, 1, 100 }, { "simulations", simulations, 3, 100 },
+    { "closed forms", closed_forms, 2, 100 }, { "trades", trades, 2, 20 },
+    { "transforms", transforms, 6, 30 }, { "streams", streams, 4, 30 },
+    { "inverses", inverses, 1, 30 }, { "comparisons", comparisons, 2, 30 },
+    { "reading coefficients", read_coefficients, 1, 30 }, { "features", features, 2, 30 },
+    { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
+    { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
+    { "reading sweeps", read_sweeps, 1, 100 }, { "plots", plots, 5, 30 },
+    { "stores", stores, 2, 30 }, { "loads", loads, 3, 30 },
 };
 
 /* --- the tests ----------------------------------------------------------------------------- */
@@ -390,15 +548,21 @@ set_up(void **state)
             .friction = 1.28, .base_amplitude = 6e-4, .base_frequency = 2.5, .alpha = 3000, .gamma = 100,
             .contact_stiffness = 209900, .contact_damping = 25, .duration = 0.1, .rate = 1000 };
     }
+    ss_scene slips = scene[SS_COMPLIANT];
+    ss_trade_opts brief = { .budget = 1e-3 };
+    slips.settle = 2;
+    slips.duration = 2;
     strcpy(path, "/tmp/test_memory.XXXXXX");
     int fd = mkstemp(path);
     opts.voices = 2;
     opts.force = 1;
     if (fd < 0 || close(fd) != 0 || (scrap = tmpfile()) == NULL
         || ss_simulate(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
+        || ss_simulate(&cycles, &slips, NULL) != SS_OK
+        || ss_add_noise(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1) != SS_OK
         || ss_header_note(signal->head, "key", "value") != SS_OK
         || ss_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
-        || ss_trade_measure(&trade, &scene[SS_COULOMB], NULL, NULL) != SS_OK)
+        || ss_trade_measure(&trade, &scene[SS_COULOMB], &brief, NULL) != SS_OK)
         return -1;
     for (int i = 0; i < 2; i++) {
         FILE *out = fmemopen(text[i], sizeof text[i], "w");
@@ -412,6 +576,11 @@ set_up(void **state)
         return -1;
     coefficient_length = (size_t)ftell(out);
     fclose(out);
+    FILE *in = fmemopen(sweep_text, sizeof sweep_text - 1, "r");
+    ss_status st = ss_sweep_read(&sweep, in, "in", NULL);
+    fclose(in);
+    if (st != SS_OK)
+        return -1;
     ss_record record = { .signal = signal, .coefficients = coefficients };
     return ss_store_write(path, &record, NULL) == SS_OK ? 0 : -1;
 }
@@ -423,6 +592,8 @@ tear_down(void **state)
     unlink(path);
     fclose(scrap);
     ss_signal_free(signal);
+    ss_signal_free(cycles);
+    ss_sweep_table_free(sweep);
     ss_coefficients_free(coefficients);
     ss_trade_free(trade);
     return 0;
@@ -456,8 +627,9 @@ every_allocation_may_fail(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
         for (int variant = 0; variant < row[i].variants; variant++) {
             size_t calls = run(&row[i], variant, 0, 0);
-            size_t step = every && *every != 0 ? 1 : 1 + calls / 100;      /* or it takes minutes */
-            for (size_t n = 1; n + row[i].shrinks <= calls; n += step) {
+            size_t most = (every && *every != 0 ? 20 : 1) * row[i].most;
+            size_t step = 1 + calls / most;     /* or it takes minutes */
+            for (size_t n = 1; n <= calls; n += step) {
                 run(&row[i], variant, n, 0);
                 run(&row[i], variant, n, 1);
             }

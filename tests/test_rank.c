@@ -147,8 +147,8 @@ the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
     candidate c = ss_candidate_of(&literal, SS_ACCELERATION, 1);
     c.scene.duration = 0.2;
     assert_int_equal(c.scene.law, SS_LAW_SCALED);
-    assert_true(ss_candidate_run(&literal, SS_ACCELERATION, x, 400));
-    assert_true(ss_candidate_run(&c.scene, SS_ACCELERATION, y, 400));
+    assert_int_equal(ss_candidate_run(&literal, SS_ACCELERATION, x, 400), SS_OK);
+    assert_int_equal(ss_candidate_run(&c.scene, SS_ACCELERATION, y, 400), SS_OK);
     for (size_t i = 0; i < 400; i++)
         most = fmax(most, fabs(x[i])), off = fmax(off, fabs(x[i] - y[i]));
     assert_true(off <= 1e-3 * most);            /* 1e-4 each is what the method keeps */

@@ -107,8 +107,12 @@ read_line(const char *path, size_t *n)
     char text[512], *end, *rest;
     double *line = NULL;
     for (size_t room = 0; fgets(text, sizeof text, in) != NULL; ++*n) {
-        if (*n == room && (line = realloc(line, (room = 2 * room + 64) * 2 * sizeof *line)) == NULL)
-            tool_die("%s", ss_strerror(SS_ENOMEM));
+        if (*n == room) {
+            double *more = realloc(line, (room = 2 * room + 64) * 2 * sizeof *more);
+            if (more == NULL)
+                tool_die("%s", ss_strerror(SS_ENOMEM));
+            line = more;
+        }
         double x = ss_number_parse(text, &end), y = ss_number_parse(end, &rest);
         line[2 * *n] = end > text && rest > end ? x : NAN;
         line[2 * *n + 1] = y;

@@ -162,8 +162,8 @@ static void
 rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
 {
     enum { NAME_SIZE = 256 };
-    ss_scene *scene = calloc(j->n_scenes, sizeof *scene);
-    char **name = calloc(j->n_scenes, sizeof *name);
+    ss_scene *scene = calloc(j->n_scenes + 1, sizeof *scene);
+    char **name = calloc(j->n_scenes + 1, sizeof *name);
     ss_ranking *r = NULL;
     ss_error err = { "" };
     if (scene == NULL || name == NULL)

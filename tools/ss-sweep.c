@@ -277,13 +277,30 @@ report(double done, void *user)
 
 /* --- resuming ------------------------------------------------------------------------------ */
 
+/* The first of the next line's bytes, as far as there is room, without its end; gives the length of
+ * all of it, or 0 if it was cut off. */
+static long
+read_line(FILE *in, char *line, size_t room)
+{
+    long length = 0;
+    size_t n = 0;
+    int c;
+    while ((c = getc(in)) != EOF && c != '\n') {
+        length++;
+        if (n + 1 < room)
+            line[n++] = (char)c;
+    }
+    line[n] = '\0';
+    return c == '\n' ? length + 1 : 0;
+}
+
 /* Whole rows at the head of FILE, in the order in which they must come; dies if it is no part of
  * this sweep.  What lies behind *end was cut off in the middle of a line. */
 static size_t
 count_rows(const request *req, FILE *in, const char *header, long *end)
 {
-    size_t room = 0, rows = 0, length = strlen(header);
-    char *line = NULL, *start = malloc(length + 1);
+    size_t rows = 0, length = strlen(header);
+    char line[64], *start = malloc(length + 1);
     if (start == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     size_t got = fread(start, 1, length, in);
@@ -291,18 +308,17 @@ count_rows(const request *req, FILE *in, const char *header, long *end)
         tool_die("%s: another sweep than this: its header differs", req->resume);
     free(start);
     *end = got == length ? (long)length : 0;
-    for (ssize_t n; got == length && (n = getline(&line, &room, in)) > 0 && line[n - 1] == '\n';) {
+    for (long n; got == length && (n = read_line(in, line, sizeof line)) > 0;) {
         char *tab;
         size_t due = req->opts.shard + rows * req->opts.shards, index = strtoul(line, &tab, 10);
         if (tab == line || *tab != '\t' || index != due)
             tool_die("%s: row %zu is '%.20s', but point %zu is due: another sweep or shard",
-                     req->resume, rows + 1, strtok(line, "\t\n"), due);
+                     req->resume, rows + 1, strtok(line, "\t"), due);
         rows++;
         *end += n;
     }
     if (ferror(in))
         tool_die("%s: %s", req->resume, strerror(errno));
-    free(line);
     return rows;
 }
 

@@ -72,6 +72,8 @@ ss_status
 ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
                ss_error *err)
 {
+    if (out == NULL || x == NULL)
+        return SS_FAIL_NULL(err);
     row_source source;
     row best = { .rms = 1 };
     if (!(range >= 0))

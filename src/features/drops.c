@@ -156,6 +156,8 @@ ss_status
 ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
               double height, ss_error *err)
 {
+    if (out == NULL || n_drops == NULL || x == NULL)
+        return SS_FAIL_NULL(err);
     drop_list list = { 0, 0, NULL };
     if (n == 0 || n > SIZE_MAX / 64)
         return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);

@@ -553,9 +553,11 @@ normalised(const double *x, size_t n, double *largest)
 {
     double *copy = malloc((n + 1) * sizeof *copy);
     *largest = 0;
+    if (copy == NULL)
+        return NULL;
     for (size_t i = 0; i < n; i++)
         *largest = fmax(*largest, fabs(x[i]));
-    for (size_t i = 0; i < n && copy != NULL; i++)
+    for (size_t i = 0; i < n; i++)
         copy[i] = *largest > 0 ? x[i] / *largest : 0;
     return copy;
 }
@@ -564,6 +566,8 @@ ss_status
 ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
                  const ss_features_opts *opts, ss_error *err)
 {
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
     search s = { .signal = signal, .opts = opts != NULL ? opts : &ss_features_defaults };
     ss_status st = check(signal, column, s.opts, err);
     if (st != SS_OK)

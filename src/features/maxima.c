@@ -242,7 +242,11 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
     }
     qsort(peak, count, sizeof *peak, earlier_first);
     fitting = realloc(peak, (count + 1) * sizeof *peak);
-    *out = fitting != NULL ? fitting : peak;
+    if (fitting == NULL) {
+        free(peak);
+        return SS_ENOMEM;
+    }
+    *out = fitting;
     *n = count;
     return SS_OK;
 }
@@ -264,6 +268,8 @@ ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *coefficients
 ss_status
 ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence)
 {
+    if (out == NULL || n == NULL || coefficients == NULL)
+        return SS_EINVAL;
     return ss_maxima_above(out, n, coefficients, min_prominence, 0);
 }
 
@@ -271,6 +277,8 @@ ss_status
 ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
           double range, double min_prominence)
 {
+    if (out == NULL || n == NULL || coefficients == NULL)
+        return SS_EINVAL;
     map m;
     if (scale >= coefficients->n_scales)
         return SS_EINVAL;

@@ -154,7 +154,7 @@ static linear
 project(work *k, ss_window win)
 {
     size_t n = length(win), c = k->columns - 2, s = c + 1;
-    double z[COLUMNS], norm[COLUMNS], cross = 0;
+    double z[COLUMNS] = { 0 }, norm[COLUMNS] = { 0 }, cross = 0;
     slow_columns(k, n);
     ring_columns(k, k->q[c], k->q[s], n);
     for (size_t j = 0; j < k->columns; j++) {
@@ -281,10 +281,11 @@ fit(work *k, const ss_window *window, size_t n, double tol, int *ok)
 static ss_status
 find_noise(work *k, const ss_window *window, size_t n)
 {
-    double *variance = malloc(2 * n * sizeof *variance), *ring = variance + n;
+    double *variance = malloc(2 * n * sizeof *variance);
     size_t used = 0;
     if (variance == NULL)
         return SS_ENOMEM;
+    double *ring = variance + n;
     for (size_t i = 0; i < n; i++) {
         if (length(window[i]) <= k->columns)
             continue;
@@ -613,17 +614,19 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
 /* Are the cores described badly, even when they are placed and fitted in turns? Then it is not the
  * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor
  * noise, but that the oscillation is not quite a damped sinusoid. */
-static int
-is_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white)
+static ss_status
+look_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white, int *is_rough)
 {
     enum { TURNS = 3 };
     size_t rough = 0, used = 0;
     int ok = 1;
+    *is_rough = 0;
     for (int turn = 0; turn < TURNS && ok; turn++) {
         for (size_t i = 0; i < n; i++)
             core[i] = place(k, anchor[i], CORE);
-        if (fit(k, core, n, COARSE, &ok) != SS_OK)
-            return 0;
+        ss_status st = fit(k, core, n, COARSE, &ok);
+        if (st != SS_OK)
+            return st;
     }
     for (size_t i = 0; i < n; i++) {
         if (length(core[i]) == 0)
@@ -633,7 +636,8 @@ is_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white)
         used++;
         rough += fitted.rss > ROUGH * ROUGH * fitted.ring && variance > 9 * white * white;
     }
-    return 2 * rough > used;
+    *is_rough = 2 * rough > used;
+    return SS_OK;
 }
 
 /* Windows of the least length where none could be grown, each fitted by itself and kept if the
@@ -800,11 +804,12 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++)
         strict += length(window[i]) > 0;
-    int rough = 2 * strict < n && is_rough(k, anchor, core, n, white);
+    int rough = 0;
+    ss_status st = 2 * strict < n ? look_rough(k, anchor, core, n, white, &rough) : SS_OK;
     free(core);
     if (!rough)
-        return SS_OK;
-    ss_status st = fit_rough(k, anchor, n, window, each);
+        return st;
+    st = fit_rough(k, anchor, n, window, each);
     for (size_t i = 0; i < n; i++)
         used += length(window[i]) > 0;
     return st == SS_OK && used > strict ? take_median(window, n, each, value) : st;

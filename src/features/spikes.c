@@ -265,6 +265,8 @@ ss_status
 ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
                const ss_spike_opts *opts, ss_error *err)
 {
+    if (out == NULL || x == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     search s = { .opts = opts };
     ss_status st = check(rate, opts, err);
     if (st == SS_OK)
@@ -293,7 +295,7 @@ ss_spike_group
 ss_spikes_within(const ss_spikes_found *found, double onset, double end, double range)
 {
     ss_spike_group group = { 0, 0 };
-    for (size_t i = 0; i < found->n; i++) {
+    for (size_t i = 0; found != NULL && i < found->n; i++) {
         const ss_spike *spike = &found->spike[i];
         double a = ROW_CENTER / (2 * M_PI * spike->f);
         if (spike->kind == SS_SPIKE_GLITCH || spike->kind == SS_SPIKE_BEND

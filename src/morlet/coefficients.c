@@ -42,6 +42,8 @@ near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
 int
 ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
 {
+    if (c == NULL || i >= c->n_scales)
+        return 1;
     const ss_scale *scale = &c->scale[i];
     return ss_scale_edge(scale, k, c->n, c->head->rate) || near_gap(c, scale, k);
 }
@@ -49,6 +51,8 @@ ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
 double
 ss_coefficients_max(const ss_coefficients *coefficients)
 {
+    if (coefficients == NULL)
+        return NAN;
     double outside = -1, all = 0;
     for (size_t i = 0; i < coefficients->n_scales; i++) {
         const ss_scale *scale = &coefficients->scale[i];
@@ -96,6 +100,9 @@ ss_status
 ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                        const ss_morlet_opts *opts)
 {
+    if (out == NULL || signal == NULL || opts == NULL
+        || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
+        return SS_EINVAL;
     *out = NULL;
     ss_status st = ss_header_select(out, signal, &column, 1, 0);
     if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {

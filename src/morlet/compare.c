@@ -34,10 +34,11 @@ static ss_status
 recompute(compare *cmp, size_t i)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
+    double most = 0;
     if (ss_fft_takes(cmp->plan->fft, i) || !ss_fft_takes(cmp->other->fft, i))
         return ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
     ss_fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, (span){ 0, scale->n }, 1,
-                 &(double){ 0 }, cmp->row);
+                 &most, cmp->row);
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
         cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
@@ -102,6 +103,8 @@ ss_status
 ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_t each,
                   double *difference, ss_error *err)
 {
+    if (plan == NULL || x == NULL || w == NULL || difference == NULL)
+        return SS_FAIL_NULL(err);
     compare cmp = { .plan = plan, .each = each, .state = 1 };
     ss_morlet *other = NULL;
     double worst = 0;

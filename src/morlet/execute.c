@@ -115,6 +115,8 @@ work_together(work *job, size_t threads)
 ss_status
 ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err)
 {
+    if (plan == NULL || x == NULL || w == NULL)
+        return SS_FAIL_NULL(err);
     work job = { .plan = plan, .w = w, .next = plan->n_scales };
     ss_status st = ss_morlet_record(&job.rec, x, plan->n, plan->opts.detrend, err);
     if (st != SS_OK)

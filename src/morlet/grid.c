@@ -131,12 +131,16 @@ ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err
 double
 ss_scale_b(const ss_scale *scale, size_t k)
 {
+    if (scale == NULL)
+        return NAN;
     return (double)k * scale->b_num / scale->b_den;
 }
 
 int
 ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate)
 {
+    if (scale == NULL)
+        return 1;
     double b = ss_scale_b(scale, k), cone = sqrt(2) * scale->a;
     return b < cone || (double)(n - 1) / rate - b < cone;
 }
@@ -217,6 +221,8 @@ fill_plan(ss_morlet *plan, ss_error *err)
 ss_status
 ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
 {
+    if (out == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = ss_morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
@@ -238,24 +244,30 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
 size_t
 ss_morlet_scales(const ss_morlet *plan)
 {
+    if (plan == NULL)
+        return 0;
     return plan->n_scales;
 }
 
 const ss_scale *
 ss_morlet_scale(const ss_morlet *plan, size_t i)
 {
-    return &plan->scale[i];
+    return plan != NULL && i < plan->n_scales ? &plan->scale[i] : NULL;
 }
 
 size_t
 ss_morlet_total(const ss_morlet *plan)
 {
+    if (plan == NULL)
+        return 0;
     return plan->total;
 }
 
 ss_engine
 ss_morlet_engine(const ss_morlet *plan, size_t i)
 {
+    if (plan == NULL || i >= plan->n_scales)
+        return SS_ENGINE_AUTO;
     return ss_fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
 }
 

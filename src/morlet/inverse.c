@@ -194,7 +194,7 @@ static ss_status
 make_room(solver *s)
 {
     size_t n = s->plan->n, total = 2 * s->plan->total;
-    s->wave = calloc(s->plan->n_scales, sizeof *s->wave);
+    s->wave = calloc(s->plan->n_scales, sizeof(wavelet *));
     s->w = malloc(total * sizeof *s->w);
     s->rest = malloc(total * sizeof *s->rest);
     s->gradient = malloc(n * sizeof *s->gradient);
@@ -239,6 +239,8 @@ ss_status
 ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
                   double *error, ss_error *err)
 {
+    if (out == NULL || coefficients == NULL)
+        return SS_FAIL_NULL(err);
     enum { BOUNDS_MAX = 100 };
     solver s = { .coef = coefficients };
     double residual = 0;

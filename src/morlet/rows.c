@@ -52,7 +52,7 @@ ss_status
 ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
                           const ss_header *head)
 {
-    if (out_writer == NULL || out == NULL || head == NULL)
+    if (out_writer == NULL || out == NULL || head == NULL || (unsigned)format > SS_AU)
         return SS_EINVAL;
     const char *stream = ss_header_find_note(head, "stream");
     ss_coefficient_writer *writer = malloc(sizeof *writer);
@@ -114,6 +114,8 @@ ss_status
 ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale, size_t first,
                            size_t n, const double *w, size_t samples)
 {
+    if (writer == NULL || scale == NULL || w == NULL)
+        return SS_EINVAL;
     char before[2 * SS_NUMBER_MAX], behind[SS_NUMBER_MAX], au[WIDTH] = { 0 };
     const char *const own[2] = { before, behind };
     size_t length[2] = { put(before, scale->m, '\t'), put(behind, scale->f, '\t') };
@@ -145,6 +147,8 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
 ss_status
 ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples)
 {
+    if (writer == NULL)
+        return SS_EINVAL;
     char au[WIDTH] = { 0 };
     if (writer->stream && writer->format == SS_AU) {
         ss_au_put(au + 16, (double)(samples - 1) / writer->rate);
@@ -167,7 +171,7 @@ ss_coefficient_writer_free(ss_coefficient_writer *writer)
 ss_status
 ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format)
 {
-    ss_coefficient_writer *writer;
+    ss_coefficient_writer *writer = NULL;
     if (coefficients == NULL)
         return SS_EINVAL;
     ss_status st = ss_coefficient_writer_new(&writer, out, format, coefficients->head);

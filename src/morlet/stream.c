@@ -402,6 +402,8 @@ keep(ss_stream *s, ss_status st, const ss_error *why, ss_error *err)
 ss_status
 ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
+    if (s == NULL || (x == NULL && n > 0))
+        return SS_FAIL_NULL(err);
     ss_error why = { "" };
     ss_status st = s->status;
     if (st == SS_OK && s->ended)
@@ -418,6 +420,8 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
 ss_status
 ss_stream_drain(ss_stream *s, ss_error *err)
 {
+    if (s == NULL)
+        return SS_FAIL_NULL(err);
     ss_error why = { "" };
     ss_status st = s->status;
     for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
@@ -435,6 +439,8 @@ ss_stream_drain(ss_stream *s, ss_error *err)
 ss_status
 ss_stream_end(ss_stream *s, ss_error *err)
 {
+    if (s == NULL)
+        return SS_FAIL_NULL(err);
     ss_error why = { "" };
     ss_status st = s->status;
     if (st == SS_OK && s->samples == 0)
@@ -585,6 +591,8 @@ ss_status
 ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts, ss_coefficient_sink *sink,
               void *user, ss_error *err)
 {
+    if (out == NULL || opts == NULL || sink == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = ss_morlet_check(1, rate, opts, err);
     if (st != SS_OK)
         return st;
@@ -608,18 +616,22 @@ ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts, ss_coeff
 size_t
 ss_stream_scales(const ss_stream *s)
 {
+    if (s == NULL)
+        return 0;
     return s->n_scales;
 }
 
 const ss_scale *
 ss_stream_scale(const ss_stream *s, size_t i)
 {
-    return &s->scale[i];
+    return s != NULL && i < s->n_scales ? &s->scale[i] : NULL;
 }
 
 size_t
 ss_stream_samples(const ss_stream *s)
 {
+    if (s == NULL)
+        return 0;
     return s->samples;
 }
 

@@ -363,6 +363,8 @@ ss_status
 ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour_opts *contour,
                 const ss_plot_opts *opts, ss_error *err)
 {
+    if (out == NULL || coefficients == NULL || contour == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     const ss_coefficients *c = coefficients;
     script_span span;
     ss_status status = check(c, contour, err);

@@ -488,6 +488,8 @@ ss_status
 ss_plot_map(FILE *out, const ss_sweep_table *t, const ss_map_opts *map, const ss_plot_opts *opts,
             ss_error *err)
 {
+    if (out == NULL || t == NULL || map == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     grid g = { .row = NULL };
     regions r = { .n = 0 };
     size_t region = SIZE_MAX, line = SIZE_MAX;

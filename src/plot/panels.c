@@ -25,6 +25,8 @@ ss_status
 ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                const ss_plot_opts *opts, ss_error *err)
 {
+    if (out == NULL || signal == NULL || opts == NULL || (column == NULL && n > 0))
+        return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
     script_span span;
     size_t panels = n > 0 ? n : head->n_columns;
@@ -113,6 +115,8 @@ ss_status
 ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot_opts *opts,
            ss_error *err)
 {
+    if (out == NULL || signal == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
     script_span span;
     if (x >= head->n_columns || y >= head->n_columns)

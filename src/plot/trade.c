@@ -55,6 +55,8 @@ put_plot(FILE *out, const ss_trade *trade)
 ss_status
 ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err)
 {
+    if (out == NULL || trade == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     double fastest = INFINITY;
     ss_plot_opts titled = *opts;
     for (size_t i = 0; i < trade->n; i++)

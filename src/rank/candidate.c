@@ -118,33 +118,40 @@ take(const ss_sample *s, size_t n, void *user)
 
 /* The closed form where there is one.  Else rkck at 1e-5 keeps 1e-4 of the largest acceleration,
  * -80 dB, at a hundredth of the cost of the default. */
-int
+ss_status
 ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n)
 {
     taken t = { pick, 0, n, value };
     int smooth = scene->model == SS_STATE_VARIABLE;
     ss_sim_opts opts = { .method = smooth ? "rkck" : "exact", .tol = 1e-5, .max_steps = 10000000,
                          .samples = take, .user = &t };
-    return ss_sim_run(scene, &opts, NULL, NULL) == SS_OK && t.n == n;
-}
-
-static double
-misfit(const candidate *c, const cycle *goal, const double key[], double *size, double *shift)
-{
-    double value[CYCLE_MOST];
-    ss_scene s = scene_of(c, key, goal->period);
-    s.duration = goal->period;
-    s.rate = (double)goal->n / goal->period;
-    *size = *shift = 0;
-    if (!ss_candidate_run(&s, c->pick, value, goal->n))
-        return goal->power;
-    return ss_cycle_misfit(goal, value, size, shift);
+    ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
+    return st == SS_OK && t.n != n ? SS_EDATA : st;
 }
 
 typedef struct problem {
     const candidate *c;
     const cycle *goal;
+    ss_status status;           /* SS_ENOMEM once a run lacked memory; all others are a bad fit */
 } problem;
+
+static double
+misfit(problem *p, const double key[], double *size, double *shift)
+{
+    const candidate *c = p->c;
+    const cycle *goal = p->goal;
+    double value[CYCLE_MOST];
+    ss_scene s = scene_of(c, key, goal->period);
+    s.duration = goal->period;
+    s.rate = (double)goal->n / goal->period;
+    *size = *shift = 0;
+    ss_status st = p->status == SS_OK ? ss_candidate_run(&s, c->pick, value, goal->n) : SS_ENOMEM;
+    if (st == SS_ENOMEM)
+        p->status = SS_ENOMEM;
+    if (st != SS_OK)
+        return goal->power;
+    return ss_cycle_misfit(goal, value, size, shift);
+}
 
 /* Any u gives keys in range: what is fixed has no u. */
 static void
@@ -160,10 +167,10 @@ keys_of(const candidate *c, const double *u, double key[CANDIDATE_KEYS])
 static double
 height(const gsl_vector *u, void *user)
 {
-    const problem *p = user;
+    problem *p = user;
     double key[CANDIDATE_KEYS], size, shift;
     keys_of(p->c, u->data, key);
-    return log(misfit(p->c, p->goal, key, &size, &shift) / p->goal->power + 1e-12);
+    return log(misfit(p, key, &size, &shift) / p->goal->power + 1e-12);
 }
 
 /* --- search -------------------------------------------------------------------------------- */
@@ -194,7 +201,7 @@ scatter(start *s, size_t starts, size_t free, problem *p)
     }
     gsl_qrng_free(sobol);
     qsort(s, starts, sizeof *s, lower_first);
-    return SS_OK;
+    return p->status;
 }
 
 static ss_status
@@ -216,14 +223,14 @@ descend(start *s, size_t free, size_t steps, problem *p)
         memcpy(s->u, m->x->data, free * sizeof *s->u);
     }
     gsl_multimin_fminimizer_free(m);
-    return SS_OK;
+    return p->status;
 }
 
 ss_status
 ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep, size_t steps)
 {
     start s[STARTS_MOST];
-    problem p = { c, goal };
+    problem p = { c, goal, SS_OK };
     size_t free = 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < c->n; i++)
@@ -238,8 +245,8 @@ ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
     if (st != SS_OK)
         return st;
     keys_of(c, s[0].u, c->best);
-    c->misfit = misfit(c, goal, c->best, &c->size, &c->shift);
-    return SS_OK;
+    c->misfit = misfit(&p, c->best, &c->size, &c->shift);
+    return p.status;
 }
 
 ss_scene

@@ -39,7 +39,7 @@ ss_scene ss_candidate_scene(const candidate *c, const cycle *goal);
  * the mass's, for that mass which makes it least. */
 double ss_candidate_distance(const candidate *c);
 
-/* The n samples of a scene's record, of the quantity pick; 0 if it could not be run. */
-int ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n);
+/* The n samples of a scene's record, of the quantity pick; as ss_sim_run, or SS_EDATA. */
+ss_status ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n);
 
 #endif

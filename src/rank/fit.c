@@ -45,7 +45,18 @@ typedef struct match {
     int pick;
     ss_scene start;                     /* at the first of them, in slip */
     double x_unit, v_unit, y_unit;
+    ss_status status;                   /* SS_ENOMEM once a run lacked memory */
 } match;
+
+/* Run a scene into m->motion; 0 if it cannot be run. */
+static int
+run(match *m, const ss_scene *s)
+{
+    ss_status st = ss_candidate_run(s, m->pick, m->motion, m->n);
+    if (st == SS_ENOMEM)
+        m->status = st;
+    return st == SS_OK;
+}
 
 /* --- motion -------------------------------------------------------------------------------- */
 
@@ -70,10 +81,10 @@ scene_at(const match *m, const gsl_vector *u)
 static int
 residuals(const gsl_vector *u, void *user, gsl_vector *f)
 {
-    const match *m = user;
+    match *m = user;
     ss_scene s = scene_at(m, u);
     double offset = m->y_unit * (gsl_vector_get(u, OFFSET) - 1);
-    if (!ss_candidate_run(&s, m->pick, m->motion, m->n))
+    if (!run(m, &s))
         return GSL_EDOM;
     for (size_t i = 0; i < m->n; i++)
         gsl_vector_set(f, i, m->motion[i] + offset - m->signal[i]);
@@ -84,18 +95,18 @@ residuals(const gsl_vector *u, void *user, gsl_vector *f)
 
 /* One descent from u, with differences over the given step; u and error only change if it helps. */
 static ss_status
-descend(const match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
+descend(match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     how.h_df = step;
     gsl_multifit_nlinear_workspace *w =
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, m->n, UNKNOWNS);
     gsl_matrix *covariance = gsl_matrix_alloc(UNKNOWNS, UNKNOWNS);
-    gsl_multifit_nlinear_fdf f = { .f = residuals, .n = m->n, .p = UNKNOWNS, .params = (void *)m };
+    gsl_multifit_nlinear_fdf sum = { .f = residuals, .n = m->n, .p = UNKNOWNS, .params = m };
     gsl_vector_view start = gsl_vector_view_array(u, UNKNOWNS);
     ss_status st = w == NULL || covariance == NULL ? SS_ENOMEM : SS_OK;
     int why;
-    if (st == SS_OK && gsl_multifit_nlinear_init(&start.vector, &f, w) == GSL_SUCCESS) {
+    if (st == SS_OK && gsl_multifit_nlinear_init(&start.vector, &sum, w) == GSL_SUCCESS) {
         /* its verdict does not matter: a rough sum of squares ends in steps that are refused */
         gsl_multifit_nlinear_driver(PASSES, 1e-9, 1e-9, 0, NULL, NULL, &why, w);
         const gsl_vector *r = gsl_multifit_nlinear_residual(w);
@@ -112,13 +123,13 @@ descend(const match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS],
     }
     gsl_multifit_nlinear_free(w);
     gsl_matrix_free(covariance);
-    return st;
+    return st == SS_OK ? m->status : st;
 }
 
 /* The u of least squares; error: its standard errors; *left: the mean square, infinite if the
  * motion could not be run. */
 static ss_status
-solve(const match *m, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
+solve(match *m, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
 {
     static const double step[] = { 1e-3, 1e-4, 1e-6, 1e-4, 1e-6 };
     ss_status st = SS_OK;
@@ -158,7 +169,8 @@ find_start(match *m, const ss_scene *settled, const double *x, size_t n)
     ss_scene first = *settled;
     double period = 1 / settled->base_frequency, rate = settled->rate, square = 0;
     first.duration = period;
-    if (ss_sim_run(&first, &opts, NULL, NULL) != SS_OK || s.fastest.mode == 0)
+    m->status = ss_sim_run(&first, &opts, NULL, NULL);
+    if (m->status != SS_OK || s.fastest.mode == 0)
         return 0;
     m->signal = x + s.at;
     m->n = (size_t)fmin(fmin((double)(n - s.at), CYCLES * period * rate), MOST);
@@ -197,13 +209,13 @@ residual_of(double *residual, const ss_scene *scene, int pick, const double *x, 
     if (y == NULL)
         return SS_ENOMEM;
     *residual = NAN;
-    if (ss_candidate_run(scene, pick, y, n)) {
-        for (size_t i = 0; i < n; i++)
-            y[i] -= x[i];
+    ss_status st = ss_candidate_run(scene, pick, y, n);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        y[i] -= x[i];
+    if (st == SS_OK)
         *residual = sqrt(variance(y, n) / variance(x, n));
-    }
     free(y);
-    return SS_OK;
+    return st == SS_ENOMEM ? st : SS_OK;
 }
 
 /* Stiffness and damping from the transitions, if they tell; the rms of the noise. */
@@ -268,7 +280,7 @@ fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, 
     if (!find_start(&m, &settled, x, n)) {
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
         free(m.motion);
-        return SS_OK;
+        return m.status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
     }
     ss_status st = solve(&m, u, error, &left);
     free(m.motion);
@@ -315,10 +327,16 @@ judge(ss_fit *fit, double noise)
 }
 
 static ss_status
-check(const ss_signal *signal, size_t column, const ss_scene *start, ss_error *err)
+check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
+      ss_error *err)
 {
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
+    if ((unsigned)opts->quantity > SS_FORCE)
+        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
+    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
+        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
+                       opts->forcing_frequency);
     if (start->model != SS_COMPLIANT)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
@@ -332,15 +350,17 @@ ss_status
 ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
              const ss_rank_opts *opts, ss_error *err)
 {
-    ss_status st = check(signal, column, start, err);
+    if (fit == NULL || signal == NULL || start == NULL)
+        return SS_FAIL_NULL(err);
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    ss_status st = check(signal, column, start, opts, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
     double noise;
     cycle goal;
     if (st != SS_OK)
         return st;
-    if (opts == NULL)
-        opts = &ss_rank_defaults;
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN };
     st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, signal->n, rate,
                        opts->forcing_frequency);

@@ -285,6 +285,8 @@ rank_scene(ss_rank_row *row, const work *w, const ss_scene *scene, ss_error *err
 double
 ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor)
 {
+    if (row == NULL || (unsigned)criterion >= SS_CRITERIA)
+        return NAN;
     double d = row->distance[criterion];
     double threshold = factor * ss_criterion_rules[criterion].threshold;
     return isnan(d) ? 1 : fmin(d / threshold, SS_SCORE_MOST);
@@ -312,6 +314,8 @@ less_first(const void *a, const void *b)
 int
 ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor, size_t *order)
 {
+    if (ranking == NULL || order == NULL || (unsigned)criterion >= SS_CRITERIA)
+        return 0;
     int changed = 0;
     for (size_t i = 0; i < ranking->n; i++) {       /* insertion */
         double t = total(&ranking->row[i], criterion, factor);
@@ -373,6 +377,8 @@ check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts
         return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "no scene to rank");
+    if ((unsigned)opts->quantity > SS_FORCE)
+        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
     if (!(opts->spread >= 0 && opts->spread < 1))
         return ss_fail(err, SS_EINVAL, "spread %g is out of range 0 ... 1", opts->spread);
     if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
@@ -422,6 +428,8 @@ ss_status
 ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
         const ss_rank_opts *opts, ss_error *err)
 {
+    if (out == NULL || signal == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
     if (opts == NULL)
         opts = &ss_rank_defaults;
     ss_status st = check(signal, column, n, opts, err);

@@ -79,6 +79,8 @@ ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss
 ss_status
 ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
 {
+    if (out == NULL || n == NULL || head == NULL)
+        return SS_EINVAL;
     const char *text = ss_header_find_note(head, key);
     size_t room = 0;
     *out = NULL;
@@ -105,6 +107,8 @@ ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
 int
 ss_near_gap(const ss_span *gap, size_t n, double t, double margin)
 {
+    if (gap == NULL)
+        return 0;
     size_t lo = 0, hi = n;                      /* the last gap that begins before t + margin */
     while (lo < hi) {
         size_t middle = lo + (hi - lo) / 2;

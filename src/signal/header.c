@@ -66,6 +66,8 @@ ss_status
 ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
                  size_t first)
 {
+    if (out == NULL || head == NULL || (column == NULL && n > 0))
+        return SS_EINVAL;
     ss_header *copy = ss_header_new(head->rate, head->start);
     *out = NULL;
     if (copy == NULL || !copy_notes(copy, head)) {
@@ -96,6 +98,8 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
 ss_header *
 ss_header_copy(const ss_header *head)
 {
+    if (head == NULL)
+        return NULL;
     ss_header *copy = NULL;
     size_t *all = malloc((head->n_columns + 1) * sizeof *all);
     if (all == NULL)
@@ -231,6 +235,8 @@ find_asked(const ss_header *head, const char *asked, int fold)
 int
 ss_header_column(const ss_header *head, const char *name)
 {
+    if (head == NULL || name == NULL)
+        return -1;
     char *end;
     int c = find_name(head, name);
     if (c >= 0)
@@ -245,6 +251,8 @@ ss_header_column(const ss_header *head, const char *name)
 size_t
 ss_header_row(const ss_header *head, double t)
 {
+    if (head == NULL)
+        return 0;
     double row = ceil((t - head->start) * head->rate - 1e-6);
     if (!(row > 0))
         return 0;
@@ -270,6 +278,8 @@ find_note(const ss_header *head, const char *key, size_t length, const char **va
 const char *
 ss_header_find_note(const ss_header *head, const char *key)
 {
+    if (head == NULL || key == NULL)
+        return NULL;
     const char *value = NULL;
     find_note(head, key, strlen(key), &value);
     return value;

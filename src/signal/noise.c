@@ -19,6 +19,8 @@ struct ss_noise {
 ss_status
 ss_noise_new(ss_noise **out, unsigned long seed)
 {
+    if (out == NULL)
+        return SS_EINVAL;
     ss_noise *noise = malloc(sizeof *noise);
     *out = NULL;
     if (noise == NULL)
@@ -37,6 +39,8 @@ void
 ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
              const double *rms)
 {
+    if (noise == NULL || x == NULL || rms == NULL)
+        return;
     for (size_t i = 0; i < n; i++)
         for (size_t c = 0; c < n_columns; c++)
             if (rms[c] > 0)
@@ -62,6 +66,8 @@ ss_status
 ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
                   double rms, ss_error *err)
 {
+    if (noise == NULL || (x == NULL && n > 0))
+        return SS_FAIL_NULL(err);
     size_t m = 2;
     double square = 0;
     if (!(rms >= 0 && isfinite(rms)) || !(rate > 0) || n > SIZE_MAX / 64)
@@ -102,7 +108,7 @@ ss_status
 ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
 {
     ss_noise *noise;
-    if (!(rms >= 0 && isfinite(rms)))
+    if ((x == NULL && n > 0) || !(rms >= 0 && isfinite(rms)))
         return SS_EINVAL;
     ss_status st = ss_noise_new(&noise, seed);
     if (st != SS_OK)
@@ -115,6 +121,8 @@ ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
 double
 ss_noise_rms(const double *x, size_t n, double snr_db)
 {
+    if (x == NULL && n > 0)
+        return NAN;
     double mean = 0, square = 0;
     for (size_t i = 0; i < n; i++)
         mean += (x[i] - mean) / (double)(i + 1);
@@ -126,7 +134,7 @@ ss_noise_rms(const double *x, size_t n, double snr_db)
 ss_status
 ss_quantise(double *x, size_t n, int bits, double range)
 {
-    if (bits < 1 || bits > SS_BITS_MAX || !(range > 0 && isfinite(range)))
+    if ((x == NULL && n > 0) || bits < 1 || bits > SS_BITS_MAX || !(range > 0 && isfinite(range)))
         return SS_EINVAL;
     double codes = ldexp(1, bits - 1), step = range / codes;
     if (!(step > 0))

@@ -1,4 +1,5 @@
 /* reader.c -- a stream of whichever kind, as rows or as a whole signal. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
@@ -44,8 +45,11 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
     static const ss_read_opts no_opts;
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
-    ss_reader *reader = calloc(1, sizeof *reader);
     *out = NULL;
+    if (opts != NULL && ((unsigned)opts->gaps > SS_GAPS_INTERPOLATE || !(opts->rate >= 0)
+                         || !(opts->resample >= 0) || isinf(opts->rate + opts->resample)))
+        return ss_fail(err, SS_EINVAL, "gaps, rate or resample out of range");
+    ss_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL)
         return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     reader->head = ss_header_new(0, 0);
@@ -66,6 +70,8 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
 const ss_header *
 ss_reader_header(const ss_reader *reader)
 {
+    if (reader == NULL)
+        return NULL;
     return reader->head;
 }
 
@@ -81,6 +87,8 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
 int
 ss_reader_waits(const ss_reader *reader)
 {
+    if (reader == NULL)
+        return 0;
     return reader->values == NULL && ss_input_waits(&reader->in);
 }
 

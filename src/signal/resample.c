@@ -91,6 +91,8 @@ ss_resample(double **out, size_t *n_out, const double *t, const double *value, s
 ss_status
 ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate)
 {
+    if (out == NULL || signal == NULL)
+        return SS_EINVAL;
     const ss_header *head = signal->head;
     size_t n = signal->n;
     *out = NULL;

@@ -92,7 +92,7 @@ sample(ss_wave wave, const ss_wave_opts *o, size_t i)
 static const char *
 refuse_opts(ss_wave wave, const ss_wave_opts *o)
 {
-    if (wave > SS_NOISE)
+    if ((unsigned)wave > SS_NOISE)
         return "no such kind of signal";
     if (!(o->rate > 0 && isfinite(o->rate)))
         return "rate must be above 0";
@@ -110,6 +110,8 @@ refuse_opts(ss_wave wave, const ss_wave_opts *o)
 ss_status
 ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err)
 {
+    if (out == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     const char *wrong = refuse_opts(wave, opts);
     *out = NULL;
     if (wrong != NULL)

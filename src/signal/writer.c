@@ -79,7 +79,7 @@ ss_au_put(char to[8], double x)
 ss_status
 ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
 {
-    if (out_writer == NULL || out == NULL || head == NULL)
+    if (out_writer == NULL || out == NULL || head == NULL || (unsigned)format > SS_AU)
         return SS_EINVAL;
     ss_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
@@ -139,6 +139,8 @@ ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
 ss_status
 ss_writer_flush(ss_writer *writer)
 {
+    if (writer == NULL)
+        return SS_EINVAL;
     return fflush(writer->out) == 0 && !ferror(writer->out) ? SS_OK : SS_EIO;
 }
 
@@ -155,7 +157,7 @@ ss_status
 ss_signal_write(const ss_signal *signal, FILE *out, ss_format format)
 {
     enum { PIECE = 1024 };
-    ss_writer *writer;
+    ss_writer *writer = NULL;
     if (signal == NULL || out == NULL)
         return SS_EINVAL;
     size_t columns = signal->head->n_columns;

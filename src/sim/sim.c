@@ -43,7 +43,7 @@ const char *
 ss_event_kind_name(ss_event_kind kind)
 {
     static const char *const name[] = { "stick", "slip", "reverse" };
-    return name[kind];
+    return (unsigned)kind <= SS_REVERSE ? name[kind] : "?";
 }
 
 static const struct model *
@@ -54,11 +54,17 @@ model_of(const ss_scene *scene)
     return model[scene->model];
 }
 
-const char *
-ss_sim_method_for(const ss_scene *scene)
+static const char *
+method_for(const ss_scene *scene)
 {
     const struct model *model = model_of(scene);
     return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
+}
+
+const char *
+ss_sim_method_for(const ss_scene *scene)
+{
+    return scene != NULL && (unsigned)scene->model <= SS_COMPLIANT ? method_for(scene) : NULL;
 }
 
 /* --- the motion ---------------------------------------------------------------------------- */
@@ -405,6 +411,8 @@ begin(record *r, engine *e, int slips)
 ss_status
 ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, ss_error *err)
 {
+    if (scene == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     ss_status st = ss_scene_check(scene, err);
     if (st != SS_OK)
         return st;
@@ -415,7 +423,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate,
                  .base_further = base_turns(scene) };
-    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
+    const char *method = opts->method != NULL ? opts->method : method_for(scene);
     int exact = strcmp(method, EXACT) == 0;
     motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
@@ -449,6 +457,8 @@ static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
 ss_status
 ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
 {
+    if (out == NULL || list == NULL)
+        return SS_FAIL_NULL(err);
     ss_sim_columns columns = { 0 };
     for (const char *name = list;; name++) {
         size_t length = strcspn(name, ",");
@@ -480,6 +490,8 @@ ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
 void
 ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
 {
+    if (columns == NULL || s == NULL || row == NULL)
+        return;
     const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->y, s->z, s->mode };
     for (size_t i = 0; i < columns->n; i++)
         row[i] = value[columns->pick[i]];
@@ -511,6 +523,8 @@ note_scene(ss_header *head, const ss_scene *scene)
 ss_header *
 ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns)
 {
+    if (scene == NULL || columns == NULL)
+        return NULL;
     ss_header *head = ss_header_new(scene->rate, 0);
     if (head == NULL)
         return NULL;
@@ -547,6 +561,8 @@ collect(const ss_sample *s, size_t n, void *user)
 ss_status
 ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err)
 {
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
     const ss_sim_columns columns = { 1, 4, { 0, 1, 2, 3 } };
     ss_status st = ss_scene_check(scene, err);
     if (st != SS_OK)

@@ -11,6 +11,8 @@
 int
 ss_store_is_hdf5(const char *path)
 {
+    if (path == NULL)
+        return 0;
     static const char signature[8] = "\211HDF\r\n\032\n";
     char bytes[8];
     struct stat st;

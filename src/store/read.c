@@ -370,6 +370,8 @@ finish(h5_file *file, ss_status status)
 int
 ss_store_has_signal(const char *path)
 {
+    if (path == NULL)
+        return 0;
     h5_file file = { -1, path, NULL };
     int has = 0;
     H5E_BEGIN_TRY {

@@ -43,13 +43,13 @@ static const struct { const char *name, *unit; unsigned models; } measure[SS_MEA
 const char *
 ss_measure_name(ss_measure m)
 {
-    return m < SS_MEASURES ? measure[m].name : NULL;
+    return (unsigned)m < SS_MEASURES ? measure[m].name : NULL;
 }
 
 const char *
 ss_measure_unit(ss_measure m)
 {
-    return m < SS_MEASURES ? measure[m].unit : NULL;
+    return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
 }
 
 /* For the state variable without a method one that does: what is used depends on the point. */
@@ -62,6 +62,10 @@ method_of(const ss_steady_opts *opts, ss_model model)
 ss_status
 ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
 {
+    if (opts == NULL)
+        return SS_FAIL_NULL(err);
+    if ((unsigned)model > SS_COMPLIANT)
+        return ss_fail(err, SS_EINVAL, "model is no known choice");
     int exact = strcmp(method_of(opts, model), "exact") == 0, known = 0;
     for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
         known |= strcmp(method_of(opts, model), ss_sim_method_name(i)) == 0;
@@ -412,6 +416,8 @@ complete(const finder *f, const ss_steady *out)
 ss_status
 ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
 {
+    if (out == NULL || scene == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     finder f = { .scene = scene, .opts = opts, .err = err };
     int found = 0;
     for (int i = 0; i < SS_MEASURES; i++)

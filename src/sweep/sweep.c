@@ -18,6 +18,8 @@
 ss_status
 ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
 {
+    if (out == NULL || text == NULL)
+        return SS_FAIL_NULL(err);
     ss_axis axis = { .n = 0 };
     const char *equals = strchr(text, '=');
     char *end, *rest;
@@ -48,6 +50,8 @@ ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
 double
 ss_axis_value(const ss_axis *axis, size_t i)
 {
+    if (axis == NULL)
+        return NAN;
     if (i == 0)
         return axis->from;
     if (i + 1 >= axis->n)
@@ -60,6 +64,8 @@ ss_axis_value(const ss_axis *axis, size_t i)
 ss_status
 ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
 {
+    if (opts == NULL || n == NULL || (opts->axis == NULL && opts->n_axes > 0))
+        return SS_FAIL_NULL(err);
     size_t all = 1;
     if (opts->n_axes == 0)
         return ss_fail(err, SS_EINVAL, "nothing to vary");
@@ -75,6 +81,8 @@ ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
 ss_status
 ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
+    if (scene == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     static const char *const of_record[] = { "settle", "duration", "rate" };
     ss_scene copy = *scene;
     size_t all;
@@ -236,6 +244,8 @@ work_together(sweep *w)
 ss_status
 ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
+    if (scene == NULL || opts == NULL || opts->sink == NULL)
+        return SS_FAIL_NULL(err);
     sweep w = { .scene = scene, .opts = opts, .room = (size_t)opts->threads * BATCHES_A_THREAD };
     size_t all;
     ss_status st = ss_sweep_check(scene, opts, err);

@@ -1,7 +1,6 @@
 /* table.c -- a sweep's rows read back. */
 #include <stickslip/sweep.h>
 
-#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,8 +13,7 @@ typedef struct reader {
     ss_sweep_table *table;
     size_t room;
     double *rows;                   /* row after row, while they come in */
-    const char *name;
-    unsigned long line;
+    struct input in;
 } reader;
 
 static ss_status
@@ -44,6 +42,9 @@ static ss_status
 add_column(reader *r, char *label, ss_error *err)
 {
     ss_sweep_table *t = r->table;
+    if (t->n_columns == MAX_COLUMNS)
+        return ss_fail(err, SS_EDATA, "%s:%lu: more than %d columns", r->in.name, r->in.line,
+                       MAX_COLUMNS);
     char *name, *unit, **names = realloc(t->name, (t->n_columns + 1) * sizeof *names), **units;
     if (names == NULL)
         return no_memory(err);
@@ -85,8 +86,8 @@ take_row(reader *r, char *line, ss_error *err)
 {
     ss_sweep_table *t = r->table;
     if (t->n_columns == 0)
-        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->name,
-                       r->line);
+        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->in.name,
+                       r->in.line);
     if (t->n == r->room) {
         size_t more = r->room > 0 ? 2 * r->room : 1024;
         double *rows = more <= SIZE_MAX / sizeof *rows / t->n_columns
@@ -101,8 +102,8 @@ take_row(reader *r, char *line, ss_error *err)
         size_t length = strcspn(line, "\t");
         char *end;
         if (line[length] == '\0')
-            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->name,
-                           r->line, t->n_columns + 1, i + 1);
+            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->in.name,
+                           r->in.line, t->n_columns + 1, i + 1);
         line[length] = '\0';
         row[i] = ss_number_parse(line, &end);
         if (strcmp(line, "-") == 0)
@@ -110,8 +111,8 @@ take_row(reader *r, char *line, ss_error *err)
         else if (strcmp(line, "aperiodic") == 0)
             row[i] = 0;
         else if (end == line || *end != '\0')
-            return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a number", r->name, r->line,
-                           line);
+            return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a number", r->in.name,
+                           r->in.line, line);
         line += length + 1;
     }
     return SS_OK;
@@ -121,10 +122,9 @@ static ss_status
 take_line(reader *r, char *line, ss_error *err)
 {
     static const char columns[] = "# columns: ", scene[] = "# scene: ";
-    line[strcspn(line, "\r\n")] = '\0';
-    if (++r->line == 1 && strcmp(line, "# stickslip sweep 1") != 0)
+    if (r->in.line == 1 && strcmp(line, "# stickslip sweep 1") != 0)
         return ss_fail(err, SS_EDATA, "%s:1: not a sweep: it does not begin with "
-                       "'# stickslip sweep 1'", r->name);
+                       "'# stickslip sweep 1'", r->in.name);
     if (strncmp(line, columns, strlen(columns)) == 0)
         return take_columns(r, line + strlen(columns), err);
     if (strncmp(line, scene, strlen(scene)) == 0 && r->table->scene == NULL
@@ -150,22 +150,22 @@ turn_over(reader *r, ss_error *err)
 ss_status
 ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err)
 {
-    reader r = { .table = calloc(1, sizeof *r.table), .name = name };
-    ss_status st = r.table != NULL ? SS_OK : no_memory(err);
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
+    reader r = { .table = NULL };
+    ss_status st = ss_input_open(&r.in, in, name, err);
+    if (st == SS_OK && (r.table = calloc(1, sizeof *r.table)) == NULL)
+        st = no_memory(err);
     char *line = NULL;
-    size_t room = 0;
-    errno = 0;
-    while (st == SS_OK && getline(&line, &room, in) > 0)
+    size_t length;
+    while (st == SS_OK && (st = ss_input_line(&r.in, &line, &length, err)) == SS_OK && line != NULL)
         st = take_line(&r, line, err);
-    free(line);
-    if (st == SS_OK && (ferror(in) || errno == ENOMEM))
-        st = ferror(in) ? ss_fail_errno(err, name, errno)
-             : ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
-    if (st == SS_OK && r.line == 0)
+    if (st == SS_OK && r.in.line == 0)
         st = ss_fail(err, SS_EDATA, "%s: empty", name);
     if (st == SS_OK)
         st = turn_over(&r, err);
     free(r.rows);
+    ss_input_close(&r.in);
     if (st == SS_OK)
         *out = r.table;
     else

@@ -99,14 +99,35 @@ fuzz_signal(const uint8_t *bytes, size_t size, const ss_read_opts *opts)
 
 /* --- coefficients -------------------------------------------------------------------------- */
 
-void
-fuzz_check_coefficients(const ss_coefficients *c)
+static void
+check_reads_back(const ss_coefficients *c, size_t total, ss_format format)
 {
-    size_t length = 0, total = 0;
+    size_t length = 0;
     char *text = NULL;
     ss_coefficients *back = NULL;
     ss_error err = { "" };
+    FILE *out = open_memstream(&text, &length);
+    fuzz_check(out != NULL, "memory for a stream");
+    ss_status status = ss_coefficients_write(c, out, format);
+    fclose(out);
+    if (format == SS_AU && status == SS_EINVAL) {       /* its header is too long for AU */
+        free(text);
+        return;
+    }
+    fuzz_check(status == SS_OK, "written");
+    FILE *in = fuzz_open(text, length);
+    fuzz_check(ss_coefficients_read(&back, in, "in", &err) == SS_OK, err.text);
+    fclose(in);
+    free(text);
+    fuzz_check(back->n == c->n && back->n_scales == c->n_scales, "as many coefficients");
+    fuzz_check(memcmp(back->w, c->w, 2 * total * sizeof *c->w) == 0, "coefficients read back");
+    ss_coefficients_free(back);
+}
 
+void
+fuzz_check_coefficients(const ss_coefficients *c)
+{
+    size_t total = 0;
     fuzz_check(c->n > 0 && c->n_scales > 0, "coefficients");
     for (size_t i = 0; i < c->n_scales; i++) {
         fuzz_check(c->scale[i].n > 0 && c->scale[i].offset == total, "a grid");
@@ -115,15 +136,6 @@ fuzz_check_coefficients(const ss_coefficients *c)
     for (size_t i = 0; i < 2 * total; i++)
         fuzz_check(isfinite(c->w[i]), "finite coefficients");
 
-    FILE *out = open_memstream(&text, &length);
-    fuzz_check(out != NULL, "memory for a stream");
-    fuzz_check(ss_coefficients_write(c, out, SS_TSV) == SS_OK, "written");
-    fclose(out);
-    FILE *in = fuzz_open(text, length);
-    fuzz_check(ss_coefficients_read(&back, in, "in", &err) == SS_OK, err.text);
-    fclose(in);
-    free(text);
-    fuzz_check(back->n == c->n && back->n_scales == c->n_scales, "as many coefficients");
-    fuzz_check(memcmp(back->w, c->w, 2 * total * sizeof *c->w) == 0, "coefficients read back");
-    ss_coefficients_free(back);
+    check_reads_back(c, total, SS_TSV);
+    check_reads_back(c, total, SS_AU);
 }

@@ -33,6 +33,9 @@ ss-morlet --voices 2 --center 2 --force run > coefficients/stepped
 ss-morlet --voices 1 --center 2 --force --dense run > coefficients/dense
 ss-morlet --dyadic --center 3 --force --norm l1 run > coefficients/dyadic
 ss-morlet --voices 1 --center 2 --force --format au run > coefficients/binary
+ss-morlet --voices 1 --center 2 --octaves -7:-6 --force --stream --format au run \
+    > coefficients/binary-stream
+ss-morlet --voices 1 --center 2 --octaves -7:-6 --force --stream run > coefficients/stream
 rm run
 
 # AU of 8 to 32 bits and float, two channels: 4 rows of made-up bytes.
