@@ -137,8 +137,8 @@ ss_kaiser_prepare(kaiser *ker)
     ker->prepared = 1;
 }
 
-VERSIONS void
-ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y)
+VERSIONS static void
+correct(const kaiser *ker, double first, double step, double *restrict y)
 {
     double x[KAISER_AT_ONCE], c[KAISER_AT_ONCE];
     step /= ker->edge;
@@ -154,8 +154,15 @@ ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict
         y[i] += c[i];
 }
 
-VERSIONS void
-ss_kaiser_weights(const kaiser *ker, double f, double weight[])
+/* What is compiled for several kinds of machine would be seen from outside the library. */
+void
+ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y)
+{
+    correct(ker, first, step, y);
+}
+
+VERSIONS static void
+weights_of(const kaiser *ker, double f, double weight[])
 {
     int part = (int)(f * KAISER_PARTS);
     part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;
@@ -167,4 +174,10 @@ ss_kaiser_weights(const kaiser *ker, double f, double weight[])
     for (int m = KAISER_NODES - 2; m >= 0; m--)
         for (int i = 0; i < ker->taps; i++)
             weight[i] += basis[m] * ker->table[part][m][i];
+}
+
+void
+ss_kaiser_weights(const kaiser *ker, double f, double weight[])
+{
+    weights_of(ker, f, weight);
 }

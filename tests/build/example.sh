@@ -4,7 +4,8 @@
 PKG_CONFIG_PATH=$PWD/usr/lib/pkgconfig
 export PKG_CONFIG_PATH
 printf 't,force (N)\n' > run.csv
-awk 'BEGIN { for (i = 0; i < 4000; i++) print i / 1000 "," 3 + sin(6.283185307179586 * i / 25) }' >> run.csv
+# A burst, so that there is one largest |W| and not a row of equals.
+awk 'BEGIN { for (i = 0; i < 4000; i++) print i / 1000 "," 3 + exp(-((i - 2000) / 200)^2) * sin(6.283185307179586 * i / 25) }' >> run.csv
 
 build() {       # shared|static [FLAG]: all examples, in a directory of this name
     mkdir "$1"
