@@ -217,6 +217,13 @@ transforms_refuse_null(void **state)
     assert_null(ss_morlet_scale(plan, ss_morlet_scales(plan)));
     assert_int_equal(ss_morlet_engine(NULL, 0), SS_ENGINE_AUTO);
     assert_int_equal(ss_morlet_engine(plan, SIZE_MAX), SS_ENGINE_AUTO);
+    ss_trade *trade = NULL;
+    assert_refused(ss_trade_transform(NULL, x, 4, 1, &ss_morlet_defaults, NULL, &e), &e);
+    assert_refused(ss_trade_transform(&trade, NULL, 4, 1, &ss_morlet_defaults, NULL, &e), &e);
+    assert_refused(ss_trade_transform(&trade, x, 4, 1, NULL, NULL, &e), &e);
+    assert_null(trade);
+    assert_refused(ss_wisdom_read(NULL, &e), &e);
+    assert_int_equal(ss_wisdom_write(NULL), SS_EINVAL);
     assert_refused(ss_morlet_execute(NULL, x, w, &e), &e);
     assert_refused(ss_morlet_execute(plan, NULL, w, &e), &e);
     assert_refused(ss_morlet_execute(plan, x, NULL, &e), &e);

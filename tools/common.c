@@ -97,10 +97,9 @@ tool_progress(double done, void *user)
 {
     static double began, shown;
     static int terminal = -1;
-    (void)user;
     if (terminal < 0)
         terminal = tool_verbosity >= 0 && isatty(STDERR_FILENO)
-            && (out_file != NULL || out_temporary[0] != '\0' || !isatty(STDOUT_FILENO));
+            && (user != NULL || out_file != NULL || out_temporary[0] != '\0' || !isatty(STDOUT_FILENO));
     if (terminal && !tool_stopping()) {
         double now = seconds_now();
         if (began == 0)
@@ -498,6 +497,7 @@ tool_output_path(const char *path)
 FILE *
 tool_output(const char *path)
 {
+    clear_progress();
     if (path == NULL || strcmp(path, "-") == 0)
         return stdout;
     out_file = fopen(tool_output_path(path), "wb");

@@ -202,6 +202,7 @@ main(int argc, char *argv[])
     req.opts.displacement = find_column(signal->head, path, req.displacement, "x");
     req.opts.force = find_column(signal->head, path, req.force, "f");
     req.opts.progress = tool_progress;
+    req.opts.user = &req;
     ss_status st = ss_features_find(&features, signal, column, &req.opts, &err);
     if (st != SS_OK)
         tool_die("%s: %s", tool_input_name(path), err.text);

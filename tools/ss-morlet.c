@@ -276,6 +276,7 @@ transform_whole(const request *req, const char *path)
     double begin = now();
     ss_morlet_opts opts = req->opts;
     opts.progress = tool_progress;
+    opts.user = &opts;
     check(ss_transform(&coef, signal, column, &opts, &err), &err, path);
     report(req, signal, column, coef, now() - begin, path);
     write_output(req, signal, coef);

@@ -1033,6 +1033,8 @@ ss_fft_free(struct fft *fft)
 ss_status
 ss_wisdom_read(FILE *in, ss_error *err)
 {
+    if (in == NULL)
+        return SS_FAIL_NULL(err);
     pthread_mutex_lock(&planner);
     int good = fftw_import_wisdom_from_file(in);
     pthread_mutex_unlock(&planner);
@@ -1043,6 +1045,8 @@ ss_wisdom_read(FILE *in, ss_error *err)
 ss_status
 ss_wisdom_write(FILE *out)
 {
+    if (out == NULL)
+        return SS_EINVAL;
     pthread_mutex_lock(&planner);
     fftw_export_wisdom_to_file(out);
     pthread_mutex_unlock(&planner);

@@ -211,6 +211,8 @@ ss_status
 ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
                    const ss_morlet_opts *grid, const ss_trade_opts *opts, ss_error *err)
 {
+    if (out == NULL || x == NULL || grid == NULL)
+        return SS_FAIL_NULL(err);
     trial t = { .x = x, .n = n, .rate = rate, .opts = *grid,
                 .how = opts != NULL ? opts : &ss_trade_defaults };
     t.opts.engine = SS_ENGINE_AUTO;
