@@ -7,7 +7,8 @@ script -qec 'timeout -s INT 3 ss-sim -q --set duration=1e6 coulomb > /dev/null' 
 grep '%' log || true
 # So do transforms and what looks at them.
 ss-signal noise --rate 20000 --duration 20 -o long.au
-for command in 'ss-morlet --dense --fmin 10 long.au -o w.au' 'ss-features long.au -o f.tsv'; do
+slow='--method quadrature --accuracy 1e-13 --step 4 --voices 128 --center 200 --fmax 3000'
+for command in "ss-morlet $slow long.au -o w.au" 'ss-features long.au -o f.tsv'; do
     script -qec "$command" /dev/null < /dev/null > log || true
     tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
 done
