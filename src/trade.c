@@ -17,6 +17,7 @@
 #include <string.h>
 #include <time.h>
 #include "error.h"
+#include "sim/engine.h"
 #include "trade.h"
 
 /* Samples compared at most.  A prime: however many cycles the base goes through in a record, the
@@ -33,8 +34,6 @@ static const double tolerance[] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 enum { TOLERANCES = sizeof tolerance / sizeof *tolerance };
 
 const ss_trade_opts ss_trade_defaults = { .budget = 10 };
-
-#define EXACT "exact"
 
 /* --- one run ------------------------------------------------------------------------------- */
 
@@ -95,8 +94,8 @@ keep_samples(const ss_sample *s, size_t n, void *user)
 {
     taken *k = user;
     for (size_t i = 0; i < n; i++, k->seen++) {
-        size_t block = k->seen / k->p->stride, place = k->seen % k->p->stride;
-        if (block < k->p->n && place == (uint32_t)block * UINT32_C(2654435761) % k->p->stride) {
+        size_t block = k->seen / k->p->stride, within = k->seen % k->p->stride;
+        if (block < k->p->n && within == (uint32_t)block * UINT32_C(2654435761) % k->p->stride) {
             k->x[block] = s[i].x;
             k->a[block] = s[i].a;
         }
@@ -497,11 +496,9 @@ ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opt
 {
     if (out == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_scene_check(scene, err);
+    ss_status st = ss_record_check(scene, err);
     if (st != SS_OK)
         return st;
-    if (ss_scene_samples(scene) == SIZE_MAX)
-        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
     if (opts == NULL)
         opts = &ss_trade_defaults;
     if (!(opts->budget > 0))
@@ -655,13 +652,11 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
 {
     if (opts == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_scene_check(scene, err);
+    ss_status st = ss_record_check(scene, err);
     if (st != SS_OK)
         return st;
     if (!(accuracy >= 1e-12 && accuracy <= 1e-3))
         return ss_fail(err, SS_EINVAL, "accuracy %g is out of range 1e-12 ... 0.001", accuracy);
-    if (ss_scene_samples(scene) == SIZE_MAX)
-        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
     if (opts->method != NULL && strcmp(opts->method, EXACT) == 0
         && scene->model == SS_STATE_VARIABLE)
         return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "shipped.h"
 
 enum { SCORE_EVENTS = 1000 };
 #define SCORE_MACRO 0.05        /* [s] a slip that sticks again sooner is a micro-slip */
@@ -46,15 +47,7 @@ score_scene_make(score_scene *s, const char *name, double rate, double duration,
 {
     ss_sim_opts opts = ss_sim_defaults;
     s->n_events = 0;
-    for (size_t i = 0; ss_shipped_scenes[i].name != NULL; i++) {
-        const ss_shipped_scene *shipped = &ss_shipped_scenes[i];
-        if (strcmp(shipped->name, name) != 0)
-            continue;
-        FILE *in = fmemopen((void *)shipped->text, strlen(shipped->text), "r");
-        if (in == NULL || ss_scene_read(&s->scene, in, name, NULL) != SS_OK)
-            exit(2);
-        fclose(in);
-    }
+    s->scene = read_shipped_named(name);
     s->scene.rate = rate;
     s->scene.duration = duration;
     if (damping > 0)

@@ -9,6 +9,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
+#include "shipped.h"
 #include "rank/candidate.h"
 #include "rank/cycle.h"
 
@@ -17,13 +18,7 @@ enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
 static ss_scene
 shipped(int i)
 {
-    const ss_shipped_scene *s = &ss_shipped_scenes[i];
-    ss_scene scene;
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    assert_non_null(in);
-    assert_int_equal(ss_scene_read(&scene, in, s->name, NULL), SS_OK);
-    fclose(in);
-    return scene;
+    return read_shipped(&ss_shipped_scenes[i]);
 }
 
 /* The acceleration alone, with noise at snr dB (none from 200 on). */

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include <stickslip.h>
+#include "shipped.h"
 
 enum { RATE = 2000, DURATION = 10, SAMPLES = RATE * DURATION, MAX_EVENTS = 256 };
 
@@ -43,12 +44,7 @@ open_table(void)
 static void
 read_scene(ss_scene *scene, const char *name)
 {
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    while (strcmp(s->name, name) != 0)
-        s++;
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    assert_int_equal(ss_scene_read(scene, in, name, NULL), SS_OK);
-    fclose(in);
+    *scene = read_shipped_named(name);
     scene->settle = 0;
     scene->duration = DURATION;
     scene->rate = RATE;

@@ -14,70 +14,25 @@
 #include <cmocka.h>
 
 #include <stickslip.h>
+#include "extremes/runs.h"
 #include "oracle.h"
+#include "shipped.h"
 
 /* --- running a scene ----------------------------------------------------------------------- */
 
-typedef struct run {
-    size_t n, n_events, room, room_events;
-    ss_sample *sample;
-    ss_event *event;
-    int in_order;               /* each event came before the samples from it on, after the others */
-    ss_sim_stats stats;
-} run;
-
-static int
-keep_samples(const ss_sample *s, size_t n, void *user)
-{
-    run *r = user;
-    if (r->n + n > r->room) {
-        r->room = 2 * r->room + n + 1000;
-        r->sample = realloc(r->sample, r->room * sizeof *r->sample);
-    }
-    memcpy(r->sample + r->n, s, n * sizeof *s);
-    r->n += n;
-    if (r->n_events > 0)
-        r->in_order &= r->event[r->n_events - 1].t <= s[0].t;
-    return 0;
-}
-
-static int
-keep_event(const ss_event *e, void *user)
-{
-    run *r = user;
-    if (r->n_events == r->room_events) {
-        r->room_events = 2 * r->room_events + 100;
-        r->event = realloc(r->event, r->room_events * sizeof *r->event);
-    }
-    if (r->n > 0)
-        r->in_order &= r->sample[r->n - 1].t < e->t;
-    r->event[r->n_events++] = *e;
-    return 0;
-}
-
 static run
-run_with(const ss_scene *scene, const char *method, double tol)
+run_by(const ss_scene *scene, const char *method, double tol)
 {
-    run r = { .in_order = 1 };
-    ss_error err = { "" };
-    ss_sim_opts opts = { .method = method, .tol = tol, .samples = keep_samples,
-                         .events = keep_event, .user = &r };
-    if (ss_sim_run(scene, &opts, &r.stats, &err) != SS_OK)
-        fail_msg("%s", err.text);
+    run r = run_with(scene, method, tol, 0);
+    if (r.status != SS_OK)
+        fail_msg("%s", r.err.text);
     return r;
 }
 
 static run
 run_of(const ss_scene *scene)
 {
-    return run_with(scene, ss_sim_defaults.method, ss_sim_defaults.tol);
-}
-
-static void
-run_free(run *r)
-{
-    free(r->sample);
-    free(r->event);
+    return run_by(scene, ss_sim_defaults.method, ss_sim_defaults.tol);
 }
 
 static double
@@ -93,13 +48,7 @@ max_of(const run *r, size_t from, size_t to)
 static ss_scene
 scene_named(const char *name, double duration, double rate)
 {
-    ss_scene scene;
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    while (strcmp(s->name, name) != 0)
-        s++;
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    assert_int_equal(ss_scene_read(&scene, in, name, NULL), SS_OK);
-    fclose(in);
+    ss_scene scene = read_shipped_named(name);
     scene.settle = 0;
     scene.duration = duration;
     scene.rate = rate;
@@ -133,7 +82,7 @@ finds_every_event_once(void **state)
     for (int i = 0; i < 3; i++) {
         ss_scene s = scene_named(with_events[i], 10, 20);
         for (size_t k = 0; k < sizeof how / sizeof *how; k++) {
-            run r = run_with(&s, how[k].method, how[k].tol);
+            run r = run_by(&s, how[k].method, how[k].tol);
             assert_int_equal(r.n_events, in_10_s[i]);
             run_free(&r);
         }
@@ -224,7 +173,7 @@ events_do_not_depend_on_the_rate(void **state)
         run first = { 0 };
         for (int k = 0; k < 3; k++) {
             ss_scene s = scene_named(with_events[i % 3], 4, rate[k]);
-            run r = run_with(&s, i < 3 ? "rk8pd" : "exact", ss_sim_defaults.tol);
+            run r = run_by(&s, i < 3 ? "rk8pd" : "exact", ss_sim_defaults.tol);
             assert_true(r.in_order);
             if (k == 0) {
                 first = r;
@@ -264,7 +213,7 @@ compare_with_closed_form(const char *method, double allow_t, double allow_x, dou
         ss_scene s = scene_named(with_events[i % 3], 10, 2000);
         s.release = i < 3 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
         oracle *o = oracle_new(&s, 10);
-        run r = run_with(&s, method, ss_sim_defaults.tol);
+        run r = run_by(&s, method, ss_sim_defaults.tol);
         size_t first = o->starts_with_event ? 0 : 1, piece = 0;
         double worst_t = 0, worst_x = 0, worst_a = 0, max_x = 0, max_a = 0;
 
@@ -357,7 +306,7 @@ exact_and_integrated_agree_where_formulas_are_singular(void **state)
         if (ss_scene_read_set(&s, in, hard[i].what, set, n + 2, &err) != SS_OK)
             fail_msg("%s", err.text);
         fclose(in);
-        run a = run_with(&s, "exact", 1e-12), b = run_with(&s, "rk8pd", 1e-12);
+        run a = run_by(&s, "exact", 1e-12), b = run_by(&s, "rk8pd", 1e-12);
         if (a.n_events != b.n_events)
             fail_msg("%s: %zu events and %zu", hard[i].what, a.n_events, b.n_events);
         double worst = 0, max = max_of(&b, 0, b.n);
@@ -481,7 +430,7 @@ stops_where_den_hartog_says(void **state)
             s.settle = 20000;
             s.duration = 4 * 2 * M_PI / row[i][0];
             s.rate = 1;
-            run r = run_with(&s, "exact", 1e-12);
+            run r = run_by(&s, "exact", 1e-12);
             for (size_t k = 0; k < r.n_events; k++)
                 stops += r.event[k].kind == SS_STICK;
             if ((stops > 0) != above)
@@ -528,7 +477,7 @@ touching_the_limit_is_no_release(void **state)
     for (int release = 0; release < 2; release++)
         for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
             s.release = release == 0 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
-            run r = run_with(&s, how[i].method, how[i].tol);
+            run r = run_by(&s, how[i].method, how[i].tol);
             if (r.n_events != 4)
                 fail_msg("%s at %g: %zu events", how[i].method, how[i].tol, r.n_events);
             for (int k = 0; k < 4; k++)
@@ -683,7 +632,7 @@ methods_agree_on_the_state_variable(void **state)
         run truth = run_of(&s);
         double max = max_of(&truth, 0, truth.n);
         for (size_t k = 0; k < sizeof how / sizeof *how; k++) {
-            run r = run_with(&s, how[k].method, how[k].tol);
+            run r = run_by(&s, how[k].method, how[k].tol);
             double worst = 0;
             for (size_t i = 0; i < r.n; i++)
                 worst = fmax(worst, fabs(r.sample[i].x - truth.sample[i].x) / max);

@@ -14,21 +14,9 @@
 #include <cmocka.h>
 
 #include <stickslip.h>
+#include "shipped.h"
 
 #define BIT(m) (1u << (m))
-
-static ss_scene
-shipped(const char *name)
-{
-    ss_scene scene;
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    while (strcmp(s->name, name) != 0)
-        s++;
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    assert_int_equal(ss_scene_read(&scene, in, name, NULL), SS_OK);
-    fclose(in);
-    return scene;
-}
 
 /* omega_n = 2 pi, k = Z_e = 1: base_frequency is r, friction is beta. */
 static ss_scene
@@ -184,7 +172,7 @@ gives_the_settled_numbers(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
         for (int shoot = 0; shoot < 2; shoot++) {
-            ss_scene s = shipped(row[i].name);
+            ss_scene s = read_shipped_named(row[i].name);
             ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_V_MAX) | BIT(SS_STOPS)
                                      | BIT(SS_STICK_FRACTION) | BIT(SS_MICROSLIPS), shoot);
             double tol = 2 * ss_steady_defaults.tol * s.base_amplitude;
@@ -225,7 +213,7 @@ balances_energy(void **state)
                                         "state-variable" };
     (void)state;
     for (size_t i = 0; i < 4; i++) {
-        ss_scene s = shipped(name[i]);
+        ss_scene s = read_shipped_named(name[i]);
         ss_steady at = steady_of(&s, BIT(SS_ENERGY) | BIT(SS_V_MAX) | BIT(SS_A_MAX), 0);
         s.settle = 60 / s.base_frequency;
         s.rate = 40000;
@@ -266,7 +254,7 @@ multipliers_are_the_rate_of_approach(void **state)
     (void)state;
     for (size_t i = 0; i < 3; i++)
         for (int shoot = 0; shoot < 2; shoot++) {
-            ss_scene s = shipped(row[i].name);
+            ss_scene s = read_shipped_named(row[i].name);
             ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE)
                                      | BIT(SS_X_PHASE) | BIT(SS_V_PHASE), shoot);
             record r = { 0 };
@@ -313,7 +301,7 @@ free_decay_ends_where_it_must(void **state)
 {
     (void)state;
     for (double x0 = 0.001; x0 < 0.03; x0 += 0.00137) {
-        ss_scene s = shipped("coulomb");
+        ss_scene s = read_shipped_named("coulomb");
         double zone = s.friction / s.stiffness, x = x0, half = M_PI * sqrt(s.mass / s.stiffness);
         size_t halves = 0;
         s.base_amplitude = 0;
@@ -380,7 +368,7 @@ methods_agree(void **state)
     const unsigned measures = (BIT(SS_PERIOD) << 1) - 1;
     (void)state;
     for (size_t i = 0; i < 3; i++) {
-        ss_scene s = shipped(name[i]);
+        ss_scene s = read_shipped_named(name[i]);
         ss_steady_opts opts = ss_steady_defaults;
         ss_steady by_steps, exact = steady_of(&s, measures, 0);
         opts.measures = measures;
@@ -400,13 +388,13 @@ hears_the_transition_frequency(void **state)
     static const char *const name[] = { "compliant-heavy", "compliant-light" };
     (void)state;
     for (size_t i = 0; i < 2; i++) {
-        ss_scene s = shipped(name[i]);
+        ss_scene s = read_shipped_named(name[i]);
         double decay = s.contact_damping / (2 * s.mass);
         double f = sqrt((s.stiffness + s.contact_stiffness) / s.mass - decay * decay) / (2 * M_PI);
         ss_steady at = steady_of(&s, BIT(SS_TRANSITION), 0);
         is_near(at.value[SS_TRANSITION] / f, 1, 2e-4, name[i]);
     }
-    ss_scene s = shipped("compliant-light");
+    ss_scene s = read_shipped_named("compliant-light");
     ss_steady_opts opts = ss_steady_defaults;
     ss_steady at;
     ss_error err = { "" };
@@ -432,7 +420,7 @@ every_value_is_there_or_the_status_says_why(void **state)
         for (size_t k = 0; k < sizeof key / sizeof *key; k++)
             for (size_t j = 0; j < sizeof scale / sizeof *scale; j++)
                 for (int shoot = 0; shoot < 2; shoot++) {
-                    ss_scene s = shipped(name[i]);
+                    ss_scene s = read_shipped_named(name[i]);
                     ss_error err = { "" };
                     ss_steady at;
                     ss_steady_opts opts = { .measures = BIT(SS_PERIOD) * 2 - 1, .tol = 1e-6,
@@ -459,7 +447,7 @@ refuses_what_cannot_be_measured(void **state)
 {
     ss_error err = { "" };
     ss_steady at;
-    ss_scene s = shipped("state-variable");
+    ss_scene s = read_shipped_named("state-variable");
     ss_steady_opts opts = ss_steady_defaults;
     (void)state;
     opts.measures = BIT(SS_STOPS);
@@ -477,7 +465,7 @@ refuses_what_cannot_be_measured(void **state)
     opts.max_period = SS_PERIOD_MAX + 1;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
     opts = ss_steady_defaults;
-    s = shipped("coulomb");
+    s = read_shipped_named("coulomb");
     s.base_frequency = 0;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
     s.base_frequency = NAN;
@@ -525,7 +513,7 @@ static void
 shards_threads_and_starts_give_the_same_rows(void **state)
 {
     ss_axis axis[2];
-    ss_scene s = shipped("coulomb");
+    ss_scene s = read_shipped_named("coulomb");
     seen whole = { 0 }, part;
     (void)state;
     assert_int_equal(ss_axis_parse(&axis[0], "friction=0.8:1.2:5", NULL), SS_OK);
@@ -568,7 +556,7 @@ refuses_grids_that_mean_nothing(void **state)
     static const char *const bad[] = { "alpha=1:2:3", "model=1:2:3", "rate=1:2:3", "nonsense=1:2:3",
                                        "mass=1:2:3" };
     ss_axis axis[3];
-    ss_scene s = shipped("coulomb");
+    ss_scene s = read_shipped_named("coulomb");
     ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 1, .sink = see };
     size_t n;

@@ -16,6 +16,7 @@
 
 #include <stickslip.h>
 #include "oracle.h"
+#include "shipped.h"
 
 enum { ROOM = 20000 };
 
@@ -47,10 +48,7 @@ run_scene(run *r, const ss_scene *scene, const char *method, double tol, unsigne
 static ss_scene
 shipped(size_t i, double settle, double duration, double rate)
 {
-    ss_scene scene;
-    FILE *in = fmemopen((void *)ss_shipped_scenes[i].text, strlen(ss_shipped_scenes[i].text), "r");
-    assert_int_equal(ss_scene_read(&scene, in, ss_shipped_scenes[i].name, NULL), SS_OK);
-    fclose(in);
+    ss_scene scene = read_shipped(&ss_shipped_scenes[i]);
     scene.settle = settle;
     scene.duration = duration;
     scene.rate = rate;

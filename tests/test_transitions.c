@@ -9,20 +9,14 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
+#include "shipped.h"
 
 enum { SEEDS = 4 };
 
 static ss_scene
 scene_of(const char *name)
 {
-    ss_scene scene;
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    while (strcmp(s->name, name) != 0)
-        s++;
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    assert_non_null(in);
-    assert_int_equal(ss_scene_read(&scene, in, s->name, NULL), SS_OK);
-    fclose(in);
+    ss_scene scene = read_shipped_named(name);
     scene.duration = 3.2;
     return scene;
 }

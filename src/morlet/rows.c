@@ -9,26 +9,16 @@
 #include "morlet/rows.h"
 #include "signal/stream.h"
 
-enum { WIDTH = 8 * COEFFICIENT_COLUMNS, ROOM = 1 << 16, LONGEST = COEFFICIENT_COLUMNS * SS_NUMBER_MAX };
+enum { WIDTH = 8 * COEFFICIENT_COLUMNS, LONGEST = COEFFICIENT_COLUMNS * SS_NUMBER_MAX };
 
 struct ss_coefficient_writer {
-    FILE *out;
     ss_format format;
     double rate, start;
     ss_span *gap;
     size_t n_gaps;
     int stream;                 /* the length comes last */
-    size_t used;
-    char buffer[ROOM];          /* empty between calls */
+    struct output out;          /* empty between calls */
 };
-
-static ss_status
-drain(ss_coefficient_writer *writer)
-{
-    size_t n = writer->used;
-    writer->used = 0;
-    return fwrite(writer->buffer, 1, n, writer->out) == n ? SS_OK : SS_EIO;
-}
 
 static ss_status
 write_header(const ss_header *head, FILE *out, ss_format format)
@@ -59,12 +49,12 @@ ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_form
     *out_writer = NULL;
     if (writer == NULL)
         return SS_ENOMEM;
-    writer->out = out;
+    writer->out.file = out;
     writer->format = format;
     writer->rate = head->rate;
     writer->start = head->start;
     writer->stream = stream != NULL && strcmp(stream, "yes") == 0;
-    writer->used = 0;
+    writer->out.used = 0;
     ss_status st = ss_header_gaps(&writer->gap, &writer->n_gaps, head);
     if (st == SS_OK)
         st = write_header(head, out, format);
@@ -127,21 +117,21 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
         double b = ss_scale_b(scale, first + i);
         int edge = ss_scale_edge(scale, first + i, samples, writer->rate)
             || ss_near_gap(writer->gap, writer->n_gaps, writer->start + b, sqrt(2) * scale->a);
-        char *to = writer->buffer + writer->used;
+        char *to = writer->out.buffer + writer->out.used;
         if (writer->format == SS_AU) {
             au_row(au, b, w, edge);
             memcpy(to, au, WIDTH);
-            writer->used += WIDTH;
+            writer->out.used += WIDTH;
         } else {
-            writer->used += text_row(to, own, length, b, w, edge);
+            writer->out.used += text_row(to, own, length, b, w, edge);
         }
-        if (writer->used > ROOM - LONGEST) {
-            ss_status st = drain(writer);
+        if (writer->out.used > OUTPUT_ROOM - LONGEST) {
+            ss_status st = ss_output_drain(&writer->out);
             if (st != SS_OK)
                 return st;
         }
     }
-    return drain(writer);
+    return ss_output_drain(&writer->out);
 }
 
 ss_status
@@ -152,11 +142,11 @@ ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples)
     char au[WIDTH] = { 0 };
     if (writer->stream && writer->format == SS_AU) {
         ss_au_put(au + 16, (double)(samples - 1) / writer->rate);
-        fwrite(au, 1, sizeof au, writer->out);
+        fwrite(au, 1, sizeof au, writer->out.file);
     } else if (writer->stream) {
-        fprintf(writer->out, "# samples: %zu\n", samples);
+        fprintf(writer->out.file, "# samples: %zu\n", samples);
     }
-    return fflush(writer->out) == 0 && !ferror(writer->out) ? SS_OK : SS_EIO;
+    return fflush(writer->out.file) == 0 && !ferror(writer->out.file) ? SS_OK : SS_EIO;
 }
 
 void

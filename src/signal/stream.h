@@ -60,6 +60,14 @@ ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 /* Write them, as text or as AU does; SS_EINVAL if AU is too narrow for them. */
 ss_status ss_header_write(const ss_header *head, const char *magic, FILE *out, ss_format format);
+/* Bytes on their way out, gathered. */
+enum { OUTPUT_ROOM = 1 << 16 };
+struct output {
+    FILE *file;
+    size_t used;
+    char buffer[OUTPUT_ROOM];
+};
+ss_status ss_output_drain(struct output *out);     /* SS_EIO if the file refuses them */
 /* A value as AU holds it. */
 void ss_au_put(char to[8], double x);
 /* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */

@@ -5,23 +5,21 @@
 #include "error.h"
 #include "stream.h"
 
-enum { ROOM = 65536, ANNOTATION_UNIT = 8 };
+enum { ANNOTATION_UNIT = 8 };
 
 struct ss_writer {
-    FILE *out;
     ss_format format;
     ss_header *head;
     size_t row;                 /* rows written so far */
-    size_t used;
-    char buffer[ROOM];          /* empty between calls */
+    struct output out;          /* empty between calls */
 };
 
-static ss_status
-drain(ss_writer *writer)
+ss_status
+ss_output_drain(struct output *out)
 {
-    size_t n = writer->used;
-    writer->used = 0;
-    return fwrite(writer->buffer, 1, n, writer->out) == n ? SS_OK : SS_EIO;
+    size_t n = out->used;
+    out->used = 0;
+    return fwrite(out->buffer, 1, n, out->file) == n ? SS_OK : SS_EIO;
 }
 
 static void
@@ -85,9 +83,9 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
     *out_writer = NULL;
     if (writer == NULL)
         return SS_ENOMEM;
-    writer->out = out;
+    writer->out.file = out;
     writer->format = format;
-    writer->row = writer->used = 0;
+    writer->row = writer->out.used = 0;
     writer->head = ss_header_copy(head);
     ss_status st = writer->head == NULL ? SS_ENOMEM
         : ss_header_write(head, STREAM_MAGIC, out, format);
@@ -102,14 +100,14 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
 static void
 put_value(ss_writer *writer, double x, char separator)
 {
-    char *to = writer->buffer + writer->used;
+    char *to = writer->out.buffer + writer->out.used;
     if (writer->format == SS_AU) {
         ss_au_put(to, x);
-        writer->used += sizeof x;
+        writer->out.used += sizeof x;
     } else {
         size_t n = ss_number_format(to, x);
         to[n] = separator;
-        writer->used += n + 1;
+        writer->out.used += n + 1;
     }
 }
 
@@ -125,15 +123,15 @@ ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
             put_value(writer, head->start + (double)writer->row / head->rate,
                       columns > 0 ? '\t' : '\n');
         for (size_t c = 0; c < columns; c++) {
-            if (writer->used > ROOM - 2 * SS_NUMBER_MAX) {
-                ss_status st = drain(writer);
+            if (writer->out.used > OUTPUT_ROOM - 2 * SS_NUMBER_MAX) {
+                ss_status st = ss_output_drain(&writer->out);
                 if (st != SS_OK)
                     return st;
             }
             put_value(writer, *rows++, c + 1 < columns ? '\t' : '\n');
         }
     }
-    return drain(writer);
+    return ss_output_drain(&writer->out);
 }
 
 ss_status
@@ -141,7 +139,7 @@ ss_writer_flush(ss_writer *writer)
 {
     if (writer == NULL)
         return SS_EINVAL;
-    return fflush(writer->out) == 0 && !ferror(writer->out) ? SS_OK : SS_EIO;
+    return fflush(writer->out.file) == 0 && !ferror(writer->out.file) ? SS_OK : SS_EIO;
 }
 
 void

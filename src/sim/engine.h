@@ -48,6 +48,8 @@ ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
  * C - (c/m) S and S. */
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
+/* sim.c: SS_OK if the scene is one and its record can be counted. */
+ss_status ss_record_check(const ss_scene *scene, ss_error *err);
 /* sim.c: what a walk shares with a record. */
 motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 int ss_engine_ends_within(engine *e, double *s_event);     /* the mode ends in the step just taken */

@@ -409,15 +409,22 @@ begin(record *r, engine *e, int slips)
 }
 
 ss_status
+ss_record_check(const ss_scene *scene, ss_error *err)
+{
+    ss_status st = ss_scene_check(scene, err);
+    if (st == SS_OK && ss_scene_samples(scene) == SIZE_MAX)
+        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
+    return st;
+}
+
+ss_status
 ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, ss_error *err)
 {
     if (scene == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_scene_check(scene, err);
+    ss_status st = ss_record_check(scene, err);
     if (st != SS_OK)
         return st;
-    if (ss_scene_samples(scene) == SIZE_MAX)
-        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
     record r = { .scene = scene, .opts = opts,
                  .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
                  .end = instant_sum(scene->settle, scene->duration),

@@ -44,11 +44,19 @@ refuse_link(const char *parent, const char *group, const char *file, const char 
     return -1;
 }
 
+/* How to open something of this class without being led to another file. */
+static hid_t
+inside_only(hid_t class)
+{
+    hid_t access = H5Pcreate(class);
+    H5Pset_elink_cb(access, refuse_link, NULL);
+    return access;
+}
+
 hid_t
 ss_h5_open_dataset(hid_t group, const char *name)
 {
-    hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
-    H5Pset_elink_cb(access, refuse_link, NULL);
+    hid_t access = inside_only(H5P_DATASET_ACCESS);
     hid_t id = H5Dopen2(group, name, access);
     H5Pclose(access);
     return id;
@@ -57,8 +65,7 @@ ss_h5_open_dataset(hid_t group, const char *name)
 hid_t
 ss_h5_open_group(hid_t group, const char *name)
 {
-    hid_t access = H5Pcreate(H5P_GROUP_ACCESS);
-    H5Pset_elink_cb(access, refuse_link, NULL);
+    hid_t access = inside_only(H5P_GROUP_ACCESS);
     hid_t id = H5Gopen2(group, name, access);
     H5Pclose(access);
     return id;

@@ -56,7 +56,7 @@ ss_measure_unit(ss_measure m)
 static const char *
 method_of(const ss_steady_opts *opts, ss_model model)
 {
-    return opts->method != NULL ? opts->method : model == SS_STATE_VARIABLE ? "rk8pd" : "exact";
+    return opts->method != NULL ? opts->method : model == SS_STATE_VARIABLE ? "rk8pd" : EXACT;
 }
 
 ss_status
@@ -66,7 +66,7 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
         return SS_FAIL_NULL(err);
     if ((unsigned)model > SS_COMPLIANT)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
-    int exact = strcmp(method_of(opts, model), "exact") == 0, known = 0;
+    int exact = strcmp(method_of(opts, model), EXACT) == 0, known = 0;
     for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
         known |= strcmp(method_of(opts, model), ss_sim_method_name(i)) == 0;
     for (int i = 0; i < SS_MEASURES; i++)

@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include <stickslip.h>
+#include "../shipped.h"
 
 typedef struct bench_scene {
     const char *name;
@@ -89,10 +90,7 @@ cost_simulate(const ss_scene *scene, const char *method, double tol, double *x, 
 static inline void
 bench_read(ss_scene *scene, const ss_shipped_scene *s)
 {
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    if (in == NULL || ss_scene_read(scene, in, s->name, NULL) != SS_OK)
-        exit(1);
-    fclose(in);
+    *scene = read_shipped(s);
     scene->settle = 0;
 }
 

@@ -17,14 +17,7 @@ static const double snr_of[] = { INFINITY, 40, 20 };
 static ss_scene
 shipped(const char *name)
 {
-    ss_scene scene;
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    while (strcmp(s->name, name) != 0)
-        s++;
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    if (in == NULL || ss_scene_read(&scene, in, s->name, NULL) != SS_OK)
-        exit(1);
-    fclose(in);
+    ss_scene scene = read_shipped_named(name);
     scene.duration = 3.2;
     return scene;
 }

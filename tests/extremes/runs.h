@@ -1,4 +1,4 @@
-/* runs.h -- a scene run and kept, and runs compared: for test_extremes and test_random. */
+/* runs.h -- a scene run and kept, and runs compared: for test_sim, test_extremes and test_random. */
 #ifndef RUNS_H
 #define RUNS_H
 
@@ -12,6 +12,7 @@ typedef struct run {
     size_t n, n_events, room, room_events;
     ss_sample *sample;
     ss_event *event;
+    int in_order;               /* each event came before the samples from it on, after the others */
     ss_sim_stats stats;
     ss_status status;
     ss_error err;
@@ -27,6 +28,8 @@ keep_samples(const ss_sample *s, size_t n, void *user)
     }
     memcpy(r->sample + r->n, s, n * sizeof *s);
     r->n += n;
+    if (r->n_events > 0)
+        r->in_order &= r->event[r->n_events - 1].t <= s[0].t;
     return 0;
 }
 
@@ -38,6 +41,8 @@ keep_event(const ss_event *e, void *user)
         r->room_events = 2 * r->room_events + 100;
         r->event = realloc(r->event, r->room_events * sizeof *r->event);
     }
+    if (r->n > 0)
+        r->in_order &= r->sample[r->n - 1].t < e->t;
     r->event[r->n_events++] = *e;
     return 0;
 }
@@ -46,7 +51,7 @@ keep_event(const ss_event *e, void *user)
 static run
 run_with(const ss_scene *scene, const char *method, double tol, unsigned long max_steps)
 {
-    run r = { .status = SS_OK };
+    run r = { .in_order = 1 };
     ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
                          .samples = keep_samples, .events = keep_event, .user = &r };
     r.status = ss_sim_run(scene, &opts, &r.stats, &r.err);
@@ -60,7 +65,7 @@ run_free(run *r)
     free(r->event);
 }
 
-static double
+static inline double
 max_x(const run *r)
 {
     double max = 0;
@@ -70,7 +75,7 @@ max_x(const run *r)
 }
 
 /* What the library measures x by: its absolute tolerances are relative to this. */
-static double
+static inline double
 scale_of(const ss_scene *s)
 {
     double omega = sqrt(s->stiffness / s->mass);
@@ -79,7 +84,7 @@ scale_of(const ss_scene *s)
 }
 
 /* The largest difference of x between samples, b's multiplied by factor. */
-static double
+static inline double
 difference(const run *a, const run *b, double factor)
 {
     double worst = a->n == b->n ? 0 : INFINITY;
