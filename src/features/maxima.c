@@ -1,9 +1,11 @@
 /* maxima.c -- local maxima of |W| and how far they stand out.
  *
- * Flooding from above: points are taken from the highest down, each joining the pools of its
- * neighbours that are under water already.  A point with none is a peak and starts a pool; where
- * two pools meet, the one with the lower peak ends, and that point is the highest saddle between
- * this peak and any higher one: the prominence is the fall from peak to saddle.  Cost: a sort.
+ * From every point a way leads to its highest neighbour, and so on up to a peak: all the points
+ * whose ways end there are its basin.  Ways only rise, so the basins of two peaks join at the highest
+ * point of their border, and the borders alone say what flooding the whole map from above would: they
+ * are taken from the highest down, and where two pools meet, the one with the lower peak ends.  That
+ * border is the highest saddle between this peak and any higher one: the prominence is the fall from
+ * peak to saddle.  Cost: two passes over the map, and a sort of the borders.
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
  * where the map was cut, not a maximum; it is not reported, but it is higher ground for others. */
@@ -13,30 +15,49 @@
 #include <string.h>
 #include "maxima.h"
 
-#define NONE SIZE_MAX
+#define DRY SIZE_MAX            /* a way that leads nowhere: no point of the map */
+#define PEAK (SIZE_MAX / 2 + 1) /* a way's end: plus the number of the peak */
 
-typedef struct point {
-    uint64_t key;               /* |W|, > 0, as its bits, which are ordered as the numbers are */
-    size_t at;                  /* the coefficient, counted from the first row's first */
-} point;
+typedef struct peak {
+    size_t row, k;              /* its coefficient */
+    double level;               /* |W| > 0 */
+    double saddle;              /* the level where its pool ended, 0 if it did not */
+    size_t pool;                /* towards its pool's highest peak, which is its own */
+} peak;
+
+typedef struct border {         /* between the basins of two peaks */
+    uint64_t key;               /* |W| > 0, as its bits, which are ordered as the numbers are */
+    size_t p, q;                /* p < q; q = 0: none */
+} border;
+
+enum { RECENT = 1 << 12 };      /* borders that are kept at hand while they may be met higher up */
 
 typedef struct map {
     const ss_coefficients *coef;
     size_t first, last;         /* rows looked at */
     double floor;               /* lower levels are not looked at; 0: all are */
-    size_t n;                   /* points, highest first */
-    point *point;
-    size_t *pool;               /* of a coefficient: towards its pool's peak, which is its own; NONE: dry */
-    size_t *rank;               /* of a peak among the points */
-    double *saddle;             /* of a peak: the level where its pool ended, 0 if it did not */
+    size_t *way;                /* of a coefficient, counted from the first row's first: to another */
+    size_t n_peaks;
+    peak *peak;                 /* in order of their coefficients */
+    size_t n_borders, room;
+    border *border;
+    border recent[RECENT];
+    int failed;                 /* 1: no memory for borders */
 } map;
 
-static double
-level_of(uint64_t key)
+typedef struct line {           /* a row that is passed over */
+    size_t row, at, n;          /* at: its first coefficient, counted as ways are */
+    double *level;              /* 0: dry */
+    double *best;               /* where the way leads, which is not into the dry */
+} line;
+
+static void
+map_free(map *m)
 {
-    double level;
-    memcpy(&level, &key, sizeof level);
-    return level;
+    free(m->way);
+    free(m->peak);
+    free(m->border);
+    free(m);
 }
 
 static size_t
@@ -45,158 +66,229 @@ index_of(const map *m, size_t row, size_t k)
     return m->coef->scale[row].offset - m->coef->scale[m->first].offset + k;
 }
 
-static size_t
-row_of(const map *m, size_t at)
+/* --- passing over the map ------------------------------------------------------------------ */
+
+static double
+level_at(const map *m, size_t row, size_t k)
 {
-    size_t low = m->first, high = m->last;
-    while (low < high) {
-        size_t mid = high - (high - low) / 2;
-        if (index_of(m, mid, 0) <= at)
-            low = mid;
-        else
-            high = mid - 1;
+    const double *w = m->coef->w + 2 * (m->coef->scale[row].offset + k);
+    return hypot(w[0], w[1]);
+}
+
+static void
+fill(line *l, const map *m, size_t row)
+{
+    size_t n = m->coef->scale[row].n, from = 0, to = n;
+    *l = (line){ row, index_of(m, row, 0), n, l->level, l->best };
+    while (from < n && ss_coefficients_edge(m->coef, row, from))
+        l->level[from++] = 0;
+    while (to > from && ss_coefficients_edge(m->coef, row, to - 1))
+        l->level[--to] = 0;
+    for (size_t k = from; k < to; k++) {
+        double level = level_at(m, row, k);
+        int wet = level > m->floor
+            && (m->coef->n_gaps == 0 || !ss_coefficients_edge(m->coef, row, k));
+        l->level[k] = wet ? level : 0;
     }
-    return low;
 }
 
-static void
-map_free(map *m)
+typedef void touch(map *m, line *a, size_t i, line *b, size_t j);
+
+/* Neighbours in two rows: of each point the one nearest in time, the first and the last beyond. */
+static inline void
+touch_rows(map *m, line *a, line *b, touch *meet)
 {
-    free(m->point);
-    free(m->pool);
-    free(m->rank);
-    free(m->saddle);
+    const ss_scale *from = &m->coef->scale[a->row], *to = &m->coef->scale[b->row];
+    double ratio = from->b_num / from->b_den / (to->b_num / to->b_den);
+    for (size_t i = 0; i < a->n; i++) {
+        double j = (double)i * ratio + 0.5;
+        meet(m, a, i, b, j < (double)b->n ? (size_t)j : b->n - 1);
+    }
 }
 
-/* Highest first, equals as they stand, by counting digits from the lowest to the highest; sorted
- * into *from, with room for as many in *to. */
+static inline void
+touch_all(map *m, line *here, line *before, touch *meet)
+{
+    for (size_t k = 1; k < here->n; k++)
+        meet(m, here, k - 1, here, k);
+    if (here->row > m->first) {
+        touch_rows(m, before, here, meet);
+        touch_rows(m, here, before, meet);
+    }
+}
+
+/* --- ways and peaks ------------------------------------------------------------------------ */
+
+/* Of equals, the first is the higher. */
+static inline void
+climb(map *m, line *a, size_t i, line *b, size_t j)
+{
+    if (a->level[i] < b->level[j] || (a->level[i] == b->level[j] && a->at + i > b->at + j)) {
+        line *swap = a;
+        size_t k = i;
+        a = b, i = j;
+        b = swap, j = k;
+    }
+    if (a->level[i] > b->best[j] || (a->level[i] == b->best[j] && a->at + i < m->way[b->at + j])) {
+        b->best[j] = a->level[i];
+        m->way[b->at + j] = a->at + i;
+    }
+}
+
 static void
-sort_points(point **from, point **to, size_t n)
+find_ways(map *m, line l[2])
+{
+    for (size_t row = m->first; row <= m->last; row++) {
+        line *here = &l[row % 2], *before = &l[(row + 1) % 2];
+        fill(here, m, row);
+        for (size_t k = 0; k < here->n; k++) {
+            int wet = here->level[k] > 0;
+            here->best[k] = wet ? here->level[k] : INFINITY;
+            m->way[here->at + k] = wet ? here->at + k : DRY;
+        }
+        touch_all(m, here, before, climb);
+    }
+}
+
+static ss_status
+find_peaks(map *m)
+{
+    size_t n = 0, end = index_of(m, m->last, m->coef->scale[m->last].n);
+    for (size_t at = 0; at < end; at++)
+        n += m->way[at] == at;
+    m->peak = malloc((n + 1) * sizeof *m->peak);
+    if (m->peak == NULL)
+        return SS_ENOMEM;
+    for (size_t row = m->first; row <= m->last; row++)
+        for (size_t k = 0; k < m->coef->scale[row].n; k++) {
+            size_t at = index_of(m, row, k);
+            if (m->way[at] != at)
+                continue;
+            m->peak[m->n_peaks] = (peak){ row, k, level_at(m, row, k), 0, m->n_peaks };
+            m->way[at] = PEAK + m->n_peaks++;
+        }
+    return SS_OK;
+}
+
+/* The peak that the way from a wet point ends at; it is short for the next one who asks. */
+static size_t
+peak_of(map *m, size_t at)
+{
+    size_t end = at;
+    while (m->way[end] < PEAK)
+        end = m->way[end];
+    end = m->way[end];
+    while (m->way[at] < PEAK) {
+        size_t next = m->way[at];
+        m->way[at] = end;
+        at = next;
+    }
+    return end - PEAK;
+}
+
+/* --- borders ------------------------------------------------------------------------------- */
+
+static void
+keep_border(map *m, border b)
+{
+    if (m->n_borders == m->room) {
+        size_t room = 2 * m->room + 1024;
+        border *more = realloc(m->border, room * sizeof *more);
+        if (more == NULL) {
+            m->failed = 1;
+            return;
+        }
+        m->border = more;
+        m->room = room;
+    }
+    m->border[m->n_borders++] = b;
+}
+
+static inline void
+add_border(map *m, line *a, size_t i, line *b, size_t j)
+{
+    double level = a->level[i] < b->level[j] ? a->level[i] : b->level[j];
+    if (!(level > 0))
+        return;
+    size_t p = peak_of(m, a->at + i), q = peak_of(m, b->at + j);
+    if (p == q)
+        return;
+    border found = { 0, p < q ? p : q, p < q ? q : p };
+    border *slot = &m->recent[(found.p * 31 + found.q) % RECENT];
+    memcpy(&found.key, &level, sizeof level);
+    if (slot->p == found.p && slot->q == found.q) {
+        slot->key = slot->key > found.key ? slot->key : found.key;
+        return;
+    }
+    if (slot->q > 0)
+        keep_border(m, *slot);
+    *slot = found;
+}
+
+static ss_status
+find_borders(map *m, line l[2])
+{
+    for (size_t row = m->first; row <= m->last; row++) {
+        fill(&l[row % 2], m, row);
+        touch_all(m, &l[row % 2], &l[(row + 1) % 2], add_border);
+    }
+    for (size_t i = 0; i < RECENT; i++)
+        if (m->recent[i].q > 0)
+            keep_border(m, m->recent[i]);
+    return m->failed ? SS_ENOMEM : SS_OK;
+}
+
+/* Highest first, by counting digits from the lowest to the highest. */
+static ss_status
+sort_borders(map *m)
 {
     enum { BITS = 11, DIGITS = 1 << BITS };
     static const uint64_t mask = DIGITS - 1;
+    border *from = m->border, *to = malloc((m->n_borders + 1) * sizeof *to);
+    if (to == NULL)
+        return SS_ENOMEM;
     for (int shift = 0; shift < 64; shift += BITS) {
         size_t place[DIGITS] = { 0 }, sum = 0;
-        for (size_t i = 0; i < n; i++)
-            place[(*from)[i].key >> shift & mask]++;
+        for (size_t i = 0; i < m->n_borders; i++)
+            place[from[i].key >> shift & mask]++;
         for (size_t d = DIGITS; d-- > 0;) {
             size_t count = place[d];
             place[d] = sum;
             sum += count;
         }
-        for (size_t i = 0; i < n; i++)
-            (*to)[place[(*from)[i].key >> shift & mask]++] = (*from)[i];
-        point *swap = *from;
-        *from = *to;
-        *to = swap;
+        for (size_t i = 0; i < m->n_borders; i++)
+            to[place[from[i].key >> shift & mask]++] = from[i];
+        border *swap = from;
+        from = to;
+        to = swap;
     }
-}
-
-static void
-take_points(map *m)
-{
-    for (size_t row = m->first; row <= m->last; row++) {
-        const ss_scale *scale = &m->coef->scale[row];
-        for (size_t k = 0; k < scale->n; k++) {
-            const double *w = m->coef->w + 2 * (scale->offset + k);
-            point p = { .at = index_of(m, row, k) };
-            double level = hypot(w[0], w[1]);
-            if (!(level > m->floor) || ss_coefficients_edge(m->coef, row, k))
-                continue;
-            memcpy(&p.key, &level, sizeof level);
-            m->point[m->n++] = p;
-        }
-    }
-}
-
-static ss_status
-map_new(map *m, const ss_coefficients *coef, size_t first, size_t last, double floor)
-{
-    *m = (map){ .coef = coef, .first = first, .last = last, .floor = floor };
-    size_t room = index_of(m, last, coef->scale[last].n) + 1;
-    point *other = malloc(room * sizeof *other);
-    m->point = malloc(room * sizeof *m->point);
-    if (other != NULL && m->point != NULL) {
-        take_points(m);
-        sort_points(&m->point, &other, m->n);
-    }
-    free(other);
-    m->pool = malloc(room * sizeof *m->pool);
-    m->rank = malloc(room * sizeof *m->rank);
-    m->saddle = calloc(room, sizeof *m->saddle);
-    if (other == NULL || m->point == NULL || m->pool == NULL || m->rank == NULL
-        || m->saddle == NULL) {
-        map_free(m);
-        return SS_ENOMEM;
-    }
-    for (size_t i = 0; i < room; i++)
-        m->pool[i] = NONE;
+    m->border = from;
+    free(to);
     return SS_OK;
 }
 
-/* The peak of a wet point's pool; the way there is halved for the next one who asks. */
+/* --- pools --------------------------------------------------------------------------------- */
+
+/* The highest peak of a peak's pool; the way there is halved for the next one who asks. */
 static size_t
-peak_of(map *m, size_t i)
+highest_of(map *m, size_t p)
 {
-    while (m->pool[i] != i) {
-        m->pool[i] = m->pool[m->pool[i]];
-        i = m->pool[i];
-    }
-    return i;
-}
-
-/* Let the pools of i and of the coefficient (row, k) meet at i, if both are wet. */
-static void
-meet(map *m, size_t i, double level, size_t row, size_t k)
-{
-    size_t j = index_of(m, row, k);
-    if (m->pool[j] == NONE)
-        return;
-    size_t p = peak_of(m, i), q = peak_of(m, j);
-    if (p == q)
-        return;
-    size_t low = m->rank[p] > m->rank[q] ? p : q, high = low == p ? q : p;
-    m->pool[low] = high;
-    m->saddle[low] = level;
-}
-
-/* The translation of scale nearest to time t. */
-static size_t
-nearest(const ss_scale *scale, double t)
-{
-    double k = floor(t * scale->b_den / scale->b_num + 0.5);
-    return k <= 0 ? 0 : k >= (double)scale->n ? scale->n - 1 : (size_t)k;
-}
-
-/* Neighbours in another row: the nearest there, and those whose nearest here this one is. */
-static void
-meet_row(map *m, size_t i, double level, size_t mine, size_t k, size_t row)
-{
-    const ss_scale *here = &m->coef->scale[mine], *there = &m->coef->scale[row];
-    size_t at = nearest(there, ss_scale_b(here, k));
-    meet(m, i, level, row, at);
-    for (size_t j = at; j > 0 && nearest(here, ss_scale_b(there, j - 1)) == k; j--)
-        meet(m, i, level, row, j - 1);
-    for (size_t j = at + 1; j < there->n && nearest(here, ss_scale_b(there, j)) == k; j++)
-        meet(m, i, level, row, j);
+    while (m->peak[p].pool != p)
+        p = m->peak[p].pool = m->peak[m->peak[p].pool].pool;
+    return p;
 }
 
 static void
 flood(map *m)
 {
-    for (size_t i = 0; i < m->n; i++) {
-        size_t at = m->point[i].at, row = row_of(m, at), k = at - index_of(m, row, 0);
-        double level = level_of(m->point[i].key);
-        m->pool[at] = at;
-        m->rank[at] = i;
-        if (k > 0)
-            meet(m, at, level, row, k - 1);
-        if (k + 1 < m->coef->scale[row].n)
-            meet(m, at, level, row, k + 1);
-        if (row > m->first)
-            meet_row(m, at, level, row, k, row - 1);
-        if (row < m->last)
-            meet_row(m, at, level, row, k, row + 1);
+    for (size_t i = 0; i < m->n_borders; i++) {
+        size_t p = highest_of(m, m->border[i].p), q = highest_of(m, m->border[i].q);
+        if (p == q)
+            continue;
+        double a = m->peak[p].level, b = m->peak[q].level;
+        size_t high = a > b || (a == b && p < q) ? p : q, low = high == p ? q : p;
+        m->peak[low].pool = high;
+        memcpy(&m->peak[low].saddle, &m->border[i].key, sizeof(double));
     }
 }
 
@@ -213,55 +305,90 @@ static int
 earlier_first(const void *a, const void *b)
 {
     const ss_maximum *p = a, *q = b;
-    return (p->t > q->t) - (p->t < q->t);
+    return p->t != q->t ? (p->t > q->t) - (p->t < q->t)
+        : (p->level < q->level) - (p->level > q->level);
 }
 
 /* The map's peaks in dB re top, of at least min_prominence and not more than range below the
- * highest of them, in time order.  The points stand in order of level. */
+ * highest of them, in time order. */
 static ss_status
 report(ss_maximum **out, size_t *n, const map *m, double top, double range, double min_prominence)
 {
-    ss_maximum *peak = malloc((m->n + 1) * sizeof *peak), *fitting;
-    size_t count = 0;
-    if (peak == NULL)
+    ss_maximum *found = malloc((m->n_peaks + 1) * sizeof *found), *fitting;
+    size_t count = 0, kept = 0;
+    double highest = 0, highest_found = -INFINITY;
+    if (found == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < m->n; i++) {
-        size_t at = m->point[i].at;
-        double height = level_of(m->point[i].key), saddle = m->saddle[at];
-        if (m->pool[at] != at && !(saddle > 0))
-            continue;                   /* no peak */
-        size_t row = row_of(m, at), k = at - index_of(m, row, 0);
-        const ss_scale *scale = &m->coef->scale[row];
-        double below = saddle > 0 || i == 0 ? saddle : m->floor;    /* only the highest has no saddle */
-        double fall = below > 0 ? 20 * log10(height / below) : INFINITY;
-        double level = 20 * log10(height / top);
-        if (count > 0 && level < peak[0].level - range)
-            break;
-        if (fall > 0 && fall >= min_prominence && !on_border(m, row, k))
-            peak[count++] = (ss_maximum){ ss_scale_b(scale, k), scale->f, level, fall };
+    for (size_t i = 0; i < m->n_peaks; i++)
+        highest = fmax(highest, m->peak[i].level);
+    for (size_t i = 0; i < m->n_peaks; i++) {
+        const peak *p = &m->peak[i];
+        const ss_scale *scale = &m->coef->scale[p->row];
+        /* only the highest has no saddle */
+        double below = p->saddle > 0 || p->level == highest ? p->saddle : m->floor;
+        double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
+        double level = 20 * log10(p->level / top);
+        if (!(fall > 0 && fall >= min_prominence) || on_border(m, p->row, p->k))
+            continue;
+        found[count++] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f, level, fall };
+        highest_found = fmax(highest_found, level);
     }
-    qsort(peak, count, sizeof *peak, earlier_first);
-    fitting = realloc(peak, (count + 1) * sizeof *peak);
+    for (size_t i = 0; i < count; i++)
+        if (found[i].level >= highest_found - range)
+            found[kept++] = found[i];
+    qsort(found, kept, sizeof *found, earlier_first);
+    fitting = realloc(found, (kept + 1) * sizeof *found);
     if (fitting == NULL) {
-        free(peak);
+        free(found);
         return SS_ENOMEM;
     }
     *out = fitting;
-    *n = count;
+    *n = kept;
     return SS_OK;
+}
+
+/* --- all of it ----------------------------------------------------------------------------- */
+
+/* A map with its pools as they are when all is flooded. */
+static ss_status
+map_new(map **out, const ss_coefficients *coef, size_t first, size_t last, double floor)
+{
+    map *m = calloc(1, sizeof *m);
+    if (m == NULL)
+        return SS_ENOMEM;
+    *m = (map){ .coef = coef, .first = first, .last = last, .floor = floor };
+    size_t most = 1;
+    for (size_t row = first; row <= last; row++)
+        most = coef->scale[row].n > most ? coef->scale[row].n : most;
+    double *memory = malloc(4 * most * sizeof *memory);
+    line l[2] = { { .level = memory, .best = memory + most },
+                  { .level = memory + 2 * most, .best = memory + 3 * most } };
+    m->way = malloc((index_of(m, last, coef->scale[last].n) + 1) * sizeof *m->way);
+    ss_status st = SS_ENOMEM;
+    if (memory != NULL && m->way != NULL) {
+        find_ways(m, l);
+        if ((st = find_peaks(m)) == SS_OK && (st = find_borders(m, l)) == SS_OK
+            && (st = sort_borders(m)) == SS_OK)
+            flood(m);
+    }
+    free(memory);
+    if (st != SS_OK)
+        map_free(m);
+    else
+        *out = m;
+    return st;
 }
 
 ss_status
 ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                 double min_prominence, double floor)
 {
-    map m;
+    map *m;
     ss_status st = map_new(&m, coefficients, 0, coefficients->n_scales - 1, floor);
     if (st != SS_OK)
         return st;
-    flood(&m);
-    st = report(out, n, &m, ss_coefficients_max(coefficients), INFINITY, min_prominence);
-    map_free(&m);
+    st = report(out, n, m, ss_coefficients_max(coefficients), INFINITY, min_prominence);
+    map_free(m);
     return st;
 }
 
@@ -277,16 +404,13 @@ ss_status
 ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
           double range, double min_prominence)
 {
-    if (out == NULL || n == NULL || coefficients == NULL)
+    if (out == NULL || n == NULL || coefficients == NULL || scale >= coefficients->n_scales)
         return SS_EINVAL;
-    map m;
-    if (scale >= coefficients->n_scales)
-        return SS_EINVAL;
+    map *m;
     ss_status st = map_new(&m, coefficients, scale, scale, 0);
     if (st != SS_OK)
         return st;
-    flood(&m);
-    st = report(out, n, &m, ss_coefficients_max(coefficients), range, min_prominence);
-    map_free(&m);
+    st = report(out, n, m, ss_coefficients_max(coefficients), range, min_prominence);
+    map_free(m);
     return st;
 }
