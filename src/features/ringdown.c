@@ -46,6 +46,22 @@
 enum { FEW = 4 };               /* windows that a jackknife needs */
 enum { COLUMNS = 5, PLACES = 16 };  /* PLACES: of the core, a period */
 
+/* exp(-s t) cos(w t) and exp(-s t) sin(w t), as many samples as were asked for yet. */
+typedef struct wave {
+    double w, s;                /* per sample */
+    size_t n;
+    double *cos, *sin;
+} wave;
+
+/* What is projected out of windows of n samples, orthonormal; the oscillation's are the last two
+ * columns.  Windows of one length share it. */
+typedef struct basis {
+    size_t n;                   /* 0: none yet */
+    double w, s, forcing;
+    double *q[COLUMNS];
+    double norm[COLUMNS], cross;        /* of a column less those before; of sin along cos */
+} basis;
+
 typedef struct work {
     const double *x;
     size_t n;
@@ -54,7 +70,8 @@ typedef struct work {
     size_t room;                /* samples of the longest window */
     double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
     size_t columns;             /* of the slow part and of the oscillation */
-    double *q[COLUMNS];         /* orthonormal; the oscillation's are the last two */
+    wave slow, ring;            /* cos and sin of the forcing; the oscillation */
+    basis basis;
     double *r;                  /* the residual */
     double *j;                  /* its derivatives by w and by s */
     size_t n_windows;
@@ -94,13 +111,19 @@ length(ss_window win)
     return win.end - win.first;
 }
 
+/* In lanes, which do not wait for each other. */
 static double
 dot(const double *a, const double *b, size_t n)
 {
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
+    enum { LANES = 8 };
+    double sum[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            sum[l] += a[i + l] * b[i + l];
+    for (; i < n; i++)
+        sum[0] += a[i] * b[i];
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
 /* Take its part along the unit vector q out of v; the part. */
@@ -122,52 +145,73 @@ normalise(double *v, size_t n)
     return norm;
 }
 
-/* The columns exp(-s t) cos(w t) and exp(-s t) sin(w t), by rotation. */
+/* The first n samples, by rotation. */
 static void
-ring_columns(const work *k, double *c, double *s, size_t n)
+extend(wave *to, double w, double s, size_t n)
 {
-    double step = exp(-k->s), turn_c = step * cos(k->w), turn_s = step * sin(k->w);
-    c[0] = 1;
-    s[0] = 0;
-    for (size_t i = 1; i < n; i++) {
-        c[i] = c[i - 1] * turn_c - s[i - 1] * turn_s;
-        s[i] = c[i - 1] * turn_s + s[i - 1] * turn_c;
+    double step = exp(-s), turn_c = step * cos(w), turn_s = step * sin(w);
+    if (to->w != w || to->s != s)
+        to->n = 0;
+    to->w = w, to->s = s;
+    for (; to->n < n; to->n++) {
+        size_t i = to->n;
+        to->cos[i] = i == 0 ? 1 : to->cos[i - 1] * turn_c - to->sin[i - 1] * turn_s;
+        to->sin[i] = i == 0 ? 0 : to->cos[i - 1] * turn_s + to->sin[i - 1] * turn_c;
     }
 }
 
-/* The slow part: what is not of unit size is made so. */
+/* The slow part, about the middle of the window: what is not of unit size is made so. */
 static void
-slow_columns(const work *k, size_t n)
+slow_columns(work *k, double **q, size_t n)
 {
     double middle = 0.5 * (double)(n - 1);
+    double c = cos(k->forcing * middle), s = sin(k->forcing * middle);
+    if (k->forcing > 0)
+        extend(&k->slow, k->forcing, 0, n);
     for (size_t i = 0; i < n; i++) {
-        double t = (double)i - middle;
-        k->q[0][i] = 1;
-        k->q[1][i] = k->forcing > 0 ? sin(k->forcing * t) : t;
-        if (k->forcing > 0)
-            k->q[2][i] = cos(k->forcing * t);
+        q[0][i] = 1;
+        if (k->forcing > 0) {
+            q[1][i] = k->slow.sin[i] * c - k->slow.cos[i] * s;
+            q[2][i] = k->slow.cos[i] * c + k->slow.sin[i] * s;
+        } else
+            q[1][i] = (double)i - middle;
     }
 }
 
-/* Fill q and r for a window of more samples than columns, by modified Gram-Schmidt. */
+/* By modified Gram-Schmidt, for more samples than columns. */
+static void
+make_basis(work *k, size_t n)
+{
+    basis *b = &k->basis;
+    size_t c = k->columns - 2;
+    if (b->n == n && b->w == k->w && b->s == k->s && b->forcing == k->forcing)
+        return;
+    b->n = n, b->w = k->w, b->s = k->s, b->forcing = k->forcing;
+    slow_columns(k, b->q, n);
+    extend(&k->ring, k->w, k->s, n);
+    memcpy(b->q[c], k->ring.cos, n * sizeof(double));
+    memcpy(b->q[c + 1], k->ring.sin, n * sizeof(double));
+    for (size_t j = 0; j < k->columns; j++) {
+        for (size_t l = 0; l < j; l++)
+            b->cross = take_out(b->q[j], b->q[l], n);   /* the last one: of sin along cos */
+        b->norm[j] = normalise(b->q[j], n);
+    }
+}
+
+/* Make the basis, and fill r, for a window. */
 static linear
 project(work *k, ss_window win)
 {
+    const basis *p = &k->basis;
     size_t n = length(win), c = k->columns - 2, s = c + 1;
-    double z[COLUMNS] = { 0 }, norm[COLUMNS] = { 0 }, cross = 0;
-    slow_columns(k, n);
-    ring_columns(k, k->q[c], k->q[s], n);
-    for (size_t j = 0; j < k->columns; j++) {
-        for (size_t l = 0; l < j; l++)
-            cross = take_out(k->q[j], k->q[l], n);      /* the last one: of sin along cos */
-        norm[j] = normalise(k->q[j], n);
-    }
+    double z[COLUMNS] = { 0 };
+    make_basis(k, n);
     memcpy(k->r, k->x + win.first, n * sizeof *k->r);
     for (size_t j = 0; j < k->columns; j++)
-        z[j] = take_out(k->r, k->q[j], n);
-    double b = z[s] / norm[s];
-    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s], (z[c] - cross * b) / norm[c],
-                     b };
+        z[j] = take_out(k->r, p->q[j], n);
+    double b = z[s] / p->norm[s];
+    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s],
+                     (z[c] - p->cross * b) / p->norm[c], b };
 }
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
@@ -196,15 +240,14 @@ window_jacobian(work *k, ss_window win, double *j_w, double *j_s)
 {
     size_t n = length(win);
     linear fit = project(k, win);
-    ring_columns(k, j_w, j_s, n);
     for (size_t i = 0; i < n; i++) {
-        double c = (double)i * j_w[i], s = (double)i * j_s[i];
+        double c = (double)i * k->ring.cos[i], s = (double)i * k->ring.sin[i];
         j_w[i] = fit.a * s - fit.b * c;
         j_s[i] = fit.a * c + fit.b * s;
     }
     for (size_t j = 0; j < k->columns; j++) {
-        take_out(j_w, k->q[j], n);
-        take_out(j_s, k->q[j], n);
+        take_out(j_w, k->basis.q[j], n);
+        take_out(j_s, k->basis.q[j], n);
     }
 }
 
@@ -398,15 +441,14 @@ add_scores(work *k, ss_window win, size_t first, size_t step, size_t n_places, s
         size_t at = first + l * step;
         int used = at < n ? PARAMETERS : 2;
         if (at < n) {
-            ring_columns(k, j[2], j[3], n);
             for (size_t i = 0; i < n; i++) {
-                double c = i < at ? 0 : j[2][i], s = i < at ? 0 : j[3][i];
+                double c = i < at ? 0 : k->ring.cos[i], s = i < at ? 0 : k->ring.sin[i];
                 j[2][i] = fitted.a * c + fitted.b * s;
                 j[3][i] = fitted.b * c - fitted.a * s;
             }
             for (int p = 2; p < PARAMETERS; p++)
                 for (size_t q = 0; q < k->columns; q++)
-                    take_out(j[p], k->q[q], n);
+                    take_out(j[p], k->basis.q[q], n);
         }
         for (int p = 0; p < used; p++) {
             for (int q = 0; q < used; q++)
@@ -827,13 +869,15 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     if (!(apart >= APART * period(&k)) || (forcing > 0 && M_PI / forcing < APART * period(&k)))
         return SS_OK;
     k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
-    double *memory = malloc((COLUMNS + 1 + PARAMETERS) * k.room * sizeof *memory);
+    double *memory = malloc((COLUMNS + 1 + PARAMETERS + 4) * k.room * sizeof *memory);
     if (memory == NULL)
         return SS_ENOMEM;
     for (int j = 0; j < COLUMNS; j++)
-        k.q[j] = memory + (size_t)j * k.room;
+        k.basis.q[j] = memory + (size_t)j * k.room;
     k.r = memory + COLUMNS * k.room;
-    k.j = memory + (COLUMNS + 1) * k.room;
+    k.slow.cos = k.r + k.room, k.slow.sin = k.slow.cos + k.room;
+    k.ring.cos = k.slow.sin + k.room, k.ring.sin = k.ring.cos + k.room;
+    k.j = k.ring.sin + k.room;
     ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
     k.w = w, k.s = START * w;
     k.forcing = 0, k.columns = COLUMNS - 1;
