@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <stickslip/signal.h>
 #include "error.h"
 
@@ -349,6 +350,49 @@ ss_status
 ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err)
 {
     return ss_scene_read_set(scene, in, name, NULL, 0, err);
+}
+
+/* The text of a shipped scene, a file, or NULL with the reason in err. */
+static FILE *
+open_scene(const char *path, ss_error *err)
+{
+    char names[256] = "";
+    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++) {
+        if (strcmp(s->name, path) == 0) {
+            FILE *text = fmemopen((void *)s->text, strlen(s->text), "r");
+            if (text == NULL)
+                ss_fail_errno(err, path, errno);
+            return text;
+        }
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
+                 s == ss_shipped_scenes ? "" : ", ", s->name);
+    }
+    FILE *in = fopen(path, "rb");
+    int why = errno;
+    struct stat st;
+    if (in != NULL && fstat(fileno(in), &st) == 0 && !S_ISDIR(st.st_mode))
+        return in;
+    if (in != NULL)
+        fclose(in);
+    if (in != NULL || why != ENOENT)
+        ss_fail_errno(err, path, in != NULL ? EISDIR : why);
+    else
+        ss_fail(err, SS_EIO, "%s: no such file, and the shipped scenes are %s", path, names);
+    return NULL;
+}
+
+ss_status
+ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], size_t n,
+              ss_error *err)
+{
+    if (scene == NULL || path == NULL || (settings == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    FILE *in = open_scene(path, err);
+    if (in == NULL)
+        return SS_EIO;
+    ss_status st = ss_scene_read_set(scene, in, path, settings, n, err);
+    fclose(in);
+    return st;
 }
 
 ss_status

@@ -39,6 +39,9 @@ readers_refuse_null(void **state)
     assert_refused(ss_scene_read(&read, NULL, "in", &e), &e);
     assert_refused(ss_scene_read(&read, in, NULL, &e), &e);
     assert_refused(ss_scene_read_set(&read, in, "in", NULL, 1, &e), &e);
+    assert_refused(ss_scene_load(NULL, "coulomb", NULL, 0, &e), &e);
+    assert_refused(ss_scene_load(&read, NULL, NULL, 0, &e), &e);
+    assert_refused(ss_scene_load(&read, "coulomb", NULL, 1, &e), &e);
     assert_refused(ss_scene_check(NULL, &e), &e);
     assert_refused(ss_reader_new(NULL, in, "in", NULL, &e), &e);
     assert_refused(ss_reader_new(&reader, NULL, "in", NULL, &e), &e);

@@ -24,9 +24,6 @@ scene_of(const char *name, const char *list)
     size_t n = 0;
     ss_scene scene;
     ss_error err = { "" };
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    while (strcmp(s->name, name) != 0)
-        s++;
     snprintf(text, sizeof text, "settle=0 duration=1 %s", list);
     for (char *word = strtok(text, " "); word != NULL; word = strtok(NULL, " ")) {
         size_t i = 0, length = strcspn(word, "=");  /* what is given twice counts as given last */
@@ -36,10 +33,8 @@ scene_of(const char *name, const char *list)
         setting[i] = word;
         n = i < n ? n : n + 1;
     }
-    FILE *in = fmemopen((void *)s->text, strlen(s->text), "r");
-    if (ss_scene_read_set(&scene, in, name, setting, n, &err) != SS_OK)
-        fail_msg("%s", err.text);
-    fclose(in);
+    if (ss_scene_load(&scene, name, setting, n, &err) != SS_OK)
+        fail_msg("%s: %s", name, err.text);
     return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -81,6 +82,37 @@ ships_the_scenes_of_the_figures(void **state)
         assert_non_null(strstr(ss_shipped_scenes[i].summary, "Liang & Feeny"));
     }
     assert_null(ss_shipped_scenes[4].name);
+}
+
+static void
+loads_a_shipped_scene_by_its_name_and_a_file_by_its_path(void **state)
+{
+    static const char *const setting[] = { "mass = 3" };
+    char path[] = "/tmp/stickslip-scene-XXXXXX", wanted[512];
+    ss_scene a, b;
+    ss_error err = { "" };
+    (void)state;
+    for (const ss_shipped_scene *shipped = ss_shipped_scenes; shipped->name; shipped++) {
+        assert_int_equal(read_text(&a, shipped->text, setting, 1, &err), SS_OK);
+        assert_int_equal(ss_scene_load(&b, shipped->name, setting, 1, &err), SS_OK);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    assert_int_equal(ss_scene_load(&b, "coulomb", (const char *[]){ "c = 1" }, 1, &err), SS_EINVAL);
+    assert_memory_equal(&a, &b, sizeof a);
+
+    int fd = mkstemp(path);
+    assert_true(fd >= 0 && write(fd, coulomb, sizeof coulomb - 1) == sizeof coulomb - 1);
+    close(fd);
+    assert_int_equal(read_text(&a, coulomb, NULL, 0, &err), SS_OK);
+    assert_int_equal(ss_scene_load(&b, path, NULL, 0, &err), SS_OK);
+    assert_memory_equal(&a, &b, sizeof a);
+    unlink(path);
+    snprintf(wanted, sizeof wanted, "%s: no such file, and the shipped scenes are compliant-heavy, "
+             "compliant-light, coulomb, state-variable", path);
+    assert_int_equal(ss_scene_load(&b, path, NULL, 0, &err), SS_EIO);
+    assert_string_equal(err.text, wanted);
+    assert_int_equal(ss_scene_load(&b, "/tmp", NULL, 0, &err), SS_EIO);
+    assert_string_equal(err.text, "/tmp: Is a directory");
 }
 
 #define GOOD "mass=2\nstiffness=50\nfriction=1\nbase_amplitude=.1\nbase_frequency=1\n"
@@ -189,6 +221,7 @@ main(void)
         cmocka_unit_test(takes_comments_blanks_crlf_and_a_last_line_without_newline),
         cmocka_unit_test(writes_what_it_reads),
         cmocka_unit_test(ships_the_scenes_of_the_figures),
+        cmocka_unit_test(loads_a_shipped_scene_by_its_name_and_a_file_by_its_path),
         cmocka_unit_test(says_what_is_wrong_and_where),
         cmocka_unit_test(settings_take_the_place_of_lines),
         cmocka_unit_test(checks_scenes_made_by_hand),

@@ -344,33 +344,17 @@ tool_read_coefficients(const char *path)
     return coefficients;
 }
 
-static const ss_shipped_scene *
-shipped(const char *name)
-{
-    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
-        if (strcmp(s->name, name) == 0)
-            return s;
-    return NULL;
-}
-
 ss_scene
 tool_read_scene(const char *path, const char *const settings[], size_t n)
 {
     ss_scene scene;
     ss_error err = { "" };
-    const ss_shipped_scene *s = shipped(path);
-    if (s == NULL && strcmp(path, "-") != 0 && access(path, F_OK) != 0)
-        tool_die("%s: %s, and no shipped scene has this name (ss-sim --list shows them)", path,
-                 strerror(errno));
-    FILE *in = s != NULL ? fmemopen((void *)s->text, strlen(s->text), "r") : tool_open(path);
-    if (in == NULL)
-        tool_die("%s", strerror(errno));
-    ss_status st = ss_scene_read_set(&scene, in, tool_input_name(path), settings, n, &err);
+    ss_status st = strcmp(path, "-") == 0
+                 ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings, n, &err)
+                 : ss_scene_load(&scene, path, settings, n, &err);
     if (st == SS_EINVAL)
         tool_usage("--set: %s", err.text);
     tool_check(st, &err);
-    if (in != stdin)
-        fclose(in);
     return scene;
 }
 

@@ -60,6 +60,11 @@ ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *e
 ss_status ss_scene_read_set(ss_scene *scene, FILE *in, const char *name,
                             const char *const settings[], size_t n, ss_error *err);
 
+/* Read the shipped scene of this name ("compliant-light"), or if none has it the file of this path,
+ * with settings as above.  SS_EIO also if there is neither; err then has the names that there are. */
+ss_status ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], size_t n,
+                        ss_error *err);
+
 /* SS_OK if every parameter that the model has lies in its range, else SS_EINVAL. */
 ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 
@@ -87,7 +92,8 @@ ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
 
-/* The scenes of the paper's figures, built in.  text is what ss_scene_read takes. */
+/* The scenes of the paper's figures, built in.  ss_scene_load reads one by its name; text is what
+ * ss_scene_read takes. */
 typedef struct ss_shipped_scene {
     const char *name;           /* "compliant-light" */
     const char *summary;        /* its first comment line: one line of plain text */

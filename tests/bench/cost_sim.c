@@ -51,11 +51,8 @@ compare(double duration)
 static ss_scene
 scene_named(const char *name)
 {
-    const ss_shipped_scene *s = ss_shipped_scenes;
-    ss_scene scene;
-    while (strcmp(s->name, name) != 0)
-        s++;
-    bench_read(&scene, s);
+    ss_scene scene = read_shipped_named(name);
+    scene.settle = 0;
     scene.duration = 10;
     return scene;
 }

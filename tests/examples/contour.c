@@ -4,36 +4,13 @@
  *     ./contour compliant-light
  *     gnuplot -p contour.gp
  *
- * Simulates a shipped scene, transforms its acceleration, and leaves contour.h5 with the numbers and
- * contour.gp with the picture.  Each step gives a status, and on failure its reason in err. */
+ * Simulates a scene, a shipped one or a file, transforms its acceleration, and leaves contour.h5 with
+ * the numbers and contour.gp with the picture.  Each step gives a status, and on failure its reason
+ * in err. */
 #include <stickslip.h>
 
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
-#include <string.h>
-
-static const char *
-shipped_scene(const char *name)
-{
-    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
-        if (strcmp(s->name, name) == 0)
-            return s->text;
-    return NULL;
-}
-
-static ss_status
-read_scene(ss_scene *scene, const char *name, ss_error *err)
-{
-    const char *text = shipped_scene(name);
-    FILE *in = text != NULL ? fmemopen((void *)text, strlen(text), "r") : fopen(name, "r");
-    if (in == NULL) {
-        snprintf(err->text, sizeof err->text, "%s: no such scene or file", name);
-        return SS_EIO;
-    }
-    ss_status status = ss_scene_read(scene, in, name, err);
-    fclose(in);
-    return status;
-}
 
 static ss_status
 write_plot(const char *path, const ss_coefficients *coefficients, const ss_signal *signal,
@@ -66,7 +43,8 @@ main(int argc, char *argv[])
      * library checks GSL's statuses itself, but leaves this setting, a global one, to the program. */
     gsl_set_error_handler_off();
 
-    ss_status status = read_scene(&scene, argc > 1 ? argv[1] : "compliant-light", &err);
+    const char *path = argc > 1 ? argv[1] : "compliant-light";
+    ss_status status = ss_scene_load(&scene, path, NULL, 0, &err);
     if (status == SS_OK)
         status = ss_simulate(&signal, &scene, &err);
     if (status == SS_OK) {
