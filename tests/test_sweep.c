@@ -578,7 +578,9 @@ refuses_grids_that_mean_nothing(void **state)
 static ss_status
 read_text(ss_sweep_table **table, const char *text, ss_error *err)
 {
-    FILE *in = fmemopen((void *)text, strlen(text), "r");
+    FILE *in = tmpfile();
+    fputs(text, in);
+    rewind(in);
     ss_status st = ss_sweep_read(table, in, "a.tsv", err);
     fclose(in);
     return st;
@@ -597,7 +599,21 @@ reads_rows_back(void **state)
         { "# stickslip sweep 1\n# columns: index x status\n1\tok\n",
           "a.tsv:3: expected 3 columns, found 2" },
         { "# stickslip sweep 1\n# columns: index x status\n1\ttwo\tok\n",
-          "a.tsv:3: 'two' is not a number" } };
+          "a.tsv:3: 'two' is not a finite number" },
+        { "# stickslip sweep 1\n# columns: index x status\n1\t1e999\tok\n",
+          "a.tsv:3: '1e999' is not a finite number" },
+        { "# stickslip sweep 1\n# columns: index x status\n1\tnan\tok\n",
+          "a.tsv:3: 'nan' is not a finite number" },
+        { "# stickslip sweep 1\n# columns: index x status\n1\t2\t3\tok\n",
+          "a.tsv:3: expected 3 columns, found 4" },
+        { "# stickslip sweep 1\n# columns: index x\n1\t2\n",
+          "a.tsv:2: the columns are the index, others, and the status" },
+        { "# stickslip sweep 1\n# columns: status\nok\n",
+          "a.tsv:2: the columns are the index, others, and the status" },
+        { "# stickslip sweep 1\n# columns: index x status\n# columns: index y status\n",
+          "a.tsv:3: other columns than before: another sweep" },
+        { "# stickslip sweep 1\n", "a.tsv: no '# columns:' line in the header" },
+        { "", "a.tsv: empty" } };
     ss_sweep_table *t = NULL;
     ss_error err = { "" };
     (void)state;
@@ -611,6 +627,30 @@ reads_rows_back(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_int_equal(read_text(&t, bad[i].text, &err), SS_EDATA);
         assert_string_equal(err.text, bad[i].why);
+    }
+}
+
+/* No more columns than a signal has. */
+static void
+refuses_a_sweep_of_more_than_32768_columns(void **state)
+{
+    enum { MOST = 32768 };
+    static char text[8 * MOST];
+    (void)state;
+    for (int n = MOST; n <= MOST + 1; n++) {
+        ss_sweep_table *t = NULL;
+        ss_error err = { "" };
+        char *p = text + sprintf(text, "# stickslip sweep 1\n# columns:");
+        for (int i = 0; i < n; i++)
+            p += sprintf(p, " a");
+        p += sprintf(p, " status\n");
+        for (int i = 0; i < n; i++)
+            p += sprintf(p, "1\t");
+        sprintf(p, "ok\n");
+        assert_int_equal(read_text(&t, text, &err), n == MOST ? SS_OK : SS_EDATA);
+        if (n > MOST)
+            assert_string_equal(err.text, "a.tsv:2: more than 32768 columns");
+        ss_sweep_table_free(t);
     }
 }
 
@@ -636,6 +676,7 @@ main(void)
         cmocka_unit_test(shards_threads_and_starts_give_the_same_rows),
         cmocka_unit_test(refuses_grids_that_mean_nothing),
         cmocka_unit_test(reads_rows_back),
+        cmocka_unit_test(refuses_a_sweep_of_more_than_32768_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

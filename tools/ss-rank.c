@@ -251,7 +251,7 @@ main(int argc, char *argv[])
     j.signal_path = optind < argc ? argv[optind] : "-";
     const char *shipped[16];
     size_t n = 0;
-    while (ss_shipped_scenes[n].name != NULL && n < sizeof shipped / sizeof *shipped)
+    while (n < sizeof shipped / sizeof *shipped && ss_shipped_scenes[n].name != NULL)
         shipped[n] = ss_shipped_scenes[n].name, n++;
     j.scenes = optind + 1 < argc ? (const char **)argv + optind + 1 : shipped;
     j.n_scenes = optind + 1 < argc ? (size_t)(argc - optind - 1) : n;

@@ -312,8 +312,8 @@ count_rows(const request *req, FILE *in, const char *header, long *end)
         char *tab;
         size_t due = req->opts.shard + rows * req->opts.shards, index = strtoul(line, &tab, 10);
         if (tab == line || *tab != '\t' || index != due)
-            tool_die("%s: row %zu is '%.20s', but point %zu is due: another sweep or shard",
-                     req->resume, rows + 1, strtok(line, "\t"), due);
+            tool_die("%s: row %zu is '%.*s', but point %zu is due: another sweep or shard",
+                     req->resume, rows + 1, (int)strcspn(line, "\t"), line, due);
         rows++;
         *end += n;
     }

@@ -100,6 +100,7 @@ make_carrier(carrier *to, size_t turns, size_t circle, size_t first, size_t n, d
     for (size_t i = 0; i < ROOT; i++) {
         turn(turns, i * ROOT * LANES, circle, coarse);
         for (size_t j = 0; j < ROOT; j++)
+            /* cppcheck-suppress uninitvar ; it is written here */
             multiply(coarse, fine[j], to->block[i * ROOT + j]);
     }
     for (size_t i = 0; i < LANES; i++) {

@@ -108,7 +108,11 @@ all_finite(const double q[], size_t n)
 }
 
 /* GSL's bsimp gives up a step over which a part of the state grows 300-fold, and takes 0 for 1: there
- * this stands for 0.  It is about the tightest tolerance, and lets the first step be over STEP_FLOOR.
+ * this stands for 0, times the scale of x, omega_n times that, and f_k: so all three move x by no more
+ * than this much of its scale.  (A v of this much Omega times the scale, where Omega is a thousand
+ * times omega_n, moved x by 1e-11.)  They have the sign of the motion, so that a scene and its mirror
+ * image move alike.  Since v' is omega_n^2 times the scale of x at most, v grows 300-fold in
+ * 300 BSIMP_ZERO / omega_n or more: the first step is over STEP_FLOOR.
  * (Modes without friction of their own start with steps long enough to do without.) */
 #define BSIMP_ZERO 0x1p-46
 
@@ -118,12 +122,12 @@ static int
 apply(ode *o, gsl_odeiv2_step *step, double h, double y[], double error[], double dydt[])
 {
     const engine *e = &o->base;
-    double dydt_in[MAX_DIM];
+    double dydt_in[MAX_DIM], v = e->m->q[1] != 0 ? e->m->q[1] : e->dq0[1];
     to_units(o, e->m->q, y);
     to_units(o, e->dq0, dydt_in);
     for (size_t i = 0; i < o->system.dimension; i++)
         if (y[i] == 0)
-            y[i] = o->zero[i];
+            y[i] = copysign(o->zero[i], v);
     return gsl_odeiv2_step_apply(step, e->m->u, h, y, error,
                                  step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
 }
@@ -302,6 +306,16 @@ absolute_scales(const motion *m, double scale[MAX_DIM])
     scale[2] = s->friction > 0 ? s->friction : 1;
 }
 
+static void
+set_zeros(ode *o)
+{
+    const motion *m = o->base.m;
+    double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
+    o->zero[0] = BSIMP_ZERO * (m->x_scale / o->unit[0]);
+    o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->unit[1]);
+    o->zero[2] = BSIMP_ZERO * (m->scene->friction / o->unit[2]);
+}
+
 ss_status
 ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
 {
@@ -331,8 +345,7 @@ ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
     }
     if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
         && m->scene->model == SS_STATE_VARIABLE)
-        for (size_t k = 0; k < 3; k++)
-            o->zero[k] = k < 2 || m->scene->friction > 0 ? BSIMP_ZERO : 0;
+        set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
                                                    tol, tol, 1, 0, scale);
     int sides = m->model->derivatives == NULL && !o->multistep;

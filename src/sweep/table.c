@@ -11,6 +11,7 @@
 
 typedef struct reader {
     ss_sweep_table *table;
+    char *columns;                  /* what the header says of them */
     size_t room;
     double *rows;                   /* row after row, while they come in */
     struct input in;
@@ -62,34 +63,59 @@ add_column(reader *r, char *label, ss_error *err)
 }
 
 /* "# columns: index friction/N contact_damping/(N s/m) ... status": blanks in brackets are the
- * unit's.  The status is no number and stays out. */
+ * unit's.  The status, which is last, is no number and stays out. */
 static ss_status
 take_columns(reader *r, char *text, ss_error *err)
 {
     ss_status st = SS_OK;
-    if (r->table->n_columns > 0)
-        return SS_OK;                       /* shards one after the other: the header again */
+    if (r->columns != NULL)                 /* shards one after the other: the header again */
+        return strcmp(text, r->columns) == 0 ? SS_OK
+            : ss_fail(err, SS_EDATA, "%s:%lu: other columns than before: another sweep",
+                      r->in.name, r->in.line);
+    if ((r->columns = strdup(text)) == NULL)
+        return no_memory(err);
+    char *label = text;
     while (st == SS_OK && *(text += strspn(text, " ")) != '\0') {
-        char *label = text;
+        label = text;
         for (int depth = 0; *text != '\0' && (depth > 0 || *text != ' '); text++)
             depth += (*text == '(') - (*text == ')');
         if (*text != '\0')
             *text++ = '\0';
-        if (strcmp(label, "status") != 0)
+        if (text[strspn(text, " ")] != '\0')
             st = add_column(r, label, err);
     }
+    if (st == SS_OK && (r->table->n_columns == 0 || strcmp(label, "status") != 0))
+        return ss_fail(err, SS_EDATA, "%s:%lu: the columns are the index, others, and the status",
+                       r->in.name, r->in.line);
     return st;
+}
+
+/* A number, aperiodic, or - for what is not known. */
+static ss_status
+take_cell(const reader *r, const char *cell, double *value, ss_error *err)
+{
+    char *end;
+    *value = ss_number_parse(cell, &end);
+    if (strcmp(cell, "-") == 0)
+        *value = NAN;
+    else if (strcmp(cell, "aperiodic") == 0)
+        *value = 0;
+    else if (end == cell || *end != '\0' || !isfinite(*value))
+        return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a finite number", r->in.name,
+                       r->in.line, cell);
+    return SS_OK;
 }
 
 static ss_status
 take_row(reader *r, char *line, ss_error *err)
 {
     ss_sweep_table *t = r->table;
+    ss_status st = SS_OK;
     if (t->n_columns == 0)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->in.name,
                        r->in.line);
     if (t->n == r->room) {
-        size_t more = r->room > 0 ? 2 * r->room : 1024;
+        size_t more = r->room > 0 ? 2 * r->room : 1 + 1024 / t->n_columns;
         double *rows = more <= SIZE_MAX / sizeof *rows / t->n_columns
             ? realloc(r->rows, more * t->n_columns * sizeof *rows) : NULL;
         if (rows == NULL)
@@ -98,24 +124,19 @@ take_row(reader *r, char *line, ss_error *err)
         r->room = more;
     }
     double *row = r->rows + t->n++ * t->n_columns;
-    for (size_t i = 0; i < t->n_columns; i++) {
-        size_t length = strcspn(line, "\t");
-        char *end;
-        if (line[length] == '\0')
-            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->in.name,
-                           r->in.line, t->n_columns + 1, i + 1);
-        line[length] = '\0';
-        row[i] = ss_number_parse(line, &end);
-        if (strcmp(line, "-") == 0)
-            row[i] = NAN;
-        else if (strcmp(line, "aperiodic") == 0)
-            row[i] = 0;
-        else if (end == line || *end != '\0')
-            return ss_fail(err, SS_EDATA, "%s:%lu: '%.40s' is not a number", r->in.name,
-                           r->in.line, line);
-        line += length + 1;
+    size_t found = 1;
+    for (const char *p = line; *p != '\0'; p++)
+        found += *p == '\t';
+    if (found != t->n_columns + 1)
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->in.name,
+                       r->in.line, t->n_columns + 1, found);
+    for (size_t i = 0; st == SS_OK && i < t->n_columns; i++) {
+        char *end = strchr(line, '\t');
+        *end = '\0';
+        st = take_cell(r, line, &row[i], err);
+        line = end + 1;
     }
-    return SS_OK;
+    return st;
 }
 
 static ss_status
@@ -162,8 +183,11 @@ ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err)
         st = take_line(&r, line, err);
     if (st == SS_OK && r.in.line == 0)
         st = ss_fail(err, SS_EDATA, "%s: empty", name);
+    if (st == SS_OK && r.columns == NULL)
+        st = ss_fail(err, SS_EDATA, "%s: no '# columns:' line in the header", name);
     if (st == SS_OK)
         st = turn_over(&r, err);
+    free(r.columns);
     free(r.rows);
     ss_input_close(&r.in);
     if (st == SS_OK)

@@ -3,7 +3,7 @@
 # Seeds are small, so that a fuzzer gets through them fast: few samples, few scales.
 set -eu
 cd "$(dirname "$0")/corpus"
-mkdir -p scene text delimited au coefficients hdf5
+mkdir -p scene text delimited au coefficients hdf5 sweep
 short='--set settle=0 --set rate=1000'
 
 for name in coulomb state-variable compliant-light; do
@@ -54,3 +54,11 @@ printf '# x y\n 0 1\n\n 0.25  2 \r\n0.5 4\n0.75 8' > delimited/blanks
 printf '\357\273\277X_Value\tVoltage\tComment\n0\t1\t\n0.1\t2\t\n0.2\t3\t\n' > delimited/labview
 printf '1\n2\n-3e5\n' > delimited/column
 printf 't\tx\n0\tnan\n1\t\n' > delimited/refused
+
+# Grids of a count and of a number, one with points missing, and two shards with a header each.
+ss-sweep -m stops,amplitude,period --vary base_frequency=2:8:3 --vary friction=0.1:1.5:4 coulomb > sweep/grid
+ss-sweep -m amplitude,stops --vary mass=-1:1:3 --vary stiffness=1000:4000:3:log coulomb > sweep/missing
+for shard in 1 2; do
+    ss-sweep --shard $shard/2 -m stops,amplitude --vary friction=0.1:1.5:3 --vary contact_stiffness=1e5:1e6:3:log \
+        compliant-light
+done > sweep/shards

@@ -1,3 +1,3 @@
-# Half 2 of 10,000 random scenes: methods, mirror image, units and energy (tests/test_random.c).
+# Quarter 2 of 10,000 random scenes: methods, mirror image, units and energy (tests/test_random.c).
 [ -z "$SAN" ] || { echo "the same as without sanitizers, for hours"; exit 77; }
-FIRST=5000 SCENES=5000 "$BUILD/tests/test_random" > log 2>&1 || cat log
+FIRST=2500 SCENES=2500 "$BUILD/tests/test_random" > log 2>&1 || cat log
