@@ -6,7 +6,8 @@
  * this peak and any higher one: the prominence is the fall from peak to saddle.  Cost: a sort.
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
- * where the map was cut, not a maximum; it is not reported, but it is higher ground for others. */
+ * where the map was cut, not a maximum; it is not reported, but it is higher ground for others.  So
+ * is what gaps reach: a map cut there would make islands of what lies between. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -101,7 +102,7 @@ take_points(map *m)
             const double *w = m->coef->w + 2 * (scale->offset + k);
             point p = { .at = index_of(m, row, k) };
             double level = hypot(w[0], w[1]);
-            if (!(level > m->floor) || ss_coefficients_edge(m->coef, row, k))
+            if (!(level > m->floor) || ss_scale_edge(scale, k, m->coef->n, m->coef->head->rate))
                 continue;
             memcpy(&p.key, &level, sizeof level);
             m->point[m->n++] = p;
@@ -205,8 +206,8 @@ on_border(const map *m, size_t row, size_t k)
 {
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k - 1)
-        || ss_coefficients_edge(m->coef, row, k + 1);
+    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k)
+        || ss_coefficients_edge(m->coef, row, k - 1) || ss_coefficients_edge(m->coef, row, k + 1);
 }
 
 static int

@@ -59,6 +59,8 @@ typedef struct work {
     double *j;                  /* its derivatives by w and by s */
     size_t n_windows;
     const ss_window *window;
+    size_t n_gaps;
+    const ss_window *gap;
 } work;
 
 typedef struct linear {         /* what projecting a window gave */
@@ -303,6 +305,28 @@ find_noise(work *k, const ss_window *window, size_t n)
     return SS_OK;
 }
 
+/* How many gaps begin before sample i. */
+static size_t
+gaps_before(const work *k, size_t i)
+{
+    size_t lo = 0, hi = k->n_gaps;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (k->gap[mid].first < i)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+static int
+has_gap(const work *k, ss_window win)
+{
+    size_t g = gaps_before(k, win.end);
+    return g > 0 && k->gap[g - 1].end > win.first;
+}
+
 /* The window of so many periods about an anchor where the line and the oscillation leave least,
  * among the places where there is at least a quarter of the most oscillation. */
 static ss_window
@@ -317,6 +341,8 @@ place(work *k, size_t anchor, double size_in_periods)
         for (size_t first = anchor > before ? anchor - before : 0;
              first <= anchor + after && first + size <= k->n; first += step) {
             ss_window here = { first, first + size };
+            if (has_gap(k, here))
+                continue;
             linear fitted = project(k, here);
             if (pass == 0) {
                 most = fmax(most, fitted.ring);
@@ -512,6 +538,11 @@ find_windows(work *k, const ss_window *core, ss_window *window, size_t n, size_t
 {
     for (size_t i = 0; i < n; i++) {
         size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
+        size_t g = gaps_before(k, core[i].end);
+        if (g > 0 && k->gap[g - 1].end > low)
+            low = k->gap[g - 1].end;
+        if (g < k->n_gaps && k->gap[g].first < high)
+            high = k->gap[g].first;
         low = low < core[i].first ? low : core[i].first;
         high = high > core[i].end ? high : core[i].end;
         window[i] = grow_both(k, core[i], low, high, limit);
@@ -817,10 +848,11 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
 
 ss_status
 ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
-                double forcing, double white, ss_window *window, ss_value value[2],
-                ss_value *each)
+                double forcing, double white, const ss_window *gap, size_t n_gaps,
+                ss_window *window, ss_value value[2], ss_value *each)
 {
-    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1 };
+    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1,
+               .n_gaps = n_gaps, .gap = gap };
     clear(anchor, n_anchors, window, value, each);
     double apart = n_anchors < 2 ? 0
         : (double)(anchor[n_anchors - 1] - anchor[0]) / (double)(n_anchors - 1);
