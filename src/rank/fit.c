@@ -23,11 +23,14 @@
 #include <gsl/gsl_vector.h>
 #include <stickslip/sim.h>
 #include "error.h"
+#include "progress.h"
 #include "rank/candidate.h"
+#include "signal/gaps.h"
 
 enum { STARTS = 96, KEEP = 6, STEPS = 150 };
 enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 enum { PASSES = 40 };
+enum { RUNS = 1000 };                  /* of the scene in one fit, about */
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
 #define FAR 10.0
 /* Who leaves more of the rms than this, and than MARGIN times its noise, is another model's. */
@@ -40,18 +43,25 @@ enum { FRICTION, AMPLITUDE, STIFFNESS, DAMPING, FREQUENCY, PHASE, X0, V0, OFFSET
 
 typedef struct match {
     const double *signal;               /* samples matched */
-    size_t n;
+    const char *missing;                /* of them; NULL: none */
+    size_t n, there;                    /* there: those not missing */
     double *motion;                     /* room for as many */
     int pick;
     ss_scene start;                     /* at the first of them, in slip */
     double x_unit, v_unit, y_unit;
-    ss_status status;                   /* SS_ENOMEM once a run lacked memory */
+    ss_stretch progress;
+    double runs, expected;              /* so far, and how many there will be at most */
+    ss_status status;                   /* SS_ENOMEM once a run lacked memory, SS_STOP when told to */
 } match;
 
 /* Run a scene into m->motion; 0 if it cannot be run. */
 static int
 run(match *m, const ss_scene *s)
 {
+    if (m->status == SS_OK)
+        m->status = ss_stretch_at(&m->progress, fmin(m->runs++ / m->expected, 1));
+    if (m->status != SS_OK)
+        return 0;
     ss_status st = ss_candidate_run(s, m->pick, m->motion, m->n);
     if (st == SS_ENOMEM)
         m->status = st;
@@ -87,7 +97,8 @@ residuals(const gsl_vector *u, void *user, gsl_vector *f)
     if (!run(m, &s))
         return GSL_EDOM;
     for (size_t i = 0; i < m->n; i++)
-        gsl_vector_set(f, i, m->motion[i] + offset - m->signal[i]);
+        gsl_vector_set(f, i, m->missing != NULL && m->missing[i] ? 0
+                       : m->motion[i] + offset - m->signal[i]);
     return GSL_SUCCESS;
 }
 
@@ -114,12 +125,12 @@ descend(match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS], doubl
         for (size_t i = 0; i < m->n; i++)
             squares += gsl_vector_get(r, i) * gsl_vector_get(r, i);
         gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 0, covariance);
-        for (size_t i = 0; squares / (double)m->n < *left && i < UNKNOWNS; i++) {
+        for (size_t i = 0; squares / (double)m->there < *left && i < UNKNOWNS; i++) {
             u[i] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
             error[i] = sqrt(gsl_matrix_get(covariance, i, i) * squares
-                            / (double)(m->n - UNKNOWNS));
+                            / (double)(m->there - UNKNOWNS));
         }
-        *left = fmin(*left, squares / (double)m->n);
+        *left = fmin(*left, squares / (double)m->there);
     }
     gsl_multifit_nlinear_free(w);
     gsl_matrix_free(covariance);
@@ -162,7 +173,7 @@ find_fastest(const ss_sample *s, size_t n, void *user)
 
 /* Where in the first cycle of the record the scene slips fastest; 0 if it never does. */
 static int
-find_start(match *m, const ss_scene *settled, const double *x, size_t n)
+find_start(match *m, const ss_scene *settled, const double *x, const char *missing, size_t n)
 {
     moment s = { .at = 0 };
     ss_sim_opts opts = { .method = "exact", .tol = 1e-12, .samples = find_fastest, .user = &s };
@@ -173,6 +184,7 @@ find_start(match *m, const ss_scene *settled, const double *x, size_t n)
     if (m->status != SS_OK || s.fastest.mode == 0)
         return 0;
     m->signal = x + s.at;
+    m->missing = missing != NULL ? missing + s.at : NULL;
     m->n = (size_t)fmin(fmin((double)(n - s.at), CYCLES * period * rate), MOST);
     m->start = *settled;
     m->start.phase += 2 * M_PI * settled->base_frequency * s.fastest.t;
@@ -182,28 +194,36 @@ find_start(match *m, const ss_scene *settled, const double *x, size_t n)
     m->start.v0 = s.fastest.v;
     m->x_unit = fmax(fabs(s.fastest.x), settled->base_amplitude);
     m->v_unit = fabs(s.fastest.v);
-    for (size_t i = 0; i < m->n; i++)
-        square += m->signal[i] * m->signal[i];
-    m->y_unit = sqrt(square / (double)m->n);
-    return m->n > 2 * UNKNOWNS;
+    for (size_t i = 0; i < m->n; i++) {
+        int there = m->missing == NULL || !m->missing[i];
+        square += there ? m->signal[i] * m->signal[i] : 0;
+        m->there += (size_t)there;
+    }
+    m->y_unit = sqrt(square / fmax((double)m->there, 1));
+    return m->there > 2 * UNKNOWNS;
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
 
+/* Of the samples that are not missing. */
 static double
-variance(const double *x, size_t n)
+variance(const double *x, const char *missing, size_t n)
 {
-    double mean = 0, sum = 0;
+    double mean = 0, sum = 0, count = 0;
     for (size_t i = 0; i < n; i++)
-        mean += x[i] / (double)n;
+        if (missing == NULL || !missing[i])
+            mean += x[i], count++;
+    mean /= count;
     for (size_t i = 0; i < n; i++)
-        sum += (x[i] - mean) * (x[i] - mean);
-    return sum / (double)n;
+        if (missing == NULL || !missing[i])
+            sum += (x[i] - mean) * (x[i] - mean);
+    return sum / count;
 }
 
 /* Of the record less the scene's, the offset between them apart. */
 static ss_status
-residual_of(double *residual, const ss_scene *scene, int pick, const double *x, size_t n)
+residual_of(double *residual, const ss_scene *scene, int pick, const double *x,
+            const char *missing, size_t n)
 {
     double *y = malloc((n + 1) * sizeof *y);
     if (y == NULL)
@@ -213,7 +233,7 @@ residual_of(double *residual, const ss_scene *scene, int pick, const double *x, 
     for (size_t i = 0; st == SS_OK && i < n; i++)
         y[i] -= x[i];
     if (st == SS_OK)
-        *residual = sqrt(variance(y, n) / variance(x, n));
+        *residual = sqrt(variance(y, missing, n) / variance(x, missing, n));
     free(y);
     return st == SS_ENOMEM ? st : SS_OK;
 }
@@ -269,15 +289,16 @@ report(ss_fit *fit, const ss_scene *s, const double error[UNKNOWNS])
 }
 
 static ss_status
-fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, size_t n,
-           double rate)
+fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x,
+           const char *missing, size_t n, double rate, ss_stretch progress)
 {
     double u[UNKNOWNS], error[UNKNOWNS], left;
     ss_scene settled = settled_scene(c, goal, n, rate);
-    match m = { .pick = c->pick, .motion = malloc(n * sizeof *m.motion) };
+    match m = { .pick = c->pick, .progress = progress, .expected = RUNS,
+                .motion = malloc(n * sizeof *m.motion) };
     if (m.motion == NULL)
         return SS_ENOMEM;
-    if (!find_start(&m, &settled, x, n)) {
+    if (!find_start(&m, &settled, x, missing, n)) {
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
         free(m.motion);
         return m.status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
@@ -289,7 +310,7 @@ fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, 
     gsl_vector_view at = gsl_vector_view_array(u, UNKNOWNS);
     ss_scene s = scene_at(&m, &at.vector);
     report(fit, &s, error);
-    fit->residual_started = sqrt(left / variance(m.signal, m.n));
+    fit->residual_started = sqrt(left / variance(m.signal, m.missing, m.n));
     s.settle = settled.settle;
     s.x0 = s.v0 = 0;
     s.duration = settled.duration;
@@ -297,7 +318,7 @@ fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, 
     s.phase = remainder(s.phase - 2 * M_PI * s.base_frequency
                         * (double)(m.signal - x) / rate, 2 * M_PI);
     s.settle = CANDIDATE_SETTLE / s.base_frequency;
-    st = residual_of(&fit->residual, &s, m.pick, x, n);
+    st = residual_of(&fit->residual, &s, m.pick, x, missing, n);
     fit->scene = s;
     return st;
 }
@@ -324,6 +345,33 @@ judge(ss_fit *fit, double noise)
             return;
         }
     fit->told = 1;
+}
+
+/* Roughly how the work is divided. */
+#define READ 0.05
+#define SEARCHED 0.5
+
+static ss_status
+fit_signal(ss_fit *fit, const ss_signal *signal, size_t column, const cycle *goal,
+           const char *missing, const ss_rank_opts *opts, ss_error *err)
+{
+    const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    const ss_stretch search = ss_stretch_part(&whole, READ, SEARCHED);
+    const double *x = signal->values + column * signal->n;
+    double noise;
+    candidate c = ss_candidate_of(&fit->scene, (int)opts->quantity, 1);
+    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS];      /* k is known */
+    c.lo[CANDIDATE_RATIO] = log(0.2);           /* below, sticks are too short to fit */
+    c.hi[CANDIDATE_RATIO] = 0;
+    ss_status st = narrow(&c, &noise, signal, column, err);
+    if (st == SS_OK)
+        st = ss_candidate_search(&c, goal, STARTS, KEEP, STEPS, &search);
+    if (st == SS_OK)
+        st = fit_record(fit, &c, goal, x, missing, signal->n, signal->head->rate,
+                        ss_stretch_part(&whole, SEARCHED, 1));
+    if (st == SS_OK)
+        judge(fit, noise / sqrt(variance(x, missing, signal->n)));
+    return st;
 }
 
 static ss_status
@@ -357,25 +405,17 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     ss_status st = check(signal, column, start, opts, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
-    double noise;
+    char *missing = NULL;
     cycle goal;
     if (st != SS_OK)
         return st;
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN };
-    st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, signal->n, rate,
-                       opts->forcing_frequency);
-    if (st != SS_OK || goal.period == 0)
-        return st;
-    candidate c = ss_candidate_of(start, (int)opts->quantity, 1);
-    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS];      /* k is known */
-    c.lo[CANDIDATE_RATIO] = log(0.2);           /* below, sticks are too short to fit */
-    c.hi[CANDIDATE_RATIO] = 0;
-    st = narrow(&c, &noise, signal, column, err);
+    st = ss_gaps_missing(&missing, signal);
     if (st == SS_OK)
-        st = ss_candidate_search(&c, &goal, STARTS, KEEP, STEPS);
-    if (st == SS_OK)
-        st = fit_record(fit, &c, &goal, x, signal->n, rate);
-    if (st == SS_OK)
-        judge(fit, noise / sqrt(variance(x, signal->n)));
+        st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, missing, signal->n, rate,
+                           opts->forcing_frequency);
+    if (st == SS_OK && goal.period > 0)
+        st = fit_signal(fit, signal, column, &goal, missing, opts, err);
+    free(missing);
     return st;
 }

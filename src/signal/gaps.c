@@ -160,15 +160,20 @@ ss_gaps_bridge(double *x, size_t n, double rate, const ss_span *gap, size_t n_ga
     }
 }
 
-char *
-ss_gaps_mask(size_t n, double rate, const ss_span *gap, size_t n_gaps)
+ss_status
+ss_gaps_missing(char **out, const ss_signal *signal)
 {
-    char *mask = calloc(n + 1, 1);
-    for (size_t g = 0; mask != NULL && g < n_gaps; g++) {
+    ss_span *gap = NULL;
+    size_t n_gaps, n = signal->n;
+    ss_status st = ss_gaps_of(&gap, &n_gaps, signal->head, n);
+    *out = NULL;
+    if (st == SS_OK && n_gaps > 0 && (*out = calloc(n, 1)) == NULL)
+        st = SS_ENOMEM;
+    for (size_t g = 0; st == SS_OK && g < n_gaps; g++) {
         size_t first, end;
-        ss_gap_rows(&gap[g], rate, &first, &end);
-        for (size_t i = first; i < end && i < n; i++)
-            mask[i] = 1;
+        ss_gap_rows(&gap[g], signal->head->rate, &first, &end);
+        memset(*out + first, 1, end - first);
     }
-    return mask;
+    free(gap);
+    return st;
 }

@@ -15,7 +15,7 @@ void ss_gap_rows(const ss_span *gap, double rate, size_t *first, size_t *end);
  * in x, of n. */
 void ss_gaps_bridge(double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps);
 
-/* 1 for each of n samples that lies in a gap; to be freed, NULL if there is no memory. */
-char *ss_gaps_mask(size_t n, double rate, const ss_span *gap, size_t n_gaps);
+/* 1 for each sample of the signal that lies in a gap; to be freed.  NULL where there are none. */
+ss_status ss_gaps_missing(char **out, const ss_signal *signal);
 
 #endif
