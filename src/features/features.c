@@ -127,15 +127,18 @@ same_kind(const ss_maximum *m, double f)
     return fabs(log2(m->f / f)) <= BAND;
 }
 
-/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do. */
+/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do.
+ * An oscillation within a transition is faster than what repeats. */
 static double
 find_recurrent(const search *s, double prominence)
 {
-    double best = 0, best_level = 0;
+    double best = 0, best_level = 0, slowest = s->out->forcing_frequency.value;
     size_t most = FEW - 1;
     for (size_t i = 0; i < s->n_found; i++) {
         double level = 0;
         size_t count = 0;
+        if (s->found[i].f <= slowest)           /* not a number: nothing repeats */
+            continue;
         for (size_t k = 0; k < s->n_found; k++)
             if (s->found[k].prominence >= prominence && same_kind(&s->found[k], s->found[i].f)) {
                 count++;

@@ -663,9 +663,9 @@ look_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double whit
         if (length(core[i]) == 0)
             continue;
         linear fitted = project(k, core[i]);
-        double variance = fitted.rss / (double)(length(core[i]) - k->columns);
         used++;
-        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && variance > 9 * white * white;
+        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && fitted.rss > white * white
+            * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core[i]) - k->columns));
     }
     *is_rough = 2 * rough > used;
     return SS_OK;
@@ -681,7 +681,7 @@ fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *
         ss_window win = place(k, anchor[i], LEAST);
         ss_value own[2] = { nothing, nothing };
         linear fitted;
-        if (length(window[i]) > 0 || length(win) <= k->columns + 2)
+        if (length(win) <= k->columns + 2)
             continue;
         st = fit_one(k, win, own, &fitted);
         if (st != SS_OK || !(fabs(log(own[0].value / k->w)) < M_LN2 / 2)
@@ -824,26 +824,36 @@ fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value va
     return st;
 }
 
-/* What neither fit describes: one by one. */
+/* What neither fit describes: one by one, all of them alike, if that describes more. */
 static ss_status
 fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
            ss_value *each, double white)
 {
     size_t strict = 0, used = 0;
-    ss_window *core = malloc((n + 1) * sizeof *core);
-    if (core == NULL)
-        return SS_ENOMEM;
+    int rough = 0;
     for (size_t i = 0; i < n; i++)
         strict += length(window[i]) > 0;
-    int rough = 0;
-    ss_status st = 2 * strict < n ? look_rough(k, anchor, core, n, white, &rough) : SS_OK;
-    free(core);
-    if (!rough)
-        return st;
-    st = fit_rough(k, anchor, n, window, each);
-    for (size_t i = 0; i < n; i++)
-        used += length(window[i]) > 0;
-    return st == SS_OK && used > strict ? take_median(window, n, each, value) : st;
+    if (2 * strict >= n)
+        return SS_OK;
+    ss_window *other = malloc(n * sizeof *other);
+    ss_value *other_each = malloc(2 * n * sizeof *other_each), other_value[2];
+    ss_status st = SS_ENOMEM;
+    if (other != NULL && other_each != NULL)
+        st = look_rough(k, anchor, other, n, white, &rough);
+    if (st == SS_OK && rough) {
+        clear(anchor, n, other, other_value, other_each);
+        st = fit_rough(k, anchor, n, other, other_each);
+        for (size_t i = 0; i < n; i++)
+            used += length(other[i]) > 0;
+    }
+    if (st == SS_OK && used > strict) {
+        memcpy(window, other, n * sizeof *window);
+        memcpy(each, other_each, 2 * n * sizeof *each);
+        st = take_median(window, n, each, value);
+    }
+    free(other);
+    free(other_each);
+    return st;
 }
 
 ss_status
