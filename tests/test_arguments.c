@@ -305,11 +305,11 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_find_spikes(&spikes, NULL, 2, 1, &ss_spike_defaults, &e), &e);
     assert_refused(ss_find_spikes(&spikes, x, 2, 1, NULL, &e), &e);
     assert_int_equal(ss_spikes_within(NULL, 0, 1, 1).n, 0);
-    assert_refused(ss_find_bursts(NULL, x, 2, 1, 1, &e), &e);
-    assert_refused(ss_find_bursts(&bursts, NULL, 2, 1, 1, &e), &e);
-    assert_refused(ss_find_drops(NULL, &n, x, 2, 1, 1, &e), &e);
-    assert_refused(ss_find_drops(&drops, NULL, x, 2, 1, 1, &e), &e);
-    assert_refused(ss_find_drops(&drops, &n, NULL, 2, 1, 1, &e), &e);
+    assert_refused(ss_find_bursts(NULL, x, 2, 1, 1, NULL, 0, &e), &e);
+    assert_refused(ss_find_bursts(&bursts, NULL, 2, 1, 1, NULL, 0, &e), &e);
+    assert_refused(ss_find_drops(NULL, &n, x, 2, 1, 1, NULL, 0, &e), &e);
+    assert_refused(ss_find_drops(&drops, NULL, x, 2, 1, 1, NULL, 0, &e), &e);
+    assert_refused(ss_find_drops(&drops, &n, NULL, 2, 1, 1, NULL, 0, &e), &e);
     assert_refused(ss_rank(NULL, signal, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_rank(&ranking, NULL, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_rank(&ranking, signal, 0, NULL, 1, NULL, &e), &e);

@@ -396,8 +396,8 @@ searches(int variant)
     double rate = cycles->head->rate;
     ss_status st = variant == 0 ? ss_find_spikes(&spikes, a, cycles->n, rate, &ss_spike_defaults,
                                                  &err)
-        : variant == 1 ? ss_find_bursts(&bursts, a, cycles->n, rate, 20, &err)
-        : ss_find_drops(&drops, &n, f, cycles->n, rate, 1, &err);
+        : variant == 1 ? ss_find_bursts(&bursts, a, cycles->n, rate, 20, NULL, 0, &err)
+        : ss_find_drops(&drops, &n, f, cycles->n, rate, 1, NULL, 0, &err);
     ss_spikes_free(spikes);
     ss_bursts_free(bursts);
     free(drops);

@@ -111,7 +111,7 @@ put_transition(FILE *out, const ss_transition *tr, double start, int conclusive)
     put(out, start + tr->onset);
     fputc('\t', out);
     put(out, start + tr->end);
-    if (conclusive)
+    if (conclusive && !tr->gap)
         fprintf(out, "\t%zu", tr->spikes);
     else
         fputs("\t-", out);
@@ -172,6 +172,9 @@ write_features(FILE *out, const ss_features *f, const ss_signal *signal, size_t 
     fprintf(out, "# column: %s\n# threshold: ", head->column[column].name);
     put(out, opts->threshold);
     fprintf(out, "\n# norm: %s\n", opts->norm == SS_NORM_L1 ? "l1" : "l2");
+    if (ss_header_find_note(head, "gaps") != NULL)
+        fputs("# near_gaps: nothing is claimed: no spike within 12 scales, no event within 6, no local "
+              "maximum within sqrt(2), no fit over one\n", out);
     fputs("# columns: onset/s end/s spikes time/s frequency/Hz prominence/dB transition_frequency/Hz "
           "transition_frequency_error/Hz damping_ratio damping_ratio_error\n", out);
     for (size_t i = 0; i < f->n; i++)

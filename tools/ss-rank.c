@@ -261,6 +261,8 @@ main(int argc, char *argv[])
     ss_signal *signal = tool_read_signal(j.signal_path, NULL);
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
     j.opts.quantity = quantity_of(&signal->head->column[column], j.as);
+    j.opts.progress = tool_progress;
+    j.opts.user = &j;
     (fits ? fit : rank)(&j, signal, column, &j.opts);
     ss_signal_free(signal);
     free(j.settings);

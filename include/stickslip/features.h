@@ -25,7 +25,8 @@ typedef struct ss_maximum {
  * All local maxima outside the cone of influence with at least the given prominence, in time order;
  * *out is to be freed with free().  Translations of neighbouring scales differ: a coefficient's
  * neighbours are those of its row and, in the two rows beside, those nearest to it in time.  What is
- * highest on the border of the map (its first and last scale, or beside the cone) is no maximum. */
+ * highest on the border of the map (its first and last scale, or beside the cone) is no maximum, nor
+ * is what lies in the reach of a gap (ss_coefficients_edge), though saddles may. */
 ss_status ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                     double min_prominence);
 
@@ -45,6 +46,7 @@ typedef struct ss_value {
 /* All that happens between one macroscopic slip and the next; times [s] from the first sample. */
 typedef struct ss_transition {
     double onset, end;
+    int gap;                    /* 1: one reaches into it, so that spikes and end are of the rest */
     size_t spikes;              /* jumps and kinks from onset to end */
     ss_maximum maximum;         /* its local maximum; all NaN: none above the threshold */
     ss_value frequency;         /* fitted to this transition alone, damped, omega / 2 pi [Hz]; NaN
@@ -90,7 +92,9 @@ extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no colu
 /* Find the transitions of one column, whose values must be finite, and what they have in common.
  * Where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
  * onset of the oscillation to the last spike within a period of its end. Else strong spikes begin
- * transitions, and weaker ones end them; else there are the single events of ss_find_bursts. A
+ * transitions, and weaker ones end them; else there are the single events of ss_find_bursts.  What
+ * gaps (ss_header_gaps of the signal) reach is left out: local maxima nearer than sqrt(2) a, spikes
+ * and events as ss_find_spikes, ss_find_bursts and ss_find_drops say; what is fitted ends there.  A
  * record too short for any scale, or with nothing in it, has none: SS_OK. opts may be NULL. To be
  * freed with ss_features_free. */
 ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t column,

@@ -42,6 +42,8 @@ typedef struct ss_rank_opts {
     double spread;              /* the parameters of the rig are within a factor 1 -+ spread
                                    of those of the scene  0 <= spread < 1 */
     double forcing_frequency;   /* [Hz]; 0: found from what repeats */
+    ss_progress *progress;      /* may be NULL */
+    void *user;                 /* handed to it */
 } ss_rank_opts;
 extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found */
 
@@ -64,7 +66,8 @@ typedef struct ss_ranking {
 
 /* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Each is adjusted to
  * the signal's mean cycle within the spread, run for the signal's span at its rate with white
- * noise of the signal's own level, and compared.  That nothing can be told is an answer: SS_OK.
+ * noise of the signal's own level and its gaps, and compared; what lies within the reach of a gap
+ * is left out of both, as ss_features_find does.  That nothing can be told is an answer: SS_OK.
  * opts may be NULL. To be freed with ss_ranking_free. */
 ss_status ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
@@ -92,6 +95,7 @@ typedef struct ss_fit {
 
 /* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column
  * of SI units, whose values must be finite; m, k and the release rule are taken from the scene.
+ * Samples in gaps are left out.
  * Errors are those of white noise of the residual's size.  That nothing can be told is an answer:
  * SS_OK. opts may be NULL; its spread is not used.  SS_EINVAL for another model. */
 ss_status ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,

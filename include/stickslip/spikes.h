@@ -1,10 +1,14 @@
 /* stickslip/spikes.h -- where a signal is not smooth: jumps, kinks and glitches, from the maxima of
- * |W| over time that persist across its shortest usable scales; single events; drops of a force. */
+ * |W| over time that persist across its shortest usable scales; single events; drops of a force.
+ *
+ * Gaps, where other values stand in for missing ones, are given as n_gaps spans in seconds from the
+ * first sample, in time order (NULL and 0: none).  Nothing is claimed within their reach. */
 #ifndef STICKSLIP_SPIKES_H
 #define STICKSLIP_SPIKES_H
 
 #include <stddef.h>
 #include <stickslip/status.h>
+#include <stickslip/signal.h>
 
 SS_BEGIN_DECLARATIONS
 
@@ -33,8 +37,10 @@ typedef struct ss_spike_opts {
     double fmax;                /* [Hz] label of the shortest scale used; 0: 0.6 of Nyquist */
     double false_alarms;        /* expected of white noise in the whole record, > 0, <= 1 */
     double precision;           /* of a sample, re their range: weaker spikes are none  0 ... 1 */
+    const ss_span *gap;         /* they reach 12 scales: the support of a wavelet an octave up */
+    size_t n_gaps;
 } ss_spike_opts;
-extern const ss_spike_opts ss_spike_defaults;   /* 0, 0.01, 1e-7 */
+extern const ss_spike_opts ss_spike_defaults;   /* 0, 0.01, 1e-7, no gaps */
 
 typedef struct ss_spikes_found {
     size_t n;
@@ -84,9 +90,10 @@ typedef struct ss_bursts {
 } ss_bursts;
 
 /* The events of a record that is quiet for most of the time, of whatever length and shape: maxima
- * of |W| at the scale where they stand out most, not more than range dB below the strongest. */
+ * of |W| at the scale where they stand out most, not more than range dB below the strongest.  Gaps
+ * reach 6 scales, the support of its wavelet. */
 ss_status ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
-                         ss_error *err);
+                         const ss_span *gap, size_t n_gaps, ss_error *err);
 void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
 
 /* --- drops ----------------------------------------------------------------------------------- */
@@ -99,9 +106,10 @@ typedef struct ss_drop {
 
 /* All falls of x by more than height, in time order; *out is to be freed with free().  A fall ends
  * where x has risen again by a quarter of height, so a slow drift is none.  Single wrong samples
- * are left out of account; white noise moves heights by some 3 % of that. */
+ * are left out of account; white noise moves heights by some 3 % of that.  A fall that a gap cuts is
+ * left out. */
 ss_status ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-                        double height, ss_error *err);
+                        double height, const ss_span *gap, size_t n_gaps, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -70,7 +70,7 @@ take(ss_bursts *found, row *r, double threshold, double range)
 
 ss_status
 ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
-               ss_error *err)
+               const ss_span *gap, size_t n_gaps, ss_error *err)
 {
     if (out == NULL || x == NULL)
         return SS_FAIL_NULL(err);
@@ -78,7 +78,8 @@ ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double r
     row best = { .rms = 1 };
     if (!(range >= 0))
         return ss_fail(err, SS_EINVAL, "range: 0 dB or more are needed");
-    ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, err);
+    ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, gap, n_gaps,
+                                      err);
     if (st != SS_OK)
         return st;
     double length = (double)(n - 1) / rate, shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * rate);

@@ -152,9 +152,22 @@ find(drop_list *list, const double *x, size_t n, double rate, double height, dou
     return read_turning_points(list, y, n, rate, height);
 }
 
+/* Falls over a gap: part of them is not known. */
+static void
+leave_out(drop_list *list, const ss_span *gap, size_t n_gaps)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < list->n; i++) {
+        ss_drop d = list->drop[i];
+        if (!ss_near_gap(gap, n_gaps, 0.5 * (d.t + d.end), 0.5 * (d.end - d.t)))
+            list->drop[kept++] = d;
+    }
+    list->n = kept;
+}
+
 ss_status
 ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-              double height, ss_error *err)
+              double height, const ss_span *gap, size_t n_gaps, ss_error *err)
 {
     if (out == NULL || n_drops == NULL || x == NULL)
         return SS_FAIL_NULL(err);
@@ -175,6 +188,8 @@ ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double 
     if (st == SS_OK)
         st = find(&list, x, n, rate, height, scratch);
     free(scratch);
+    if (st == SS_OK)
+        leave_out(&list, gap, n_gaps);
     if (st != SS_OK) {
         free(list.drop);
         return st;

@@ -7,7 +7,9 @@
 #include "error.h"
 #include "maxima.h"
 #include "period.h"
+#include "rows.h"
 #include "ringdown.h"
+#include "signal/gaps.h"
 #include "slope.h"
 
 const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displacement = -1,
@@ -33,6 +35,8 @@ typedef struct search {
     double largest;
     size_t n;
     double rate;
+    size_t n_gaps;
+    ss_span *gap;               /* [s] from the first sample */
     const ss_features_opts *opts;
     ss_coefficients *coef;
     ss_maximum *found;          /* maxima, slight ones too */
@@ -53,16 +57,18 @@ static ss_status
 find_noise(search *s)
 {
     const ss_scale *last = &s->coef->scale[s->coef->n_scales - 1];
-    double *level = malloc(last->n * sizeof *level);
+    double *level = malloc((last->n + 1) * sizeof *level);
+    size_t n = 0;
     if (level == NULL)
         return SS_ENOMEM;
     for (size_t k = 0; k < last->n; k++) {
         const double *w = s->coef->w + 2 * (last->offset + k);
-        level[k] = hypot(w[0], w[1]);
+        if (!ss_near_gap(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
+            level[n++] = hypot(w[0], w[1]);
     }
-    qsort(level, last->n, sizeof *level, by_size);
+    qsort(level, n, sizeof *level, by_size);
     double scale = s->opts->norm == SS_NORM_L1 ? last->a : 1;
-    s->out->noise = level[last->n / 2] * sqrt(scale * s->rate / M_LN2);
+    s->out->noise = n == 0 ? 0 : level[n / 2] * sqrt(scale * s->rate / M_LN2);
     free(level);
     return SS_OK;
 }
@@ -78,11 +84,11 @@ noise_floor(const search *s)
 static size_t
 row_of(const ss_coefficients *coef, double f)
 {
-    size_t row = 0;
+    size_t best = 0;
     for (size_t i = 1; i < coef->n_scales; i++)
-        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[row].f / f)))
-            row = i;
-    return row;
+        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[best].f / f)))
+            best = i;
+    return best;
 }
 
 /* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it,
@@ -121,15 +127,18 @@ same_kind(const ss_maximum *m, double f)
     return fabs(log2(m->f / f)) <= BAND;
 }
 
-/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do. */
+/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do.
+ * An oscillation within a transition is faster than what repeats. */
 static double
 find_recurrent(const search *s, double prominence)
 {
-    double best = 0, best_level = 0;
+    double best = 0, best_level = 0, slowest = s->out->forcing_frequency.value;
     size_t most = FEW - 1;
     for (size_t i = 0; i < s->n_found; i++) {
         double level = 0;
         size_t count = 0;
+        if (s->found[i].f <= slowest)           /* not a number: nothing repeats */
+            continue;
         for (size_t k = 0; k < s->n_found; k++)
             if (s->found[k].prominence >= prominence && same_kind(&s->found[k], s->found[i].f)) {
                 count++;
@@ -271,15 +280,18 @@ refine(search *s, const ss_maximum *swell, double f)
     size_t n = out->n;
     size_t *anchor = malloc((n + 1) * sizeof *anchor);
     ss_window *window = malloc((n + 1) * sizeof *window);
+    ss_window *gap = malloc((s->n_gaps + 1) * sizeof *gap);
     ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
     ss_status st = SS_ENOMEM;
-    if (anchor != NULL && window != NULL && each != NULL) {
+    if (anchor != NULL && window != NULL && gap != NULL && each != NULL) {
         for (size_t i = 0; i < n; i++)
             anchor[i] = (size_t)(swell[i].t * s->rate);
+        for (size_t i = 0; i < s->n_gaps; i++)
+            ss_gap_rows(&s->gap[i], s->rate, &gap[i].first, &gap[i].end);
         double forcing = isnan(out->forcing_frequency.value) ? 0
             : 2 * M_PI * out->forcing_frequency.value / s->rate;
         st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate, forcing,
-                             s->out->noise, window, all, each);
+                             s->out->noise, gap, s->n_gaps, window, all, each);
     }
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -296,6 +308,7 @@ refine(search *s, const ss_maximum *swell, double f)
     }
     free(anchor);
     free(window);
+    free(gap);
     free(each);
     return st;
 }
@@ -359,7 +372,7 @@ static ss_status
 find_single(search *s)
 {
     ss_bursts *found = NULL;
-    ss_status st = ss_find_bursts(&found, s->x, s->n, s->rate, CLEAR, NULL);
+    ss_status st = ss_find_bursts(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
     if (st == SS_OK && (st = new_transitions(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++)
             s->out->transition[i].onset = s->out->transition[i].end = found->burst[i].t;
@@ -372,7 +385,8 @@ find_dropped(search *s)
 {
     ss_drop *drop = NULL;
     size_t n = 0;
-    ss_status st = ss_find_drops(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest, NULL);
+    ss_status st = ss_find_drops(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest,
+                                 s->gap, s->n_gaps, NULL);
     if (st == SS_OK && (st = new_transitions(s->out, n)) == SS_OK)
         for (size_t i = 0; i < n; i++) {
             s->out->transition[i].onset = drop[i].t;
@@ -382,32 +396,45 @@ find_dropped(search *s)
     return st;
 }
 
+/* A spike that ends a transition may come a period behind what was fitted. */
 static void
-count_spikes(ss_features *out)
+count_spikes(const search *s)
 {
-    for (size_t i = 0; i < out->n; i++)
-        out->transition[i].spikes = ss_spikes_within(out->spikes, out->transition[i].onset,
-                                                     out->transition[i].end, SPIKES).n;
+    ss_features *out = s->out;
+    double period = isnan(out->frequency.value) ? 0 : 1 / out->frequency.value;
+    double reach = out->spikes->f > 0 ? 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * out->spikes->f) : 0;
+    for (size_t i = 0; i < out->n; i++) {
+        ss_transition *tr = &out->transition[i];
+        double half = 0.5 * (tr->end + period - tr->onset);
+        tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES).n;
+        tr->gap = ss_near_gap(s->gap, s->n_gaps, tr->onset + half, half + reach);
+    }
 }
 
 /* From the times between the transitions; where the signal repeats itself, from how many of them
  * there are in a repetition, which leaves out none that is too weak to be seen.  Drops are counted as
- * they are: those below the height asked for are none. */
+ * they are: those below the height asked for are none.  Where a gap lies between two of them, there
+ * may be more. */
 static void
 find_slip_rate(search *s)
 {
     ss_features *out = s->out;
     size_t n = out->n;
-    double sum = 0, squares = 0, duration = (double)s->n / s->rate;
+    double sum = 0, squares = 0, duration = (double)s->n / s->rate, m = 0;
     out->slips = n;
-    if (n < 3)
-        return;
+    for (size_t i = 0; i < s->n_gaps; i++)
+        duration -= s->gap[i].to - s->gap[i].from;
     for (size_t i = 1; i < n; i++) {
-        double interval = out->transition[i].onset - out->transition[i - 1].onset;
+        double from = out->transition[i - 1].onset, interval = out->transition[i].onset - from;
+        if (ss_near_gap(s->gap, s->n_gaps, from + interval / 2, interval / 2))
+            continue;
         sum += interval;
         squares += interval * interval;
+        m++;
     }
-    double m = (double)(n - 1), mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
+    if (m < 2)
+        return;
+    double mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
     double each = round((double)n / duration / out->forcing_frequency.value);
     out->slip_rate = (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
     if (!(s->opts->drop > 0) && each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
@@ -489,7 +516,16 @@ transform(search *s, size_t column, ss_error *err)
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
     opts.progress = transformed;
     opts.user = s;
-    return ss_transform(&s->coef, s->signal, column, &opts, err);
+    if (s->n_gaps == 0)
+        return ss_transform(&s->coef, s->signal, column, &opts, err);
+    ss_signal *bridged = NULL;          /* zeros in a gap are steep */
+    ss_status st = ss_signal_select(&bridged, s->signal, &column, 1, 0, s->n);
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    ss_gaps_bridge(bridged->values, s->n, s->rate, s->gap, s->n_gaps);
+    st = ss_transform(&s->coef, bridged, 0, &opts, err);
+    ss_signal_free(bridged);
+    return st;
 }
 
 static ss_status
@@ -533,14 +569,16 @@ find_all(search *s)
     if (!isnan(period.value))
         s->out->forcing_frequency = (ss_value){ s->rate / period.value, s->rate * period.error
                                                 / (period.value * period.value) };
-    if ((st = ss_find_spikes(&s->out->spikes, s->x, s->n, s->rate, &ss_spike_defaults,
-                             NULL)) != SS_OK
+    ss_spike_opts sharp = ss_spike_defaults;
+    sharp.gap = s->gap;
+    sharp.n_gaps = s->n_gaps;
+    if ((st = ss_find_spikes(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL)) != SS_OK
         || (st = find_maxima(s)) != SS_OK || (st = come_to(s, FLOODED)) != SS_OK)
         return st;
     st = s->opts->drop > 0 ? find_dropped(s) : find_transitions(s);
     if (st != SS_OK || (st = come_to(s, FITTED)) != SS_OK)
         return st;
-    count_spikes(s->out);
+    count_spikes(s);
     find_slip_rate(s);
     find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
     return find_slope(s);
@@ -595,11 +633,13 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
     s.rate = signal->head->rate;
     s.x = normalised(signal->values + column * s.n, s.n, &s.largest);
     s.out = calloc(1, sizeof *s.out);
-    if (s.out == NULL || s.x == NULL) {
+    if (s.out == NULL || s.x == NULL
+        || ss_gaps_of(&s.gap, &s.n_gaps, signal->head, s.n) != SS_OK) {
         free(s.x);
         free(s.out);
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
     }
+    ss_gaps_bridge(s.x, s.n, s.rate, s.gap, s.n_gaps);
     s.out->slip_rate = s.out->forcing_frequency = s.out->frequency_raw = s.out->frequency
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
         = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
@@ -608,6 +648,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         ss_fail(err, st, "%s", ss_strerror(st));
     ss_coefficients_free(s.coef);
     free(s.x);
+    free(s.gap);
     free(s.found);
     if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* too short for anything to be in it */
         st = SS_OK;

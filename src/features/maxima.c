@@ -8,7 +8,8 @@
  * peak to saddle.  Cost: two passes over the map, and a sort of the borders.
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
- * where the map was cut, not a maximum; it is not reported, but it is higher ground for others. */
+ * where the map was cut, not a maximum; it is not reported, but it is higher ground for others.  So
+ * is what gaps reach: a map cut there would make islands of what lies between. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -78,17 +79,18 @@ level_at(const map *m, size_t row, size_t k)
 static void
 fill(line *l, const map *m, size_t row)
 {
-    size_t n = m->coef->scale[row].n, from = 0, to = n;
+    const ss_scale *scale = &m->coef->scale[row];
+    const size_t samples = m->coef->n, n = scale->n;
+    const double rate = m->coef->head->rate;
+    size_t from = 0, to = n;
     *l = (line){ row, index_of(m, row, 0), n, l->level, l->best };
-    while (from < n && ss_coefficients_edge(m->coef, row, from))
+    while (from < n && ss_scale_edge(scale, from, samples, rate))
         l->level[from++] = 0;
-    while (to > from && ss_coefficients_edge(m->coef, row, to - 1))
+    while (to > from && ss_scale_edge(scale, to - 1, samples, rate))
         l->level[--to] = 0;
     for (size_t k = from; k < to; k++) {
         double level = level_at(m, row, k);
-        int wet = level > m->floor
-            && (m->coef->n_gaps == 0 || !ss_coefficients_edge(m->coef, row, k));
-        l->level[k] = wet ? level : 0;
+        l->level[k] = level > m->floor ? level : 0;
     }
 }
 
@@ -297,8 +299,8 @@ on_border(const map *m, size_t row, size_t k)
 {
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k - 1)
-        || ss_coefficients_edge(m->coef, row, k + 1);
+    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k)
+        || ss_coefficients_edge(m->coef, row, k - 1) || ss_coefficients_edge(m->coef, row, k + 1);
 }
 
 static int

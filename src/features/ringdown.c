@@ -76,6 +76,8 @@ typedef struct work {
     double *j;                  /* its derivatives by w and by s */
     size_t n_windows;
     const ss_window *window;
+    size_t n_gaps;
+    const ss_window *gap;
 } work;
 
 typedef struct linear {         /* what projecting a window gave */
@@ -346,6 +348,28 @@ find_noise(work *k, const ss_window *window, size_t n)
     return SS_OK;
 }
 
+/* How many gaps begin before sample i. */
+static size_t
+gaps_before(const work *k, size_t i)
+{
+    size_t lo = 0, hi = k->n_gaps;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (k->gap[mid].first < i)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+static int
+has_gap(const work *k, ss_window win)
+{
+    size_t g = gaps_before(k, win.end);
+    return g > 0 && k->gap[g - 1].end > win.first;
+}
+
 /* The window of so many periods about an anchor where the line and the oscillation leave least,
  * among the places where there is at least a quarter of the most oscillation. */
 static ss_window
@@ -360,6 +384,8 @@ place(work *k, size_t anchor, double size_in_periods)
         for (size_t first = anchor > before ? anchor - before : 0;
              first <= anchor + after && first + size <= k->n; first += step) {
             ss_window here = { first, first + size };
+            if (has_gap(k, here))
+                continue;
             linear fitted = project(k, here);
             if (pass == 0) {
                 most = fmax(most, fitted.ring);
@@ -554,6 +580,11 @@ find_windows(work *k, const ss_window *core, ss_window *window, size_t n, size_t
 {
     for (size_t i = 0; i < n; i++) {
         size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
+        size_t g = gaps_before(k, core[i].end);
+        if (g > 0 && k->gap[g - 1].end > low)
+            low = k->gap[g - 1].end;
+        if (g < k->n_gaps && k->gap[g].first < high)
+            high = k->gap[g].first;
         low = low < core[i].first ? low : core[i].first;
         high = high > core[i].end ? high : core[i].end;
         window[i] = grow_both(k, core[i], low, high, limit);
@@ -674,9 +705,9 @@ look_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double whit
         if (length(core[i]) == 0)
             continue;
         linear fitted = project(k, core[i]);
-        double variance = fitted.rss / (double)(length(core[i]) - k->columns);
         used++;
-        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && variance > 9 * white * white;
+        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && fitted.rss > white * white
+            * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core[i]) - k->columns));
     }
     *is_rough = 2 * rough > used;
     return SS_OK;
@@ -692,7 +723,7 @@ fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *
         ss_window win = place(k, anchor[i], LEAST);
         ss_value own[2] = { nothing, nothing };
         linear fitted;
-        if (length(window[i]) > 0 || length(win) <= k->columns + 2)
+        if (length(win) <= k->columns + 2)
             continue;
         st = fit_one(k, win, own, &fitted);
         if (st != SS_OK || !(fabs(log(own[0].value / k->w)) < M_LN2 / 2)
@@ -835,34 +866,45 @@ fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value va
     return st;
 }
 
-/* What neither fit describes: one by one. */
+/* What neither fit describes: one by one, all of them alike, if that describes more. */
 static ss_status
 fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
            ss_value *each, double white)
 {
     size_t strict = 0, used = 0;
-    ss_window *core = malloc((n + 1) * sizeof *core);
-    if (core == NULL)
-        return SS_ENOMEM;
+    int rough = 0;
     for (size_t i = 0; i < n; i++)
         strict += length(window[i]) > 0;
-    int rough = 0;
-    ss_status st = 2 * strict < n ? look_rough(k, anchor, core, n, white, &rough) : SS_OK;
-    free(core);
-    if (!rough)
-        return st;
-    st = fit_rough(k, anchor, n, window, each);
-    for (size_t i = 0; i < n; i++)
-        used += length(window[i]) > 0;
-    return st == SS_OK && used > strict ? take_median(window, n, each, value) : st;
+    if (2 * strict >= n)
+        return SS_OK;
+    ss_window *other = malloc(n * sizeof *other);
+    ss_value *other_each = malloc(2 * n * sizeof *other_each), other_value[2];
+    ss_status st = SS_ENOMEM;
+    if (other != NULL && other_each != NULL)
+        st = look_rough(k, anchor, other, n, white, &rough);
+    if (st == SS_OK && rough) {
+        clear(anchor, n, other, other_value, other_each);
+        st = fit_rough(k, anchor, n, other, other_each);
+        for (size_t i = 0; i < n; i++)
+            used += length(other[i]) > 0;
+    }
+    if (st == SS_OK && used > strict) {
+        memcpy(window, other, n * sizeof *window);
+        memcpy(each, other_each, 2 * n * sizeof *each);
+        st = take_median(window, n, each, value);
+    }
+    free(other);
+    free(other_each);
+    return st;
 }
 
 ss_status
 ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
-                double forcing, double white, ss_window *window, ss_value value[2],
-                ss_value *each)
+                double forcing, double white, const ss_window *gap, size_t n_gaps,
+                ss_window *window, ss_value value[2], ss_value *each)
 {
-    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1 };
+    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1,
+               .n_gaps = n_gaps, .gap = gap };
     clear(anchor, n_anchors, window, value, each);
     double apart = n_anchors < 2 ? 0
         : (double)(anchor[n_anchors - 1] - anchor[0]) / (double)(n_anchors - 1);

@@ -16,9 +16,9 @@ typedef struct ss_window {
  * and s, per sample, with standard errors; each[2 i], each[2 i + 1] those of window i alone. All are
  * NaN if no window is left. white is the rms of the white noise: where the oscillation is much
  * farther than that from a damped sinusoid, windows of two periods are fitted one by one, and value
- * is their median. */
+ * is their median.  No window has a sample of the gaps in it, which are in time order. */
 ss_status ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors,
-                          double w, double forcing, double white, ss_window *window, ss_value value[2],
-                          ss_value *each);
+                          double w, double forcing, double white, const ss_window *gap,
+                          size_t n_gaps, ss_window *window, ss_value value[2], ss_value *each);
 
 #endif

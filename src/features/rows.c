@@ -10,7 +10,9 @@
  * independent, so there are fewer.
  *
  * The record is continued oddly about its end points, so that it goes on with the same value and
- * slope; what is nearer to an end than sqrt(2) a is not used all the same. */
+ * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
+ * the reach of a gap, where something of another value and slope may stand. */
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -19,54 +21,66 @@
 #include <stickslip/morlet.h>
 
 #define ACCURACY 1e-10          /* of W: 200 dB */
-#define MARGIN 6.0              /* scales by which the record is continued */
 #define QUIET 3.0               /* scales from a spike on that it is heard */
 #define LEAST 0.1               /* part of a row that its noise is read from at least */
+
+/* Does sample i stand in a gap? */
+static int
+missing(const row_source *source, size_t i)
+{
+    return ss_near_gap(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
+}
 
 /* The step of the converter that the samples came through, 0 if none is seen: the smallest change,
  * if nearly all others are multiples of it.  A signal of few levels that changes seldom is one of
  * steps. */
 static double
-converter_step(const double *x, size_t n)
+converter_step(const row_source *source)
 {
-    double step = INFINITY, lo = x[0], hi = x[0];
-    size_t changes = 0, fit = 0;
+    const double *x = source->x;
+    size_t n = source->n, changes = 0, fit = 0;
+    double step = INFINITY, lo = INFINITY, hi = -INFINITY;
     for (size_t i = 1; i < n; i++)
-        if (x[i] != x[i - 1])
+        if (x[i] != x[i - 1] && !missing(source, i) && !missing(source, i - 1))
             step = fmin(step, fabs(x[i] - x[i - 1]));
     for (size_t i = 1; i < n; i++) {
+        if (missing(source, i) || missing(source, i - 1))
+            continue;
         double steps = fabs(x[i] - x[i - 1]) / step;
-        lo = fmin(lo, x[i]);
-        hi = fmax(hi, x[i]);
+        lo = fmin(lo, fmin(x[i], x[i - 1]));
+        hi = fmax(hi, fmax(x[i], x[i - 1]));
         changes += steps > 0;
         fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* by chance a fifth of them */
     }
     int seldom = changes < n / 20, few = hi - lo < 64 * step;
-    if (hi - lo < 8 * step || (seldom && few) || (double)fit < 0.9 * (double)changes)
+    if (!(hi - lo >= 8 * step) || (seldom && few) || (double)fit < 0.9 * (double)changes)
         return 0;
     return step;
 }
 
 ss_status
 ss_row_source_init(row_source *source, const double *x, size_t n, double rate, double precision,
-                   ss_error *err)
+                   const ss_span *gap, size_t n_gaps, ss_error *err)
 {
     double lo = INFINITY, hi = -INFINITY;
     if (n == 0 || n > SIZE_MAX / 64)
         return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
     if (!(rate >= 1e-100 && rate <= 1e100))
         return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
+    *source = (row_source){ .x = x, .n = n, .rate = rate, .gap = gap, .n_gaps = n_gaps };
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
+        if (missing(source, i))
+            continue;
         lo = fmin(lo, x[i]);
         hi = fmax(hi, x[i]);
     }
-    if (!isfinite(hi - lo))
+    if (hi - lo > DBL_MAX)
         return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
-    *source = (row_source){ .x = x, .n = n, .rate = rate, .constant = hi == lo };
+    source->constant = !(hi > lo);
     if (hi > lo)
-        source->rounding = fmax(precision * (hi - lo), converter_step(x, n) / sqrt(12))
+        source->rounding = fmax(precision * (hi - lo), converter_step(source) / sqrt(12))
             / sqrt(rate);
     return SS_OK;
 }
@@ -107,17 +121,20 @@ summit(const double *level, double t, double step)
 }
 
 /* The rms of |W| in the n levels, which are sorted, one every step from t on, by the median of
- * those that are farther than quiet from all spikes found so far: all that there are, if these are
- * less than LEAST of them. */
+ * those that are farther than QUIET scales from all spikes found so far and out of the reach of
+ * gaps: all that there are, if these are less than LEAST of them. */
 static double
-noise_of(const ss_spikes_found *loud, double *level, size_t n, double t, double step, double quiet)
+noise_of(const row_source *source, const ss_spikes_found *loud, double *level, size_t n, double t,
+         double step, double a)
 {
+    double quiet = QUIET * a;
     size_t left = 0, i = 0;
     for (size_t k = 0; k < n; k++) {
         double at = t + (double)k * step;
         while (loud != NULL && i < loud->n && loud->spike[i].t + quiet < at)
             i++;
-        if (loud != NULL && i < loud->n && loud->spike[i].t - quiet <= at)
+        if ((loud != NULL && i < loud->n && loud->spike[i].t - quiet <= at)
+            || ss_near_gap(source->gap, source->n_gaps, at, ROW_REACH * a))
             continue;
         double swap = level[left];
         level[left++] = level[k];
@@ -131,22 +148,25 @@ noise_of(const ss_spikes_found *loud, double *level, size_t n, double t, double 
 
 /* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
 static ss_status
-fill_row(row *r, const ss_spikes_found *loud, const ss_scale *scale, double *level, double margin,
-         double length)
+fill_row(row *r, const row_source *source, const ss_spikes_found *loud, const ss_scale *scale,
+         double *level, double margin)
 {
     double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
+    double length = (double)(source->n - 1) / source->rate;
     size_t first = (size_t)ceil((margin + cone) / step);
     size_t last = (size_t)floor((margin + length - cone) / step);
     r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
     if (r->peak == NULL)
         return SS_ENOMEM;
     for (size_t k = first; k <= last; k++)
-        if (level[k] > level[k - 1] && level[k] >= level[k + 1])
+        if (level[k] > level[k - 1] && level[k] >= level[k + 1]
+            && !ss_near_gap(source->gap, source->n_gaps, ss_scale_b(scale, k) - margin,
+                            ROW_REACH * r->a))
             r->peak[r->n++] = summit(level + k - 1, ss_scale_b(scale, k) - margin, step);
     for (size_t i = 0; i < r->n; i++)
         r->top = fmax(r->top, r->peak[i].level);
-    r->rms = noise_of(loud, level + first, last - first + 1, ss_scale_b(scale, first) - margin,
-                      step, QUIET * r->a);
+    r->rms = noise_of(source, loud, level + first, last - first + 1,
+                      ss_scale_b(scale, first) - margin, step, r->a);
     return SS_OK;
 }
 
@@ -159,7 +179,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *lo
     opts.octaves = 1, opts.engine = SS_ENGINE_QUADRATURE;
     opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
     double a = exp2(opts.m0), rate = source->rate;
-    size_t margin = (size_t)ceil(MARGIN * a * rate), n = source->n + 2 * margin;
+    size_t margin = (size_t)ceil(ROW_REACH * a * rate), n = source->n + 2 * margin;
     double *x = continued(source->x, source->n, margin), *w = NULL;
     ss_status st = x == NULL ? SS_ENOMEM : ss_morlet_new(&plan, n, rate, &opts, err);
     if (st == SS_OK && (w = malloc(2 * ss_morlet_total(plan) * sizeof *w)) == NULL)
@@ -171,7 +191,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *lo
         for (size_t k = 0; k < scale->n; k++)
             w[k] = hypot(w[2 * k], w[2 * k + 1]);
         *r = (row){ .a = a, .f = scale->f };
-        st = fill_row(r, loud, scale, w, (double)margin / rate, (double)(source->n - 1) / rate);
+        st = fill_row(r, source, loud, scale, w, (double)margin / rate);
         r->rms = hypot(r->rms, source->rounding);
     }
     ss_morlet_free(plan);

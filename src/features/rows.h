@@ -8,6 +8,8 @@
 #define ROW_CENTER 6.0
 #define ROW_VOICES 4
 #define ROW_HIGHEST 0.6         /* of Nyquist: nearer to it converters have their filters */
+/* Scales by which a wavelet reaches: it is 1.5e-8 of its height there. */
+#define ROW_REACH 6.0
 
 typedef struct row_source {
     const double *x;
@@ -15,11 +17,13 @@ typedef struct row_source {
     double rate;
     int constant;               /* 1: all samples are the same */
     double rounding;            /* rms of |W| that the rounding of the samples makes */
+    const ss_span *gap;         /* in time order [s]: what stands there is not of the signal */
+    size_t n_gaps;
 } row_source;
 
 /* Checks the samples and the rate.  precision: of a sample, re the largest change. */
 ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate,
-                             double precision, ss_error *err);
+                             double precision, const ss_span *gap, size_t n_gaps, ss_error *err);
 
 typedef struct peak {
     double t, level;            /* [s], |W| */
@@ -29,7 +33,8 @@ typedef struct row {
     double a, f;
     double rms, top;            /* of the noise; the largest peak's level */
     size_t n;
-    peak *peak;                 /* all maxima outside the cone of influence, in time order */
+    peak *peak;                 /* all maxima outside the cone of influence and out of the
+                                   reach of gaps, in time order */
 } row;
 
 /* The row whose scale is nearest to the label f, of 2^(j / ROW_VOICES); its noise is read where no

@@ -21,7 +21,7 @@
 #define CONCLUSIVE 6.0          /* dB that the clearest spike is above the threshold at least */
 #define FIT 2.0                 /* scales on either side that the fit of a break sees */
 
-const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7 };
+const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7, NULL, 0 };
 
 typedef struct search {
     row_source source;
@@ -153,6 +153,14 @@ is_clear(const ss_spikes_found *found, size_t n, double t, double distance)
         && !(lo > 0 && t - found->spike[lo - 1].t < distance);
 }
 
+/* Neither the row nor those that its slope is read from may see a gap. */
+static int
+sees_gap(const search *s, const row *r, double t)
+{
+    const row_source *source = &s->source;
+    return ss_near_gap(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
+}
+
 /* The spikes that row i is the shortest to show. */
 static ss_status
 take_row(search *s, size_t i)
@@ -161,7 +169,7 @@ take_row(search *s, size_t i)
     size_t before = s->found->n;
     for (size_t k = 0; k < r->n; k++) {
         const peak *p = &r->peak[k];
-        if (!stands_out(s, r, p) || !is_clear(s->found, before, p->t, CLEAR * r->a)
+        if (!stands_out(s, r, p) || sees_gap(s, r, p->t) || !is_clear(s->found, before, p->t, CLEAR * r->a)
             || !stands_out(s, next, nearest(next, p->t, DRIFT * next->a)))
             continue;
         ss_status st = add_spike(s, i, p);
@@ -270,7 +278,8 @@ ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
     search s = { .opts = opts };
     ss_status st = check(rate, opts, err);
     if (st == SS_OK)
-        st = ss_row_source_init(&s.source, x, n, rate, opts->precision, err);
+        st = ss_row_source_init(&s.source, x, n, rate, opts->precision, opts->gap, opts->n_gaps,
+                                err);
     if (st != SS_OK)
         return st;
     s.found = calloc(1, sizeof *s.found);

@@ -132,7 +132,10 @@ ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n)
 typedef struct problem {
     const candidate *c;
     const cycle *goal;
-    ss_status status;           /* SS_ENOMEM once a run lacked memory; all others are a bad fit */
+    const ss_stretch *progress;
+    double runs, expected;      /* so far, and about how many there will be */
+    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop; all
+                                   others are a bad fit */
 } problem;
 
 static double
@@ -145,7 +148,11 @@ misfit(problem *p, const double key[], double *size, double *shift)
     s.duration = goal->period;
     s.rate = (double)goal->n / goal->period;
     *size = *shift = 0;
-    ss_status st = p->status == SS_OK ? ss_candidate_run(&s, c->pick, value, goal->n) : SS_ENOMEM;
+    if (p->status == SS_OK)
+        p->status = ss_stretch_at(p->progress, fmin(p->runs++ / p->expected, 1));
+    if (p->status != SS_OK)
+        return goal->power;
+    ss_status st = ss_candidate_run(&s, c->pick, value, goal->n);
     if (st == SS_ENOMEM)
         p->status = SS_ENOMEM;
     if (st != SS_OK)
@@ -227,10 +234,12 @@ descend(start *s, size_t free, size_t steps, problem *p)
 }
 
 ss_status
-ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep, size_t steps)
+ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep, size_t steps,
+                    const ss_stretch *progress)
 {
     start s[STARTS_MOST];
-    problem p = { c, goal, SS_OK };
+    /* a step of the simplex runs the scene once or twice */
+    problem p = { c, goal, progress, 0, (double)(starts + 3 * keep * steps / 2), SS_OK };
     size_t free = 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < c->n; i++)

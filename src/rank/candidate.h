@@ -5,6 +5,7 @@
 
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
+#include "progress.h"
 #include "rank/cycle.h"
 
 enum { CANDIDATE_STIFFNESS, CANDIDATE_RATIO, CANDIDATE_FIRST, CANDIDATE_SECOND, CANDIDATE_KEYS };
@@ -29,9 +30,10 @@ ss_status ss_candidate_check(const ss_scene *scene, ss_error *err);
 /* What the scene says, and each key free within a factor, >= 1. */
 candidate ss_candidate_of(const ss_scene *scene, int pick, double factor);
 /* Find c->best and what follows: starts points all over the range, and the keep best of them each
- * improved by steps at most.  SS_OK also where none of them moves: then all is left. */
+ * improved by steps at most.  SS_OK also where none of them moves: then all is left; SS_STOP if told
+ * to stop. */
 ss_status ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
-                              size_t steps);
+                              size_t steps, const ss_stretch *progress);
 /* The scene of the best keys, driven at the cycle's period; its sizes are those of the cycle, and
  * at phase 0 it stands where the cycle begins. */
 ss_scene ss_candidate_scene(const candidate *c, const cycle *goal);

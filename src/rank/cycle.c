@@ -27,12 +27,15 @@ bins_of(double samples)
 
 /* Sums and counts of each bin; what the squares add up to. */
 static double
-gather(double *sum, double *count, size_t bins, const double *x, size_t n, double cycles)
+gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n,
+       double cycles)
 {
     double squares = 0;
     memset(sum, 0, bins * sizeof *sum);
     memset(count, 0, bins * sizeof *count);
     for (size_t i = 0; i < n; i++) {
+        if (missing != NULL && missing[i])
+            continue;
         double turn = (double)i * cycles;
         size_t b = (size_t)((turn - floor(turn)) * (double)bins);
         sum[b] += x[i];
@@ -43,17 +46,21 @@ gather(double *sum, double *count, size_t bins, const double *x, size_t n, doubl
 }
 
 ss_status
-ss_cycle_fold(cycle *c, const double *x, size_t n, double rate, double period, ss_error *err)
+ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double rate, double period,
+              ss_error *err)
 {
-    double count[CYCLE_MOST], samples = period * rate, mean = 0, within = 0;
+    double count[CYCLE_MOST], samples = period * rate, mean = 0, within = 0, all = 0;
     if (!(samples >= CYCLE_LEAST))
         return ss_fail(err, SS_EDATA, "%.3g samples a cycle: %d are needed", samples, CYCLE_LEAST);
     if (!(samples <= (double)n))
         return ss_fail(err, SS_EDATA, "the record holds less than one cycle of %.3g s", period);
     c->period = period;
     c->n = bins_of(samples);
-    within = gather(c->y, count, c->n, x, n, 1 / samples);
+    within = gather(c->y, count, c->n, x, missing, n, 1 / samples);
     for (size_t i = 0; i < c->n; i++) {
+        all += count[i];
+        if (missing != NULL && count[i] == 0)
+            return ss_fail(err, SS_EDATA, "gaps leave out a part of every cycle of %.3g s", period);
         within -= count[i] > 0 ? c->y[i] * c->y[i] / count[i] : 0;
         c->y[i] /= fmax(count[i], 1);
         mean += c->y[i] / (double)c->n;
@@ -63,33 +70,37 @@ ss_cycle_fold(cycle *c, const double *x, size_t n, double rate, double period, s
         c->y[i] -= mean;
         c->power += c->y[i] * c->y[i] / (double)c->n;
     }
-    c->noise = n > c->n ? fmax(within, 0) / (double)(n - c->n) * (double)c->n / (double)n : 0;
+    double bins = (double)c->n;
+    c->noise = all > bins ? fmax(within, 0) / (all - bins) * bins / all : 0;
     return SS_OK;
 }
 
 /* The power about the mean that repeats, in bins. */
 static double
-repeating(const double *x, size_t n, double samples)
+repeating(const double *x, const char *missing, size_t n, double samples)
 {
-    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0, all = 0;
+    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0, all = 0, counted = 0;
     size_t bins = bins_of(samples);
-    gather(sum, count, bins, x, n, 1 / samples);
+    gather(sum, count, bins, x, missing, n, 1 / samples);
     for (size_t i = 0; i < bins; i++) {
         power += count[i] > 0 ? sum[i] * sum[i] / count[i] : 0;
         all += sum[i];
+        counted += count[i];
     }
-    return power - all * all / (double)n;
+    return power - all * all / fmax(counted, 1);
 }
 
 double
-ss_cycle_period(const double *x, size_t n, double rate, double period, double part)
+ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period,
+                double part)
 {
     double best = period;
     /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
     for (double width = part; width > 1e-6; width /= GRID) {
         double middle = best, most = -1;
         for (int i = -GRID; i <= GRID; i++) {
-            double p = middle * (1 + width * i / GRID), power = repeating(x, n, p * rate);
+            double p = middle * (1 + width * i / GRID);
+            double power = repeating(x, missing, n, p * rate);
             if (power > most)
                 most = power, best = p;
         }
@@ -100,18 +111,19 @@ ss_cycle_period(const double *x, size_t n, double rate, double period, double pa
 /* What repeats after a period does so after two and three of them: if nearly all of its power is
  * left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
 static double
-shortest(const double *x, size_t n, double rate, double period)
+shortest(const double *x, const char *missing, size_t n, double rate, double period)
 {
     for (int part = 3; part >= 2; part--)
         while (period / part * rate >= CYCLE_LEAST
-               && repeating(x, n, period / part * rate) > 0.9 * repeating(x, n, period * rate))
+               && repeating(x, missing, n, period / part * rate)
+                  > 0.9 * repeating(x, missing, n, period * rate))
             period /= part;
     return period;
 }
 
 ss_status
-ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, double rate,
-              double frequency)
+ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
+              double rate, double frequency)
 {
     ss_value samples = { rate / frequency, 0 };
     ss_error err = { "" };
@@ -127,8 +139,9 @@ ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, doubl
     }
     double period = samples.value / rate;
     if (!(frequency > 0))
-        period = shortest(x, n, rate, ss_cycle_period(x, n, rate, period, 0.01));
-    if (ss_cycle_fold(c, x, n, rate, period, &err) != SS_OK) {
+        period = shortest(x, missing, n, rate,
+                          ss_cycle_period(x, missing, n, rate, period, 0.01));
+    if (ss_cycle_fold(c, x, missing, n, rate, period, &err) != SS_OK) {
         snprintf(why, size, "%s", err.text);
         c->period = 0;
     } else if (!(c->power > c->noise)) {

@@ -17,17 +17,19 @@ typedef struct cycle {
 } cycle;
 
 /* Fold n samples at rate [Hz] at the period, of which the record must hold one at least, with
- * CYCLE_LEAST samples or more in it. */
-ss_status ss_cycle_fold(cycle *c, const double *x, size_t n, double rate, double period,
-                        ss_error *err);
+ * CYCLE_LEAST samples or more in it.  missing, here and below, is 1 for each sample that stands in a
+ * gap and is left out; NULL: none does. */
+ss_status ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double rate,
+                        double period, ss_error *err);
 /* The period within part of the given one (0.01: from 0.99 to 1.01) at which most power repeats. */
-double ss_cycle_period(const double *x, size_t n, double rate, double period, double part);
+double ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period,
+                       double part);
 
 /* The cycle of a signal whose values are finite: at the frequency [Hz] given or, if that is 0,
  * found.  *why (of the given size) is filled in where there is none that says anything, and
  * c->period is then 0. */
-ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, size_t n, double rate,
-                        double frequency);
+ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing,
+                        size_t n, double rate, double frequency);
 
 /* The mean square that is left of c when a times m, shifted by *shift cycles, is taken from it, a
  * >= 0 and the shift being the best.  m has c's n bins. */

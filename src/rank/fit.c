@@ -11,23 +11,34 @@
  * Differences over 1e-3 and 1e-4 have events cross in many places and see the valley; over 1e-6
  * hardly any does, and they lead to its floor, from where the next ones may find a lower.  (Over
  * 1e-4 alone 0.5 % of f_k and 0.02 % of K_y remained without any noise, where all leave 1e-14; at
- * 40 dB fewer passes left 0.2 % of f_k where these leave 0.02 %.) */
+ * 40 dB fewer passes left 0.2 % of f_k where these leave 0.02 %.)
+ *
+ * For the same reason a difference over h has (jump / h)^2 too much of a slope where a sample jumps
+ * within it, and nothing where none does: the sum of squares rises in proportion to the number of
+ * samples that jump, which is linear, and a parabola has the same height only where it is drawn
+ * over the same distance.  So the last descents go along the axes of the error ellipsoid, one
+ * standard error a step, and standard errors are from there. */
 #include <stickslip/rank.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_matrix.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_vector.h>
 #include <stickslip/sim.h>
 #include "error.h"
+#include "progress.h"
 #include "rank/candidate.h"
+#include "signal/gaps.h"
 
 enum { STARTS = 96, KEEP = 6, STEPS = 150 };
 enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 enum { PASSES = 40 };
+enum { RUNS = 1000 };                  /* of the scene in one fit, about */
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
 #define FAR 10.0
 /* Who leaves more of the rms than this, and than MARGIN times its noise, is another model's. */
@@ -35,23 +46,32 @@ enum { PASSES = 40 };
 #define MARGIN 1.5
 #define VAGUE 0.3                       /* a standard error above this part tells nothing */
 
-/* What is adjusted, as 1 + (its change in the unit given): differences need numbers of order 1. */
+/* What is adjusted, by its change in the unit given.  Coordinates of a descent stand at 1:
+ * differences need numbers of order 1. */
 enum { FRICTION, AMPLITUDE, STIFFNESS, DAMPING, FREQUENCY, PHASE, X0, V0, OFFSET, UNKNOWNS };
 
 typedef struct match {
     const double *signal;               /* samples matched */
-    size_t n;
+    const char *missing;                /* of them; NULL: none */
+    size_t n, there;                    /* there: those not missing */
     double *motion;                     /* room for as many */
     int pick;
     ss_scene start;                     /* at the first of them, in slip */
+    double origin[UNKNOWNS], axis[UNKNOWNS][UNKNOWNS];  /* of the coordinates of a descent */
     double x_unit, v_unit, y_unit;
-    ss_status status;                   /* SS_ENOMEM once a run lacked memory */
+    ss_stretch progress;
+    double runs, expected;              /* so far, and how many there will be at most */
+    ss_status status;                   /* SS_ENOMEM once a run lacked memory, SS_STOP when told to */
 } match;
 
 /* Run a scene into m->motion; 0 if it cannot be run. */
 static int
 run(match *m, const ss_scene *s)
 {
+    if (m->status == SS_OK)
+        m->status = ss_stretch_at(&m->progress, fmin(m->runs++ / m->expected, 1));
+    if (m->status != SS_OK)
+        return 0;
     ss_status st = ss_candidate_run(s, m->pick, m->motion, m->n);
     if (st == SS_ENOMEM)
         m->status = st;
@@ -60,13 +80,21 @@ run(match *m, const ss_scene *s)
 
 /* --- motion -------------------------------------------------------------------------------- */
 
-static ss_scene
-scene_at(const match *m, const gsl_vector *u)
+/* The unknowns, as their change from the start, at the coordinates z. */
+static void
+unknowns_at(const match *m, const gsl_vector *z, double d[UNKNOWNS])
 {
-    double d[UNKNOWNS];
+    for (size_t i = 0; i < UNKNOWNS; i++) {
+        d[i] = m->origin[i];
+        for (size_t j = 0; j < UNKNOWNS; j++)
+            d[i] += m->axis[i][j] * (gsl_vector_get(z, j) - 1);
+    }
+}
+
+static ss_scene
+scene_at(const match *m, const double d[UNKNOWNS])
+{
     ss_scene s = m->start;
-    for (size_t i = 0; i < UNKNOWNS; i++)
-        d[i] = gsl_vector_get(u, i) - 1;
     s.friction *= exp(d[FRICTION]);
     s.base_amplitude *= exp(d[AMPLITUDE]);
     s.contact_stiffness *= exp(d[STIFFNESS]);
@@ -79,65 +107,111 @@ scene_at(const match *m, const gsl_vector *u)
 }
 
 static int
-residuals(const gsl_vector *u, void *user, gsl_vector *f)
+residuals(const gsl_vector *z, void *user, gsl_vector *f)
 {
     match *m = user;
-    ss_scene s = scene_at(m, u);
-    double offset = m->y_unit * (gsl_vector_get(u, OFFSET) - 1);
+    double d[UNKNOWNS];
+    unknowns_at(m, z, d);
+    ss_scene s = scene_at(m, d);
+    double offset = m->y_unit * d[OFFSET];
     if (!run(m, &s))
         return GSL_EDOM;
     for (size_t i = 0; i < m->n; i++)
-        gsl_vector_set(f, i, m->motion[i] + offset - m->signal[i]);
+        gsl_vector_set(f, i, m->missing != NULL && m->missing[i] ? 0
+                       : m->motion[i] + offset - m->signal[i]);
     return GSL_SUCCESS;
 }
 
 /* --- least squares ------------------------------------------------------------------------- */
 
-/* One descent from u, with differences over the given step; u and error only change if it helps. */
+typedef struct answer {
+    double d[UNKNOWNS];                 /* see scene_at */
+    gsl_matrix *covariance;
+    double left;                        /* mean square; infinite if the motion could not be run */
+} answer;
+
+/* The axes scaled by those of the ellipsoid of standard errors (its Cholesky factor), or as they
+ * are.  0 if it has none. */
+static int
+take_axes(match *m, const answer *a, int scaled)
+{
+    gsl_matrix_view to = gsl_matrix_view_array(m->axis[0], UNKNOWNS, UNKNOWNS);
+    memcpy(m->origin, a->d, sizeof m->origin);
+    if (!scaled) {
+        gsl_matrix_set_identity(&to.matrix);
+        return 1;
+    }
+    gsl_matrix_memcpy(&to.matrix, a->covariance);
+    if (gsl_linalg_cholesky_decomp1(&to.matrix) != GSL_SUCCESS)
+        return 0;
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        for (size_t j = i + 1; j < UNKNOWNS; j++)
+            m->axis[i][j] = 0;
+    return 1;
+}
+
+/* From the covariance of coordinates to that of the unknowns: A C A'. */
+static void
+turn_back(const match *m, gsl_matrix *c)
+{
+    double half[UNKNOWNS * UNKNOWNS];
+    gsl_matrix_view ac = gsl_matrix_view_array(half, UNKNOWNS, UNKNOWNS);
+    gsl_matrix_const_view a = gsl_matrix_const_view_array(m->axis[0], UNKNOWNS, UNKNOWNS);
+    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1, &a.matrix, c, 0, &ac.matrix);
+    gsl_blas_dgemm(CblasNoTrans, CblasTrans, 1, &ac.matrix, &a.matrix, 0, c);
+}
+
+/* One descent from an answer, with differences over the given step; it only changes if that helps,
+ * or for the errors if they are asked for. */
 static ss_status
-descend(match *m, double step, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
+descend(match *m, double step, int errors, answer *a)
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     how.h_df = step;
+    how.fdtype = errors ? GSL_MULTIFIT_NLINEAR_CTRDIFF : GSL_MULTIFIT_NLINEAR_FWDIFF;
     gsl_multifit_nlinear_workspace *w =
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, m->n, UNKNOWNS);
-    gsl_matrix *covariance = gsl_matrix_alloc(UNKNOWNS, UNKNOWNS);
     gsl_multifit_nlinear_fdf sum = { .f = residuals, .n = m->n, .p = UNKNOWNS, .params = m };
-    gsl_vector_view start = gsl_vector_view_array(u, UNKNOWNS);
-    ss_status st = w == NULL || covariance == NULL ? SS_ENOMEM : SS_OK;
+    double ones[UNKNOWNS];
+    gsl_vector_view start = gsl_vector_view_array(ones, UNKNOWNS);
+    ss_status st = w == NULL ? SS_ENOMEM : SS_OK;
     int why;
+    gsl_vector_set_all(&start.vector, 1);
     if (st == SS_OK && gsl_multifit_nlinear_init(&start.vector, &sum, w) == GSL_SUCCESS) {
         /* its verdict does not matter: a rough sum of squares ends in steps that are refused */
         gsl_multifit_nlinear_driver(PASSES, 1e-9, 1e-9, 0, NULL, NULL, &why, w);
         const gsl_vector *r = gsl_multifit_nlinear_residual(w);
         double squares = 0;
-        for (size_t i = 0; i < m->n; i++)
-            squares += gsl_vector_get(r, i) * gsl_vector_get(r, i);
-        gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 0, covariance);
-        for (size_t i = 0; squares / (double)m->n < *left && i < UNKNOWNS; i++) {
-            u[i] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
-            error[i] = sqrt(gsl_matrix_get(covariance, i, i) * squares
-                            / (double)(m->n - UNKNOWNS));
+        gsl_blas_ddot(r, r, &squares);
+        if (squares / (double)m->there < a->left || errors) {
+            gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 0, a->covariance);
+            gsl_matrix_scale(a->covariance, squares / (double)(m->there - UNKNOWNS));
+            turn_back(m, a->covariance);
         }
-        *left = fmin(*left, squares / (double)m->n);
+        if (squares / (double)m->there < a->left) {
+            a->left = squares / (double)m->there;
+            unknowns_at(m, gsl_multifit_nlinear_position(w), a->d);
+        }
     }
     gsl_multifit_nlinear_free(w);
-    gsl_matrix_free(covariance);
     return st == SS_OK ? m->status : st;
 }
 
-/* The u of least squares; error: its standard errors; *left: the mean square, infinite if the
- * motion could not be run. */
+/* The answer of least squares. */
 static ss_status
-solve(match *m, double u[UNKNOWNS], double error[UNKNOWNS], double *left)
+solve(match *m, answer *a)
 {
     static const double step[] = { 1e-3, 1e-4, 1e-6, 1e-4, 1e-6 };
+    enum { ROUNDS = 4 };
     ss_status st = SS_OK;
-    *left = INFINITY;
-    for (size_t i = 0; i < UNKNOWNS; i++)
-        u[i] = 1, error[i] = NAN;
-    for (size_t i = 0; st == SS_OK && i < sizeof step / sizeof *step; i++)
-        st = descend(m, step[i], u, error, left);
+    a->left = INFINITY;
+    memset(a->d, 0, sizeof a->d);
+    for (size_t i = 0; st == SS_OK && i < sizeof step / sizeof *step; i++) {
+        take_axes(m, a, 0);
+        st = descend(m, step[i], 0, a);
+    }
+    for (int i = 0; st == SS_OK && i < ROUNDS && isfinite(a->left) && take_axes(m, a, 1); i++)
+        st = descend(m, 1, 1, a);
     return st;
 }
 
@@ -162,7 +236,7 @@ find_fastest(const ss_sample *s, size_t n, void *user)
 
 /* Where in the first cycle of the record the scene slips fastest; 0 if it never does. */
 static int
-find_start(match *m, const ss_scene *settled, const double *x, size_t n)
+find_start(match *m, const ss_scene *settled, const double *x, const char *missing, size_t n)
 {
     moment s = { .at = 0 };
     ss_sim_opts opts = { .method = "exact", .tol = 1e-12, .samples = find_fastest, .user = &s };
@@ -173,6 +247,7 @@ find_start(match *m, const ss_scene *settled, const double *x, size_t n)
     if (m->status != SS_OK || s.fastest.mode == 0)
         return 0;
     m->signal = x + s.at;
+    m->missing = missing != NULL ? missing + s.at : NULL;
     m->n = (size_t)fmin(fmin((double)(n - s.at), CYCLES * period * rate), MOST);
     m->start = *settled;
     m->start.phase += 2 * M_PI * settled->base_frequency * s.fastest.t;
@@ -182,28 +257,36 @@ find_start(match *m, const ss_scene *settled, const double *x, size_t n)
     m->start.v0 = s.fastest.v;
     m->x_unit = fmax(fabs(s.fastest.x), settled->base_amplitude);
     m->v_unit = fabs(s.fastest.v);
-    for (size_t i = 0; i < m->n; i++)
-        square += m->signal[i] * m->signal[i];
-    m->y_unit = sqrt(square / (double)m->n);
-    return m->n > 2 * UNKNOWNS;
+    for (size_t i = 0; i < m->n; i++) {
+        int there = m->missing == NULL || !m->missing[i];
+        square += there ? m->signal[i] * m->signal[i] : 0;
+        m->there += (size_t)there;
+    }
+    m->y_unit = sqrt(square / fmax((double)m->there, 1));
+    return m->there > 2 * UNKNOWNS;
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
 
+/* Of the samples that are not missing. */
 static double
-variance(const double *x, size_t n)
+variance(const double *x, const char *missing, size_t n)
 {
-    double mean = 0, sum = 0;
+    double mean = 0, sum = 0, count = 0;
     for (size_t i = 0; i < n; i++)
-        mean += x[i] / (double)n;
+        if (missing == NULL || !missing[i])
+            mean += x[i], count++;
+    mean /= count;
     for (size_t i = 0; i < n; i++)
-        sum += (x[i] - mean) * (x[i] - mean);
-    return sum / (double)n;
+        if (missing == NULL || !missing[i])
+            sum += (x[i] - mean) * (x[i] - mean);
+    return sum / count;
 }
 
 /* Of the record less the scene's, the offset between them apart. */
 static ss_status
-residual_of(double *residual, const ss_scene *scene, int pick, const double *x, size_t n)
+residual_of(double *residual, const ss_scene *scene, int pick, const double *x,
+            const char *missing, size_t n)
 {
     double *y = malloc((n + 1) * sizeof *y);
     if (y == NULL)
@@ -213,7 +296,7 @@ residual_of(double *residual, const ss_scene *scene, int pick, const double *x, 
     for (size_t i = 0; st == SS_OK && i < n; i++)
         y[i] -= x[i];
     if (st == SS_OK)
-        *residual = sqrt(variance(y, n) / variance(x, n));
+        *residual = sqrt(variance(y, missing, n) / variance(x, missing, n));
     free(y);
     return st == SS_ENOMEM ? st : SS_OK;
 }
@@ -259,8 +342,12 @@ scaled(double value, double relative)
 }
 
 static void
-report(ss_fit *fit, const ss_scene *s, const double error[UNKNOWNS])
+report(ss_fit *fit, const ss_scene *s, const gsl_matrix *covariance)
 {
+    double error[UNKNOWNS];
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        error[i] = sqrt(gsl_matrix_get(covariance, i, i));
+
     fit->friction = scaled(s->friction, error[FRICTION]);
     fit->base_amplitude = scaled(s->base_amplitude, error[AMPLITUDE]);
     fit->contact_stiffness = scaled(s->contact_stiffness, error[STIFFNESS]);
@@ -269,27 +356,30 @@ report(ss_fit *fit, const ss_scene *s, const double error[UNKNOWNS])
 }
 
 static ss_status
-fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, size_t n,
-           double rate)
+fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x,
+           const char *missing, size_t n, double rate, ss_stretch progress)
 {
-    double u[UNKNOWNS], error[UNKNOWNS], left;
+    double covariance[UNKNOWNS * UNKNOWNS];
+    gsl_matrix_view square = gsl_matrix_view_array(covariance, UNKNOWNS, UNKNOWNS);
+    answer a = { .covariance = &square.matrix };
     ss_scene settled = settled_scene(c, goal, n, rate);
-    match m = { .pick = c->pick, .motion = malloc(n * sizeof *m.motion) };
+    match m = { .pick = c->pick, .progress = progress, .expected = RUNS,
+                .motion = malloc(n * sizeof *m.motion) };
     if (m.motion == NULL)
         return SS_ENOMEM;
-    if (!find_start(&m, &settled, x, n)) {
+    if (!find_start(&m, &settled, x, missing, n)) {
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
         free(m.motion);
         return m.status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
     }
-    ss_status st = solve(&m, u, error, &left);
+    gsl_matrix_set_all(a.covariance, NAN);
+    ss_status st = solve(&m, &a);
     free(m.motion);
     if (st != SS_OK)
         return st;
-    gsl_vector_view at = gsl_vector_view_array(u, UNKNOWNS);
-    ss_scene s = scene_at(&m, &at.vector);
-    report(fit, &s, error);
-    fit->residual_started = sqrt(left / variance(m.signal, m.n));
+    ss_scene s = scene_at(&m, a.d);
+    report(fit, &s, a.covariance);
+    fit->residual_started = sqrt(a.left / variance(m.signal, m.missing, m.n));
     s.settle = settled.settle;
     s.x0 = s.v0 = 0;
     s.duration = settled.duration;
@@ -297,7 +387,7 @@ fit_record(ss_fit *fit, const candidate *c, const cycle *goal, const double *x, 
     s.phase = remainder(s.phase - 2 * M_PI * s.base_frequency
                         * (double)(m.signal - x) / rate, 2 * M_PI);
     s.settle = CANDIDATE_SETTLE / s.base_frequency;
-    st = residual_of(&fit->residual, &s, m.pick, x, n);
+    st = residual_of(&fit->residual, &s, m.pick, x, missing, n);
     fit->scene = s;
     return st;
 }
@@ -324,6 +414,33 @@ judge(ss_fit *fit, double noise)
             return;
         }
     fit->told = 1;
+}
+
+/* Roughly how the work is divided. */
+#define READ 0.05
+#define SEARCHED 0.5
+
+static ss_status
+fit_signal(ss_fit *fit, const ss_signal *signal, size_t column, const cycle *goal,
+           const char *missing, const ss_rank_opts *opts, ss_error *err)
+{
+    const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    const ss_stretch search = ss_stretch_part(&whole, READ, SEARCHED);
+    const double *x = signal->values + column * signal->n;
+    double noise;
+    candidate c = ss_candidate_of(&fit->scene, (int)opts->quantity, 1);
+    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS];      /* k is known */
+    c.lo[CANDIDATE_RATIO] = log(0.2);           /* below, sticks are too short to fit */
+    c.hi[CANDIDATE_RATIO] = 0;
+    ss_status st = narrow(&c, &noise, signal, column, err);
+    if (st == SS_OK)
+        st = ss_candidate_search(&c, goal, STARTS, KEEP, STEPS, &search);
+    if (st == SS_OK)
+        st = fit_record(fit, &c, goal, x, missing, signal->n, signal->head->rate,
+                        ss_stretch_part(&whole, SEARCHED, 1));
+    if (st == SS_OK)
+        judge(fit, noise / sqrt(variance(x, missing, signal->n)));
+    return st;
 }
 
 static ss_status
@@ -357,25 +474,17 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     ss_status st = check(signal, column, start, opts, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
-    double noise;
+    char *missing = NULL;
     cycle goal;
     if (st != SS_OK)
         return st;
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN };
-    st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, signal->n, rate,
-                       opts->forcing_frequency);
-    if (st != SS_OK || goal.period == 0)
-        return st;
-    candidate c = ss_candidate_of(start, (int)opts->quantity, 1);
-    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS];      /* k is known */
-    c.lo[CANDIDATE_RATIO] = log(0.2);           /* below, sticks are too short to fit */
-    c.hi[CANDIDATE_RATIO] = 0;
-    st = narrow(&c, &noise, signal, column, err);
+    st = ss_gaps_missing(&missing, signal);
     if (st == SS_OK)
-        st = ss_candidate_search(&c, &goal, STARTS, KEEP, STEPS);
-    if (st == SS_OK)
-        st = fit_record(fit, &c, &goal, x, signal->n, rate);
-    if (st == SS_OK)
-        judge(fit, noise / sqrt(variance(x, signal->n)));
+        st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, missing, signal->n, rate,
+                           opts->forcing_frequency);
+    if (st == SS_OK && goal.period > 0)
+        st = fit_signal(fit, signal, column, &goal, missing, opts, err);
+    free(missing);
     return st;
 }

@@ -16,7 +16,9 @@
 #include <stickslip/sim.h>
 #include <stickslip/spikes.h>
 #include "error.h"
+#include "progress.h"
 #include "rank/candidate.h"
+#include "signal/gaps.h"
 
 /* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the
  * spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the
@@ -92,7 +94,7 @@ look_at_jumps(look *l, double half)
         most[i] = -SPAN;
     for (size_t k = 0; top > 0 && k < s->n; k++) {
         size_t i = (size_t)(ss_scale_b(s, k) / half);
-        if (i < halves && !ss_scale_edge(s, k, l->map->n, rate))
+        if (i < halves && !ss_coefficients_edge(l->map, l->map->n_scales - 1, k))
             most[i] = fmax(most[i], level(l, s->offset + k, top));
     }
     l->value[SS_BY_JUMP] = median(most, halves);
@@ -102,11 +104,17 @@ look_at_jumps(look *l, double half)
 
 /* Spikes not more than 20 dB below the strongest: how many a half cycle, and how smooth. */
 static ss_status
-look_at_spikes(look *l, const double *x, size_t n, double rate, double half, ss_error *err)
+look_at_spikes(look *l, const double *x, const ss_header *head, size_t n, double half, ss_error *err)
 {
     ss_spikes_found *found = NULL;
+    ss_span *gap = NULL;
+    ss_spike_opts opts = ss_spike_defaults;
     size_t count = 0;
-    ss_status st = ss_find_spikes(&found, x, n, rate, &ss_spike_defaults, err);
+    ss_status st = ss_gaps_of(&gap, &opts.n_gaps, head, n);
+    opts.gap = gap;
+    if (st == SS_OK)
+        st = ss_find_spikes(&found, x, n, head->rate, &opts, err);
+    free(gap);
     if (st != SS_OK)
         return st;
     double *slope = malloc((found->n + 1) * sizeof *slope);
@@ -115,7 +123,7 @@ look_at_spikes(look *l, const double *x, size_t n, double rate, double half, ss_
             slope[count++] = found->spike[i].slope;
     if (slope != NULL) {
         l->countable = found->conclusive;
-        l->value[SS_BY_SPIKES] = (double)count * half / ((double)n / rate);
+        l->value[SS_BY_SPIKES] = (double)count * half / ((double)n / head->rate);
         l->value[SS_BY_SLOPE] = median(slope, count);
     }
     ss_spikes_free(found);
@@ -165,7 +173,7 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
     l->map = NULL;
     st = look_at_transitions(l, signal, column, period / 2, err);
     if (st == SS_OK)
-        st = look_at_spikes(l, x, signal->n, signal->head->rate, period / 2, err);
+        st = look_at_spikes(l, x, signal->head, signal->n, period / 2, err);
     if (st == SS_OK)
         st = ss_transform(&l->map, signal, column, &opts, err);
     if (st == SS_OK)
@@ -189,7 +197,7 @@ map_distance(const look *a, const look *b)
         double squares = 0, count = 0;
         for (size_t k = 0; k < s->n; k++) {
             double d = level(a, s->offset + k, top_a) - level(b, s->offset + k, top_b);
-            if (ss_scale_edge(s, k, a->map->n, a->map->head->rate))
+            if (ss_coefficients_edge(a->map, i, k))
                 continue;
             squares += d * d;
             count++;
@@ -233,21 +241,29 @@ typedef struct work {
     size_t column;
     ss_quantity quantity;
     double spread;
+    ss_span *gap;                       /* of the window [s] */
+    size_t n_gaps;
     cycle goal;
     double from;                        /* start of the window in the record [s] */
     look look;                          /* of the signal */
 } work;
 
-/* The adjusted scene as the signal's window would show it. */
+/* The adjusted scene as the signal's window would show it, its gaps included. */
 static ss_status
 look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long seed, ss_error *err)
 {
     ss_signal *run = NULL;
+    const char *gaps = ss_header_find_note(w->signal->head, "gaps");
     ss_status st = ss_simulate(&run, adjusted, err);
     if (st != SS_OK)
         return st;
     double *x = run->values + (size_t)w->quantity * run->n;
-    st = ss_add_noise(x, run->n, w->look.noise, seed);
+    run->head->start = w->signal->head->start;
+    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
+    if (st == SS_OK)
+        st = ss_add_noise(x, run->n, w->look.noise, seed);
+    for (size_t c = 0; c < run->head->n_columns; c++)
+        ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)
         st = look_at(l, run, (size_t)w->quantity, w->goal.period, err);
     ss_signal_free(run);
@@ -255,11 +271,12 @@ look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long se
 }
 
 static ss_status
-rank_scene(ss_rank_row *row, const work *w, const ss_scene *scene, ss_error *err)
+rank_scene(ss_rank_row *row, const work *w, const ss_scene *scene, const ss_stretch *progress,
+           ss_error *err)
 {
     look l;
     candidate c = ss_candidate_of(scene, (int)w->quantity, (1 + w->spread) / (1 - w->spread));
-    ss_status st = ss_candidate_search(&c, &w->goal, STARTS, KEEP, STEPS);
+    ss_status st = ss_candidate_search(&c, &w->goal, STARTS, KEEP, STEPS, progress);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     row->adjusted = ss_candidate_scene(&c, &w->goal);
@@ -404,7 +421,8 @@ rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
 }
 
 static ss_status
-rank_all(ss_ranking *r, const ss_signal *signal, const ss_scene *scene, work *w, ss_error *err)
+rank_all(ss_ranking *r, const ss_signal *signal, const ss_scene *scene, work *w,
+         const ss_stretch *progress, ss_error *err)
 {
     double rate = signal->head->rate, most = WINDOW * w->goal.period * rate;
     size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
@@ -414,12 +432,20 @@ rank_all(ss_ranking *r, const ss_signal *signal, const ss_scene *scene, work *w,
         return ss_fail(err, st, "%s", ss_strerror(st));
     w->signal = window;
     w->from = (double)first / rate;
-    st = look_at(&w->look, window, w->column, w->goal.period, err);
-    for (size_t i = 0; st == SS_OK && i < r->n; i++)
-        st = rank_scene(&r->row[i], w, &scene[i], err);
+    st = ss_gaps_of(&w->gap, &w->n_gaps, window->head, n);
+    for (size_t c = 0; st == SS_OK && c < window->head->n_columns; c++)
+        ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
+    if (st == SS_OK)
+        st = look_at(&w->look, window, w->column, w->goal.period, err);
+    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
+        ss_stretch part = ss_stretch_part(progress, (double)(i + 1) / (double)(r->n + 1),
+                                          (double)(i + 2) / (double)(r->n + 1));
+        st = rank_scene(&r->row[i], w, &scene[i], &part, err);
+    }
     if (st == SS_OK)
         settle(r, w);
     look_away(&w->look);
+    free(w->gap);
     ss_signal_free(window);
     return st;
 }
@@ -450,11 +476,16 @@ ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene
     for (size_t i = 0; i < n; i++)
         r->row[i].scene = i;
     *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
-    st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
-                       signal->n, signal->head->rate, opts->forcing_frequency);
+    const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    char *missing = NULL;
+    st = ss_gaps_missing(&missing, signal);
+    if (st == SS_OK)
+        st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
+                           missing, signal->n, signal->head->rate, opts->forcing_frequency);
+    free(missing);
     r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
     if (st == SS_OK && w->goal.period > 0)
-        st = rank_all(r, signal, scene, w, err);
+        st = rank_all(r, signal, scene, w, &whole, err);
     free(w);
     if (st == SS_OK)
         *out = r;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "signal/gaps.h"
 #include "stream.h"
 
 static const char key[] = "gaps";
@@ -118,4 +119,61 @@ ss_near_gap(const ss_span *gap, size_t n, double t, double margin)
             hi = middle;
     }
     return lo > 0 && gap[lo - 1].to > t - margin;
+}
+
+/* --- within a record ----------------------------------------------------------------------- */
+
+#define UNEVEN 1e-6             /* of a sample: what its decimal digits leave of a time */
+
+ss_status
+ss_gaps_of(ss_span **out, size_t *n, const ss_header *head, size_t rows)
+{
+    ss_status st = ss_header_gaps(out, n, head);
+    size_t kept = 0;
+    for (size_t i = 0; st == SS_OK && i < *n; i++) {
+        double from = floor(((*out)[i].from - head->start) * head->rate + UNEVEN);
+        double to = ceil(((*out)[i].to - head->start) * head->rate - UNEVEN);
+        from = fmax(from, 0);
+        to = fmin(to, (double)rows);
+        if (from < to)
+            (*out)[kept++] = (ss_span){ from / head->rate, to / head->rate };
+    }
+    if (st == SS_OK)
+        *n = kept;
+    return st;
+}
+
+void
+ss_gap_rows(const ss_span *gap, double rate, size_t *first, size_t *end)
+{
+    *first = (size_t)(gap->from * rate + 0.5);
+    *end = (size_t)(gap->to * rate + 0.5);
+}
+
+void
+ss_gaps_bridge(double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps)
+{
+    for (size_t g = 0; g < n_gaps; g++) {
+        size_t first, end;
+        ss_gap_rows(&gap[g], rate, &first, &end);
+        fill_run(x, 1, first, end < n ? end : n, n, SS_GAPS_INTERPOLATE);
+    }
+}
+
+ss_status
+ss_gaps_missing(char **out, const ss_signal *signal)
+{
+    ss_span *gap = NULL;
+    size_t n_gaps, n = signal->n;
+    ss_status st = ss_gaps_of(&gap, &n_gaps, signal->head, n);
+    *out = NULL;
+    if (st == SS_OK && n_gaps > 0 && (*out = calloc(n, 1)) == NULL)
+        st = SS_ENOMEM;
+    for (size_t g = 0; st == SS_OK && g < n_gaps; g++) {
+        size_t first, end;
+        ss_gap_rows(&gap[g], signal->head->rate, &first, &end);
+        memset(*out + first, 1, end - first);
+    }
+    free(gap);
+    return st;
 }
