@@ -101,6 +101,16 @@ size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficie
  * several threads at once. */
 ss_status ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err);
 
+/* Receives translations first ... first + n - 1, n >= 1, of a scale, each scale's in order, valid
+ * during the call only: w as in ss_morlet_execute, the edge as ss_scale_edge gives it for samples.
+ * A non-zero return ends the work with SS_STOP. */
+typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, const double *w,
+                                size_t samples, void *user);
+/* The same coefficients to a sink, a whole scale at a time, long to short, by the calling thread: in
+ * memory of as many scales as there are threads, whatever the grid. */
+ss_status ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink,
+                         void *user, ss_error *err);
+
 /* Recompute coefficients w of x, each scale's chosen at random (always the same), with the engine
  * that did not compute them, where there are two: the largest difference relative to the largest
  * |W| of its scale.  each: coefficients a scale, 1 ... 1e6. */
@@ -128,15 +138,9 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
  * the whole record; even the largest |W| is only that of its scale so far.  Which samples come
  * together changes a coefficient within that error only. */
 
-/* Receives translations first ... first + n - 1, n >= 1, of a scale, each scale's in order, valid
- * during the call only; w as in ss_morlet_execute, the edge as ss_scale_edge gives it for samples.
- * scale->n and scale->offset mean nothing.  A non-zero return ends the stream with SS_STOP. */
-typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, const double *w,
-                                size_t samples, void *user);
-
 typedef struct ss_stream ss_stream;
 
-/* SS_EINVAL without fmin or octaves, or with detrend, which takes the whole record.  Scales longer
+/* The sink gets scales in any order, of which n and offset mean nothing.  SS_EINVAL without fmin or octaves, or with detrend, which takes the whole record.  Scales longer
  * than the record will be are no error: all they give lies inside the cone of influence. */
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);

@@ -23,6 +23,13 @@ ss_status ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *n
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */
 ss_status ss_h5_open(h5_file *file);
 
+/* The file on disk that HDF5 writes to, open there; error is the errno of what failed first, or 0
+ * (disk.c).  A list of file access that leads there, to be closed, or < 0. */
+typedef struct h5_disk {
+    int fd, error;
+} h5_disk;
+hid_t ss_h5_disk_access(h5_disk *disk);
+
 /* Objects by their path, links out of the file not followed; < 0 if there is none. */
 hid_t ss_h5_open_dataset(hid_t group, const char *name);
 hid_t ss_h5_open_group(hid_t group, const char *name);
