@@ -92,7 +92,7 @@ ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_
 ss_status ss_wisdom_read(FILE *in, ss_error *err);
 ss_status ss_wisdom_write(FILE *out);
 size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */
-const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* owned by the plan */
+const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* an array that the plan owns */
 ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that scale i is left to */
 size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients over all scales */
 
@@ -140,12 +140,13 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
 typedef struct ss_stream ss_stream;
 
-/* The sink gets scales in any order, of which n and offset mean nothing.  SS_EINVAL without fmin or octaves, or with detrend, which takes the whole record.  Scales longer
- * than the record will be are no error: all they give lies inside the cone of influence. */
+/* The sink gets scales in any order, of which n and offset mean nothing.  SS_EINVAL without fmin or
+ * octaves, or with detrend, which takes the whole record.  Scales longer than the record will be are
+ * no error: all they give lies inside the cone of influence. */
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);
 size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
-const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* owned by the stream */
+const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* an array that it owns */
 size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
 
 /* Take n samples.  The sink gets what is complete of them as soon as that is cheap: in long windows.
