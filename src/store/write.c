@@ -854,7 +854,7 @@ complete(ss_store_writer *w, size_t samples)
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
     if ((w->dense && !write_times(w, w->rows->time, &w->scale[0], 0, samples))
-        || (w->growing && !put_text(w->file.id, "samples", text))
+        || (H5Aexists(w->file.id, "samples") <= 0 && !put_text(w->file.id, "samples", text))
         || !put_number(w->wavelet, "samples", H5T_STD_I64LE, (double)samples))
         return fail_write(&w->file, 0, "/wavelet");
     return SS_OK;
