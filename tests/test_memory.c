@@ -352,6 +352,21 @@ streams(int variant)
     return st;
 }
 
+/* Scale by scale, into nothing. */
+static ss_status
+each_scale(int variant)
+{
+    ss_morlet *plan = NULL;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.voices = 1;
+    opts.threads = 1 + variant;
+    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err);
+    if (st == SS_OK)
+        st = ss_morlet_each(plan, signal->values, drop_rows, NULL, &err);
+    ss_morlet_free(plan);
+    return st;
+}
+
 static ss_status
 inverses(int variant)
 {
@@ -500,6 +515,31 @@ stores(int variant)
     return st;
 }
 
+/* Piece by piece, of a known length or not. */
+static ss_status
+store_pieces(int variant)
+{
+    char other[80];
+    ss_store_writer *writer = NULL;
+    ss_coefficients grid = *coefficients;
+    size_t n = signal->n;
+    snprintf(other, sizeof other, "%s.new", path);
+    grid.n = variant == 0 ? n : 0;
+    ss_status st = ss_store_writer_new(&writer, other, signal->head, &grid, &err);
+    if (st == SS_OK)
+        st = ss_store_writer_signal(writer, signal->values, n, 1, n, &err);
+    for (size_t i = 0; st == SS_OK && i < grid.n_scales; i++)
+        st = ss_store_writer_rows(writer, &grid.scale[i], 0, grid.scale[i].n,
+                                  grid.w + 2 * grid.scale[i].offset, n, &err);
+    if (st == SS_OK)
+        st = ss_store_writer_end(writer, n, &err);
+    ss_store_writer_free(writer);
+    if (st != SS_OK)
+        assert_int_not_equal(access(other, F_OK), 0);
+    unlink(other);
+    return st;
+}
+
 static ss_status
 loads(int variant)
 {
@@ -532,7 +572,8 @@ static const struct row {
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 }, { "plots", plots, 5, 30 },
-    { "stores", stores, 2, 30 }, { "loads", loads, 3, 30 },
+    { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
+    { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 3, 30 },
 };
 
 /* --- the tests ----------------------------------------------------------------------------- */

@@ -6,18 +6,8 @@
 #include "h5.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#if H5_VERSION_GE(1, 13, 0)
-#include <H5FDdevelop.h>
-#endif
-
-typedef struct driver_file {
-    H5FD_t pub;                 /* HDF5's part comes first */
-    h5_disk *disk;
-    haddr_t eoa, eof;           /* end of what is allocated, of what is there */
-} driver_file;
 
 typedef struct driver_info {
     h5_disk *disk;
@@ -28,25 +18,25 @@ open_file(const char *name, unsigned flags, hid_t access, haddr_t most)
 {
     (void)name, (void)flags, (void)most;
     const driver_info *info = H5Pget_driver_info(access);
-    driver_file *f = info != NULL ? calloc(1, sizeof *f) : NULL;
-    if (f == NULL)
+    if (info == NULL)
         return NULL;
-    f->disk = info->disk;
-    return &f->pub;
+    memset(&info->disk->of_hdf5, 0, sizeof info->disk->of_hdf5);
+    info->disk->eoa = info->disk->eof = 0;
+    return &info->disk->of_hdf5;
 }
 
+/* It stays the caller's. */
 static herr_t
 close_file(H5FD_t *file)
 {
-    free(file);
+    (void)file;
     return 0;
 }
 
 static int
 compare_files(const H5FD_t *a, const H5FD_t *b)
 {
-    const h5_disk *p = ((const driver_file *)a)->disk, *q = ((const driver_file *)b)->disk;
-    return (p > q) - (p < q);
+    return (a > b) - (a < b);
 }
 
 static herr_t
@@ -62,14 +52,14 @@ static haddr_t
 get_eoa(const H5FD_t *file, H5FD_mem_t type)
 {
     (void)type;
-    return ((const driver_file *)file)->eoa;
+    return ((const h5_disk *)file)->eoa;
 }
 
 static herr_t
 set_eoa(H5FD_t *file, H5FD_mem_t type, haddr_t end)
 {
     (void)type;
-    ((driver_file *)file)->eoa = end;
+    ((h5_disk *)file)->eoa = end;
     return 0;
 }
 
@@ -77,7 +67,7 @@ static haddr_t
 get_eof(const H5FD_t *file, H5FD_mem_t type)
 {
     (void)type;
-    return ((const driver_file *)file)->eof;
+    return ((const h5_disk *)file)->eof;
 }
 
 /* What is not there reads as zeros. */
@@ -85,14 +75,14 @@ static herr_t
 read_bytes(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t size, void *buffer)
 {
     (void)type, (void)how;
-    const driver_file *f = (const driver_file *)file;
+    h5_disk *f = (h5_disk *)file;
     char *to = buffer;
     while (size > 0) {
-        ssize_t n = pread(f->disk->fd, to, size, (off_t)at);
+        ssize_t n = pread(f->fd, to, size, (off_t)at);
         if (n < 0 && errno == EINTR)
             continue;
-        if (n < 0 && f->disk->error == 0)
-            f->disk->error = errno;
+        if (n < 0 && f->error == 0)
+            f->error = errno;
         if (n <= 0)
             break;
         to += n;
@@ -107,13 +97,13 @@ static herr_t
 write_bytes(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t size, const void *buffer)
 {
     (void)type, (void)how;
-    driver_file *f = (driver_file *)file;
+    h5_disk *f = (h5_disk *)file;
     const char *from = buffer;
     f->eof = at + size > f->eof ? at + size : f->eof;
-    while (size > 0 && f->disk->error == 0) {
-        ssize_t n = pwrite(f->disk->fd, from, size, (off_t)at);
+    while (size > 0 && f->error == 0) {
+        ssize_t n = pwrite(f->fd, from, size, (off_t)at);
         if (n < 0 && errno != EINTR)
-            f->disk->error = errno;
+            f->error = errno;
         if (n <= 0)
             continue;
         from += n;
@@ -127,9 +117,9 @@ static herr_t
 truncate_file(H5FD_t *file, hid_t how, hbool_t closing)
 {
     (void)how, (void)closing;
-    driver_file *f = (driver_file *)file;
-    if (f->eof != f->eoa && f->disk->error == 0 && ftruncate(f->disk->fd, (off_t)f->eoa) != 0)
-        f->disk->error = errno;
+    h5_disk *f = (h5_disk *)file;
+    if (f->eof != f->eoa && f->error == 0 && ftruncate(f->fd, (off_t)f->eoa) != 0)
+        f->error = errno;
     f->eof = f->eoa;
     return 0;
 }

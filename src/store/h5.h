@@ -5,6 +5,9 @@
 #define H5_USE_110_API 1        /* one signature of H5Ovisit in HDF5 1.10 to 1.14 */
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#if H5_VERSION_GE(1, 13, 0)
+#include <H5FDdevelop.h>
+#endif
 #include <stickslip/store.h>
 
 #define H5_MAX_VALUES 1000000000        /* in one dataset: 8 GB as doubles */
@@ -26,7 +29,9 @@ ss_status ss_h5_open(h5_file *file);
 /* The file on disk that HDF5 writes to, open there; error is the errno of what failed first, or 0
  * (disk.c).  A list of file access that leads there, to be closed, or < 0. */
 typedef struct h5_disk {
+    H5FD_t of_hdf5;             /* comes first */
     int fd, error;
+    haddr_t eoa, eof;           /* end of what is allocated, of what is there */
 } h5_disk;
 hid_t ss_h5_disk_access(h5_disk *disk);
 
