@@ -170,7 +170,7 @@ typedef struct ss_coefficients {
     double center;              /* omega_c */
     size_t n_scales;            /* > 0 */
     ss_scale *scale;            /* long to short; each has n > 0 */
-    double *w;                  /* re, im */
+    double *w;                  /* re, im; NULL where only the grid is known */
     ss_span *gap;               /* where others stand in for samples, from head's note, or NULL */
     size_t n_gaps;
 } ss_coefficients;
@@ -212,6 +212,9 @@ ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_sca
 /* Flushes. */
 ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples);
 void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
+
+/* Where coefficients come from that are not all in memory at a time: fills in those of scale i. */
+typedef ss_status ss_coefficient_source(size_t i, double *w, void *user, ss_error *err);
 
 /* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */
 double ss_coefficients_max(const ss_coefficients *coefficients);

@@ -62,6 +62,14 @@ ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *da
                                const ss_read_opts *opts, ss_error *err);
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 
+/* The same scale by scale, so that memory is that of one.  The grid, whose w is NULL, belongs to the
+ * reader; w of a scale has room for its 2 n doubles. */
+typedef struct ss_store_reader ss_store_reader;
+ss_status ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err);
+const ss_coefficients *ss_store_reader_grid(const ss_store_reader *reader);
+ss_status ss_store_reader_scale(ss_store_reader *reader, size_t i, double *w, ss_error *err);
+void ss_store_reader_free(ss_store_reader *reader);     /* NULL is allowed */
+
 /* Open path whatever it holds: a stream, delimited text, HDF5, or HDF5 with ":/path/to/dataset"
  * behind it. */
 ss_status ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts,

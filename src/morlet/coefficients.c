@@ -51,7 +51,7 @@ ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
 double
 ss_coefficients_max(const ss_coefficients *coefficients)
 {
-    if (coefficients == NULL)
+    if (coefficients == NULL || coefficients->w == NULL)
         return NAN;
     double outside = -1, all = 0;
     for (size_t i = 0; i < coefficients->n_scales; i++) {
