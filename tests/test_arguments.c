@@ -98,6 +98,12 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_store_writer_rows(NULL, NULL, 0, 0, NULL, 0, &e), &e);
     assert_refused(ss_store_writer_end(NULL, 1, &e), &e);
     ss_store_writer_free(NULL);
+    ss_store_reader *reader = NULL;
+    assert_refused(ss_store_reader_new(NULL, "x.h5", &e), &e);
+    assert_refused(ss_store_reader_new(&reader, NULL, &e), &e);
+    assert_null(ss_store_reader_grid(NULL));
+    assert_refused(ss_store_reader_scale(NULL, 0, &(double){ 0 }, &e), &e);
+    ss_store_reader_free(NULL);
     assert_int_equal(head->n_columns + head->n_notes, 0);
     ss_header_free(head);
 }

@@ -547,9 +547,17 @@ loads(int variant)
     ss_coefficients *c = NULL;
     char member[80];
     snprintf(member, sizeof member, "%s:/signal/a", path);
+    ss_store_reader *reader = NULL;
     ss_status st = variant == 0 ? ss_load_signal(&back, path, NULL, &err)
                    : variant == 1 ? ss_load_signal(&back, member, NULL, &err)
-                   : ss_store_read_coefficients(&c, path, &err);
+                   : variant == 2 ? ss_store_read_coefficients(&c, path, &err)
+                   : ss_store_reader_new(&reader, path, &err);
+    if (st == SS_OK && reader != NULL) {
+        static double w[2 * 100000];
+        assert_true(ss_store_reader_grid(reader)->scale[0].n <= 100000);
+        st = ss_store_reader_scale(reader, 0, w, &err);
+    }
+    ss_store_reader_free(reader);
     ss_signal_free(back);
     ss_coefficients_free(c);
     return st;
@@ -573,7 +581,7 @@ static const struct row {
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 }, { "plots", plots, 5, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
-    { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 3, 30 },
+    { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },
 };
 
 /* --- the tests ----------------------------------------------------------------------------- */

@@ -255,6 +255,35 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
 }
 
 static void
+scales_can_be_read_one_by_one(void **state)
+{
+    (void)state;
+    for (int dense = 0; dense < 2; dense++) {
+        ss_signal *signal = new_signal(500);
+        ss_coefficients *c = transform(signal, dense);
+        ss_store_reader *reader;
+        ss_error err = { "" };
+        double *w = malloc(2 * c->scale[c->n_scales - 1].n * sizeof *w);
+        write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+        assert_int_equal(ss_store_reader_new(&reader, path, NULL), SS_OK);
+        const ss_coefficients *grid = ss_store_reader_grid(reader);
+        assert_null(grid->w);
+        assert_true(grid->n == c->n && grid->n_scales == c->n_scales);
+        assert_same_notes(c->head, grid->head);
+        for (size_t i = c->n_scales; i-- > 0;) {
+            assert_int_equal(ss_store_reader_scale(reader, i, w, NULL), SS_OK);
+            assert_same_bits(w, c->w + 2 * c->scale[i].offset, 2 * c->scale[i].n);
+        }
+        assert_int_equal(ss_store_reader_scale(reader, c->n_scales, w, &err), SS_EINVAL);
+        assert_true(isnan(ss_coefficients_max(grid)));
+        ss_store_reader_free(reader);
+        free(w);
+        ss_coefficients_free(c);
+        ss_signal_free(signal);
+    }
+}
+
+static void
 edges_and_times_are_those_of_the_whole(void **state)
 {
     enum { N = 3000 };
@@ -973,6 +1002,7 @@ main(void)
         cmocka_unit_test(a_signal_reads_back_exactly),
         cmocka_unit_test(coefficients_read_back_exactly),
         cmocka_unit_test(a_file_made_piece_by_piece_reads_back_exactly),
+        cmocka_unit_test(scales_can_be_read_one_by_one),
         cmocka_unit_test(edges_and_times_are_those_of_the_whole),
         cmocka_unit_test(a_file_that_is_not_brought_to_its_end_is_no_file),
         cmocka_unit_test(events_are_stored_with_their_kinds_as_words),
