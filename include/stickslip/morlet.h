@@ -165,7 +165,8 @@ void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
                                    and the options as notes: samples, column, unit, center, voices,
-                                   step (or dense: yes), norm, admissible, detrend, accuracy, method */
+                                   step (or dense: yes), norm, admissible, detrend, accuracy, method,
+                                   and label, what frequencies mean */
     size_t n;                   /* samples of the record, > 0 */
     double center;              /* omega_c */
     size_t n_scales;            /* > 0 */
