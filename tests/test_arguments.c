@@ -90,6 +90,23 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_transform(&c, NULL, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_store_write(NULL, &record, &e), &e);
     assert_refused(ss_store_write("x.h5", NULL, &e), &e);
+    ss_store_writer *store = NULL;
+    const ss_coefficients grid = { .head = NULL };
+    assert_refused(ss_store_writer_new(NULL, "x.h5", head, &grid, &e), &e);
+    assert_refused(ss_store_writer_new(&store, NULL, head, &grid, &e), &e);
+    assert_refused(ss_store_writer_new(&store, "x.h5", head, NULL, &e), &e);
+    assert_refused(ss_store_writer_new(&store, "x.h5", head, &grid, &e), &e);
+    assert_null(store);
+    assert_refused(ss_store_writer_signal(NULL, &(double){ 0 }, 1, 1, 1, &e), &e);
+    assert_refused(ss_store_writer_rows(NULL, NULL, 0, 0, NULL, 0, &e), &e);
+    assert_refused(ss_store_writer_end(NULL, 1, &e), &e);
+    ss_store_writer_free(NULL);
+    ss_store_reader *reader = NULL;
+    assert_refused(ss_store_reader_new(NULL, "x.h5", &e), &e);
+    assert_refused(ss_store_reader_new(&reader, NULL, &e), &e);
+    assert_null(ss_store_reader_grid(NULL));
+    assert_refused(ss_store_reader_scale(NULL, 0, &(double){ 0 }, &e), &e);
+    ss_store_reader_free(NULL);
     assert_int_equal(head->n_columns + head->n_notes, 0);
     ss_header_free(head);
 }
@@ -230,6 +247,9 @@ transforms_refuse_null(void **state)
     assert_refused(ss_morlet_execute(NULL, x, w, &e), &e);
     assert_refused(ss_morlet_execute(plan, NULL, w, &e), &e);
     assert_refused(ss_morlet_execute(plan, x, NULL, &e), &e);
+    assert_refused(ss_morlet_each(NULL, x, no_coefficients, NULL, &e), &e);
+    assert_refused(ss_morlet_each(plan, NULL, no_coefficients, NULL, &e), &e);
+    assert_refused(ss_morlet_each(plan, x, NULL, NULL, &e), &e);
     assert_refused(ss_morlet_compare(NULL, x, w, 1, &difference, &e), &e);
     assert_refused(ss_morlet_compare(plan, NULL, w, 1, &difference, &e), &e);
     assert_refused(ss_morlet_compare(plan, x, NULL, 1, &difference, &e), &e);

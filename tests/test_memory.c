@@ -352,6 +352,21 @@ streams(int variant)
     return st;
 }
 
+/* Scale by scale, into nothing. */
+static ss_status
+each_scale(int variant)
+{
+    ss_morlet *plan = NULL;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.voices = 1;
+    opts.threads = 1 + variant;
+    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err);
+    if (st == SS_OK)
+        st = ss_morlet_each(plan, signal->values, drop_rows, NULL, &err);
+    ss_morlet_free(plan);
+    return st;
+}
+
 static ss_status
 inverses(int variant)
 {
@@ -500,6 +515,31 @@ stores(int variant)
     return st;
 }
 
+/* Piece by piece, of a known length or not. */
+static ss_status
+store_pieces(int variant)
+{
+    char other[80];
+    ss_store_writer *writer = NULL;
+    ss_coefficients grid = *coefficients;
+    size_t n = signal->n;
+    snprintf(other, sizeof other, "%s.new", path);
+    grid.n = variant == 0 ? n : 0;
+    ss_status st = ss_store_writer_new(&writer, other, signal->head, &grid, &err);
+    if (st == SS_OK)
+        st = ss_store_writer_signal(writer, signal->values, n, 1, n, &err);
+    for (size_t i = 0; st == SS_OK && i < grid.n_scales; i++)
+        st = ss_store_writer_rows(writer, &grid.scale[i], 0, grid.scale[i].n,
+                                  grid.w + 2 * grid.scale[i].offset, n, &err);
+    if (st == SS_OK)
+        st = ss_store_writer_end(writer, n, &err);
+    ss_store_writer_free(writer);
+    if (st != SS_OK)
+        assert_int_not_equal(access(other, F_OK), 0);
+    unlink(other);
+    return st;
+}
+
 static ss_status
 loads(int variant)
 {
@@ -507,9 +547,17 @@ loads(int variant)
     ss_coefficients *c = NULL;
     char member[80];
     snprintf(member, sizeof member, "%s:/signal/a", path);
+    ss_store_reader *reader = NULL;
     ss_status st = variant == 0 ? ss_load_signal(&back, path, NULL, &err)
                    : variant == 1 ? ss_load_signal(&back, member, NULL, &err)
-                   : ss_store_read_coefficients(&c, path, &err);
+                   : variant == 2 ? ss_store_read_coefficients(&c, path, &err)
+                   : ss_store_reader_new(&reader, path, &err);
+    if (st == SS_OK && reader != NULL) {
+        static double w[2 * 100000];
+        assert_true(ss_store_reader_grid(reader)->scale[0].n <= 100000);
+        st = ss_store_reader_scale(reader, 0, w, &err);
+    }
+    ss_store_reader_free(reader);
     ss_signal_free(back);
     ss_coefficients_free(c);
     return st;
@@ -532,7 +580,8 @@ static const struct row {
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 }, { "plots", plots, 5, 30 },
-    { "stores", stores, 2, 30 }, { "loads", loads, 3, 30 },
+    { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
+    { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },
 };
 
 /* --- the tests ----------------------------------------------------------------------------- */

@@ -179,6 +179,82 @@ threads_change_nothing(void **state)
     ss_morlet_free(five);
 }
 
+typedef struct sequence {
+    const ss_morlet *plan;
+    const double *w;            /* of all */
+    size_t next, stop_at;       /* scales */
+    pthread_t thread;
+} sequence;
+
+static int
+follow(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
+{
+    sequence *s = user;
+    const ss_scale *want = ss_morlet_scale(s->plan, s->next);
+    assert_true(pthread_equal(pthread_self(), s->thread));
+    assert_true(scale->j == want->j && first == 0 && n == want->n && samples == 3001);
+    assert_memory_equal(w, s->w + 2 * want->offset, 2 * n * sizeof *w);
+    return ++s->next == s->stop_at;
+}
+
+static int
+stop_half_way(double done, void *user)
+{
+    double *last = user;
+    assert_true(done > *last && done <= 1);
+    *last = done;
+    return done > 0.5;
+}
+
+/* One at a time, the longest first, on the caller's thread, with the bits that all have together. */
+static void
+scales_come_one_by_one_to_the_last_bit(void **state)
+{
+    enum { N = 3001 };
+    double x[N], done = 0;
+    (void)state;
+    make(NOISE, x, N);
+    for (int row = 0; row < 9; row++) {
+        ss_morlet_opts opts = ss_morlet_defaults;
+        opts.dense = row % 2, opts.voices = 3, opts.threads = 1 + row % 4;
+        opts.engine = (ss_engine)(row % 3), opts.detrend = (ss_detrend)(row / 3);
+        ss_morlet *plan = plan_of(N, 2000, &opts);
+        double *w = transform(plan, x);
+        sequence s = { .plan = plan, .w = w, .thread = pthread_self() };
+        assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_OK);
+        assert_int_equal(s.next, ss_morlet_scales(plan));
+        s.next = 0;
+        s.stop_at = 2;
+        assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_STOP);
+        assert_int_equal(s.next, 2);
+        ss_morlet_free(plan);
+        free(w);
+    }
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.progress = stop_half_way, opts.user = &done;
+    ss_morlet *plan = plan_of(N, 2000, &opts);
+    sequence s = { .plan = plan, .thread = pthread_self() };
+    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    s.w = w;
+    assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_STOP);
+    ss_morlet_free(plan);
+    opts.progress = NULL;
+    plan = plan_of(N, 2000, &opts);
+    assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_OK);
+    ss_morlet_free(plan);
+    opts.progress = stop_half_way;
+    s.plan = plan = plan_of(N, 2000, &opts);
+    done = 0;
+    assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_STOP);
+    assert_true(done > 0.5 && s.next < ss_morlet_scales(plan));
+    x[77] = INFINITY;
+    ss_error err = { "" };
+    assert_int_equal(ss_morlet_each(plan, x, follow, &s, &err), SS_EINVAL);
+    assert_non_null(strstr(err.text, "sample 78"));
+    ss_morlet_free(plan);
+    free(w);
+}
+
 /* Plans made, used and freed by several threads at a time, as FFTW itself would not allow. */
 static void *
 make_plans(void *user)
@@ -1026,6 +1102,7 @@ main(void)
         cmocka_unit_test(forced_scales_keep_the_bound),
         cmocka_unit_test(long_scales_by_fft_keep_the_bound),
         cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(scales_come_one_by_one_to_the_last_bit),
         cmocka_unit_test(threads_may_plan_at_the_same_time),
         cmocka_unit_test(wisdom_is_kept_and_keeps_the_bound),
         cmocka_unit_test(engines_agree_and_damage_is_seen),

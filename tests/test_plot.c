@@ -316,6 +316,62 @@ zero_everywhere_gives_an_empty_picture(void **state)
     ss_coefficients_free(c);
 }
 
+typedef struct origin {
+    const ss_coefficients *c;
+    size_t next, fail_at;
+    double done;
+} origin;
+
+static ss_status
+give_scale(size_t i, double *w, void *user, ss_error *err)
+{
+    origin *o = user;
+    (void)err;
+    assert_int_equal(i, o->next++);
+    memcpy(w, o->c->w + 2 * o->c->scale[i].offset, 2 * o->c->scale[i].n * sizeof *w);
+    return i == o->fail_at ? SS_EDATA : SS_OK;
+}
+
+static int
+note_progress(double done, void *user)
+{
+    origin *o = user;
+    assert_true(done > o->done && done <= 1);
+    o->done = done;
+    return 0;
+}
+
+/* Each once, with the picture that all together give; where one is lost, nothing is written. */
+static void
+coefficients_may_come_scale_by_scale(void **state)
+{
+    ss_coefficients *c = new_coefficients(), grid = *c;
+    origin o = { .c = c, .fail_at = SIZE_MAX };
+    ss_contour_opts opts = ss_contour_defaults;
+    (void)state;
+    for (size_t i = 0; i < 2 * 3000; i++)
+        c->w[i] = sin((double)i * (double)i / 4e6) * (double)(i % 2000);
+    char *all = contour_script(c, &opts), *pieces;
+    opts.source = give_scale, opts.source_user = &o;
+    opts.progress = note_progress, opts.user = &o;
+    grid.w = NULL;
+    pieces = contour_script(&grid, &opts);
+    assert_string_equal(pieces, all);
+    assert_true(o.next == 3 && o.done == 1);
+    free(pieces);
+    free(all);
+    o = (origin){ .c = c, .fail_at = 1 };
+    size_t size = 0;
+    FILE *out = open_memstream(&pieces, &size);
+    assert_int_equal(ss_plot_contour(out, &grid, &opts, &ss_plot_defaults, NULL), SS_EDATA);
+    fclose(out);
+    assert_int_equal(size, 0);
+    free(pieces);
+    assert_int_equal(ss_plot_contour(stdout, &grid, &ss_contour_defaults, &ss_plot_defaults, NULL),
+                     SS_EINVAL);
+    ss_coefficients_free(c);
+}
+
 static void
 contour_options_out_of_range_are_refused(void **state)
 {
@@ -350,6 +406,7 @@ main(void)
         cmocka_unit_test(contours_lie_where_the_level_says),
         cmocka_unit_test(one_large_coefficient_is_not_lost),
         cmocka_unit_test(zero_everywhere_gives_an_empty_picture),
+        cmocka_unit_test(coefficients_may_come_scale_by_scale),
         cmocka_unit_test(contour_options_out_of_range_are_refused),
     };
     return cmocka_run_group_tests_name("plot", tests, NULL, NULL);

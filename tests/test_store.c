@@ -173,6 +173,200 @@ read_raw(const char *name, hid_t type, void *values)
     H5Fclose(file);
 }
 
+/* --- made piece by piece --- */
+
+static unsigned long long seed = 7;
+
+static size_t
+draw(size_t most)
+{
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (size_t)(seed >> 33) % most + 1;
+}
+
+/* All of signal and c in pieces, scales in turns, to a file whose length is known or not; stops at the
+ * first failure. */
+static ss_status
+write_pieces(const ss_signal *signal, const ss_coefficients *c, int known, ss_error *err)
+{
+    ss_store_writer *writer = NULL;
+    ss_coefficients grid = *c;
+    size_t done[200] = { 0 }, left = 1, samples = 0;
+    assert_true(c->n_scales <= 200);
+    grid.n = known ? c->n : 0;
+    grid.w = NULL;
+    ss_status st = ss_store_writer_new(&writer, path, signal->head, &grid, err);
+    while (st == SS_OK && samples < signal->n) {
+        size_t n = draw(signal->n / 3 + 1);
+        n = n < signal->n - samples ? n : signal->n - samples;
+        st = ss_store_writer_signal(writer, signal->values + samples, n, 1, signal->n, err);
+        samples += n;
+    }
+    while (st == SS_OK && left > 0) {
+        left = 0;
+        for (size_t i = 0; st == SS_OK && i < c->n_scales; i++) {
+            const ss_scale *scale = &c->scale[i];
+            size_t n = draw(scale->n);
+            n = n < scale->n - done[i] ? n : scale->n - done[i];
+            if (n > 0)
+                st = ss_store_writer_rows(writer, scale, done[i], n,
+                                          c->w + 2 * (scale->offset + done[i]), c->n, err);
+            done[i] += n;
+            left += scale->n - done[i];
+        }
+    }
+    if (st == SS_OK)
+        st = ss_store_writer_end(writer, c->n, err);
+    ss_store_writer_free(writer);
+    return st;
+}
+
+/* Short, so that no chunk is full, and long, so that there are several. */
+static void
+a_file_made_piece_by_piece_reads_back_exactly(void **state)
+{
+    static const size_t length[] = { 60, 5000, 80000 };
+    (void)state;
+    for (size_t k = 0; k < 3; k++)
+        for (int row = 0; row < 4; row++) {
+            ss_signal *signal = new_signal(length[k]), *back = NULL;
+            ss_coefficients *c, *again = NULL;
+            ss_error err = { "" };
+            ss_morlet_opts opts = ss_morlet_defaults;
+            opts.voices = 2, opts.dense = row % 2;
+            assert_int_equal(ss_transform(&c, signal, 1, &opts, NULL), SS_OK);
+            if (write_pieces(signal, c, row / 2, &err) != SS_OK)
+                fail_msg("%s", err.text);
+            assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+            assert_int_equal(back->n, signal->n);
+            assert_same_columns(signal->head, back->head);
+            assert_same_bits(signal->values, back->values, 3 * signal->n);
+            assert_int_equal(ss_store_read_coefficients(&again, path, NULL), SS_OK);
+            assert_same_notes(c->head, again->head);
+            assert_int_equal(again->n, c->n);
+            assert_int_equal(again->n_scales, c->n_scales);
+            const ss_scale *last = &c->scale[c->n_scales - 1];
+            assert_same_bits(c->w, again->w, 2 * (last->offset + last->n));
+            ss_coefficients_free(again);
+            ss_coefficients_free(c);
+            ss_signal_free(back);
+            ss_signal_free(signal);
+        }
+}
+
+static void
+scales_can_be_read_one_by_one(void **state)
+{
+    (void)state;
+    for (int dense = 0; dense < 2; dense++) {
+        ss_signal *signal = new_signal(500);
+        ss_coefficients *c = transform(signal, dense);
+        ss_store_reader *reader;
+        ss_error err = { "" };
+        double *w = malloc(2 * c->scale[c->n_scales - 1].n * sizeof *w);
+        write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+        assert_int_equal(ss_store_reader_new(&reader, path, NULL), SS_OK);
+        const ss_coefficients *grid = ss_store_reader_grid(reader);
+        assert_null(grid->w);
+        assert_true(grid->n == c->n && grid->n_scales == c->n_scales);
+        assert_same_notes(c->head, grid->head);
+        for (size_t i = c->n_scales; i-- > 0;) {
+            assert_int_equal(ss_store_reader_scale(reader, i, w, NULL), SS_OK);
+            assert_same_bits(w, c->w + 2 * c->scale[i].offset, 2 * c->scale[i].n);
+        }
+        assert_int_equal(ss_store_reader_scale(reader, c->n_scales, w, &err), SS_EINVAL);
+        assert_true(isnan(ss_coefficients_max(grid)));
+        ss_store_reader_free(reader);
+        free(w);
+        ss_coefficients_free(c);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+edges_and_times_are_those_of_the_whole(void **state)
+{
+    enum { N = 3000 };
+    static double t[2][4 * N];
+    static unsigned char edge[2][50 * N];
+    (void)state;
+    for (int dense = 0; dense < 2; dense++) {
+        ss_signal *signal = new_signal(N);
+        ss_coefficients *c;
+        ss_morlet_opts opts = ss_morlet_defaults;
+        hid_t file, id;
+        opts.voices = 2, opts.dense = dense;
+        assert_int_equal(ss_transform(&c, signal, 1, &opts, NULL), SS_OK);
+        size_t last = c->n_scales - 1;
+        char times[40], edges[40];
+        snprintf(times, sizeof times, dense ? "/wavelet/time" : "/wavelet/scale%03zu/time", last);
+        snprintf(edges, sizeof edges, dense ? "/wavelet/edge" : "/wavelet/scale%03zu/edge", last);
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(write_pieces(signal, c, k, NULL), SS_OK);
+            read_raw(times, H5T_NATIVE_DOUBLE, t[k]);
+            read_raw(edges, H5T_NATIVE_UCHAR, edge[k]);
+        }
+        for (size_t i = 0; i < c->scale[last].n; i++) {
+            size_t at = dense ? last * N + i : i;
+            assert_true(fabs(t[0][i] - (-0.1 + ss_scale_b(&c->scale[last], i))) < 1e-12);
+            assert_int_equal(edge[0][at], ss_coefficients_edge(c, last, i));
+        }
+        assert_memory_equal(t[0], t[1], c->scale[last].n * sizeof **t);
+        assert_memory_equal(edge[0], edge[1], (dense ? c->n_scales : 1) * c->scale[last].n);
+        /* the one with an unknown length has a dimension that may grow on */
+        assert_int_equal(write_pieces(signal, c, 0, NULL), SS_OK);
+        hsize_t dims[2], most[2];
+        file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        id = H5Dopen2(file, edges, H5P_DEFAULT);
+        hid_t space = H5Dget_space(id);
+        int rank = H5Sget_simple_extent_dims(space, dims, most);
+        assert_true(rank == 1 + dense && most[rank - 1] == H5S_UNLIMITED);
+        H5Sclose(space);
+        H5Dclose(id);
+        H5Fclose(file);
+        ss_coefficients_free(c);
+        ss_signal_free(signal);
+    }
+}
+
+static void
+a_file_that_is_not_brought_to_its_end_is_no_file(void **state)
+{
+    (void)state;
+    for (int row = 0; row < 6; row++) {
+        ss_signal *signal = new_signal(300);
+        ss_coefficients *c = transform(signal, 1), grid = *c;
+        const ss_scale *scale = c->scale;
+        ss_store_writer *writer = NULL;
+        ss_error err = { "" };
+        grid.n = row % 2 ? c->n : 0;
+        assert_int_equal(ss_store_writer_new(&writer, path, signal->head, &grid, NULL), SS_OK);
+        ss_status st = ss_store_writer_signal(writer, signal->values, 300, 1, 300, &err);
+        assert_int_equal(st, SS_OK);
+        assert_int_equal(ss_store_writer_rows(writer, scale, 0, 200, c->w, 300, NULL), SS_OK);
+        if (row < 2)            /* a gap in the rows of a scale */
+            st = ss_store_writer_rows(writer, scale, 201, 99, c->w, 300, &err);
+        else if (row < 4)       /* rows are missing */
+            st = ss_store_writer_end(writer, 300, &err);
+        else if (row == 5)      /* a sample too many */
+            st = ss_store_writer_signal(writer, signal->values, 1, 1, 300, &err);
+        assert_int_equal(st, row == 4 ? SS_OK : SS_EINVAL);
+        if (row != 4) {         /* it says so once and for all */
+            char first[sizeof err.text];
+            strcpy(first, err.text);
+            assert_true(first[0] != '\0');
+            err.text[0] = '\0';
+            assert_int_equal(ss_store_writer_end(writer, 300, &err), SS_EINVAL);
+            assert_string_equal(err.text, first);
+        }
+        ss_store_writer_free(writer);
+        assert_int_equal(access(path, F_OK), -1);
+        assert_int_equal(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+        ss_coefficients_free(c);
+        ss_signal_free(signal);
+    }
+}
+
 static void
 events_are_stored_with_their_kinds_as_words(void **state)
 {
@@ -284,6 +478,56 @@ a_write_that_fails_says_why_and_leaves_no_file(void **state)
         assert_int_equal(access(path, F_OK), -1);
     }
     write_ok(&(ss_record){ .signal = signal });         /* and the library is fit to go on */
+    ss_signal_free(signal);
+}
+
+/* At every place in it: in the middle of chunks, at their closing, at the file's. */
+static void
+a_disk_full_at_any_byte_leaves_no_file(void **state)
+{
+    (void)state;
+    ss_signal *signal = new_signal(30000);
+    ss_coefficients *c;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    struct rlimit old, small;
+    struct stat st;
+    opts.voices = 1;
+    assert_int_equal(ss_transform(&c, signal, 1, &opts, NULL), SS_OK);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+    for (int known = 0; known < 2; known++) {
+        assert_int_equal(write_pieces(signal, c, known, NULL), SS_OK);
+        assert_int_equal(stat(path, &st), 0);
+        for (off_t limit = 0; limit < st.st_size; limit += st.st_size / 25) {
+            ss_error err = { "" };
+            small = old;
+            small.rlim_cur = (rlim_t)limit;
+            assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+            seed = 7;                   /* the same pieces */
+            ss_status status = write_pieces(signal, c, known, &err);
+            assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+            assert_int_equal(status, SS_EIO);
+            assert_non_null(strstr(err.text, strerror(EFBIG)));
+            assert_int_equal(access(path, F_OK), -1);
+            assert_int_equal(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+        }
+    }
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+static void
+a_device_gets_a_copy(void **state)
+{
+    ss_error err = { "" };
+    (void)state;
+    ss_signal *signal = new_signal(50);
+    assert_int_equal(ss_store_write("/dev/null", &(ss_record){ .signal = signal }, &err), SS_OK);
+    if (access("/dev/full", W_OK) == 0) {
+        assert_int_equal(ss_store_write("/dev/full", &(ss_record){ .signal = signal }, &err),
+                         SS_EIO);
+        assert_string_equal(err.text, "/dev/full: No space left on device");
+        assert_int_equal(access("/dev/full", F_OK), 0);
+    }
     ss_signal_free(signal);
 }
 
@@ -757,11 +1001,17 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_signal_reads_back_exactly),
         cmocka_unit_test(coefficients_read_back_exactly),
+        cmocka_unit_test(a_file_made_piece_by_piece_reads_back_exactly),
+        cmocka_unit_test(scales_can_be_read_one_by_one),
+        cmocka_unit_test(edges_and_times_are_those_of_the_whole),
+        cmocka_unit_test(a_file_that_is_not_brought_to_its_end_is_no_file),
         cmocka_unit_test(events_are_stored_with_their_kinds_as_words),
         cmocka_unit_test(no_events_are_an_empty_group_only_where_asked_for),
         cmocka_unit_test(the_same_record_gives_the_same_bytes_a_second_later),
         cmocka_unit_test(only_large_datasets_are_compressed),
         cmocka_unit_test(a_write_that_fails_says_why_and_leaves_no_file),
+        cmocka_unit_test(a_disk_full_at_any_byte_leaves_no_file),
+        cmocka_unit_test(a_device_gets_a_copy),
         cmocka_unit_test(a_target_that_cannot_be_opened_says_why),
         cmocka_unit_test(hdf5_reports_nothing_and_is_left_as_it_was),
         cmocka_unit_test(arrays_of_others_are_read_by_their_path),

@@ -35,7 +35,9 @@ enum {
 };
 
 typedef struct drawing {
-    ss_coefficients *coefficients;
+    ss_coefficients *own;       /* all in memory, or else a file that has them */
+    ss_store_reader *reader;
+    const ss_coefficients *coefficients;
     ss_contour_opts opts;
     double *event;
     ss_overlay overlay;
@@ -46,6 +48,29 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const drawing *d = user;
     return ss_plot_contour(out, d->coefficients, &d->opts, opts, err);
+}
+
+/* An ss_coefficient_source. */
+static ss_status
+read_scale(size_t i, double *w, void *user, ss_error *err)
+{
+    return ss_store_reader_scale(user, i, w, err);
+}
+
+static void
+open_coefficients(drawing *d, const char *path)
+{
+    ss_error err = { "" };
+    d->opts.progress = tool_progress;
+    d->opts.user = d;
+    if (!tool_is_hdf5(path)) {
+        d->coefficients = d->own = tool_read_coefficients(path);
+        return;
+    }
+    tool_check(ss_store_reader_new(&d->reader, path, &err), &err);
+    d->coefficients = ss_store_reader_grid(d->reader);
+    d->opts.source = read_scale;
+    d->opts.source_user = d->reader;
 }
 
 /* The signal for panel (a): the one asked for, or the one that an HDF5 file has, or none. */
@@ -242,7 +267,7 @@ main(int argc, char *argv[])
     if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events)
         + is_stdin(features) > 1)
         tool_usage("standard input can be read only once");
-    d.coefficients = tool_read_coefficients(path);
+    open_coefficients(&d, path);
     ss_signal *signal = find_signal(&d, path, signal_path, column);
     if (column != NULL && signal == NULL)
         tool_usage("--column chooses from a signal, and there is none; give it with --signal");
@@ -259,7 +284,8 @@ main(int argc, char *argv[])
     free(d.overlay.maximum);
     free(d.overlay.spike);
     ss_signal_free(signal);
-    ss_coefficients_free(d.coefficients);
+    ss_coefficients_free(d.own);
+    ss_store_reader_free(d.reader);
     tool_end();
     return 0;
 }

@@ -153,7 +153,7 @@ check_request(request *req)
     if (req->stream && req->check)
         tool_usage("--stream excludes --check, which takes the whole record");
     req->kind = tool_output_kind(req->output, 1u << TOOL_TSV | 1u << TOOL_AU
-                                 | (req->stream ? 0 : 1u << TOOL_H5), req->kind);
+                                 | 1u << TOOL_H5, req->kind);
 }
 
 /* A library call's failure, told with the input's name. */
@@ -171,40 +171,6 @@ now(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void
-say_what_was_done(const ss_coefficients *coef, const ss_morlet *plan, double seconds)
-{
-    const ss_scale *last = &coef->scale[coef->n_scales - 1];
-    size_t by_fft = 0;
-    for (size_t i = 0; i < coef->n_scales; i++)
-        by_fft += ss_morlet_engine(plan, i) == SS_ENGINE_FFT;
-    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %zu by fft, "
-              "%zu by quadrature, %.3g s", last->offset + last->n, coef->n, coef->n_scales,
-              coef->scale[0].f, last->f, by_fft, coef->n_scales - by_fft, seconds);
-}
-
-/* What -v and --check need the plan for. */
-static void
-report(const request *req, const ss_signal *signal, size_t column, const ss_coefficients *coef,
-       double seconds, const char *path)
-{
-    enum { EACH = 20 };                 /* coefficients of a scale */
-    ss_morlet *plan = NULL;
-    ss_error err = { "" };
-    double difference;
-    if (tool_verbosity < 1 && !req->check)
-        return;
-    check(ss_morlet_new(&plan, signal->n, signal->head->rate, &req->opts, &err), &err, path);
-    say_what_was_done(coef, plan, seconds);
-    if (req->check) {
-        check(ss_morlet_compare(plan, signal->values + column * signal->n, coef->w, EACH,
-                                &difference, &err), &err, path);
-        tool_warn("differs from the other method by at most %.2g of the largest |W| of a scale, "
-                  "at %d coefficients of each", difference, (int)EACH);
-    }
-    ss_morlet_free(plan);
 }
 
 /* What is known of FFTs, if anything is. */
@@ -253,34 +219,138 @@ check_written(ss_status status)
     tool_check(status, NULL);
 }
 
-static void
-write_output(const request *req, const ss_signal *signal, const ss_coefficients *coef)
+/* --- output as it comes ----------------------------------------------------------------------- */
+
+typedef struct flow {
+    ss_coefficient_writer *text;        /* or AU; NULL for HDF5 */
+    ss_store_writer *store;
+    FILE *out;
+    ss_error error;                     /* of the store */
+    size_t coefficients;
+    double seconds;                     /* spent on writing */
+    double *w;                          /* of all, for --check, or NULL */
+    ss_stream *stream;                  /* or NULL */
+} flow;
+
+/* A sink. */
+static int
+write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
+           void *user)
 {
-    ss_error err = { "" };
-    if (req->kind == TOOL_H5) {
-        ss_record record = { .signal = signal, .coefficients = coef };
-        tool_check(ss_store_write(tool_output_path(req->output), &record, &err), &err);
-        return;
-    }
-    check_written(ss_coefficients_write(coef, tool_output(req->output), format_of(req)));
+    flow *f = user;
+    double begin = now();
+    ss_status st;
+    if (f->store != NULL)
+        st = ss_store_writer_rows(f->store, scale, first, n, w, samples, &f->error);
+    else
+        st = ss_coefficient_writer_rows(f->text, scale, first, n, w, samples);
+    if (f->w != NULL)
+        memcpy(f->w + 2 * f->coefficients, w, 2 * n * sizeof *w);
+    f->coefficients += n;
+    f->seconds += now() - begin;
+    return st != SS_OK;
 }
 
-/* Transform a record that is there. */
+static void
+store_samples(flow *f, const double *x, size_t n, size_t row, size_t column)
+{
+    if (f->store != NULL)
+        tool_check(ss_store_writer_signal(f->store, x, n, row, column, &f->error), &f->error);
+}
+
+/* n samples, 0 if they are not counted yet, on a grid of so many scales. */
+static void
+open_output(flow *f, const request *req, const ss_header *signal, size_t column, size_t n,
+            const ss_scale *scale, size_t n_scales)
+{
+    ss_header *head;
+    tool_check(ss_coefficients_header(&head, signal, column, n, &req->opts), NULL);
+    if (req->kind == TOOL_H5) {
+        const ss_coefficients grid = { .head = head, .n = n, .center = req->opts.center,
+                                       .n_scales = n_scales, .scale = (ss_scale *)scale };
+        tool_check(ss_store_writer_new(&f->store, tool_output_path(req->output), signal, &grid,
+                                       &f->error), &f->error);
+    } else {
+        f->out = tool_output(req->output);
+        check_written(ss_coefficient_writer_new(&f->text, f->out, format_of(req), head));
+    }
+    ss_header_free(head);
+}
+
+/* The library's answer to what has been done. */
+static void
+check_flow(const flow *f, ss_status status, const ss_error *err, const char *path)
+{
+    if (status != SS_OK && status != SS_STOP && f->out != NULL)
+        fflush(f->out);                 /* what is written stays */
+    if (status == SS_STOP && f->store != NULL)
+        tool_check(SS_EIO, &f->error);
+    if (status == SS_STOP)
+        check_written(status);
+    check(status, err, path);
+}
+
+static void
+close_output(flow *f, size_t samples)
+{
+    if (f->store != NULL)
+        tool_check(ss_store_writer_end(f->store, samples, &f->error), &f->error);
+    else
+        check_written(ss_coefficient_writer_end(f->text, samples));
+    ss_store_writer_free(f->store);
+    ss_coefficient_writer_free(f->text);
+}
+
+/* --- a record that is there --------------------------------------------------------------------- */
+
+static void
+compare(const ss_morlet *plan, const double *x, const double *w, const char *path)
+{
+    enum { EACH = 20 };                 /* coefficients of a scale */
+    ss_error err = { "" };
+    double difference;
+    check(ss_morlet_compare(plan, x, w, EACH, &difference, &err), &err, path);
+    tool_warn("differs from the other method by at most %.2g of the largest |W| of a scale, "
+              "at %d coefficients of each", difference, (int)EACH);
+}
+
+static void
+say_what_was_done(const ss_morlet *plan, size_t n, double seconds)
+{
+    size_t scales = ss_morlet_scales(plan), by_fft = 0;
+    for (size_t i = 0; i < scales; i++)
+        by_fft += ss_morlet_engine(plan, i) == SS_ENGINE_FFT;
+    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %zu by fft, "
+              "%zu by quadrature, %.3g s", ss_morlet_total(plan), n, scales,
+              ss_morlet_scale(plan, 0)->f, ss_morlet_scale(plan, scales - 1)->f, by_fft,
+              scales - by_fft, seconds);
+}
+
 static void
 transform_whole(const request *req, const char *path)
 {
-    ss_coefficients *coef = NULL;
+    flow f = { .text = NULL };
+    ss_morlet *plan = NULL;
     ss_error err = { "" };
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t column = tool_column(signal->head, path, req->column);
-    double begin = now();
+    const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = req->opts;
     opts.progress = tool_progress;
-    opts.user = &opts;
-    check(ss_transform(&coef, signal, column, &opts, &err), &err, path);
-    report(req, signal, column, coef, now() - begin, path);
-    write_output(req, signal, coef);
-    ss_coefficients_free(coef);
+    double begin = now();
+    check(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
+    if (req->check && (f.w = malloc(2 * ss_morlet_total(plan) * sizeof *f.w)) == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    open_output(&f, req, signal->head, column, signal->n, ss_morlet_scale(plan, 0),
+                ss_morlet_scales(plan));
+    store_samples(&f, signal->values, signal->n, 1, signal->n);
+    check_flow(&f, ss_morlet_each(plan, x, write_rows, &f, &err), &err, path);
+    say_what_was_done(plan, signal->n, now() - begin - f.seconds);
+    if (req->check)
+        compare(plan, x, f.w, path);
+    close_output(&f, signal->n);
+    free(f.w);
+    ss_morlet_free(plan);
     ss_signal_free(signal);
 }
 
@@ -302,40 +372,12 @@ invert(const request *req, const char *path)
 
 /* --- streams ------------------------------------------------------------------------------- */
 
-typedef struct flow {
-    ss_stream *stream;
-    ss_coefficient_writer *writer;
-    FILE *out;
-    size_t coefficients;
-} flow;
-
-/* A sink. */
-static int
-write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
-           void *user)
-{
-    flow *f = user;
-    f->coefficients += n;
-    return ss_coefficient_writer_rows(f->writer, scale, first, n, w, samples) != SS_OK;
-}
-
-/* The library's answer to what has been done with a stream. */
-static void
-check_flow(const flow *f, ss_status status, const ss_error *err, const char *path)
-{
-    if (status != SS_OK && status != SS_STOP)
-        fflush(f->out);                 /* what is written stays */
-    if (status == SS_STOP)
-        check_written(status);
-    check(status, err, path);
-}
-
 static void
 show_what_is_complete(const flow *f, const char *path)
 {
     ss_error err = { "" };
     check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
-    if (fflush(f->out) != 0)
+    if (f->out != NULL && fflush(f->out) != 0)
         check_written(SS_EIO);
 }
 
@@ -354,6 +396,7 @@ follow(flow *f, ss_reader *reader, size_t column, const char *path)
         ss_status st = ss_reader_rows(reader, rows, PIECE, &n, &bad);
         for (size_t i = 0; i < n; i++)
             x[i] = rows[i * columns + column];
+        store_samples(f, rows, n, columns, 1);
         check_flow(f, ss_stream_push(f->stream, x, n, &err), &err, path);
         if (st != SS_OK || (n < PIECE && ss_reader_waits(reader)))
             show_what_is_complete(f, path);
@@ -366,13 +409,10 @@ follow(flow *f, ss_reader *reader, size_t column, const char *path)
 static void
 open_flow(flow *f, const request *req, const ss_header *head, size_t column, const char *path)
 {
-    ss_header *own;
     ss_error err = { "" };
     check(ss_stream_new(&f->stream, head->rate, &req->opts, write_rows, f, &err), &err, path);
-    tool_check(ss_coefficients_header(&own, head, column, 0, &req->opts), NULL);
-    f->out = tool_output(req->output);
-    check_written(ss_coefficient_writer_new(&f->writer, f->out, format_of(req), own));
-    ss_header_free(own);
+    open_output(f, req, head, column, 0, ss_stream_scale(f->stream, 0),
+                ss_stream_scales(f->stream));
 }
 
 static void
@@ -381,24 +421,24 @@ close_flow(flow *f, const char *path)
     ss_error err = { "" };
     size_t scales = ss_stream_scales(f->stream);
     check_flow(f, ss_stream_end(f->stream, &err), &err, path);
-    check_written(ss_coefficient_writer_end(f->writer, ss_stream_samples(f->stream)));
+    close_output(f, ss_stream_samples(f->stream));
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
               ss_stream_samples(f->stream), scales, ss_stream_scale(f->stream, 0)->f,
               ss_stream_scale(f->stream, scales - 1)->f);
-    ss_coefficient_writer_free(f->writer);
     ss_stream_free(f->stream);
 }
 
 static void
 transform_stream(const request *req, const char *path)
 {
-    flow f = { .coefficients = 0 };
+    flow f = { .text = NULL };
     ss_error err = { "" };
     ss_reader *reader;
     if (tool_is_hdf5(path)) {           /* is not read row by row */
         ss_signal *signal = tool_read_signal(path, NULL);
         size_t column = tool_column(signal->head, path, req->column);
         open_flow(&f, req, signal->head, column, path);
+        store_samples(&f, signal->values, signal->n, 1, signal->n);
         check_flow(&f, ss_stream_push(f.stream, signal->values + column * signal->n, signal->n,
                                       &err), &err, path);
         close_flow(&f, path);

@@ -92,7 +92,7 @@ ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_
 ss_status ss_wisdom_read(FILE *in, ss_error *err);
 ss_status ss_wisdom_write(FILE *out);
 size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */
-const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* owned by the plan */
+const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* an array that the plan owns */
 ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that scale i is left to */
 size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients over all scales */
 
@@ -100,6 +100,16 @@ size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficie
  * w[2c], w[2c + 1], 2 * ss_morlet_total doubles owned by the caller.  A plan may be executed by
  * several threads at once. */
 ss_status ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err);
+
+/* Receives translations first ... first + n - 1, n >= 1, of a scale, each scale's in order, valid
+ * during the call only: w as in ss_morlet_execute, the edge as ss_scale_edge gives it for samples.
+ * A non-zero return ends the work with SS_STOP. */
+typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, const double *w,
+                                size_t samples, void *user);
+/* The same coefficients to a sink, a whole scale at a time, long to short, by the calling thread: in
+ * memory of as many scales as there are threads, whatever the grid. */
+ss_status ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink,
+                         void *user, ss_error *err);
 
 /* Recompute coefficients w of x, each scale's chosen at random (always the same), with the engine
  * that did not compute them, where there are two: the largest difference relative to the largest
@@ -128,20 +138,15 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
  * the whole record; even the largest |W| is only that of its scale so far.  Which samples come
  * together changes a coefficient within that error only. */
 
-/* Receives translations first ... first + n - 1, n >= 1, of a scale, each scale's in order, valid
- * during the call only; w as in ss_morlet_execute, the edge as ss_scale_edge gives it for samples.
- * scale->n and scale->offset mean nothing.  A non-zero return ends the stream with SS_STOP. */
-typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, const double *w,
-                                size_t samples, void *user);
-
 typedef struct ss_stream ss_stream;
 
-/* SS_EINVAL without fmin or octaves, or with detrend, which takes the whole record.  Scales longer
- * than the record will be are no error: all they give lies inside the cone of influence. */
+/* The sink gets scales in any order, of which n and offset mean nothing.  SS_EINVAL without fmin or
+ * octaves, or with detrend, which takes the whole record.  Scales longer than the record will be are
+ * no error: all they give lies inside the cone of influence. */
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);
 size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
-const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* owned by the stream */
+const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* an array that it owns */
 size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
 
 /* Take n samples.  The sink gets what is complete of them as soon as that is cheap: in long windows.
@@ -160,12 +165,13 @@ void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
                                    and the options as notes: samples, column, unit, center, voices,
-                                   step (or dense: yes), norm, admissible, detrend, accuracy, method */
+                                   step (or dense: yes), norm, admissible, detrend, accuracy, method,
+                                   and label, what frequencies mean */
     size_t n;                   /* samples of the record, > 0 */
     double center;              /* omega_c */
     size_t n_scales;            /* > 0 */
     ss_scale *scale;            /* long to short; each has n > 0 */
-    double *w;                  /* re, im */
+    double *w;                  /* re, im; NULL where only the grid is known */
     ss_span *gap;               /* where others stand in for samples, from head's note, or NULL */
     size_t n_gaps;
 } ss_coefficients;
@@ -207,6 +213,9 @@ ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_sca
 /* Flushes. */
 ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples);
 void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
+
+/* Where coefficients come from that are not all in memory at a time: fills in those of scale i. */
+typedef ss_status ss_coefficient_source(size_t i, double *w, void *user, ss_error *err);
 
 /* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */
 double ss_coefficients_max(const ss_coefficients *coefficients);

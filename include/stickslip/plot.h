@@ -51,6 +51,10 @@ typedef struct ss_contour_opts {
     const double *event;        /* [s] on the source's clock, marked by vertical lines, or NULL */
     size_t n_events;
     const ss_overlay *overlay;  /* or NULL */
+    ss_coefficient_source *source;  /* called once for every scale if the coefficients' w is NULL */
+    void *source_user;          /* handed to it */
+    ss_progress *progress;      /* or NULL: called after every scale */
+    void *user;                 /* handed to it */
 } ss_contour_opts;
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
 

@@ -3,8 +3,8 @@
  *
  * Each writing call makes a whole file at path, replacing what is there; on failure path is
  * removed.  A caller that wants to keep the old file until the new one is whole writes to another
- * name and renames it, as the tools do.  The same input gives the same bytes.  The file is built in
- * memory first.
+ * name and renames it, as the tools do.  The same input gives the same bytes.  Path may be a device or
+ * a FIFO: the file is then made under no name and copied there.
  *
  * HDF5 itself is safe in several threads only where it was built so, which its serial packages are
  * not: calls of this header then come from one thread at a time. */
@@ -30,6 +30,25 @@ typedef struct ss_record {
 
 ss_status ss_store_write(const char *path, const ss_record *record, ss_error *err);
 
+/* The same while samples and coefficients are still being made, in memory that does not grow with
+ * their number.  Grid has head, n_scales, scale and center as in ss_coefficients; its n is the length
+ * of the record, or 0 if that is not known yet: the datasets then have a time dimension without
+ * limit.  Its head is ss_coefficients_header's.  Signal is the header of what the transform is of, with
+ * all columns that are to be stored beside it, or NULL. */
+typedef struct ss_store_writer ss_store_writer;
+ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
+                              const ss_coefficients *grid, ss_error *err);
+/* n samples more of each column: sample i of column c is x[i * row + c * column]. */
+ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_t n, size_t row,
+                                 size_t column, ss_error *err);
+/* Arguments as a sink of coefficients gets them. */
+ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
+                               const double *w, size_t samples, ss_error *err);
+/* The record has so many samples, and all of them and their coefficients have been given. */
+ss_status ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);
+/* A file that has not come to its end is removed; NULL is allowed. */
+void ss_store_writer_free(ss_store_writer *writer);
+
 /* 1 if the file is HDF5 (its signature at byte 0, 512, 1024, ...), else 0, also if it cannot be read. */
 int ss_store_is_hdf5(const char *path);
 
@@ -42,6 +61,14 @@ int ss_store_has_signal(const char *path);
 ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
                                const ss_read_opts *opts, ss_error *err);
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
+
+/* The same scale by scale, so that memory is that of one.  The grid, whose w is NULL, belongs to the
+ * reader; w of a scale has room for its 2 n doubles. */
+typedef struct ss_store_reader ss_store_reader;
+ss_status ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err);
+const ss_coefficients *ss_store_reader_grid(const ss_store_reader *reader);
+ss_status ss_store_reader_scale(ss_store_reader *reader, size_t i, double *w, ss_error *err);
+void ss_store_reader_free(ss_store_reader *reader);     /* NULL is allowed */
 
 /* Open path whatever it holds: a stream, delimited text, HDF5, or HDF5 with ":/path/to/dataset"
  * behind it. */

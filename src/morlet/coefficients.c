@@ -51,7 +51,7 @@ ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
 double
 ss_coefficients_max(const ss_coefficients *coefficients)
 {
-    if (coefficients == NULL)
+    if (coefficients == NULL || coefficients->w == NULL)
         return NAN;
     double outside = -1, all = 0;
     for (size_t i = 0; i < coefficients->n_scales; i++) {
@@ -92,7 +92,8 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
         || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
         || ss_header_note(head, "detrend", detrend_name[opts->detrend])
         || note_number(head, "accuracy", opts->accuracy)
-        || ss_header_note(head, "method", engine_name[opts->engine]);
+        || ss_header_note(head, "method", engine_name[opts->engine])
+        || ss_header_note(head, "label", "f = center / (2 pi a)");
     return failed ? SS_ENOMEM : SS_OK;
 }
 

@@ -162,7 +162,7 @@ ss_status
 ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format)
 {
     ss_coefficient_writer *writer = NULL;
-    if (coefficients == NULL)
+    if (coefficients == NULL || coefficients->w == NULL)
         return SS_EINVAL;
     ss_status st = ss_coefficient_writer_new(&writer, out, format, coefficients->head);
     for (size_t i = 0; st == SS_OK && i < coefficients->n_scales; i++) {

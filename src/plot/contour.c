@@ -17,7 +17,7 @@
 #define BLUR 0.2                /* pixels that a line may be off by leaving points out */
 #define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0 */
 
-const ss_contour_opts ss_contour_defaults = { 18, 80, NULL, 0, NULL, 0, NULL };
+const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80 };
 
 /* --- the map ------------------------------------------------------------------------------- */
 
@@ -43,21 +43,62 @@ in_column(const ss_scale *scale, const double *w, double lo, double hi)
     return level;
 }
 
-/* Levels in decibels re the largest |W|, COLUMNS + 1 of them a scale. */
-static double *
-make_map(const ss_coefficients *c, const script_span *span)
+/* The largest |W| of scale i, of those outside the cone of influence and of all. */
+static void
+find_largest(const ss_coefficients *c, size_t i, const double *w, double most[2])
 {
-    double width = (span->to - span->from) / COLUMNS, max = ss_coefficients_max(c);
-    double *map = malloc(c->n_scales * (COLUMNS + 1) * sizeof *map);
-    for (size_t s = 0; map != NULL && s < c->n_scales; s++)
+    for (size_t k = 0; k < c->scale[i].n; k++) {
+        double level = magnitude(w, k);
+        most[1] = fmax(most[1], level);
+        if (level > most[0] && !ss_coefficients_edge(c, i, k))
+            most[0] = level;
+    }
+}
+
+/* |W|, COLUMNS + 1 of them a scale, and what find_largest finds. */
+static ss_status
+fill_map(double *map, const ss_coefficients *c, const ss_contour_opts *contour,
+         const script_span *span, double *own, double most[2], ss_error *err)
+{
+    double width = (span->to - span->from) / COLUMNS;
+    for (size_t s = 0; s < c->n_scales; s++) {
+        const double *w = own != NULL ? own : c->w + 2 * c->scale[s].offset;
+        ss_status st = own != NULL ? contour->source(s, own, contour->source_user, err) : SS_OK;
+        if (st != SS_OK)
+            return st;
+        find_largest(c, s, w, most);
         for (size_t i = 0; i <= COLUMNS; i++) {
-            double t = span->from - c->head->start + (double)i * width, *level;
-            level = &map[s * (COLUMNS + 1) + i];
-            *level = in_column(&c->scale[s], c->w + 2 * c->scale[s].offset, t - width / 2,
-                               t + width / 2);
-            *level = max > 0 && *level > 0 ? fmax(20 * log10(*level / max), -FLOOR) : -FLOOR;
+            double t = span->from - c->head->start + (double)i * width;
+            map[s * (COLUMNS + 1) + i] = in_column(&c->scale[s], w, t - width / 2, t + width / 2);
         }
-    return map;
+        if (contour->progress != NULL
+            && contour->progress((double)(s + 1) / (double)c->n_scales, contour->user) != 0)
+            return SS_STOP;
+    }
+    return SS_OK;
+}
+
+/* Levels in decibels re the largest |W|, to be freed. */
+static ss_status
+make_map(double **out, const ss_coefficients *c, const ss_contour_opts *contour,
+         const script_span *span, ss_error *err)
+{
+    size_t cells = c->n_scales * (COLUMNS + 1), longest = 0;
+    double most[2] = { -1, 0 }, *own = NULL;
+    for (size_t s = 0; s < c->n_scales; s++)
+        longest = c->scale[s].n > longest ? c->scale[s].n : longest;
+    double *map = *out = malloc(cells * sizeof *map);
+    if (c->w == NULL)
+        own = malloc(2 * longest * sizeof *own);
+    ss_status st = map == NULL || (c->w == NULL && own == NULL) ? SS_ENOMEM
+        : fill_map(map, c, contour, span, own, most, err);
+    free(own);
+    if (st == SS_ENOMEM)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    double max = most[0] >= 0 ? most[0] : most[1];
+    for (size_t i = 0; st == SS_OK && i < cells; i++)
+        map[i] = max > 0 && map[i] > 0 ? fmax(20 * log10(map[i] / max), -FLOOR) : -FLOOR;
+    return st;
 }
 
 /* --- its lines ----------------------------------------------------------------------------- */
@@ -116,19 +157,17 @@ put_line(const double (*point)[2], size_t n, void *user)
 /* A datablock of time, frequency and number of the line, a blank line after each. */
 static ss_status
 put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
-             const script_span *span)
+             const script_span *span, const double *level)
 {
     line_sink sink = { out, c, span, 0 };
-    double *level = make_map(c, span);
     const isoline_map map = { COLUMNS + 1, c->n_scales, level };
-    ss_status status = level != NULL ? SS_OK : SS_ENOMEM;
+    ss_status status = SS_OK;
     fputs("$contour << EOD\n", out);
     for (int k = 1; status == SS_OK && k <= contour->levels; k++) {
         sink.level = k;
         status = ss_isolines(&map, -k * contour->span / contour->levels, put_line, &sink);
     }
     fputs("EOD\n", out);
-    free(level);
     return status;
 }
 
@@ -335,6 +374,8 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", contour->column + 1,
                        contour->signal->head->n_columns);
+    if (c->w == NULL && contour->source == NULL)
+        return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
     if (c->n_scales < 2)
         return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu",
                        c->n_scales);
@@ -359,19 +400,12 @@ put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, 
     return SS_OK;
 }
 
-ss_status
-ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour_opts *contour,
-                const ss_plot_opts *opts, ss_error *err)
+static ss_status
+write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
+             const ss_plot_opts *opts, script_span span, const double *level, ss_error *err)
 {
-    if (out == NULL || coefficients == NULL || contour == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    const ss_coefficients *c = coefficients;
-    script_span span;
-    ss_status status = check(c, contour, err);
-    if (status == SS_OK)
-        status = ss_script_find_span(&span, c->head, c->n, opts, err);
-    if (status == SS_OK)
-        status = ss_script_begin(out, opts, c->head, contour->signal != NULL ? 8.5 : 6.5, err);
+    ss_status status = ss_script_begin(out, opts, c->head,
+                                       contour->signal != NULL ? 8.5 : 6.5, err);
     if (status != SS_OK)
         return status;
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
@@ -400,9 +434,28 @@ ss_plot_contour(FILE *out, const ss_coefficients *coefficients, const ss_contour
         fputs("feature_colour = '#cc3311'; rim(part) = fmin*(fmax/fmin)**part\n", out);
         seen = put_overlay(out, contour->overlay, &span);
     }
-    status = put_contours(out, c, contour, &span);
+    status = put_contours(out, c, contour, &span, level);
     if (status != SS_OK)
         return status;
     put_panels(out, c, contour, range, &seen);
     return ss_script_end(out);
+}
+
+ss_status
+ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
+                const ss_plot_opts *opts, ss_error *err)
+{
+    if (out == NULL || c == NULL || contour == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    script_span span;
+    double *level = NULL;
+    ss_status status = check(c, contour, err);
+    if (status == SS_OK)
+        status = ss_script_find_span(&span, c->head, c->n, opts, err);
+    if (status == SS_OK)
+        status = make_map(&level, c, contour, &span, err);
+    if (status == SS_OK)
+        status = write_script(out, c, contour, opts, span, level, err);
+    free(level);
+    return status;
 }

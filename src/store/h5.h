@@ -5,6 +5,9 @@
 #define H5_USE_110_API 1        /* one signature of H5Ovisit in HDF5 1.10 to 1.14 */
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#if H5_VERSION_GE(1, 13, 0)
+#include <H5FDdevelop.h>
+#endif
 #include <stickslip/store.h>
 
 #define H5_MAX_VALUES 1000000000        /* in one dataset: 8 GB as doubles */
@@ -22,6 +25,15 @@ ss_status ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *n
 
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */
 ss_status ss_h5_open(h5_file *file);
+
+/* The file on disk that HDF5 writes to, open there; error is the errno of what failed first, or 0
+ * (disk.c).  A list of file access that leads there, to be closed, or < 0. */
+typedef struct h5_disk {
+    H5FD_t of_hdf5;             /* comes first */
+    int fd, error;
+    haddr_t eoa, eof;           /* end of what is allocated, of what is there */
+} h5_disk;
+hid_t ss_h5_disk_access(h5_disk *disk);
 
 /* Objects by their path, links out of the file not followed; < 0 if there is none. */
 hid_t ss_h5_open_dataset(hid_t group, const char *name);
@@ -41,11 +53,10 @@ ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double
 /* The notes among the root's attributes, in the order in which they were written. */
 ss_status ss_h5_read_notes(h5_file *file, ss_header *head);
 
-/* What ss_store_read_signal and ss_store_read_coefficients give, of a file that is open (read.c).
- * On failure *out may hold a part of it. */
+/* What ss_store_read_signal gives, of a file that is open (read.c).  On failure *out may hold a part
+ * of it. */
 ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
                             const ss_read_opts *opts);
-ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
 
 /* The dataset at a path, whatever wrote it (foreign.c). */
 ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,

@@ -199,40 +199,6 @@ get_lattice(h5_file *file, hid_t group, ss_scale *scale)
     return status == SS_OK ? get_number(file, group, "b_den", 1e-300, 1e300, &scale->b_den) : status;
 }
 
-/* Make room for n coefficients more; scale gets the first of them. */
-static ss_status
-add_room(ss_coefficients *c, ss_scale *scale, size_t n, size_t *total)
-{
-    if (n > (SIZE_MAX - *total) / (2 * sizeof *c->w))
-        return SS_ENOMEM;
-    double *w = realloc(c->w, (*total + n + 1) * 2 * sizeof *w);
-    if (w == NULL)
-        return SS_ENOMEM;
-    c->w = w;
-    scale->n = n;
-    scale->offset = *total;
-    *total += n;
-    return SS_OK;
-}
-
-/* re and im of n coefficients from w on. */
-static ss_status
-get_coefficients(h5_file *file, hid_t group, double *w, size_t n)
-{
-    double *part = malloc((n + 1) * sizeof *part);
-    ss_status status = part != NULL ? SS_OK : SS_ENOMEM;
-    for (int i = 0; status == SS_OK && i < 2; i++) {
-        const char *name = i == 0 ? "re" : "im";
-        status = ss_h5_read_values(file, group, name, part, n);
-        if (status == SS_OK)
-            status = check_finite(file, group, name, part, n);
-        for (size_t k = 0; status == SS_OK && k < n; k++)
-            w[2 * k + (size_t)i] = part[k];
-    }
-    free(part);
-    return status;
-}
-
 /* Is scale i one of this record's grid, and shorter than the one before? */
 static ss_status
 check_scale(h5_file *file, hid_t group, const ss_coefficients *c, size_t i)
@@ -249,43 +215,80 @@ check_scale(h5_file *file, hid_t group, const ss_coefficients *c, size_t i)
     return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, "", wrong);
 }
 
+/* The next n of all coefficients are this scale's. */
+static ss_status
+add_scale(ss_scale *scale, size_t n, size_t *total)
+{
+    if (n > SIZE_MAX / (2 * sizeof(double)) - *total)
+        return SS_ENOMEM;
+    scale->n = n;
+    scale->offset = *total;
+    *total += n;
+    return SS_OK;
+}
+
+static hid_t
+open_scale(hid_t parent, size_t i)
+{
+    char name[32];
+    snprintf(name, sizeof name, "scale%03zu", i);
+    return ss_h5_open_group(parent, name);
+}
+
 static ss_status
 get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *total)
 {
-    char name[32];
     double j;
     ss_scale *scale = &c->scale[i];
     size_t n = 0;
     ss_status status;
-    snprintf(name, sizeof name, "scale%03zu", i);
-    hid_t group = ss_h5_open_group(parent, name);
-    if (group < 0)
+    hid_t group = open_scale(parent, i);
+    if (group < 0) {
+        char name[32];
+        snprintf(name, sizeof name, "scale%03zu", i);
         return ss_h5_fail(file, SS_EDATA, parent, name, "no such group");
+    }
     if ((status = get_number(file, group, "j", -1e6, 1e6, &j)) == SS_OK
         && (status = get_number(file, group, "m", -1e4, 1e4, &scale->m)) == SS_OK
         && (status = get_number(file, group, "scale", 1e-300, 1e300, &scale->a)) == SS_OK
         && (status = get_number(file, group, "frequency", 1e-300, 1e300, &scale->f)) == SS_OK
         && (status = get_lattice(file, group, scale)) == SS_OK
         && (status = get_size(file, group, "re", &n)) == SS_OK
-        && (status = add_room(c, scale, n, total)) == SS_OK
-        && (status = check_scale(file, group, c, i)) == SS_OK) {
+        && (status = add_scale(scale, n, total)) == SS_OK
+        && (status = check_scale(file, group, c, i)) == SS_OK)
         scale->j = (int)j;
-        status = get_coefficients(file, group, c->w + 2 * scale->offset, n);
-    }
     H5Gclose(group);
     return status;
 }
 
-/* A rectangle of coefficients, the members of its scales one dataset each. */
+/* A rectangle, a row a scale of a value a sample. */
+static ss_status
+check_rectangle(h5_file *file, hid_t group, const char *name, const ss_coefficients *c)
+{
+    size_t claimed;
+    ss_status status = get_size(file, group, name, &claimed);
+    if (status != SS_OK)
+        return status;
+    hsize_t dims[H5S_MAX_RANK] = { 0 };
+    hid_t id = ss_h5_open_dataset(group, name), space = H5Dget_space(id);
+    int good = H5Sget_simple_extent_ndims(space) == 2
+        && H5Sget_simple_extent_dims(space, dims, NULL) == 2
+        && dims[0] == c->n_scales && dims[1] == c->n;
+    H5Sclose(space);
+    H5Dclose(id);
+    return good ? SS_OK
+        : ss_h5_fail(file, SS_EDATA, group, name, "not a row a scale of a value a sample");
+}
+
+/* The scales of a rectangle, their members one dataset each. */
 static ss_status
 get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
 {
     static const char *const name[] = { "m", "scale", "frequency", "j" };
     size_t n = c->n_scales;
-    size_t claimed;
-    ss_status status = get_size(file, group, "re", &claimed);
-    if (status == SS_OK && claimed / n != c->n)
-        status = ss_h5_fail(file, SS_EDATA, group, "re", "not a row a scale of a value a sample");
+    ss_status status = check_rectangle(file, group, "re", c);
+    if (status == SS_OK)
+        status = check_rectangle(file, group, "im", c);
     double *row = malloc((4 * n + 1) * sizeof *row);
     if (row == NULL)
         status = SS_ENOMEM;
@@ -303,18 +306,18 @@ get_dense(h5_file *file, hid_t group, ss_coefficients *c, size_t *total)
         if (!(scale->a >= 1e-300 && scale->f >= 1e-300 && fabs(row[3 * n + i]) <= 1e6))
             status = ss_h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
         else if ((status = get_lattice(file, group, scale)) == SS_OK
-                 && (status = add_room(c, scale, c->n, total)) == SS_OK)
+                 && (status = add_scale(scale, c->n, total)) == SS_OK)
             status = check_scale(file, group, c, i);
     }
     free(row);
-    return status == SS_OK ? get_coefficients(file, group, c->w, *total) : status;
+    return status;
 }
 
+/* All but the coefficients, of which there are *total. */
 static ss_status
-read_grid(h5_file *file, hid_t group, ss_coefficients *c)
+read_grid(h5_file *file, hid_t group, ss_coefficients *c, int *dense, size_t *total)
 {
-    double rate, samples, scales, dense;
-    size_t total = 0;
+    double rate, samples, scales, number;
     ss_status status;
     if ((status = get_header(file, group, &c->head)) != SS_OK
         || (status = add_grid_column(group, c->head)) != SS_OK
@@ -322,36 +325,90 @@ read_grid(h5_file *file, hid_t group, ss_coefficients *c)
         || (status = get_number(file, group, "samples", 1, H5_MAX_VALUES, &samples)) != SS_OK
         || (status = get_number(file, group, "scales", 1, 1e6, &scales)) != SS_OK
         || (status = get_number(file, group, "center", 2, 1000, &c->center)) != SS_OK
-        || (status = get_number(file, group, "dense", 0, 1, &dense)) != SS_OK)
+        || (status = get_number(file, group, "dense", 0, 1, &number)) != SS_OK)
         return status;
     c->n = (size_t)samples;
     c->n_scales = (size_t)scales;
     c->scale = calloc(c->n_scales + 1, sizeof *c->scale);
     if (c->scale == NULL)
         return SS_ENOMEM;
-    if (dense != 0)
-        return get_dense(file, group, c, &total);
-    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
-        status = get_scale(file, group, c, i, &total);
-    return status;
+    *dense = number != 0;
+    if (*dense)
+        status = get_dense(file, group, c, total);
+    for (size_t i = 0; status == SS_OK && !*dense && i < c->n_scales; i++)
+        status = get_scale(file, group, c, i, total);
+    return status == SS_OK ? ss_header_gaps(&c->gap, &c->n_gaps, c->head) : status;
 }
 
-ss_status
-ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
+/* --- scale by scale ------------------------------------------------------------------------ */
+
+struct ss_store_reader {
+    h5_file file;
+    char *path;
+    ss_error error;
+    ss_coefficients *grid;
+    int dense;
+    hid_t group, part[2];       /* part: re and im, if dense, else -1 */
+    size_t total;
+    double *row;                /* the longest, re or im */
+};
+
+static const char *const part_name[] = { "re", "im" };
+
+static ss_status
+open_reader(ss_store_reader *r)
 {
-    if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
-        return ss_h5_fail(file, SS_EDATA, 0, "",
+    size_t longest = 0;
+    ss_status status = ss_h5_open(&r->file);
+    if (status != SS_OK)
+        return status;
+    if (H5Lexists(r->file.id, "wavelet", H5P_DEFAULT) <= 0)
+        return ss_h5_fail(&r->file, SS_EDATA, 0, "",
                           "no /wavelet in it; ss-morlet -o FILE.h5 makes one");
-    *out = calloc(1, sizeof **out);
-    if (*out == NULL)
-        return SS_ENOMEM;
-    hid_t group = ss_h5_open_group(file->id, "wavelet");
-    if (group < 0)
-        return ss_h5_fail(file, SS_EDATA, 0, "/wavelet", "not a group of this file");
-    ss_status status = read_grid(file, group, *out);
-    H5Gclose(group);
-    if (status == SS_OK)
-        status = ss_header_gaps(&(*out)->gap, &(*out)->n_gaps, (*out)->head);
+    r->group = ss_h5_open_group(r->file.id, "wavelet");
+    if (r->group < 0)
+        return ss_h5_fail(&r->file, SS_EDATA, 0, "/wavelet", "not a group of this file");
+    status = read_grid(&r->file, r->group, r->grid, &r->dense, &r->total);
+    if (status != SS_OK)
+        return status;
+    for (size_t i = 0; i < r->grid->n_scales; i++)
+        longest = r->grid->scale[i].n > longest ? r->grid->scale[i].n : longest;
+    for (int k = 0; k < 2 && r->dense; k++)
+        r->part[k] = ss_h5_open_dataset(r->group, part_name[k]);
+    r->row = malloc(longest * sizeof *r->row);
+    return r->row != NULL ? SS_OK : SS_ENOMEM;
+}
+
+/* Row i of a rectangle. */
+static ss_status
+read_row(ss_store_reader *r, int k, size_t i)
+{
+    const hsize_t at[2] = { i, 0 }, count[2] = { 1, r->grid->n };
+    hid_t space = H5Dget_space(r->part[k]), memory = H5Screate_simple(1, &count[1], NULL);
+    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) >= 0
+        && H5Dread(r->part[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, r->row) >= 0;
+    H5Sclose(memory);
+    H5Sclose(space);
+    return good ? SS_OK
+        : ss_h5_fail(&r->file, SS_EIO, r->group, part_name[k], "cannot be read");
+}
+
+static ss_status
+read_scale(ss_store_reader *r, size_t i, double *w)
+{
+    size_t n = r->grid->scale[i].n;
+    hid_t group = r->dense ? r->group : open_scale(r->group, i);
+    ss_status status = SS_OK;
+    for (size_t k = 0; status == SS_OK && k < 2; k++) {
+        status = r->dense ? read_row(r, (int)k, i)
+                          : ss_h5_read_values(&r->file, group, part_name[k], r->row, n);
+        if (status == SS_OK)
+            status = check_finite(&r->file, group, part_name[k], r->row, n);
+        for (size_t c = 0; status == SS_OK && c < n; c++)
+            w[2 * c + k] = r->row[c];
+    }
+    if (!r->dense)
+        H5Gclose(group);
     return status;
 }
 
@@ -405,22 +462,87 @@ ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
 }
 
 ss_status
-ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
+ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err)
 {
-    h5_file file = { -1, path, err };
-    ss_coefficients *coefficients = NULL;
-    ss_status status;
     if (out == NULL || path == NULL)
         return SS_FAIL_NULL(err);
+    ss_store_reader *r = calloc(1, sizeof *r);
+    ss_status status = SS_ENOMEM;
+    if (r != NULL) {
+        r->file = (h5_file){ -1, r->path = strdup(path), &r->error };
+        r->group = r->part[0] = r->part[1] = -1;
+        r->grid = calloc(1, sizeof *r->grid);
+    }
     H5E_BEGIN_TRY {
-        status = ss_h5_open(&file);
-        if (status == SS_OK)
-            status = ss_h5_read_coefficients(&coefficients, &file);
-        status = finish(&file, status);
+        if (r != NULL && r->path != NULL && r->grid != NULL)
+            status = open_reader(r);
     } H5E_END_TRY
     if (status == SS_OK)
-        *out = coefficients;
-    else
-        ss_coefficients_free(coefficients);
+        *out = r;
+    else if (status == SS_ENOMEM)
+        ss_fail(err, status, "%s: %s", path, ss_strerror(status));
+    else if (err != NULL)
+        *err = r->error;
+    if (status != SS_OK)
+        ss_store_reader_free(r);
+    return status;
+}
+
+const ss_coefficients *
+ss_store_reader_grid(const ss_store_reader *r)
+{
+    return r != NULL ? r->grid : NULL;
+}
+
+ss_status
+ss_store_reader_scale(ss_store_reader *r, size_t i, double *w, ss_error *err)
+{
+    ss_status status;
+    if (r == NULL || w == NULL)
+        return SS_FAIL_NULL(err);
+    if (i >= r->grid->n_scales)
+        return ss_fail(err, SS_EINVAL, "no scale %zu, there are %zu", i, r->grid->n_scales);
+    H5E_BEGIN_TRY {
+        status = read_scale(r, i, w);
+    } H5E_END_TRY
+    if (status != SS_OK && err != NULL)
+        *err = r->error;
+    return status;
+}
+
+void
+ss_store_reader_free(ss_store_reader *r)
+{
+    if (r == NULL)
+        return;
+    H5E_BEGIN_TRY {
+        finish(&r->file, SS_OK);        /* closes all that is open in it */
+    } H5E_END_TRY
+    ss_coefficients_free(r->grid);
+    free(r->row);
+    free(r->path);
+    free(r);
+}
+
+ss_status
+ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
+{
+    ss_store_reader *r = NULL;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status status = ss_store_reader_new(&r, path, err);
+    if (status != SS_OK)
+        return status;
+    ss_coefficients *c = r->grid;
+    c->w = malloc(2 * r->total * sizeof *c->w);
+    if (c->w == NULL)
+        status = ss_fail(err, SS_ENOMEM, "%s: %s", path, ss_strerror(SS_ENOMEM));
+    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
+        status = ss_store_reader_scale(r, i, c->w + 2 * c->scale[i].offset, err);
+    if (status == SS_OK) {
+        *out = c;
+        r->grid = NULL;
+    }
+    ss_store_reader_free(r);
     return status;
 }

@@ -19,11 +19,12 @@ make_() {
     noise.tsv)   "$@" ss-noise --rms 1 -o noise.tsv ../run ;;
     signal.h5)   "$@" ss-signal noise --duration 100 -o signal.h5 ;;
     morlet.*)    "$@" ss-morlet -o "$file" ../short ;;
+    stream.h5)   "$@" ss-morlet --stream --fmin 5 -o stream.h5 ../run ;;
     plot.svg)    "$@" ss-plot -o plot.svg ../run ;;
     contour.*)   "$@" ss-contour -o "$file" ../coefficients ;;
     esac
 }
-all='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 plot.svg contour.png contour.gp'
+all='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 stream.h5 plot.svg contour.png contour.gp'
 cd whole
 for file in $all; do make_ "$file" env; done
 cd ../work
