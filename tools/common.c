@@ -542,6 +542,16 @@ tool_format(const char *text)
     return tool_choice("--format", text, form) == 0 ? TOOL_TSV : TOOL_AU;
 }
 
+const char *
+tool_method(const char *text)
+{
+    enum { MOST = 32 };
+    const char *method[MOST + 1] = { NULL };
+    for (size_t i = 0; i < MOST && ss_sim_method_name(i) != NULL; i++)
+        method[i] = ss_sim_method_name(i);
+    return method[tool_choice("--method", text, method)];
+}
+
 void
 tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
 {

@@ -97,6 +97,8 @@ void tool_cut(FILE *out, long offset);
 
 /* What --format names: tsv or au. */
 tool_kind tool_format(const char *text);
+/* What --method names: a method of simulation. */
+const char *tool_method(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 

@@ -12,17 +12,17 @@ static const char usage[] =
 "what both show, and write one row a scene, the best first; or say that nothing\n"
 "can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
 "four shipped ones).\n"
-"  -c, --column COL      name or number (default: a, else the only one)\n"
-"  -a, --as QUANTITY     what it is of: x, v, a or f (default: its own name,\n"
+"  -c, --column=NAME|N   of the signal (default: a, else the only one)\n"
+"  -a, --as=QUANTITY     what it is of: x, v, a or f (default: its own name,\n"
 "                        else f if its unit is one of force, else a)\n"
-"  -s, --set KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
-"  -p, --spread PERCENT  how far the rig's parameters may be from a scene's\n"
+"  -s, --set=KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
+"  -p, --spread=PERCENT  how far the rig's parameters may be from a scene's\n"
 "                        (default 30)\n"
-"  -F, --forcing HZ      frequency of the base (default: found)\n"
+"  -F, --forcing=HZ      frequency of the base (default: found)\n"
 "      --fit             write instead the compliant scene that moves as the\n"
 "                        signal does, from SCENE's mass, stiffness and release\n"
 "                        rule (default compliant-light)\n"
-"  -o, --output FILE     .tsv; with --fit any name (default: standard output)\n"
+"  -o, --output=FILE     .tsv; with --fit any name (default: standard output)\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 
@@ -235,7 +235,7 @@ main(int argc, char *argv[])
     for (int c; (c = getopt_long(argc, argv, "c:a:s:p:F:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 'c': j.column_name = optarg; break;
-        case 'a': j.as = optarg; break;
+        case 'a': j.as = quantities[tool_choice("--as", optarg, quantities)]; break;
         case 's': j.settings[j.n_settings++] = optarg; break;
         case 'p': j.opts.spread = tool_number("--spread", optarg, 0, 99) / 100; break;
         case 'F': j.opts.forcing_frequency = tool_number("--forcing", optarg, 1e-9, 1e12); break;
@@ -243,7 +243,6 @@ main(int argc, char *argv[])
         case 'o': j.output = optarg; break;
         default: tool_option(c);
         }
-    quantity_of(&(ss_column){ "", "" }, j.as);          /* a wrong word is wrong usage at once */
     if (fits && argc - optind > 2)
         tool_usage("--fit takes one scene");
     if (!fits)

@@ -23,9 +23,8 @@ static const char usage[] =
 "      --seed=N         noise: default 1\n"
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
 "      --format=FORM    on standard output: tsv (default) or au\n"
-"  -q, -v               less, more words on standard error\n"
-"  -h, --help           show this text and exit\n"
-"      --version        show the version and exit\n";
+"  -q, --quiet          no warnings; -v, --verbose: what was written\n"
+"  -h, --help           show this text; --version: show the version\n";
 
 enum { OPT_TO = TOOL_OPT_FIRST, OPT_DAMPING, OPT_AT, OPT_SEED };
 

@@ -10,18 +10,19 @@ static const char usage[] =
 "usage: ss-sim [options] SCENE\n"
 "Simulate an oscillator with dry friction.  SCENE is a file, - for standard\n"
 "input, or the name of a shipped scene; the record goes to standard output.\n"
-"  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
-"  -c, --columns LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
+"  -s, --set=KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
+"  -c, --columns=LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
-"  -m, --method NAME     a GSL step type, or exact: closed form (default rk8pd;\n"
+"  -m, --method=NAME     a GSL step type, or exact: closed form (default rk8pd;\n"
 "                        bsimp where friction with a state is stiff)\n"
-"  -t, --tol TOL         relative local error a step (default 1e-12)\n"
-"  -a, --accuracy TOL    global error of x over max|x| instead: finds --tol and,\n"
+"  -t, --tol=TOL         relative local error a step (default 1e-12)\n"
+"  -a, --accuracy=TOL    global error of x over max|x| instead: finds --tol and,\n"
 "                        if none is given, --method\n"
-"      --max-steps N     give up after N integration steps\n"
-"  -l, --list            list the shipped scenes and the methods\n"
-"  -o, --output FILE     .tsv, .au or .h5; whole or absent (default: stdout)\n"
-"      --format FORM     of standard output: tsv (default) or au\n"
+"      --max-steps=N     give up after N integration steps\n"
+"  -l, --list            list the shipped scenes and the methods; with SCENE, all\n"
+"                        its keys and values, a scene to edit\n"
+"  -o, --output=FILE     .tsv, .au or .h5; whole or absent (default: stdout)\n"
+"      --format=FORM     of standard output: tsv (default) or au\n"
 "  -q, --quiet           no warnings, no progress\n"
 "  -v, --verbose         what was done and its cost\n"
 "  -h, --help            show this text; --version: show the version\n";
@@ -33,8 +34,8 @@ typedef struct request {
     const char *scene_path, *path;      /* path: of the output, NULL or "-" for standard output */
     const char **settings;
     size_t n_settings;
-    const char *columns;
-    int events;
+    ss_sim_columns columns;
+    int events, list;
     tool_kind kind;
     double accuracy;                    /* 0: not asked for */
     ss_sim_opts opts;
@@ -44,7 +45,6 @@ typedef struct request {
  * fails at once writes nothing; or a record to fill. */
 typedef struct output {
     const request *req;
-    ss_sim_columns columns;
     ss_header *head;
     FILE *events_out;                   /* events as text */
     ss_writer *writer;                  /* samples as a stream */
@@ -69,7 +69,7 @@ stream_samples(const ss_sample *s, size_t n, void *user)
     double row[SS_SIM_COLUMNS];
     begin_samples(o);
     for (size_t i = 0; i < n; i++) {
-        ss_sim_row(&o->columns, &s[i], row);
+        ss_sim_row(&o->req->columns, &s[i], row);
         if (tool_stopping() || ss_writer_rows(o->writer, row, 1) != SS_OK)
             return 1;
     }
@@ -94,8 +94,8 @@ keep_samples(const ss_sample *s, size_t n, void *user)
     output *o = user;
     double row[SS_SIM_COLUMNS];
     for (size_t i = 0; i < n; i++, o->n_samples++) {
-        ss_sim_row(&o->columns, &s[i], row);
-        for (size_t c = 0; c < o->columns.n; c++)
+        ss_sim_row(&o->req->columns, &s[i], row);
+        for (size_t c = 0; c < o->req->columns.n; c++)
             o->signal->values[c * o->signal->n + o->n_samples] = row[c];
     }
     return 0;
@@ -128,7 +128,7 @@ keep_event(const ss_event *e, void *user)
     return 0;
 }
 
-static void
+static void TOOL_NORETURN
 list(void)
 {
     for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
@@ -141,14 +141,15 @@ list(void)
     exit(0);
 }
 
+/* The scene as it would be simulated, with every key that its model has. */
 static void
-choose_method(ss_sim_opts *opts, const char *name)
+write_scene(const request *req, const ss_scene *scene)
 {
-    enum { MOST = 32 };
-    const char *choice[MOST + 1] = { NULL };
-    for (size_t i = 0; i < MOST && ss_sim_method_name(i) != NULL; i++)
-        choice[i] = ss_sim_method_name(i);
-    opts->method = choice[tool_choice("--method", name, choice)];
+    char name[256];
+    FILE *out = tool_output(req->path);
+    tool_name_scene(name, sizeof name, req->scene_path, req->settings, req->n_settings);
+    fprintf(out, "# %s\n", name);
+    tool_check(ss_scene_write(scene, out), NULL);
 }
 
 /* What was asked for, or what keeps the accuracy if that was. */
@@ -198,26 +199,34 @@ parse(request *req, int argc, char *argv[])
         { "list", no_argument, NULL, 'l' },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     ss_sim_opts *opts = &req->opts;
+    ss_error err = { "" };
 
     for (int c; (c = getopt_long(argc, argv, "s:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 's': req->settings[req->n_settings++] = optarg; break;
-        case 'c': req->columns = optarg; break;
+        case 'c':
+            if (ss_sim_columns_parse(&req->columns, optarg, &err) != SS_OK)
+                tool_usage("--columns: %s", err.text);
+            break;
         case 'e': req->events = 1; break;
-        case 'm': choose_method(opts, optarg); break;
+        case 'm': opts->method = tool_method(optarg); break;
         case 't': opts->tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
         case 'a': req->accuracy = tool_number("--accuracy", optarg, 1e-12, 1e-3); break;
         case OPT_MAX_STEPS:
             opts->max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, LONG_MAX);
             break;
-        case 'l': list(); break;
+        case 'l': req->list = 1; break;
         case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
         case 'o': req->path = optarg; break;
         default: tool_option(c);
         }
+    if (optind == argc && req->list)
+        list();
     if (optind == argc)
         tool_usage("which scene? give a file, or one of those that --list shows");
     req->scene_path = tool_input(argc, argv, optind);
+    if (req->list)
+        return;
     req->kind = tool_output_kind(req->path, req->events ? 1u << TOOL_TSV
                                  : 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, req->kind);
     if (req->events && req->kind != TOOL_TSV)
@@ -250,7 +259,7 @@ finish(output *o, int has_events)
 int
 main(int argc, char *argv[])
 {
-    request req = { .columns = "t,x,v,a,f", .kind = TOOL_TSV, .opts.progress = tool_progress };
+    request req = { .kind = TOOL_TSV, .opts.progress = tool_progress };
     output o = { .req = &req };
     ss_sim_stats stats = { 0 };
     ss_error err = { "" };
@@ -259,12 +268,17 @@ main(int argc, char *argv[])
     req.settings = calloc((size_t)argc, sizeof *req.settings);
     if (req.settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
+    ss_sim_columns_parse(&req.columns, "t,x,v,a,f", NULL);
     parse(&req, argc, argv);
-    if (ss_sim_columns_parse(&o.columns, req.columns, &err) != SS_OK)
-        tool_usage("--columns: %s", err.text);
     ss_scene scene = tool_read_scene(req.scene_path, req.settings, req.n_settings);
+    if (req.list) {
+        write_scene(&req, &scene);
+        free(req.settings);
+        tool_end();
+        return 0;
+    }
     set_method(&req.opts, &scene, req.accuracy);
-    o.head = ss_sim_header(&scene, &o.columns);
+    o.head = ss_sim_header(&scene, &req.columns);
     if (o.head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     note_origin(o.head, &req);

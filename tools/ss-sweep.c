@@ -8,33 +8,34 @@
 #include "common.h"
 
 static const char usage[] =
-"usage: ss-sweep [options] --vary KEY=FROM:TO:N[:log] ... SCENE\n"
+"usage: ss-sweep [options] --vary=KEY=FROM:TO:N[:log] ... SCENE\n"
 "Find the periodic state that the scene settles to at every point of a grid and\n"
 "write one row each.  SCENE is a file, - or the name of a shipped scene.\n"
-"  -y, --vary K=A:B:N    N values of K from A to B, with :log in equal ratios\n"
+"  -y, --vary=K=A:B:N    N values of K from A to B, with :log in equal ratios\n"
 "                        (repeatable; the last varies fastest)\n"
-"  -m, --measure LIST    of stops,stick,amplitude,x_max,v_max,a_max,energy,\n"
+"  -m, --measure=LIST    of stops,stick,amplitude,x_max,v_max,a_max,energy,\n"
 "                        period,cycles,microslips,transition,x_phase,v_phase,\n"
 "                        floquet,floquet2,floquet_angle (default: what the\n"
 "                        model has of stops ... period without x_max)\n"
-"  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
+"  -s, --set=KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
 "      --shoot           Newton's method instead of waiting for the end\n"
-"  -t, --tol TOL         how near to periodic, see the manual (default 1e-9)\n"
-"      --max-period N    sub-harmonics looked for (8); --max-cycles N: then it is\n"
-"                        called aperiodic (10000); --max-steps N of a point (1e7)\n"
-"      --settle-cycles N simulate so many cycles instead of looking for the end\n"
-"      --method NAME     of ss-sim (default exact where there is one)\n"
-"  -j, --threads N       work on N points at a time (1)\n"
-"      --shard I/N       every N-th point only: index I modulo N\n"
-"  -r, --resume FILE     append to FILE what it lacks, or begin it\n"
-"  -o, --output FILE     .tsv, whole or absent (default: standard output)\n"
+"  -t, --tol=TOL         how near to periodic, see the manual (default 1e-9)\n"
+"      --max-period=N    sub-harmonics looked for (8)\n"
+"      --max-cycles=N    after so many it is called aperiodic (10000)\n"
+"      --max-steps=N     integration steps of a point (1e7)\n"
+"      --settle-cycles=N simulate so many cycles instead of looking for the end\n"
+"      --method=NAME     of ss-sim (default exact where there is one)\n"
+"  -j, --threads=N       work on N points at a time (1)\n"
+"      --shard=I/N       every N-th point only: index I modulo N\n"
+"  -r, --resume=FILE     append to FILE what it lacks, or begin it\n"
+"  -o, --output=FILE     .tsv, whole or absent (default: standard output)\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_PERIOD, OPT_CYCLES, OPT_STEPS, OPT_SETTLE, OPT_METHOD,
        OPT_SHARD };
 
 typedef struct request {
-    const char *scene_path, *path, *resume, *measures;
+    const char *scene_path, *path, *resume;
     const char **settings;
     size_t n_settings;
     ss_axis *axis;
@@ -60,24 +61,33 @@ pick_measure(request *req, const char *name, size_t length)
         req->pick[req->n_picks++] = m;
         return;
     }
-    tool_usage("--measure: there is no '%.*s'; --help lists what there is", (int)length, name);
+    char list[512] = "";
+    for (ss_measure m = 0; m < SS_MEASURES; m++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", m > 0 ? ", " : "",
+                 ss_measure_name(m));
+    tool_usage("--measure: '%.*s' is none of %s", (int)length, name, list);
 }
 
-/* What was asked for, else what the model has of the usual. */
 static void
-pick_measures(request *req, ss_model model)
+pick_measures(request *req, const char *names)
+{
+    req->opts.steady.measures = 0;
+    req->n_picks = 0;
+    for (const char *name = names;; name++) {
+        size_t length = strcspn(name, ",");
+        pick_measure(req, name, length);
+        name += length;
+        if (*name == '\0')
+            return;
+    }
+}
+
+/* What the model has of the usual. */
+static void
+pick_usual(request *req, ss_model model)
 {
     static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX,
                                         SS_A_MAX, SS_ENERGY, SS_PERIOD };
-    if (req->measures != NULL) {
-        for (const char *name = req->measures;; name++) {
-            size_t length = strcspn(name, ",");
-            pick_measure(req, name, length);
-            name += length;
-            if (*name == '\0')
-                return;
-        }
-    }
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) {
         ss_steady_opts has = ss_steady_defaults;
         has.measures = 1u << usual[i];
@@ -128,7 +138,7 @@ parse(request *req, int argc, char *argv[])
             if (ss_axis_parse(&req->axis[req->opts.n_axes++], optarg, &err) != SS_OK)
                 tool_usage("--vary: %s", err.text);
             break;
-        case 'm': req->measures = optarg; break;
+        case 'm': pick_measures(req, optarg); break;
         case 's': req->settings[req->n_settings++] = optarg; break;
         case OPT_SHOOT: steady->shoot = 1; break;
         case 't': steady->tol = tool_number("--tol", optarg, 1e-13, 1e-1); break;
@@ -138,7 +148,7 @@ parse(request *req, int argc, char *argv[])
         case OPT_CYCLES: steady->max_cycles = count("--max-cycles", optarg); break;
         case OPT_STEPS: steady->max_steps = count("--max-steps", optarg); break;
         case OPT_SETTLE: steady->settle = count("--settle-cycles", optarg); break;
-        case OPT_METHOD: steady->method = optarg; break;
+        case OPT_METHOD: steady->method = tool_method(optarg); break;
         case 'j':
             req->opts.threads = (int)tool_integer("--threads", optarg, 1, SS_SWEEP_THREADS_MAX);
             break;
@@ -348,7 +358,8 @@ main(int argc, char *argv[])
         tool_die("%s", ss_strerror(SS_ENOMEM));
     parse(&req, argc, argv);
     ss_scene scene = tool_read_scene(req.scene_path, req.settings, req.n_settings);
-    pick_measures(&req, scene.model);
+    if (req.n_picks == 0)
+        pick_usual(&req, scene.model);
     req.opts.axis = req.axis;
     req.opts.user = &req;
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)

@@ -15,14 +15,14 @@ static const char usage[] =
 "nothing else is both faster and more accurate.  A file whose first line that is\n"
 "no comment reads KEY = VALUE is a scene, and so is the name of a shipped one;\n"
 "- is standard input.\n"
-"  -s, --set KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
-"      --column NAME|N   of the signal (a, or the only one)\n"
+"  -s, --set=KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
+"  -c, --column=NAME|N   of the signal (a, or the only one)\n"
 "      --dense           transform to a coefficient a sample at every scale\n"
-"  -b, --budget S        CPU time of a row at most [s] (default 10); a longer one\n"
+"  -b, --budget=S        CPU time of a row at most [s] (default 10); a longer one\n"
 "                        has its estimated time and no errors\n"
-"  -t, --target TOL      write instead the options of ss-sim, or of ss-morlet,\n"
+"  -t, --target=TOL      write instead the options of ss-sim, or of ss-morlet,\n"
 "                        that are the fastest to keep x, or W, within TOL\n"
-"  -o, --output FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
+"  -o, --output=FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
 "                        or .pdf (default: rows on standard output)\n"
 "  -q, --quiet           no progress; -v, --verbose: what was measured\n"
 "  -h, --help            show this text; --version: show the version\n";
@@ -217,10 +217,10 @@ measure_signal(request *req)
 int
 main(int argc, char *argv[])
 {
-    enum { OPT_COLUMN = TOOL_OPT_FIRST, OPT_DENSE };
+    enum { OPT_DENSE = TOOL_OPT_FIRST };
     static const struct option longopts[] = {
         { "set", required_argument, NULL, 's' }, { "budget", required_argument, NULL, 'b' },
-        { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, OPT_COLUMN },
+        { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, 'c' },
         { "dense", no_argument, NULL, OPT_DENSE }, TOOL_LONGOPTS };
     request req = { .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
     ss_plot_opts plot = ss_plot_defaults;
@@ -228,13 +228,13 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-trade", usage);
     if (req.settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "s:b:t:o:qvh", longopts, NULL)) != -1;)
+    for (int c; (c = getopt_long(argc, argv, "s:c:b:t:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 's': req.settings[req.n_settings++] = optarg; break;
+        case 'c': req.column = optarg; break;
         case 'b': req.opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
         case 't': req.opts.target = tool_number("--target", optarg, 1e-14, 1); break;
         case 'o': req.output = optarg; break;
-        case OPT_COLUMN: req.column = optarg; break;
         case OPT_DENSE: req.dense = 1; break;
         default: tool_option(c);
         }

@@ -479,9 +479,9 @@ ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
             for (size_t i = 0; i < columns.n; i++)
                 repeated |= columns.pick[i] == c;
             if (c == SS_SIM_COLUMNS || repeated)
-                return ss_fail(err, SS_EINVAL, "%s '%.*s' in '%s': columns are t (first), x, v, a, "
-                               "f, y, z, mode", repeated ? "repeated column" : "unknown column",
-                               (int)length, name, list);
+                return ss_fail(err, SS_EINVAL, repeated ? "'%.*s' is there twice in '%s'"
+                               : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, y, z, "
+                               "mode", (int)length, name, list);
             columns.pick[columns.n++] = c;
         }
         name += length;

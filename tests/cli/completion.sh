@@ -1,32 +1,108 @@
-# Completion in bash: options, scenes, columns from a file's header, methods.
+# Completion in bash and zsh: the same in both, and every option of every tool.
 command -v bash > /dev/null || { echo "no bash"; exit 77; }
 ss-sim compliant-light --set duration=0.01 --set settle=0 -o run.tsv
-bash -eu > out <<'BASH'
+ss-sim --list coulomb -o my.scene
+{
+    cat <<'LINES'
+ss-sim --ev
+ss-sim --max
+ss-sim comp
+ss-sim c
+ss-sim --method rk8
+ss-sim -m ex
+ss-sim --method=ms
+ss-sim --columns t,x,m
+ss-sim coulomb --set
+ss-sim my.scene --set=m
+ss-sim --set law=
+ss-sim --set=release=s
+ss-sweep coulomb --vary f
+ss-sweep state-variable -y al
+ss-sweep --measure=stops,x_
+ss-morlet run.tsv --col
+ss-plot run.tsv --column
+ss-plot run.tsv -c
+ss-plot run.tsv --column=a
+ss-plot run.tsv --xy x,a
+ss-plot run.tsv --map=
+ss-plot --xy
+ss-noise none.tsv -c
+ss-cat ru
+ss-morlet -o ru
+ss-signal ch
+ss-signal
+ss-rank my.
+ss-morlet --accuracy
+LINES
+    # Options as the tools' own tables have them; what each of them takes.
+    for tool in "$SRC"/tools/ss-*.c; do
+        name=$(basename "$tool" .c)
+        echo "$name --"
+        { cat "$tool"; sed -n '/define TOOL_LONGOPTS/,/NULL, 0, NULL/p' "$SRC/tools/common.h"; } |
+            tr '\n' ' ' | grep -oE '\{ "[a-z-]+", (required|no)_argument' | sort -u |
+            tee "$name.options" | sed -n "s/{ \"\(.*\)\", required.*/$name --\1=/p" |
+            grep -v -e '--output=' -e '--events=' -e '--features=' -e '--line=' -e '--signal=' \
+                -e '--wisdom=' -e '--resume='        # files
+    done
+} > lines
+
+# "LINE: what it may go on with", sorted, without what the line has of it.  Lines end in a blank unless
+# the word goes on.
+sed -e 's/--set$/& /' -e 's/--column$/& /' -e 's/ -c$/& /' -e 's/--xy$/& /' -e 's/^ss-signal$/& /' \
+    -e 's/accuracy$/& /' lines > asked
+bash -eu > in-bash <<'BASH'
 compopt() { :; }
 . "$SRC/data/completion/stickslip.bash"
-try() {
-    COMP_WORDS=("$@")
-    COMP_CWORD=$(($# - 1))
-    _stickslip "$1" "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}"
-    echo "$*: ${COMPREPLY[*]-}"
-}
-try ss-sim --ev
-try ss-sim --max
-try ss-morlet --det
-try ss-sim comp
-try ss-sim --method rk8
-try ss-sim -m ex
-try ss-plot run.tsv --column ''
-try ss-plot run.tsv --column = a
-try ss-cat ru
-try ss-plot --xy ''
-try ss-noise none.tsv -c ''
+while IFS= read -r line; do
+    COMP_LINE=$line COMP_POINT=${#line}
+    word=${line##*[[:space:]]}
+    _stickslip "${line%% *}" "${word##*[=:]}" ''
+    echo "$line: $(printf '%s\n' "${COMPREPLY[@]-}" | sed -e 's/.*,//' -e 's/=$//' | sort | xargs)"
+done < asked
 BASH
-cat out
+
+sed -n '/^ss-[a-z]* --: /!p' in-bash
+sed -n 's/^\(ss-[a-z]*\) --: /\1 /p' in-bash | while read -r tool options; do
+    echo "$options" | tr ' ' '\n' | sed 's/^--//' | sort > offered
+    sed 's/.*"\(.*\)".*/\1/' "$tool.options" | sort | diff - offered || echo "of $tool"
+done
 # Every tool and none else.
 for tool in "$SRC"/tools/ss-*.c; do
     name=$(basename "$tool" .c)
     for file in "$SRC"/data/completion/*; do grep -qw -e "$name" "$file" || echo "$name is not in $file"; done
 done
+
+# In a zsh with a terminal, whose compadd says what it is given.
 command -v zsh > /dev/null || exit 0
-zsh -n "$SRC/data/completion/_stickslip"
+cat > in.zsh <<'ZSH'
+zmodload zsh/zpty || exit 0
+zpty z zsh -f -i
+zpty -w z 'PROMPT=; stty -echo; fpath=($SRC/data/completion $fpath); autoload -U compinit; compinit -u -D; unsetopt autolist
+zstyle ":completion:*" completer _complete
+compadd() {
+    if [[ ${@[1,(i)(-|--)]} == *-(O|A|D)\ * ]]; then builtin compadd "$@"; return $?; fi
+    local -a hits
+    builtin compadd -A hits "$@"
+    print -rl -- $hits >> found
+    builtin compadd "$@"
+}
+ask() { _main_complete; : > done }
+zle -C ask complete-word ask
+bindkey "^T" ask
+print READY'
+zpty -r z x '*READY*'
+while IFS= read -r line; do
+    rm -f found done
+    : > found
+    zpty -w -n z "$line"$'\024'
+    repeat 3000; do                  # and the shell must be rid of its output
+        [[ -f done ]] && break
+        zpty -r -t z x || sleep 0.01
+    done
+    print -r -- "$line: ${(j: :)${(f)"$(sort -u found)"}}"
+    zpty -w -n z $'\025'
+done < asked
+zpty -d z
+ZSH
+zsh -f in.zsh > in-zsh
+diff in-bash in-zsh

@@ -1,0 +1,64 @@
+# Every example of the manual, and every command of the README's, as it is printed there: it runs
+# and says nothing on standard error.  What they give is for the other tests of examples to see.
+for p in gnuplot awk; do command -v $p > /dev/null || { echo "no $p"; exit 77; }; done
+GNUTERM=dumb
+export GNUTERM
+mkdir bin
+command -v parallel > /dev/null ||
+    printf '#!/bin/sh\nfor i in 1 2 3 4; do eval "$(echo "${*%% :::*}" | sed "s/{}/$i/g")"; done\n' > bin/parallel
+python3 -c 'import numpy' 2> /dev/null || printf '#!/bin/sh\n' > bin/python3
+command -v h5dump > /dev/null || printf '#!/bin/sh\n' > bin/h5dump
+# shellcheck disable=SC2016  # for the script written
+command -v sox > /dev/null ||
+    printf '#!/bin/sh\n[ "$4" = - ] || exec ss-signal sine --format au\ncat > /dev/null\n' > bin/sox
+# ss-trade measures as long as it is let.
+printf '#!/bin/sh\nexec "%s/bin/ss-trade" "$@" --budget 0.05\n' "$BUILD" > bin/ss-trade
+chmod +x bin/*
+PATH=$PWD/bin:$PATH
+
+# The recordings that they name.
+ss-sim --columns t,x,a,f compliant-light --set duration=6 --set settle=0 |
+    awk 'BEGIN { print "t,x,a,f,force" } !/^#/ { gsub("\t", ","); print $0 "," $0 }' |
+    awk -F, '{ print $1 "," $2 "," $3 "," $4 "," (NR == 1 ? $5 : $4) }' > recording
+awk 'BEGIN { print "t,x"; for (i = 0; i < 500; i++) if (i < 100 || i > 160)
+    print (i + 0.3 * sin(i)) / 1000 "," i }' > log.csv
+ss-signal chirp -r 44100 --format au | sox -t au - run.wav 2> /dev/null || :
+[ -s run.wav ] || : > run.wav
+cp run.wav bass.wav
+
+try() {         # NAME: the commands on standard input, in a directory of their own
+    mkdir "$1"
+    cp recording "$1/run.csv"
+    ss-cat recording -o "$1/run.tsv"
+    cp log.csv run.wav bass.wav "$1"
+    cat > "$1.sh"
+    [ -s "$1.sh" ] || echo "$1: no examples"
+    (cd "$1" && sh -eu "../$1.sh" > ../out 2> ../err < /dev/null) || echo "$1: exit status $?"
+    # sox says that a pipe has no length, gnuplot that the C locale has no degree sign, ss-sim -v what
+    # it does.
+    grep -v -i -e '^sox WARN' -e 'iconv failed' -e '^ss-sim: .* tol 1e-09' err | sed "s/^/$1: /"
+}
+
+for page in "$SRC"/man/*.[157]; do
+    awk '/^\.Sh/ { here = /EXAMPLES|FROM A RECORDING/ } !here { next }
+        /^\.Dl/ { sub(/^\.Dl /, ""); print }
+        /^\.Bd/ { block = 1; next } /^\.Ed/ { block = 0 } block { print }' "$page" |
+        sed 's/\\e/\\/g' > text
+    case $page in
+    *-scene.5) ss-sim - < text > record && [ -s record ] ;;
+    *-sweep.7) [ ! -s text ] ;;
+    *)         grep -v -e '^# ' -e '^w = ' -e '^abs(' text | try "$(basename "$page")" ;;
+    esac
+done
+grep -E '^    (ss-|sox)' "$SRC/README.md" | try README
+
+# The C of stickslip(3).
+{
+    printf '#include <stickslip.h>\nint main(void) {\n'
+    awk '/^\.Sh/ { here = /EXAMPLES/ } here && /^\.Bd/ { block = 1; next } /^\.Ed/ { block = 0 }
+        block { print }' "$SRC/man/stickslip.3" | sed 's/\\e/\\/g'
+    printf 'ss_signal_free(signal); return 0; }\n'
+} > page.c
+# shellcheck disable=SC2086  # flags are lists
+$CCLD -Wall -Werror -I"$SRC/include" -o page page.c "$BUILD/libstickslip.a" $LIBS
+./page
