@@ -339,6 +339,70 @@ finds_the_parameters_of_a_compliant_signal(void **state)
     }
 }
 
+/* A gap in a stick, filled with a line or with zeros: the models rank as without, and all samples
+ * that are left fit the scene to the last digits. */
+static void
+gaps_do_not_matter(void **state)
+{
+    ss_scene truth = shipped(LIGHT);
+    (void)state;
+    for (int line = 0; line < 2; line++) {
+        ss_signal *signal = record_of(&truth, 300);
+        ss_fit fit;
+        size_t first = 2180, many = 60;
+        double *x = signal->values, left = x[first - 1], right = x[first + many];
+        for (size_t i = 0; i < many; i++)
+            x[first + i] = line ? left + (right - left) * (double)(i + 1) / (double)(many + 1) : 0;
+        assert_int_equal(ss_header_note(signal->head, "gaps", "1.09:1.12"), SS_OK);
+        ss_ranking *r = rank(signal);
+        assert_true(r->told && r->row[0].scene == LIGHT);
+        assert_true(r->row[0].value[SS_BY_RESIDUAL] <= -20);
+        ss_ranking_free(r);
+        assert_int_equal(ss_fit_scene(&fit, signal, 0, &truth, NULL, NULL), SS_OK);
+        assert_true(fit.told && fit.residual_started <= 1e-8);
+        assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1) <= 1e-8);
+        assert_true(fabs(fit.friction.value / truth.friction - 1) <= 1e-8);
+        ss_signal_free(signal);
+    }
+}
+
+typedef struct watcher {
+    double last, stop_at;
+    int back;
+} watcher;
+
+static int
+watch(double done, void *user)
+{
+    watcher *w = user;
+    w->back += done < w->last || done < 0 || done > 1;
+    w->last = done;
+    return done >= w->stop_at;
+}
+
+static void
+progress_goes_on_to_the_end_or_stops(void **state)
+{
+    ss_scene scene = shipped(LIGHT);
+    ss_signal *signal = record_of(&scene, 40);
+    (void)state;
+    for (int fits = 0; fits < 2; fits++)
+        for (int stops = 0; stops < 2; stops++) {
+            watcher w = { 0, stops ? 0.6 : 2, 0 };
+            ss_rank_opts opts = ss_rank_defaults;
+            ss_ranking *r = NULL;
+            ss_fit fit;
+            opts.progress = watch;
+            opts.user = &w;
+            ss_status st = fits ? ss_fit_scene(&fit, signal, 0, &scene, &opts, NULL)
+                : ss_rank(&r, signal, 0, &scene, 1, &opts, NULL);
+            assert_int_equal(st, stops ? SS_STOP : SS_OK);
+            assert_true(w.back == 0 && (stops ? w.last < 0.7 : w.last > 0.7));
+            ss_ranking_free(r);
+        }
+    ss_signal_free(signal);
+}
+
 static void
 does_not_fit_what_is_not_compliant(void **state)
 {
@@ -385,6 +449,8 @@ main(void)
         cmocka_unit_test(scores_are_distances_over_thresholds_up_to_three),
         cmocka_unit_test(a_threshold_that_moves_can_change_the_order),
         cmocka_unit_test(finds_the_parameters_of_a_compliant_signal),
+        cmocka_unit_test(gaps_do_not_matter),
+        cmocka_unit_test(progress_goes_on_to_the_end_or_stops),
         cmocka_unit_test(does_not_fit_what_is_not_compliant),
     };
     return cmocka_run_group_tests(tests, no_abort, NULL);

@@ -333,6 +333,36 @@ finds_the_one_event(void **state)
     ss_bursts_free(found);
 }
 
+/* A gap filled with zeros, in a signal that is far from it; an event behind it is found, one in it
+ * is not. */
+static void
+a_gap_is_no_event(void **state)
+{
+    enum { N = 10000 };
+    static const ss_span gap[] = { { 0.02, 0.03 }, { 0.1, 0.101 } };
+    static double x[N];
+    ss_bursts *found = NULL;
+    (void)state;
+    ss_add_noise(x, N, 0.001, 5);
+    for (size_t i = 0; i < N; i++) {
+        double t = (double)i / 50000;
+        x[i] += 5 + 1 / cosh(((double)i - 7000) / 20);
+        x[i] = ss_near_gap(gap, 2, t + 0.5 / 50000, 0) ? 0 : x[i];
+    }
+    assert_int_equal(ss_find_bursts(&found, x, N, 50000, 15, gap, 2, NULL), SS_OK);
+    assert_int_equal(found->n, 1);
+    assert_true(fabs(found->burst[0].t * 50000 - 7000) <= 20);
+    ss_bursts_free(found);
+    ss_spike_opts opts = ss_spike_defaults;
+    ss_spikes_found *spikes = NULL;
+    opts.gap = gap, opts.n_gaps = 2;
+    x[6000] += 1;
+    assert_int_equal(ss_find_spikes(&spikes, x, N, 50000, &opts, NULL), SS_OK);
+    assert_true(spikes->n == 1 && spikes->spike[0].kind == SS_SPIKE_GLITCH);
+    assert_true(fabs(spikes->spike[0].t * 50000 - 6000) <= 1);
+    ss_spikes_free(spikes);
+}
+
 /* --- drops ----------------------------------------------------------------------------------- */
 
 /* A sawtooth: it climbs for 0.9 s and falls within 0.1 s, tooth i by heights[i]. */
@@ -382,6 +412,33 @@ counts_drops_by_their_height(void **state)
     }
 }
 
+/* Falls are at 0.9 ... 1, 1.9 ... 2, ...: the gaps take away the first and the third, and one in a
+ * climb none. */
+static void
+falls_over_gaps_are_left_out(void **state)
+{
+    enum { N = 20000 };
+    static const double height[1] = { 1 };
+    static const ss_span gap[] = { { 0.93, 0.95 }, { 1.4, 1.5 }, { 2.7, 3.2 } };
+    static double x[N];
+    ss_drop *drop = NULL;
+    size_t n = 0;
+    (void)state;
+    for (int line = 0; line < 2; line++) {
+        saw(x, N, height, 1);
+        for (size_t g = 0; g < 3; g++) {
+            size_t first = (size_t)(gap[g].from * RATE + 0.5), end = (size_t)(gap[g].to * RATE + 0.5);
+            double left = x[first - 1], right = x[end];
+            for (size_t i = first; i < end; i++)
+                x[i] = line ? left + (right - left) * (double)(i - first) / (double)(end - first) : 0;
+        }
+        assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 0.4, gap, 3, NULL), SS_OK);
+        assert_int_equal(n, 8);
+        assert_true(fabs(drop[0].t - 1.9) < 0.05 && fabs(drop[1].t - 3.9) < 0.05);
+        free(drop);
+    }
+}
+
 static void
 a_slow_drift_is_no_drop(void **state)
 {
@@ -420,7 +477,9 @@ main(void)
         cmocka_unit_test(a_converter_makes_no_spikes),
         cmocka_unit_test(short_constant_and_improper_records_are_answered),
         cmocka_unit_test(finds_the_one_event),
+        cmocka_unit_test(a_gap_is_no_event),
         cmocka_unit_test(counts_drops_by_their_height),
+        cmocka_unit_test(falls_over_gaps_are_left_out),
         cmocka_unit_test(a_slow_drift_is_no_drop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -84,6 +84,9 @@ reads_stiffness_and_damping(void **state)
                              names[i % 2], level[k].snr, seed, K, z);
                 assert_true(fabs(f->contact_stiffness.value + scene.stiffness
                                  - f->total_stiffness.value) < 1e-6);
+                if (k == 0)     /* what is left is shared by all: within three of its errors */
+                    assert_true(fabs(K * stiffness(&scene)) <= 3 * f->total_stiffness.error
+                                && fabs(z * ratio(&scene)) <= 3 * f->damping_ratio.error);
                 assert_true(fabs(f->forcing_frequency.value - scene.base_frequency) < 0.01);
                 assert_true(fabs(f->slip_rate.value - 2 * scene.base_frequency) < 0.02);
                 ss_features_free(f);
@@ -296,6 +299,124 @@ reads_the_slope_of_force_over_displacement(void **state)
     }
 }
 
+/* Samples from first on, that many, are missing: filled with 0, or by a line between neighbours. */
+static void
+make_gap(ss_signal *signal, size_t column, size_t first, size_t many, int line)
+{
+    double *x = signal->values + column * signal->n, rate = signal->head->rate;
+    char text[2 * SS_NUMBER_MAX + 2];
+    size_t length = ss_number_format(text, signal->head->start + (double)first / rate);
+    text[length++] = ':';
+    ss_number_format(text + length, signal->head->start + (double)(first + many) / rate);
+    assert_int_equal(ss_header_note(signal->head, "gaps", text), SS_OK);
+    for (size_t i = 0; i < many; i++)
+        x[first + i] = !line ? 0 : x[first - 1] + (x[first + many] - x[first - 1]) * (double)(i + 1)
+                                                  / (double)(many + 1);
+}
+
+/* Neither its own spike nor one that is not there without it. */
+static void
+check_spikes(const ss_features *f, const ss_features *whole, double from, double to, const char *what)
+{
+    for (size_t i = 0; i < f->spikes->n; i++) {
+        const ss_spike *s = &f->spikes->spike[i];
+        double off = INFINITY;
+        for (size_t k = 0; k < whole->spikes->n; k++)
+            off = fmin(off, fabs(whole->spikes->spike[k].t - s->t));
+        if (s->t >= from && s->t <= to)
+            fail_msg("%s: a spike at %g s, in the gap", what, s->t);
+        if (off > 1 / 2000. && s->kind != SS_SPIKE_BEND)
+            fail_msg("%s: a spike at %g s, where none is without a gap", what, s->t);
+    }
+}
+
+/* Transitions that no gap reaches into are what they were, and nearly all are; none lies in it, and no
+ * fit sees it. */
+static void
+check_transitions(const ss_features *f, const ss_features *whole, double from, double to,
+                  const char *what)
+{
+    size_t k = 0, same = 0;
+    for (size_t i = 0; i < f->n; i++) {
+        const ss_transition *a = &f->transition[i], *b;
+        if (a->onset >= from && a->onset < to)
+            fail_msg("%s: a transition at %g s, in the gap", what, a->onset);
+        if (a->from < to && a->to > from)
+            fail_msg("%s: fitted from %g to %g s, over the gap", what, a->from, a->to);
+        if (a->gap)
+            continue;
+        for (b = &whole->transition[k]; k < whole->n && b->onset < a->onset - 0.05; b++)
+            k++;
+        if (k == whole->n || fabs(b->onset - a->onset) > 1e-9 || fabs(b->end - a->end) > 1e-9
+            || b->spikes != a->spikes || isnan(b->maximum.t) != isnan(a->maximum.t)
+            || isnan(b->frequency.value) != isnan(a->frequency.value)
+            || fabs(b->frequency.value - a->frequency.value)
+               > 0.1 * b->frequency.error + 1e-6 * b->frequency.value)
+            fail_msg("%s (%g to %g s): %.9g ... %.9g s, %zu spikes, %.9g Hz, maximum at %g s; without %.9g ... %.9g, "
+                     "%zu, %.9g +- %.2g, %g", what, from, to, a->onset, a->end, a->spikes, a->frequency.value,
+                     a->maximum.t, b->onset, b->end, b->spikes, b->frequency.value,
+                     b->frequency.error, b->maximum.t);
+        same++;
+    }
+    if (same + 3 < whole->n || f->n > whole->n)
+        fail_msg("%s: %zu of %zu transitions are left", what, same, whole->n);
+}
+
+/* In a stick, at its release and in the slip behind it, into the onset of the next, and over two of
+ * them; where it begins [s], from a release on, and how long it is. */
+static void
+gaps_leave_out_what_they_reach_and_nothing_else(void **state)
+{
+    static const struct { double from, length; } gap[] = {
+        { -0.05, 0.01 }, { -0.005, 0.01 }, { 0.03, 0.02 }, { 0.1, 0.02 }, { -0.05, 0.002 },
+        { -0.06, 0.19 } };
+    static const char *const names[] = { "coulomb", "compliant-heavy", "compliant-light" };
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++) {
+            ss_scene scene = scene_of(names[i]);
+            ss_signal *signal = NULL;
+            ss_features *whole = NULL, *f = NULL;
+            scene.settle = 20;
+            assert_int_equal(ss_simulate(&signal, &scene, NULL), SS_OK);
+            size_t column = (size_t)ss_header_column(signal->head, "a");
+            double *a = signal->values + column * signal->n;
+            if (k > 0)
+                ss_add_noise(a, signal->n, ss_noise_rms(a, signal->n, 40), 3);
+            signal->head->start = 7;
+            assert_int_equal(ss_features_find(&whole, signal, column, NULL, NULL), SS_OK);
+            assert_true(whole->n >= 15);
+            double release = whole->transition[7].end;
+            for (int g = 0; g < 12; g++) {
+                ss_signal *with = NULL;
+                char what[128];
+                double from = release + gap[g % 6].from;
+                size_t first = (size_t)(from * scene.rate), many = (size_t)(gap[g % 6].length * scene.rate);
+                snprintf(what, sizeof what, "%s, %s, gap %d", names[i], k ? "40 dB" : "clean", g);
+                assert_int_equal(ss_signal_select(&with, signal, &column, 1, 0, signal->n), SS_OK);
+                make_gap(with, 0, first, many, g >= 6);
+                assert_int_equal(ss_features_find(&f, with, 0, NULL, NULL), SS_OK);
+                from = (double)first / scene.rate;
+                double to = (double)(first + many) / scene.rate;
+                check_spikes(f, whole, from, to, what);
+                check_transitions(f, whole, from, to, what);
+                /* a gap makes no maximum prominent, nor moves what is fitted to the rest */
+                if (i == 0 && f->recurring > 0)
+                    fail_msg("%s: %zu local maxima", what, f->recurring);
+                if (i > 0 && !(fabs(f->frequency.value - whole->frequency.value)
+                               <= 2 * hypot(whole->frequency.error, f->frequency.error)))
+                    fail_msg("%s: %.9g Hz, not %.9g", what, f->frequency.value,
+                             whole->frequency.value);
+                if (!(fabs(f->slip_rate.value - whole->slip_rate.value) <= 0.01))
+                    fail_msg("%s: %g slips a second", what, f->slip_rate.value);
+                ss_features_free(f);
+                ss_signal_free(with);
+            }
+            ss_features_free(whole);
+            ss_signal_free(signal);
+        }
+}
+
 static void
 refuses_what_is_out_of_range(void **state)
 {
@@ -331,6 +452,7 @@ main(void)
         cmocka_unit_test(finds_nothing_in_noise_silence_and_short_records),
         cmocka_unit_test(the_forcing_is_no_harmonic),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),
+        cmocka_unit_test(gaps_leave_out_what_they_reach_and_nothing_else),
         cmocka_unit_test(refuses_what_is_out_of_range),
     };
     gsl_set_error_handler_off();

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "signal/gaps.h"
 #include <stickslip/spikes.h>
 
 #define ERROR 0.03
@@ -181,12 +182,16 @@ ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double 
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
-    double *scratch = malloc((2 * n + NARROWEST + 1) * sizeof *scratch);
+    double *scratch = malloc((3 * n + NARROWEST + 1) * sizeof *scratch);
     list.drop = malloc(sizeof *list.drop);
     list.room = 1;
     ss_status st = scratch != NULL && list.drop != NULL ? SS_OK : SS_ENOMEM;
-    if (st == SS_OK)
-        st = find(&list, x, n, rate, height, scratch);
+    if (st == SS_OK) {
+        double *bridged = scratch + 2 * n + NARROWEST + 1;
+        memcpy(bridged, x, n * sizeof *x);
+        ss_gaps_bridge(bridged, n, rate, gap, n_gaps);
+        st = find(&list, bridged, n, rate, height, scratch);
+    }
     free(scratch);
     if (st == SS_OK)
         leave_out(&list, gap, n_gaps);

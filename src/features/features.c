@@ -41,6 +41,7 @@ typedef struct search {
     ss_coefficients *coef;
     ss_maximum *found;          /* maxima, slight ones too */
     size_t n_found;
+    int spiked;                 /* transitions end with their last spike, anywhere before the next */
     ss_features *out;
 } search;
 
@@ -352,6 +353,7 @@ find_spiked(search *s)
     if (st != SS_OK)
         return st;
     out->n = 0;
+    s->spiked = 1;
     for (size_t i = 0; i < found->n; i++) {
         const ss_spike *spike = &found->spike[i];
         ss_transition *last = out->n > 0 ? &out->transition[out->n - 1] : NULL;
@@ -396,18 +398,30 @@ find_dropped(search *s)
     return st;
 }
 
-/* A spike that ends a transition may come a period behind what was fitted. */
+/* How far gaps reach for spikes as blunt as those found. */
+static double
+spike_reach(const ss_spikes_found *found)
+{
+    double f = INFINITY;
+    for (size_t i = 0; i < found->n; i++)
+        f = is_event(&found->spike[i]) ? fmin(f, found->spike[i].f) : f;
+    return 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * f);
+}
+
+/* Spikes that begin and end a transition may be half a period before and a period behind what was
+ * fitted. */
 static void
 count_spikes(const search *s)
 {
     ss_features *out = s->out;
     double period = isnan(out->frequency.value) ? 0 : 1 / out->frequency.value;
-    double reach = out->spikes->f > 0 ? 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * out->spikes->f) : 0;
+    double reach = spike_reach(out->spikes);
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
-        double half = 0.5 * (tr->end + period - tr->onset);
+        double next = i + 1 < out->n ? tr[1].onset : (double)s->n / s->rate;
+        double from = tr->onset - period / 2, to = s->spiked ? next : tr->end + period;
         tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES).n;
-        tr->gap = ss_near_gap(s->gap, s->n_gaps, tr->onset + half, half + reach);
+        tr->gap = ss_near_gap(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach);
     }
 }
 

@@ -13,7 +13,9 @@
  * to show in one window are looked for in all together, at the same distance from their starts.
  *
  * Errors: by the jackknife over windows, in its linearised form. What it cannot see is a misfit that
- * all windows share. */
+ * all windows share, of the slow part or the ends: that moves the fit as the windows change. So all
+ * are cut at their starts, or at their ends, and half of what that moves the fit by, noise apart, is
+ * added in quadrature. */
 #include "ringdown.h"
 
 #include <gsl/gsl_cdf.h>
@@ -654,6 +656,66 @@ jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
     return SS_OK;
 }
 
+/* The variances of w and s from the curvature of the sum of squares of all windows; *variance: of
+ * the samples, found if it is not known (negative). */
+static void
+variances(work *k, const ss_window *window, size_t n, double *variance, double of[2])
+{
+    normal all = { 0 };
+    ss_value value[2];
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (length(window[i]) == 0)
+            continue;
+        normal h = normal_of(k, window[i]);
+        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
+        all.rss += h.rss;
+        used++;
+    }
+    if (*variance < 0)
+        *variance = all.rss / (double)(total(window, n) - k->columns * used - 2);
+    errors_of_fit(&all, *variance, value);
+    of[0] = value[0].error * value[0].error;
+    of[1] = value[1].error * value[1].error;
+}
+
+/* Half of what w and s move by when all windows are cut by TRIM_END, at one end or the other, beyond
+ * what noise moves them by: its variance is that of the cut fit less that of the whole (Hausman
+ * 1978). */
+static ss_status
+add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    const double at[2] = { k->w, k->s };
+    double most[2] = { 0, 0 }, whole[2], less[2], variance = -1;
+    size_t off = periods(k, TRIM_END);
+    ss_window *cut_off = malloc(n * sizeof *cut_off);
+    ss_status st = cut_off != NULL ? SS_OK : SS_ENOMEM;
+    int ok;
+    if (st == SS_OK)
+        variances(k, window, n, &variance, whole);
+    for (int end = 0; end < 2 && st == SS_OK; end++) {
+        for (size_t i = 0; i < n; i++) {
+            cut_off[i] = window[i];
+            if (length(window[i]) > 0 && end)
+                cut_off[i].end -= off;
+            else if (length(window[i]) > 0)
+                cut_off[i].first += off;
+        }
+        st = fit(k, cut_off, n, FINE, &ok);
+        if (st == SS_OK && ok) {
+            variances(k, cut_off, n, &variance, less);
+            const double moved[2] = { k->w - at[0], k->s - at[1] };
+            for (int j = 0; j < 2; j++)
+                most[j] = fmax(most[j], moved[j] * moved[j] - fmax(less[j] - whole[j], 0));
+        }
+        k->w = at[0], k->s = at[1];
+    }
+    for (int j = 0; j < 2; j++)
+        value[j].error = sqrt(value[j].error * value[j].error + 0.25 * most[j]);
+    free(cut_off);
+    return st;
+}
+
 /* --- each transition by itself ------------------------------------------------------------- */
 
 static ss_status
@@ -810,6 +872,8 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
     value[0].value = k->w;
     value[1].value = k->s;
     st = jackknife(k, window, n, value);
+    if (st == SS_OK)
+        st = add_misfit(k, window, n, value);
     return st == SS_OK ? fit_each(k, window, n, each) : st;
 }
 
