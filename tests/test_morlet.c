@@ -10,6 +10,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
+#include "morlet/plan.h"            /* for ss_fft_singles */
 #include "morlet_oracle.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
@@ -158,6 +159,48 @@ long_scales_by_fft_keep_the_bound(void **state)
             free(w);
         }
     free(x);
+}
+
+/* Where accuracy leaves room for single precision, it is used, and the bound holds: scales by lattice
+ * and by interpolation, records of odd and of prime length, of any amplitude. */
+static void
+single_precision_keeps_the_bound(void **state)
+{
+    static const double accuracy[] = { 1e-3, 1e-4, 1e-5 }, center[] = { 2, 6, 60 };
+    static const double amplitude[] = { 1, 1e-300, 1e300 };
+    static const size_t length[] = { 3000, 3375, 3001 };
+    enum { N_MAX = 3375 };
+    double x[N_MAX];
+    (void)state;
+    for (size_t i = 0; i < LENGTH(accuracy); i++) {
+        size_t singles = 0, scales = 0;
+        for (size_t j = 0; j < 2 * LENGTH(center); j++)
+            for (kind which = 0; which < KINDS; which++) {
+                size_t turn = (i + j + which) % 3, n = length[turn];
+                ss_morlet_opts opts = ss_morlet_defaults;
+                opts.engine = SS_ENGINE_FFT, opts.accuracy = accuracy[i];
+                opts.center = center[j / 2], opts.dense = j % 2 == 0;
+                opts.voices = opts.dense ? 3 : 1, opts.step = 1;
+                make(which, x, n);
+                for (size_t k = 0; k < n; k++)
+                    x[k] *= amplitude[(i + j) % 3] / (which == OFFSET ? 1000 : 1);
+                ss_morlet *plan = plan_of(n, 2048, &opts);
+                double *w = transform(plan, x);
+                size_t used = ss_fft_singles(plan->fft), all = ss_morlet_scales(plan);
+                double worst = worst_error(plan, x, n, 2048, &opts, w, opts.dense ? 211 : 7);
+                if (!(worst <= 1))
+                    fail_msg("%s, n %zu, accuracy %g, center %g, %s: %g times the bound",
+                             kind_name[which], n, accuracy[i], opts.center,
+                             opts.dense ? "dense" : "dyadic", worst);
+                assert_true(used > 0);
+                singles += used;
+                scales += all;
+                ss_morlet_free(plan);
+                free(w);
+            }
+        print_message("accuracy %g: %zu of %zu scales in single precision\n", accuracy[i],
+                      singles, scales);
+    }
 }
 
 static void
@@ -1101,6 +1144,7 @@ main(void)
         cmocka_unit_test(error_of_the_sum_is_below_its_bound),
         cmocka_unit_test(forced_scales_keep_the_bound),
         cmocka_unit_test(long_scales_by_fft_keep_the_bound),
+        cmocka_unit_test(single_precision_keeps_the_bound),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(scales_come_one_by_one_to_the_last_bit),
         cmocka_unit_test(threads_may_plan_at_the_same_time),

@@ -29,8 +29,10 @@ typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } 
 typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
     SS_ENGINE_QUADRATURE,       /* the definition, wavelet truncated as far as accuracy allows */
-    SS_ENGINE_FFT               /* spectra, by FFTW; the definition for forced scales that are
-                                   narrower than two samples or longer than some ten records */
+    SS_ENGINE_FFT               /* spectra, by FFTW, in single precision where its rounding lies
+                                   within the accuracy (1e-5 at best); the definition for forced
+                                   scales that are narrower than two samples or longer than some
+                                   ten records */
 } ss_engine;
 
 enum { SS_THREADS_MAX = 256 };
@@ -174,6 +176,7 @@ typedef struct ss_coefficients {
     double *w;                  /* re, im; NULL where only the grid is known */
     ss_span *gap;               /* where others stand in for samples, from head's note, or NULL */
     size_t n_gaps;
+    size_t n_single;            /* scales that ss_transform computed in single precision */
 } ss_coefficients;
 
 /* The simple case: transform one column of a signal. */

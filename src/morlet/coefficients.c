@@ -128,7 +128,9 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
     if (coef->scale == NULL || coef->w == NULL)
         return SS_ENOMEM;
     memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
-    return ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
+    st = ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
+    coef->n_single = ss_fft_singles(plan->fft);
+    return st;
 }
 
 ss_status

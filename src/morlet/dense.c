@@ -2,23 +2,33 @@
  *
  * Places between points repeat, and so do their weights: they are a table of LANES places side by
  * side, over the points that any of the LANES needs, with zeros where a place does not need one.
- * The inner loop is then a product of that table with points, ROWS places of the pattern at once,
- * and its results lie side by side in the output.  The carrier at a place is a product of
- * exponentials for the place in its LANES, and for these in 8, in 64 and in the record. */
+ * Weights stand there twice, for re and im, which lie side by side in the series as in the output.
+ * The inner loop is then a product of that table with points, ROWS places of the pattern at once.
+ * The carrier at a place is that at its place in the pattern times that of its row, a pattern's
+ * length; for rows it is a product of two tables.
+ *
+ * All of it exists for double and for single precision, whose coefficients become double when they
+ * are written. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "morlet/dense.h"
 #include "morlet/versions.h"
+#ifdef HAVE_TARGETS
+#include <immintrin.h>
+#endif
 
-enum { LANES = 8, ROWS = 4, ROOT = 8, GROUP_MAX = ROWS * LANES * DENSE_PHASES_MAX };
+enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASES_MAX,
+    LINE = 64 };                /* bytes; vectors that lie in one are read at once */
 
 struct weights {
+    int single;
     size_t phases;
     size_t blocks, points;      /* of LANES places, and points, after which the pattern repeats */
     int taps, lead;             /* of a block; points before the place's own that tap 0 is */
-    double weight[];            /* [blocks][taps][LANES] */
+    size_t *late;               /* [blocks], points before a block's */
+    void *weight;               /* [blocks][taps][LANES][2] */
 };
 
 static size_t
@@ -32,29 +42,52 @@ divisor(size_t a, size_t b)
     return a;
 }
 
+static void *
+aligned(void *p)
+{
+    return (char *)p + (LINE - (uintptr_t)p % LINE) % LINE;
+}
+
+/* x becomes number i, in the precision that is used. */
+static inline void
+store(void *to, int single, size_t i, double x)
+{
+    if (single)
+        ((float *)to)[i] = (float)x;
+    else
+        ((double *)to)[i] = x;
+}
+
 weights *
-ss_dense_new(const kaiser *ker, size_t phases)
+ss_dense_new(const kaiser *ker, size_t phases, int single)
 {
     size_t common = divisor(phases, LANES), blocks = phases / common, extra = 0;
     for (size_t m = 0; m < blocks; m++) {
         size_t span = (m * LANES + LANES - 1) / phases - m * LANES / phases;
         extra = span > extra ? span : extra;
     }
-    size_t taps = (size_t)ker->taps + extra;
-    weights *d = calloc(1, sizeof *d + blocks * taps * LANES * sizeof *d->weight);
+    size_t taps = (size_t)ker->taps + extra, late = blocks * sizeof(size_t);
+    weights *d = calloc(1, sizeof *d + late + LINE + blocks * taps * LANES * 2 * sizeof(double));
     if (d == NULL)
         return NULL;
+    d->single = single;
     d->phases = phases;
     d->blocks = blocks;
     d->points = LANES / common;
     d->taps = (int)taps;
     d->lead = ker->taps / 2 - 1;
+    d->late = (size_t *)(d + 1);
+    d->weight = aligned(d->late + blocks);
     for (size_t c = 0; c < blocks * LANES; c++) {
         double weight[KAISER_TAPS_MAX];
-        size_t block = c / LANES, late = c / phases - block * LANES / phases;
+        size_t block = c / LANES, own = c / phases;
+        d->late[block] = block * LANES / phases;
         ss_kaiser_weights(ker, (double)(c % phases) / (double)phases, weight);
-        for (size_t i = 0; i < (size_t)ker->taps; i++)
-            d->weight[(block * taps + late + i) * LANES + c % LANES] = weight[i];
+        for (size_t i = 0; i < (size_t)ker->taps; i++) {
+            size_t at = (block * taps + own - d->late[block] + i) * LANES + c % LANES;
+            store(d->weight, single, 2 * at, weight[i]);
+            store(d->weight, single, 2 * at + 1, weight[i]);
+        }
     }
     return d;
 }
@@ -76,7 +109,7 @@ turn(size_t k, size_t c, size_t m, double e[2])
     e[1] = sin(p);
 }
 
-static void
+static inline void
 multiply(const double a[2], const double b[2], double e[2])
 {
     double re = a[0] * b[0] - a[1] * b[1];
@@ -85,137 +118,155 @@ multiply(const double a[2], const double b[2], double e[2])
 }
 
 typedef struct carrier {
-    double lane[2][LANES];              /* re, im; times the factor */
-    double block[ROOT * ROOT][2];
-    double (*far)[2];                   /* for every ROOT^2 blocks */
+    double near[ROOT * ROOT][2];        /* of rows */
+    double (*far)[2];                   /* of every ROOT^2 rows */
+    void *places;                       /* [blocks][2][LANES][2]: re and re, -im and im */
 } carrier;
 
-static void
-make_carrier(carrier *to, size_t turns, size_t circle, size_t first, size_t n, double factor,
-             double *spare)
+static inline void
+row_carrier(const carrier *from, size_t row, double e[2])
 {
-    double coarse[2], fine[ROOT][2];
+    multiply(from->far[row / (ROOT * ROOT)], from->near[row % (ROOT * ROOT)], e);
+}
+
+/* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), by squares: their errors are some eps. */
+static void
+powers(size_t k, size_t c, size_t m, double e[ROOT][2])
+{
+    e[0][0] = 1;
+    e[0][1] = 0;
+    turn(k, c, m, e[1]);
+    for (size_t i = 2; i < ROOT; i++)
+        multiply(e[i / 2], e[i - i / 2], e[i]);
+}
+
+/* first: the place of row 0; factor: of places. */
+static void
+make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t first, size_t rows,
+             double factor, double *spare)
+{
+    size_t width = d->blocks * LANES;
+    double coarse[ROOT][2], fine[ROOT][2], e[2];
+    powers(turns, width, circle, fine);
+    powers(turns, ROOT * width, circle, coarse);
     for (size_t i = 0; i < ROOT; i++)
-        turn(turns, i * LANES, circle, fine[i]);
-    for (size_t i = 0; i < ROOT; i++) {
-        turn(turns, i * ROOT * LANES, circle, coarse);
         for (size_t j = 0; j < ROOT; j++)
-            /* cppcheck-suppress uninitvar ; it is written here */
-            multiply(coarse, fine[j], to->block[i * ROOT + j]);
+            multiply(coarse[i], fine[j], to->near[i * ROOT + j]);
+    to->far = (double (*)[2])(spare + 4 * width);
+    for (size_t i = 0; i * ROOT * ROOT < rows; i++)
+        turn(turns, first + i * ROOT * ROOT * width, circle, to->far[i]);
+    to->places = spare;
+    powers(turns, 1, circle, fine);
+    for (size_t m = 0; m < d->blocks; m++) {
+        turn(turns, m * LANES, circle, coarse[0]);
+        for (size_t i = 0; i < LANES; i++) {
+            size_t at = 2 * (2 * m * LANES + i);
+            multiply(coarse[0], fine[i], e);
+            store(to->places, d->single, at, e[0] * factor);
+            store(to->places, d->single, at + 1, e[0] * factor);
+            store(to->places, d->single, at + 2 * LANES, -e[1] * factor);
+            store(to->places, d->single, at + 2 * LANES + 1, e[1] * factor);
+        }
     }
-    for (size_t i = 0; i < LANES; i++) {
-        turn(turns, first + i, circle, coarse);
-        to->lane[0][i] = coarse[0] * factor;
-        to->lane[1][i] = coarse[1] * factor;
-    }
-    to->far = (double (*)[2])spare;
-    for (size_t i = 0; i * ROOT * ROOT * LANES < n; i++)
-        turn(turns, i * ROOT * ROOT * LANES, circle, to->far[i]);
 }
 
 /* --- the loop --------------------------------------------------------------------------------- */
 
-typedef struct rows {
-    int taps;
-    size_t apart, stride;               /* points, and doubles of w, from one row to the next */
-    const carrier *carrier;
-} rows;
+/* Groups g <= ... < end of ROWS rows; most[...] become the largest |W|^2 for factor 1 of the first
+ * row of each. */
+typedef void put_groups(const weights *d, const void *series, size_t g, size_t end,
+                        const carrier *turning, double factor, double *w, double most[2 * LANES]);
 
-/* Sums times the carrier e of the block are coefficients. */
-static inline void
-put_lanes(const rows *r, const double x[LANES], const double y[LANES], const double e[2], double *w,
-          double most[LANES])
-{
-    const double *re = r->carrier->lane[0], *im = r->carrier->lane[1];
-    for (size_t l = 0; l < LANES; l++) {
-        double c = e[0] * re[l] - e[1] * im[l], s = e[0] * im[l] + e[1] * re[l];
-        double size = x[l] * x[l] + y[l] * y[l];
-        most[l] = size > most[l] ? size : most[l];
-        w[2 * l] = x[l] * c - y[l] * s;
-        w[2 * l + 1] = x[l] * s + y[l] * c;
-    }
-}
+#define SWAP_2 { x[1], x[0] }
+#define SWAP_4 { x[1], x[0], x[3], x[2] }
+#define SWAP_8 { x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6] }
+#define SWAP_16 { x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6], \
+                  x[9], x[8], x[11], x[10], x[13], x[12], x[15], x[14] }
 
-typedef void put_rows(const rows *r, const double *v, const double *weight, double e[][2],
-                      double *w, double most[LANES]);
-
-#define ROWS_NAME rows_16
+#define LOOP double_16
+#define REAL double
 #define WIDTH 2
-#define HELD 1
 #define TARGET FAST
+#define PAIR(p) (VECTOR){ (p)[0], (p)[1] }
+#include "morlet/dense_loop.h"
+
+#define LOOP float_16
+#define REAL float
+#define WIDTH 4
+#define TARGET FAST
+#define PAIR(p) (VECTOR){ (p)[0], (p)[1], (p)[0], (p)[1] }
 #include "morlet/dense_loop.h"
 
 #ifdef HAVE_TARGETS
-#define ROWS_NAME rows_32
+#define LOOP double_32
+#define REAL double
 #define WIDTH 4
-#define HELD 2
-#define TARGET FAST_FOR("avx2")
+#define TARGET FAST_FOR("avx2,fma")
+#define PAIR(p) (VECTOR){ (p)[0], (p)[1], (p)[0], (p)[1] }
 #include "morlet/dense_loop.h"
 
-#define ROWS_NAME rows_64
+#define LOOP float_32
+#define REAL float
 #define WIDTH 8
-#define HELD 4
+#define TARGET FAST_FOR("avx2,fma")
+#define PAIR(p) (VECTOR)_mm256_broadcastq_epi64(_mm_loadl_epi64((const __m128i *)(p)))
+#include "morlet/dense_loop.h"
+
+#define LOOP double_64
+#define REAL double
+#define WIDTH 8
 #define TARGET FAST_FOR("avx512f")
+#define PAIR(p) (VECTOR)_mm512_broadcast_f32x4(_mm_loadu_ps((const float *)(p)))
+#include "morlet/dense_loop.h"
+
+#define LOOP float_64
+#define REAL float
+#define WIDTH 16
+#define TARGET FAST_FOR("avx512f")
+#define PAIR(p) (VECTOR)_mm512_broadcastq_epi64(_mm_loadl_epi64((const __m128i *)(p)))
 #include "morlet/dense_loop.h"
 #endif
 
-static put_rows *
-best_rows(void)
+static put_groups *
+best_loop(int single)
 {
 #ifdef HAVE_TARGETS
     if (__builtin_cpu_supports("avx512f"))
-        return rows_64;
-    if (__builtin_cpu_supports("avx2"))
-        return rows_32;
+        return single ? float_64 : double_64;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        return single ? float_32 : double_32;
 #endif
-    return rows_16;
+    return single ? float_16 : double_16;
 }
 
 size_t
 ss_dense_room(size_t n)
 {
-    return 2 * ((n + GROUP_MAX) / (ROOT * ROOT * LANES) + 1 + GROUP_MAX);
-}
-
-/* ROWS rows from one on, a row being the pattern once. */
-static void
-put_group(const weights *d, const rows *r, put_rows *put, const double *v, size_t row, double *w,
-          double most[LANES])
-{
-    for (size_t m = 0; m < d->blocks; m++) {
-        double e[ROWS][2];
-        for (size_t i = 0; i < ROWS; i++) {
-            size_t block = (row + i) * d->blocks + m;
-            multiply(r->carrier->far[block / (ROOT * ROOT)],
-                     r->carrier->block[block % (ROOT * ROOT)], e[i]);
-        }
-        const double *from = v + 2 * (row * d->points + m * LANES / d->phases);
-        put(r, from, d->weight + m * (size_t)d->taps * LANES, e, w + 2 * m * LANES, most);
-    }
+    return LINE / sizeof(double) + 4 * LANES * DENSE_PHASES_MAX
+        + 2 * ((n + GROUP_MAX) / (ROOT * ROOT * LANES) + 1) + 2 * GROUP_MAX;
 }
 
 double
-ss_dense_put(const weights *d, const double *v, size_t turns, size_t circle, size_t first,
+ss_dense_put(const weights *d, const void *series, size_t turns, size_t circle, size_t first,
              size_t n, double factor, double *spare, double *w)
 {
     carrier turning;
-    size_t row = 0, group = ROWS * d->blocks * LANES, c = 0;
-    double most[LANES] = { 0 }, largest = 0, beyond[LANES] = { 0 };
-    rows r = { .taps = d->taps, .apart = d->points, .stride = 2 * d->blocks * LANES,
-               .carrier = &turning };
-    put_rows *put = best_rows();
+    size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
+    double of_places = d->single ? 1 : factor, most[2 * LANES], largest = 0;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
-    make_carrier(&turning, turns, circle, first, n + group, factor, spare);
-    v += 2 * ((ptrdiff_t)(first / d->phases) - d->lead);
-    for (; c + group <= n; c += group, row += ROWS)
-        put_group(d, &r, put, v, row, w + 2 * c, most);
-    if (c < n) {
-        put_group(d, &r, put, v, row, last, beyond);
-        memcpy(w + 2 * c, last, 2 * (n - c) * sizeof *w);
-    }
-    for (size_t l = 0; l < LANES; l++)
+    put_groups *put = best_loop(d->single);
+    ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
+    const char *from = (const char *)series
+        + 2 * point * (ptrdiff_t)(d->single ? sizeof(float) : sizeof(double));
+    make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, of_places, aligned(spare));
+    put(d, from, 0, whole, &turning, factor, w, most);
+    for (size_t l = 0; l < 2 * LANES; l++)
         largest = fmax(largest, most[l]);
-    for (size_t i = 0; c + i < n; i++) {
+    if (rest > 0) {
+        put(d, from, whole, whole + 1, &turning, factor, last, most);
+        memcpy(w + 2 * whole * group, last, 2 * rest * sizeof *w);
+    }
+    for (size_t i = 0; i < rest; i++) {
         double re = last[2 * i] / factor, im = last[2 * i + 1] / factor;
         largest = fmax(largest, re * re + im * im);
     }

@@ -1,46 +1,107 @@
-/* dense_loop.h -- the loop of dense.c, for vectors of WIDTH doubles, with HELD rows in registers.
+/* dense_loop.h -- the loop of dense.c, for vectors of WIDTH numbers of type REAL.
  *
- * Included once for each of them, with ROWS_NAME, WIDTH, HELD and TARGET defined. */
-#define ROWS_JOIN2(a, b) a##b
-#define ROWS_JOIN(a, b) ROWS_JOIN2(a, b)
-#define VECTOR ROWS_JOIN(ROWS_NAME, _vector)
+ * Included once for each of them, with LOOP, REAL, WIDTH, TARGET and PAIR(p) defined: a vector that
+ * repeats the two numbers at p. */
+#define LOOP_JOIN2(a, b) a##b
+#define LOOP_JOIN(a, b) LOOP_JOIN2(a, b)
+#define VECTOR LOOP_JOIN(LOOP, _vector)
+#define SWAP_JOIN(width) LOOP_JOIN(SWAP_, width)
 
-enum { ROWS_JOIN(ROWS_NAME, _parts) = LANES / WIDTH };
-typedef double VECTOR __attribute__((vector_size(8 * WIDTH)));
+typedef REAL VECTOR __attribute__((vector_size(WIDTH * sizeof(REAL))));
 
-TARGET static void
-ROWS_NAME(const rows *r, const double *v, const double *weight, double e[][2], double *w,
-          double most[LANES])
+/* Re and im of each place change places. */
+TARGET static inline VECTOR
+LOOP_JOIN(LOOP, _swap)(VECTOR x)
 {
-    enum { PARTS = ROWS_JOIN(ROWS_NAME, _parts) };
-    for (size_t first = 0; first < ROWS; first += HELD) {
-        const double *from = v + 2 * first * r->apart;
-        VECTOR re[HELD][PARTS] = { 0 }, im[HELD][PARTS] = { 0 };
-        for (int t = 0; t < r->taps; t++) {
-            VECTOR k[PARTS];
-            memcpy(k, weight + t * LANES, sizeof k);
-            UNROLL
-            for (size_t i = 0; i < HELD; i++)
-                UNROLL
-                for (size_t p = 0; p < PARTS; p++) {
-                    re[i][p] += k[p] * from[2 * ((size_t)t + i * r->apart)];
-                    im[i][p] += k[p] * from[2 * ((size_t)t + i * r->apart) + 1];
-                }
-        }
-        UNROLL
-        for (size_t i = 0; i < HELD; i++) {
-            double x[LANES], y[LANES];
-            memcpy(x, re[i], sizeof x);
-            memcpy(y, im[i], sizeof y);
-            put_lanes(r, x, y, e[first + i], w + (first + i) * r->stride, most);
-        }
-    }
+    return (VECTOR)SWAP_JOIN(WIDTH);
 }
 
-#undef ROWS_JOIN2
-#undef ROWS_JOIN
+/* WIDTH/2 coefficients. */
+TARGET static inline void
+LOOP_JOIN(LOOP, _put)(VECTOR x, double factor, double *w)
+{
+    if (sizeof(REAL) == sizeof(double)) {
+        memcpy(w, &x, sizeof x);
+        return;
+    }
+    REAL part[WIDTH];
+    memcpy(part, &x, sizeof part);
+    for (int i = 0; i < WIDTH; i++)
+        w[i] = part[i] * factor;
+}
+
+TARGET static void
+LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *turning,
+     double factor, double *w, double most[2 * LANES])
+{
+    enum { PARTS = 2 * LANES / WIDTH, HELD = 8 / PARTS < ROWS ? 8 / PARTS : ROWS };
+    const REAL *v = series, *all_weights = d->weight, *places = turning->places;
+    const size_t blocks = d->blocks, points = d->points, *late = d->late;
+    const int taps = d->taps;
+    VECTOR largest[PARTS] = { 0 };
+    for (; g < end; g++) {
+        REAL e[ROWS][4];            /* of each row, the carrier's re, re, -im, im */
+        for (size_t i = 0; i < ROWS; i++) {
+            double turn[2];
+            row_carrier(turning, g * ROWS + i, turn);
+            e[i][0] = e[i][1] = (REAL)turn[0];
+            e[i][2] = -(e[i][3] = (REAL)turn[1]);
+        }
+        for (size_t m = 0; m < blocks; m++) {
+            const REAL *weight = all_weights + m * (size_t)taps * 2 * LANES;
+            const REAL *of_places = places + m * 4 * LANES;
+            double *to = w + 2 * m * LANES;
+            for (size_t first = 0; first < ROWS; first += HELD) {
+                const REAL *from = v + 2 * ((g * ROWS + first) * points + late[m]);
+                VECTOR sum[HELD][PARTS] = { 0 };
+                for (int t = 0; t < taps; t++) {
+                    VECTOR k[PARTS];
+                    memcpy(k, weight + t * 2 * LANES, sizeof k);
+                    UNROLL
+                    for (size_t i = 0; i < HELD; i++) {
+                        VECTOR point = PAIR(from + 2 * ((size_t)t + i * points));
+                        UNROLL
+                        for (size_t p = 0; p < PARTS; p++)
+                            sum[i][p] += k[p] * point;
+                    }
+                }
+                UNROLL
+                for (size_t i = 0; i < HELD; i++) {
+                    VECTOR c = PAIR(e[first + i]), s = PAIR(e[first + i] + 2);
+                    UNROLL
+                    for (size_t p = 0; p < PARTS; p++) {
+                        VECTOR x = sum[i][p], place[2];
+                        if (first + i == 0) {
+                            VECTOR size = x * x;
+                            size += LOOP_JOIN(LOOP, _swap)(size);
+                            __typeof__(size > size) more = size > largest[p];
+                            largest[p] = (VECTOR)((more & (__typeof__(more))size)
+                                                  | (~more & (__typeof__(more))largest[p]));
+                        }
+                        memcpy(&place[0], of_places + p * WIDTH, sizeof place[0]);
+                        memcpy(&place[1], of_places + 2 * LANES + p * WIDTH, sizeof place[1]);
+                        x = x * c + LOOP_JOIN(LOOP, _swap)(x) * s;
+                        x = x * place[0] + LOOP_JOIN(LOOP, _swap)(x) * place[1];
+                        LOOP_JOIN(LOOP, _put)(x, factor,
+                                              to + 2 * (first + i) * blocks * LANES + p * WIDTH);
+                    }
+                }
+            }
+        }
+        w += 2 * ROWS * blocks * LANES;
+    }
+    REAL sizes[2 * LANES];
+    memcpy(sizes, largest, sizeof sizes);
+    for (size_t l = 0; l < 2 * LANES; l++)
+        most[l] = sizes[l];
+}
+
+#undef LOOP_JOIN2
+#undef LOOP_JOIN
+#undef SWAP_JOIN
 #undef VECTOR
-#undef ROWS_NAME
+#undef LOOP
+#undef REAL
 #undef WIDTH
-#undef HELD
 #undef TARGET
+#undef PAIR

@@ -34,9 +34,11 @@
  * of FFTW in the program must not plan at the same time. */
 #include <stdio.h>         /* before it, for files of wisdom */
 #include <fftw3.h>
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +48,7 @@
 #include "morlet/plan.h"
 #include "morlet/versions.h"
 
+#define UNDERFLOW 0x1p-126            /* of a point in single precision, a term */
 #define EDGE_MAX 0.4                /* of a kernel's band, in cycles a point */
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 
@@ -76,23 +79,31 @@ typedef struct level {
     size_t block;                   /* terms of the spectrum whose sizes are summed up together */
 } level;
 
+/* How a scale is computed: in one of these ways after the other, until the bound on its error lies
+ * within the promise. */
+typedef enum way { SINGLE, FIRST, LAST, WAYS } way;
+
 typedef struct route {
     enum { BY_SUM, LATTICE, DENSE, ANYWHERE } kind;
     int level;
     size_t length;                  /* L */
     fftw_plan inverse;              /* owned by the list of them */
-    const weights *weights[2];          /* for each bound; owned likewise */
+    fftwf_plan single;              /* NULL: never in single precision; owned likewise */
+    double rounding;                /* that adds to a coefficient, over the sum of terms' sizes */
+    const weights *weights[WAYS];     /* of those that are dense; owned likewise */
 } route;
 
 typedef struct table {
     const kaiser *kernel;
     size_t phases;
+    int single;
     weights *weights;
 } table;
 
 typedef struct inverse {
     size_t length;
     fftw_plan plan;
+    fftwf_plan single;
 } inverse;
 
 struct fft {
@@ -109,6 +120,7 @@ struct fft {
     kaiser *kernel[2][KERNELS];     /* for each bound; NULL: none needed */
     double cost;                    /* of all that is done here, about [s] */
     int no_memory;                  /* for one of them */
+    atomic_size_t singles;          /* scales computed in single precision so far */
     table *table;
     size_t tables;
 };
@@ -199,36 +211,13 @@ exponentials(const double *restrict y, double scale, double *restrict g)
         g[i] *= k[i] * scale;
 }
 
-/* to += g x over n terms, of which term k of the spectrum of m points is the first. */
-VERSIONS static void
-add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, double *to,
-          size_t length, size_t at)
-{
-    while (n > 0) {
-        ptrdiff_t r = k % (ptrdiff_t)m;
-        size_t from = (size_t)(r < 0 ? r + (ptrdiff_t)m : r);
-        int mirrored = from > m / 2;        /* of a real signal, X_-k = conj X_k */
-        size_t run = mirrored ? m - from : m / 2 + 1 - from;
-        run = run < n ? run : n;
-        run = run < length - at ? run : length - at;
-        double *out = to + 2 * at;
-        if (mirrored)
-            for (size_t i = 0; i < run; i++) {
-                const double *in = x + 2 * (m - from - i);
-                out[2 * i] += g[i] * in[0];
-                out[2 * i + 1] -= g[i] * in[1];
-            }
-        else
-            for (size_t i = 0; i < run; i++) {
-                out[2 * i] += g[i] * x[2 * (from + i)];
-                out[2 * i + 1] += g[i] * x[2 * (from + i) + 1];
-            }
-        g += run;
-        n -= run;
-        k += (ptrdiff_t)run;
-        at = (at + run) % length;
-    }
-}
+#define REAL double
+#define NAMED(name) name
+#include "morlet/points.h"
+
+#define REAL float
+#define NAMED(name) name##_single
+#include "morlet/points.h"
 
 /* The admissible wavelet's second term, v being that of the first: y becomes its exponents. */
 static void
@@ -245,16 +234,16 @@ subtract_second(const struct fft *f, double u, double h, double v, double *y, do
         g[i] -= second[i];
 }
 
-/* The L values of the series in units of a^1/2: term k at k - origin modulo L of c, which may be v,
- * divided by the response of ker, unless that is NULL. */
+/* Terms in units of a^1/2 times unit, divided by the response of ker, unless that is NULL: term k at
+ * k - origin modulo L of c. */
 static void
-series(const struct fft *f, const route *r, const band *b, const double *x, ptrdiff_t origin,
-       const kaiser *ker, double *v, double *c)
+terms(const struct fft *f, const route *r, const band *b, const double *x, ptrdiff_t origin,
+      const kaiser *ker, int single, double unit, void *c)
 {
     const level *lev = &f->level[r->level];
     ptrdiff_t length = (ptrdiff_t)r->length, k = b->lo;
-    double scale = PI_M14 * sqrt(2 * M_PI) / (double)lev->points / (double)lev->samples;
-    memset(c, 0, 2 * r->length * sizeof *c);
+    double scale = PI_M14 * sqrt(2 * M_PI) / (double)lev->points / (double)lev->samples / unit;
+    memset(c, 0, 2 * r->length * (single ? sizeof(float) : sizeof(double)));
     while (k <= b->hi) {
         double g[TERMS], y[TERMS], first = fma((double)k, b->h, -f->center) + (double)k * b->h_low;
         size_t n = b->hi - k < TERMS ? (size_t)(b->hi - k) + 1 : TERMS;
@@ -264,21 +253,13 @@ series(const struct fft *f, const route *r, const band *b, const double *x, ptrd
         exponentials(y, scale, g);
         if (f->second > 0)
             subtract_second(f, (double)k * b->h, b->h, first, y, scale, g);
-        ptrdiff_t at = (k - origin) % length;
-        add_terms(x, lev->points, k, g, n, c, r->length, (size_t)(at < 0 ? at + length : at));
+        ptrdiff_t rest = (k - origin) % length;
+        size_t at = (size_t)(rest < 0 ? rest + length : rest);
+        if (single)
+            add_terms_single(x, lev->points, k, g, n, c, r->length, at);
+        else
+            add_terms(x, lev->points, k, g, n, c, r->length, at);
         k += (ptrdiff_t)n;
-    }
-    fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
-}
-
-/* Make the points before and after the circle repeat it. */
-static void
-close_circle(double *v, size_t length)
-{
-    for (size_t i = 0; i < MARGIN; i++) {
-        size_t left = (length - 1 - i % length), right = i % length;
-        memcpy(v - 2 * (i + 1), v + 2 * left, 2 * sizeof *v);
-        memcpy(v + 2 * (length + i), v + 2 * right, 2 * sizeof *v);
     }
 }
 
@@ -296,29 +277,6 @@ static size_t
 phases_of(const level *lev, const route *r)
 {
     return circle_of(lev) / r->length;
-}
-
-/* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
-VERSIONS static double
-put_lattice(const double *restrict v, size_t n, double factor, double *restrict w)
-{
-    double most[LANES] = { 0 };
-    size_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (size_t l = 0; l < LANES; l++) {
-            double re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
-            most[l] = size > most[l] ? size : most[l];
-            w[2 * (i + l)] = re * factor;
-            w[2 * (i + l) + 1] = im * factor;
-        }
-    for (; i < n; i++) {
-        most[0] = fmax(most[0], v[2 * i] * v[2 * i] + v[2 * i + 1] * v[2 * i + 1]);
-        w[2 * i] = v[2 * i] * factor;
-        w[2 * i + 1] = v[2 * i + 1] * factor;
-    }
-    for (size_t l = 1; l < LANES; l++)
-        most[0] = fmax(most[0], most[l]);
-    return most[0];
 }
 
 /* ANYWHERE: each coefficient at its own b, tau samples after sample c. */
@@ -464,49 +422,147 @@ terms_of(const struct fft *f, double *v)
     return v + 2 * (f->longest + MARGIN);
 }
 
-/* One pass over part of a scale at one of the bounds.  Returns the largest |W|^2. */
+/* --- single precision ------------------------------------------------------------------------- */
+
+/* What rounding in single precision adds to any coefficient, over the sum of the sizes of the terms.
+ *
+ * With u = 2^-24, to first order, as a part of that sum: u for the terms themselves.  In the FFT
+ * every point is a sum of all terms times roots of unity, which passes one butterfly for each prime
+ * p of L.  Such a butterfly of 2 adds a term, u, after it has been multiplied by a root, which is
+ * sqrt(5) u (Brent, Percival and Zimmermann 2007) and u for the root's own rounding; where FFTW keeps
+ * few roots and multiplies them, some of them have 3 u more for each product, and one product per
+ * codelet of 8 or more: 6 u for each 2 in L is more than all of that.  Butterflies of 3, 5 and 7 add
+ * pairs and multiply them by sines and cosines, which for 5 are taken apart once more: with k
+ * operations in a row and coefficients whose sizes add up to s, s k u and the root, with 3: s = 1.37
+ * and k = 4; 5: 1.76 and 6.5; 7: 1.42 and 7, and the root: below 11, 17 and 19 u.  (Higham 2002,
+ * section 24.1, has the like for the 2-norm, which for the largest error gives no more.)
+ * Interpolation rounds weights, products and sums of taps, and two products with carriers: the
+ * weights are positive and their sum is 1 but for images.  2 % are more than the higher orders.
+ *
+ * Other primes: there is no such bound, infinity. */
 static double
-pass(const ss_morlet *plan, size_t i, const double *x, ptrdiff_t origin, span part, int round,
-     double *v, double factor, double *w)
+single_rounding(size_t length, int taps)
+{
+    static const struct { size_t prime; double u; } butterfly[] = {
+        { 2, 5 }, { 3, 11 }, { 5, 17 }, { 7, 19 }
+    };
+    double sum = taps > 0 ? taps + 10 : 1;
+    for (size_t i = 0; i < sizeof butterfly / sizeof *butterfly; i++)
+        for (; length % butterfly[i].prime == 0; length /= butterfly[i].prime)
+            sum += butterfly[i].u;
+    return length == 1 ? 1.02 * sum * FLT_EPSILON / 2 : INFINITY;
+}
+
+/* Add sums of |c|, up to 8 % too large, and |c|^2. */
+VERSIONS static void
+sum_terms(const float *restrict c, size_t n, double *size, double *square)
+{
+    enum { MANY = 2 * LANES, BLOCK = 64 * MANY };   /* sums in single precision of a block only */
+    for (size_t i = 0; i < n; i += BLOCK) {
+        float sizes[MANY] = { 0 }, squares[MANY] = { 0 };
+        size_t end = n - i < BLOCK ? n : i + BLOCK, j = i;
+        for (; j + MANY <= end; j += MANY)
+            for (size_t l = 0; l < MANY; l++) {
+                float re = fabsf(c[2 * (j + l)]), im = fabsf(c[2 * (j + l) + 1]);
+                float more = re > im ? re : im, less = re > im ? im : re;
+                sizes[l] += more + 0.4142136f * less;
+                squares[l] += re * re + im * im;
+            }
+        for (; j < end; j++) {
+            sizes[0] += fabsf(c[2 * j]) + fabsf(c[2 * j + 1]);
+            squares[0] += c[2 * j] * c[2 * j] + c[2 * j + 1] * c[2 * j + 1];
+        }
+        for (size_t l = 0; l < MANY; l++) {
+            *size += (double)sizes[l];
+            *square += (double)squares[l];
+        }
+    }
+}
+
+/* What rounding may add to a coefficient.  *likely: the largest |W| of noise of this power. */
+static double
+rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, double *likely)
+{
+    double size = 0, square = 0;
+    ptrdiff_t length = (ptrdiff_t)r->length, rest = (b->lo - origin) % length;
+    size_t at = (size_t)(rest < 0 ? rest + length : rest), n = (size_t)(b->hi - b->lo) + 1;
+    n = n < r->length ? n : r->length;
+    size_t first = n < r->length - at ? n : r->length - at;
+    sum_terms(c + 2 * at, first, &size, &square);
+    sum_terms(c, n - first, &size, &square);
+    *likely = 3 * sqrt(square);
+    return r->rounding * size + UNDERFLOW * (double)r->length;
+}
+
+/* One pass over part of a scale.  Returns the largest |W|; *rounding is what single precision may
+ * have added, or infinity if it is too much: then nothing is done. */
+static double
+pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span part, way how,
+     double *v, double factor, double *w, double *rounding)
 {
     const struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const ss_scale *scale = &plan->scale[i];
     const level *lev = &f->level[r->level];
-    band b = band_of(f, lev, scale->a, f->half[round]);
-    const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, round);
-    series(f, r, &b, x, r->kind == LATTICE ? 0 : b.mid, ker, v,
-           r->length > APART ? v : terms_of(f, v));
+    int single = how == SINGLE, bound = how == LAST;
+    band b = band_of(f, lev, scale->a, f->half[bound]);
+    const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, bound);
+    double unit = single ? ldexp(1, ilogb(rec->x_max)) : 1;
+    double *c = r->length > APART ? v : terms_of(f, v);
+    ptrdiff_t origin = r->kind == LATTICE ? 0 : b.mid;
+    terms(f, r, &b, x, origin, ker, single, unit, c);
+    *rounding = 0;
+    if (single) {
+        double likely;
+        *rounding = unit * rounding_of(r, &b, origin, (float *)c, &likely);
+        if (*rounding > plan->opts.accuracy * unit * likely * 0.7)
+            *rounding = INFINITY;
+        if (isinf(*rounding))
+            return 0;
+        fftwf_execute_dft(r->single, (fftwf_complex *)c, (fftwf_complex *)v);
+    } else
+        fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
+    factor *= unit;
     if (r->kind == LATTICE) {
-        double before = rint((double)origin / step_of(lev, r));
+        double before = rint((double)rec->origin / step_of(lev, r));
         ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
-        return put_lattice(v + 2 * first, part.n, factor, w);
+        double most = single ? put_lattice_single((float *)v + 2 * first, part.n, factor, w)
+            : put_lattice(v + 2 * first, part.n, factor, w);
+        return unit * sqrt(most);
     }
-    close_circle(v, r->length);
+    if (single)
+        close_circle_single((float *)v, r->length);
+    else
+        close_circle(v, r->length);
     if (r->kind == ANYWHERE)
-        return put_anywhere(f, r, &b, scale, ker, v, origin, part, factor, w);
-    return ss_dense_put(r->weights[round], v, (size_t)b.mid, circle_of(lev),
-                        (size_t)((ptrdiff_t)part.first - origin), part.n, factor,
-                        terms_of(f, v) + 2 * APART, w);
+        return sqrt(put_anywhere(f, r, &b, scale, ker, v, rec->origin, part, factor, w));
+    return unit * sqrt(ss_dense_put(r->weights[how], v, (size_t)b.mid, circle_of(lev),
+                                    (size_t)((ptrdiff_t)part.first - rec->origin), part.n, factor,
+                                    terms_of(f, v) + 2 * APART, w));
 }
 
 void
 ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
              span part, double factor, double *most, double *w)
 {
-    const struct fft *f = plan->fft;
+    struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const level *lev = &f->level[r->level];
-    double before = *most;
-    for (int round = 0; round < 2; round++) {
-        *most = fmax(before, sqrt(pass(plan, i, s->level[r->level], rec->origin, part, round,
-                                       scratch + 2 * MARGIN, factor, w)));
-        if (round == 1 || f->half[0] == f->half[1] || rec->x_max == 0)
+    double before = *most, rounding;
+    for (way how = r->single != NULL && rec->x_max > 0 ? SINGLE : FIRST; how < WAYS; how++) {
+        double largest = pass(plan, i, rec, s->level[r->level], part, how, scratch + 2 * MARGIN,
+                              factor, w, &rounding);
+        if (isinf(rounding))
+            continue;
+        *most = fmax(before, largest);
+        if (how == LAST || f->half[0] == f->half[1] || rec->x_max == 0)
             return;
         band b = band_of(f, lev, plan->scale[i].a, f->half[0]);
-        double error = left_out(f, lev, &b, s->size[r->level], r->kind != LATTICE);
-        if (error <= TAIL_FLOOR * rec->x_max + 0.9 * plan->opts.accuracy * fmax(0, *most - error))
+        double error = rounding + left_out(f, lev, &b, s->size[r->level], r->kind != LATTICE);
+        if (error <= TAIL_FLOOR * rec->x_max + 0.9 * plan->opts.accuracy * fmax(0, *most - error)) {
+            f->singles += how == SINGLE;
             return;
+        }
     }
 }
 
@@ -874,13 +930,13 @@ choose_routes(struct fft *f, const ss_morlet *plan)
 /* --- weights of dense scales --- */
 
 static const weights *
-table_of(struct fft *f, const kaiser *kernel, size_t phases)
+table_of(struct fft *f, const kaiser *kernel, size_t phases, int single)
 {
     table *t = f->table;
     for (; t < f->table + f->tables; t++)
-        if (t->kernel == kernel && t->phases == phases)
+        if (t->kernel == kernel && t->phases == phases && t->single == single)
             return t->weights;
-    *t = (table){ kernel, phases, ss_dense_new(kernel, phases) };
+    *t = (table){ kernel, phases, single, ss_dense_new(kernel, phases, single) };
     f->tables += t->weights != NULL;
     return t->weights;
 }
@@ -888,21 +944,23 @@ table_of(struct fft *f, const kaiser *kernel, size_t phases)
 static ss_status
 make_tables(struct fft *f, const ss_morlet *plan)
 {
-    f->table = calloc(2 * plan->n_scales, sizeof *f->table);
+    f->table = calloc(WAYS * plan->n_scales, sizeof *f->table);
     if (f->table == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < 2 * plan->n_scales; i++) {
-        route *r = &f->route[i / 2];
-        if (r->kind != DENSE && r->kind != ANYWHERE)
+    for (size_t i = 0; i < WAYS * plan->n_scales; i++) {
+        route *r = &f->route[i / WAYS];
+        way how = i % WAYS;
+        if ((r->kind != DENSE && r->kind != ANYWHERE) || (how == SINGLE && r->single == NULL))
             continue;
         const level *lev = &f->level[r->level];
-        band b = band_of(f, lev, plan->scale[i / 2].a, f->half[i % 2]);
-        kaiser *kernel = kernel_of(f, r, &b, (int)(i % 2));
+        band b = band_of(f, lev, plan->scale[i / WAYS].a, f->half[how == LAST]);
+        kaiser *kernel = kernel_of(f, r, &b, how == LAST);
         if (!kernel->prepared)
             ss_kaiser_prepare(kernel);
-        if (r->kind == DENSE)
-            r->weights[i % 2] = table_of(f, kernel, circle_of(lev) / r->length);
-        if (r->kind == DENSE && r->weights[i % 2] == NULL)
+        if (r->kind != DENSE)
+            continue;
+        r->weights[how] = table_of(f, kernel, phases_of(lev, r), how == SINGLE);
+        if (r->weights[how] == NULL)
             return SS_ENOMEM;
     }
     return SS_OK;
@@ -910,22 +968,40 @@ make_tables(struct fft *f, const ss_morlet *plan)
 
 /* --- FFTW's plans, made while planner is held --- */
 
-static fftw_plan
-inverse_plan(struct fft *f, size_t length, fftw_complex *v, fftw_complex *terms, unsigned how)
+static inverse *
+inverse_of_length(struct fft *f, size_t length, fftw_complex *v, fftw_complex *c, unsigned how)
 {
-    for (size_t i = 0; i < f->n_inverse; i++)
-        if (f->inverse[i].length == length)
-            return f->inverse[i].plan;
-    fftw_plan plan = fftw_plan_dft_1d((int)length, length > APART ? v : terms, v,
-                                      FFTW_BACKWARD, how);
-    if (plan != NULL)
-        f->inverse[f->n_inverse++] = (inverse){ length, plan };
-    return plan;
+    inverse *of = f->inverse;
+    for (; of < f->inverse + f->n_inverse; of++)
+        if (of->length == length)
+            return of;
+    c = length > APART ? v : c;
+    of->length = length;
+    of->plan = fftw_plan_dft_1d((int)length, c, v, FFTW_BACKWARD, how);
+    f->n_inverse++;
+    return of;
 }
 
-/* v, terms and x are where the arrays will be as far as alignment is concerned. */
+/* For scales of which single precision may be good enough: those for which a tone's would be. */
+static void
+plan_single(const struct fft *f, const ss_morlet *plan, size_t i, inverse *of, fftwf_complex *v,
+            fftwf_complex *c, unsigned how)
+{
+    route *r = &f->route[i];
+    band b = band_of(f, &f->level[r->level], plan->scale[i].a, f->half[0]);
+    int taps = r->kind == DENSE ? kernel_of(f, r, &b, 0)->taps : 0;
+    r->rounding = single_rounding(r->length, taps);
+    if (r->kind == ANYWHERE || f->half[0] == f->half[1] || r->rounding > plan->opts.accuracy / 2)
+        return;
+    if (of->single == NULL)
+        of->single = fftwf_plan_dft_1d((int)r->length, r->length > APART ? v : c, v, FFTW_BACKWARD,
+                                       how);
+    r->single = of->single;
+}
+
+/* v, c and x are where the arrays will be as far as alignment is concerned. */
 static ss_status
-make_plans(struct fft *f, const ss_morlet *plan, fftw_complex *v, fftw_complex *terms, double *x)
+make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x)
 {
     static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
     unsigned how = flags[plan->opts.planner];
@@ -934,7 +1010,9 @@ make_plans(struct fft *f, const ss_morlet *plan, fftw_complex *v, fftw_complex *
         level *lev = &f->level[r->level];
         if (r->kind == BY_SUM)
             continue;
-        r->inverse = inverse_plan(f, r->length, v, terms, how);
+        inverse *of = inverse_of_length(f, r->length, (fftw_complex *)v, (fftw_complex *)c, how);
+        r->inverse = of->plan;
+        plan_single(f, plan, i, of, (fftwf_complex *)v, (fftwf_complex *)c, how);
         if (lev->forward == NULL)
             lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x, how);
         if (r->inverse == NULL || lev->forward == NULL)
@@ -958,8 +1036,7 @@ plan_all(struct fft *f, const ss_morlet *plan)
     ss_status st = SS_ENOMEM;
     if (f->inverse != NULL && v != NULL) {
         pthread_mutex_lock(&planner);
-        st = make_plans(f, plan, (fftw_complex *)(v + 2 * MARGIN),
-                        (fftw_complex *)(v + 2 * (longest + 2 * MARGIN)), v);
+        st = make_plans(f, plan, v + 2 * MARGIN, v + 2 * (longest + 2 * MARGIN), v);
         pthread_mutex_unlock(&planner);
     }
     fftw_free(v);
@@ -1012,8 +1089,11 @@ ss_fft_free(struct fft *fft)
     if (fft == NULL)
         return;
     pthread_mutex_lock(&planner);
-    for (size_t i = 0; i < fft->n_inverse; i++)
+    for (size_t i = 0; i < fft->n_inverse; i++) {
         fftw_destroy_plan(fft->inverse[i].plan);
+        if (fft->inverse[i].single != NULL)
+            fftwf_destroy_plan(fft->inverse[i].single);
+    }
     for (int i = 0; i < fft->levels; i++)
         if (fft->level[i].forward != NULL)
             fftw_destroy_plan(fft->level[i].forward);
@@ -1030,14 +1110,22 @@ ss_fft_free(struct fft *fft)
     free(fft);
 }
 
+/* A file has wisdom in double precision, then, unless it is an old one, in single; each is an
+ * expression in parentheses. */
 ss_status
 ss_wisdom_read(FILE *in, ss_error *err)
 {
     if (in == NULL)
         return SS_FAIL_NULL(err);
+    char *text = NULL;
+    size_t room = 0;
+    int good = getdelim(&text, &room, '\0', in) > 0;
+    char *single = good ? strstr(text + 1, "(fftw") : NULL;
     pthread_mutex_lock(&planner);
-    int good = fftw_import_wisdom_from_file(in);
+    good = good && fftw_import_wisdom_from_string(text)
+        && (single == NULL || fftwf_import_wisdom_from_string(single));
     pthread_mutex_unlock(&planner);
+    free(text);
     return good ? SS_OK : ss_fail(err, SS_EINVAL, "this is no wisdom of %s on this machine",
                                   fftw_version);
 }
@@ -1049,8 +1137,15 @@ ss_wisdom_write(FILE *out)
         return SS_EINVAL;
     pthread_mutex_lock(&planner);
     fftw_export_wisdom_to_file(out);
+    fftwf_export_wisdom_to_file(out);
     pthread_mutex_unlock(&planner);
     return fflush(out) == 0 && !ferror(out) ? SS_OK : SS_EIO;
+}
+
+size_t
+ss_fft_singles(const struct fft *fft)
+{
+    return fft != NULL ? fft->singles : 0;
 }
 
 int

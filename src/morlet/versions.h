@@ -16,7 +16,7 @@
 /* A function for machines of one kind, to be called if __builtin_cpu_supports that. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define HAVE_TARGETS
-#define FAST_FOR(kind) __attribute__((target(kind), optimize("O3")))
+#define FAST_FOR(kind) __attribute__((target(kind), optimize("O3", "fp-contract=fast")))
 #endif
 
 /* A function that is compiled for several kinds, where compiler and C library support that, and no

@@ -1,0 +1,72 @@
+/* points.h -- the terms and points of a series in fft.c, of numbers of type REAL.
+ *
+ * Included once for each precision, with REAL and NAMED(name) defined. */
+
+/* to += g x over n terms, of which term k of the spectrum of m points is the first. */
+VERSIONS static void
+NAMED(add_terms)(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, REAL *to,
+                 size_t length, size_t at)
+{
+    while (n > 0) {
+        ptrdiff_t r = k % (ptrdiff_t)m;
+        size_t from = (size_t)(r < 0 ? r + (ptrdiff_t)m : r);
+        int mirrored = from > m / 2;        /* of a real signal, X_-k = conj X_k */
+        size_t run = mirrored ? m - from : m / 2 + 1 - from;
+        run = run < n ? run : n;
+        run = run < length - at ? run : length - at;
+        REAL *out = to + 2 * at;
+        if (mirrored)
+            for (size_t i = 0; i < run; i++) {
+                const double *in = x + 2 * (m - from - i);
+                out[2 * i] += (REAL)(g[i] * in[0]);
+                out[2 * i + 1] -= (REAL)(g[i] * in[1]);
+            }
+        else
+            for (size_t i = 0; i < run; i++) {
+                out[2 * i] += (REAL)(g[i] * x[2 * (from + i)]);
+                out[2 * i + 1] += (REAL)(g[i] * x[2 * (from + i) + 1]);
+            }
+        g += run;
+        n -= run;
+        k += (ptrdiff_t)run;
+        at = (at + run) % length;
+    }
+}
+
+/* Make the points before and after the circle repeat it. */
+static void
+NAMED(close_circle)(REAL *v, size_t length)
+{
+    for (size_t i = 0; i < MARGIN; i++) {
+        size_t left = (length - 1 - i % length), right = i % length;
+        memcpy(v - 2 * (i + 1), v + 2 * left, 2 * sizeof *v);
+        memcpy(v + 2 * (length + i), v + 2 * right, 2 * sizeof *v);
+    }
+}
+
+/* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
+VERSIONS static double
+NAMED(put_lattice)(const REAL *restrict v, size_t n, double factor, double *restrict w)
+{
+    REAL most[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            REAL re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
+            most[l] = size > most[l] ? size : most[l];
+            w[2 * (i + l)] = re * factor;
+            w[2 * (i + l) + 1] = im * factor;
+        }
+    for (; i < n; i++) {
+        REAL re = v[2 * i], im = v[2 * i + 1], size = re * re + im * im;
+        most[0] = size > most[0] ? size : most[0];
+        w[2 * i] = re * factor;
+        w[2 * i + 1] = im * factor;
+    }
+    for (size_t l = 1; l < LANES; l++)
+        most[0] = most[l] > most[0] ? most[l] : most[0];
+    return most[0];
+}
+
+#undef REAL
+#undef NAMED
