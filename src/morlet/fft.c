@@ -49,14 +49,14 @@
 #include "morlet/versions.h"
 
 #define UNDERFLOW 0x1p-126            /* of a point in single precision, a term */
-#define EDGE_MAX 0.4                /* of a kernel's band, in cycles a point */
+#define EDGE_MAX 0.45                /* of a kernel's band, in cycles a point */
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 
 /* [s], measured by tests/bench/bench_morlet: a point of an inverse FFT times log2 of its length, a
  * term of the series, a coefficient and a tap of it at places that repeat, and at others. */
-#define COST_FFT 0.25e-9
+#define COST_FFT 0.13e-9
 #define COST_TERM 1.2e-9
-#define COST_DENSE 1e-9
+#define COST_DENSE 0.5e-9
 #define COST_DENSE_TAP 0.05e-9
 #define COST_PLACE 50e-9
 #define COST_TAP 1.5e-9
@@ -812,11 +812,13 @@ lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, dou
     return near || ((dense || power_of_two) && circle == parts * step) ? (size_t)parts : 0;
 }
 
+/* Powers of two are fastest; short series stay in the first cache, long ones in none. */
 static double
 inverse_cost(size_t length)
 {
     double cost = COST_FFT * (double)length * log2((double)length + 1);
-    return length < 4096 ? cost : 1.6 * cost;
+    cost = (length & (length - 1)) == 0 ? cost : 1.4 * cost;
+    return length < 1 << 12 ? cost : length < 1 << 18 ? 1.6 * cost : 3.5 * cost;
 }
 
 /* The kernel for a band to this edge, made now if need be; NULL if there is none or no memory. */

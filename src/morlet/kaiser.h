@@ -11,13 +11,14 @@ typedef struct kaiser_band {
     double reach, center, second;
 } kaiser_band;
 
-enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 20, KAISER_PARTS = 16, KAISER_NODES = 9,
+enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 32, KAISER_PARTS = 16, KAISER_NODES = 9,
     KAISER_AT_ONCE = 64 };
 
 typedef struct kaiser {
     int taps;                   /* even */
-    double beta, edge;
+    double beta, edge, bound;
     int prepared;               /* what follows is filled in */
+    int fits;                                   /* used of what follows: */
     double node[KAISER_FIT], fit[KAISER_FIT];   /* of -log(response) over (nu/edge)^2 */
     double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];
 } kaiser;

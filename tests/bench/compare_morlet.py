@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Morlet transforms side by side: ours and those of other libraries that are installed.
 
-usage: compare_morlet.py LIBSTICKSLIP.so
+usage: compare_morlet.py LIBSTICKSLIP.so [WORK ...]
 
-The same noise through each, one thread, wall seconds, the best of a few runs, next to one real FFT
-(FFTW, double, ESTIMATE) of the same length in the same run.  Error: against the definition at some
-coefficients away from the ends, relative to the largest |W| of the scale, best complex factor
-removed (conventions differ); the worst over the scales.
+The same noise through each, on one thread.  The libraries take turns, call by call, with a real FFT
+(FFTW, double, ESTIMATE) of the same length among them, so that what else the machine does concerns
+all; s is the processor time of each one's fastest call, ratio that to the FFT's.  Error: against
+the definition at some coefficients away from the ends, relative to the largest |W| of the scale,
+best complex factor removed (conventions differ); the worst over the scales.
 """
 import ctypes
 import math
@@ -26,7 +27,7 @@ except ImportError:
 WORKS = (("W1", 10000, 10, 16, True), ("W2", 1 << 17, 10, 32, True),
          ("W3", 1 << 20, 10, 8, True), ("W4", 1 << 20, 16, 1, False))
 OMEGA_C = 6.0
-REPEAT = 5
+SECONDS, ROUNDS = 6, 40         # of a library in a work; turns
 
 
 class Opts(ctypes.Structure):
@@ -36,16 +37,8 @@ class Opts(ctypes.Structure):
                 ("octaves", ctypes.c_int), ("m0", ctypes.c_double), ("m1", ctypes.c_double),
                 ("engine", ctypes.c_int), ("accuracy", ctypes.c_double), ("norm", ctypes.c_int),
                 ("admissible", ctypes.c_int), ("detrend", ctypes.c_int), ("force", ctypes.c_int),
-                ("threads", ctypes.c_int), ("planner", ctypes.c_int)]
-
-
-def best(call):
-    seconds = math.inf
-    for _ in range(REPEAT):
-        begin = time.perf_counter()
-        result = call()
-        seconds = min(seconds, time.perf_counter() - begin)
-    return seconds, result
+                ("threads", ctypes.c_int), ("planner", ctypes.c_int),
+                ("progress", ctypes.c_void_p), ("user", ctypes.c_void_p)]
 
 
 def one_fft(x):
@@ -55,9 +48,8 @@ def one_fft(x):
     copy = x.copy()
     plan = ctypes.c_void_p(fftw.fftw_plan_dft_r2c_1d(
         len(x), copy.ctypes.data_as(ctypes.c_void_p), out.ctypes.data_as(ctypes.c_void_p), 64))
-    seconds = min(best(lambda: fftw.fftw_execute(plan))[0] for _ in range(5))
-    fftw.fftw_destroy_plan(plan)
-    return seconds
+    keep = (copy, out)
+    return lambda: (fftw.fftw_execute(plan), keep)
 
 
 def scales_of(octaves, voices):
@@ -92,39 +84,45 @@ def error_of(x, scales, rows):
     return worst
 
 
-def ours(library, accuracy, planner=0, threads=1):
-    def run(x, scales, voices, dense):
+# Each of the following makes a call, and what gives all coefficients of scale i and the step
+# between them in samples once the call has been made, or None.
+
+def ours(library, accuracy, w, planner=0):
+    def prepare(x, scales, voices, dense):
         lib = ctypes.CDLL(library)
         opts = Opts.in_dll(lib, "ss_morlet_defaults")
         mine = Opts.from_buffer_copy(opts)
         mine.voices, mine.step, mine.dense, mine.accuracy = voices, 1, dense, accuracy
         mine.octaves, mine.m0, mine.m1 = 1, math.log2(scales[0]), math.log2(scales[-1])
-        mine.force, mine.engine = 1, 2
-        mine.planner, mine.threads = planner, threads
+        mine.force, mine.engine, mine.planner = 1, 2, planner
         plan = ctypes.c_void_p()
         lib.ss_morlet_total.restype = ctypes.c_size_t
         if lib.ss_morlet_new(ctypes.byref(plan), ctypes.c_size_t(len(x)), ctypes.c_double(1),
                              ctypes.byref(mine), None) != 0:
             raise RuntimeError("ss_morlet_new")
         total = lib.ss_morlet_total(plan)
-        w = np.ones(total, complex)
-        call = lambda: lib.ss_morlet_execute(plan, x.ctypes.data_as(ctypes.c_void_p),
-                                             w.ctypes.data_as(ctypes.c_void_p), None)
-        seconds, _ = best(call)
-        lib.ss_morlet_free(plan)
+        if len(w) == 0:
+            w.append(np.ones(total, complex))
+        out = w[0]
+
+        def call():
+            if lib.ss_morlet_execute(plan, x.ctypes.data_as(ctypes.c_void_p),
+                                     out.ctypes.data_as(ctypes.c_void_p), None) != 0:
+                raise RuntimeError("ss_morlet_execute")
         counts = [len(x) if dense else int((len(x) - 1) // a) + 1 for a in scales[::-1]]
         ends = np.cumsum(counts)
         n = len(scales)
 
         def rows(i):
             end = ends[n - 1 - i]
-            return w[end - counts[n - 1 - i]:end], 1 if dense else int(scales[i])
-        return seconds, rows
-    return run
+            return out[end - counts[n - 1 - i]:end], 1 if dense else int(scales[i])
+        return call, lambda _: rows
+    return prepare
 
 
-def fcwt_run(x, scales, voices, dense):
-    """Its wavelet of bandwidth s is exp(2 pi i t) exp(-t^2/(2 s^2)); scale index i is 1/f."""
+def of_fcwt(x, scales, voices, dense):
+    """Its wavelet of bandwidth s is exp(2 pi i t) exp(-t^2/(2 s^2)); scale index i is 1/f.  Its
+    scales are its own, so its error is not taken."""
     import fcwt
     single = x.astype(np.float32)
     morlet = fcwt.Morlet(OMEGA_C / (2 * math.pi))
@@ -133,53 +131,87 @@ def fcwt_run(x, scales, voices, dense):
                        len(scales))
     out = np.ones((len(scales), len(x)), np.complex64)
     engine = fcwt.FCWT(morlet, 1, False, False)
-    seconds, _ = best(lambda: engine.cwt(single, made, out))
-    return seconds, None            # its scales are its own: its error is not taken
+    return lambda: (engine.cwt(single, made, out), morlet), None    # it does not keep morlet itself
 
 
-def ssqueezepy_run(x, scales, voices, dense):
+def of_ssqueezepy(x, scales, voices, dense):
     import ssqueezepy
     single = x.astype(np.float32)
     wavelet = ssqueezepy.Wavelet(("morlet", {"mu": OMEGA_C}))
-    seconds, w = best(lambda: ssqueezepy.cwt(single, wavelet, scales=scales.astype(np.float32),
-                                             padtype="zero")[0])
-    return seconds, lambda i: (w[i], 1)
+    return (lambda: ssqueezepy.cwt(single, wavelet, scales=scales.astype(np.float32),
+                                   padtype="zero")[0]), lambda w: lambda i: (w[i], 1)
 
 
-def pywavelets_run(x, scales, voices, dense):
+def of_pycwt(x, scales, voices, dense):
+    import pycwt
+    morlet = pycwt.Morlet(OMEGA_C)
+    return (lambda: pycwt.cwt(x, 1, 1 / voices, scales[0], len(scales) - 1, morlet)[0]), \
+        lambda w: lambda i: (w[i], 1)
+
+
+def of_pywavelets(x, scales, voices, dense):
+    """It tabulates its wavelet at a fixed number of points, whatever the scale: no measure for
+    noise, so its error is not taken."""
     import pywt
     name = "cmor2-%.17g" % (OMEGA_C / (2 * math.pi))
-    begin = time.perf_counter()
-    pywt.cwt(x, scales, name, method="fft")
-    # it tabulates its wavelet at a fixed number of points, whatever the scale: no measure for noise
-    return time.perf_counter() - begin, None
+    return lambda: pywt.cwt(x, scales, name, method="fft"), None
+
+
+def take_turns(calls):
+    """calls: by name.  The least seconds of each, and what failed.  Short ones are called a few
+    times a turn, so that caches are theirs."""
+    least = {name: math.inf for name in calls}
+    spent = dict.fromkeys(calls, 0)
+    failed = {}
+    for turn in range(ROUNDS):
+        for name, call in calls.items():
+            for _ in range(3 if least[name] < 0.05 else 1):
+                if name in failed or turn > 0 and spent[name] > SECONDS:
+                    break
+                try:
+                    begin = time.process_time()
+                    call()
+                    seconds = time.process_time() - begin
+                except Exception as problem:        # theirs, of any kind
+                    failed[name] = problem
+                    break
+                least[name] = min(least[name], seconds)
+                spent[name] += seconds
+    return least, failed
 
 
 def main():
     library = os.path.abspath(sys.argv[1])
-    others = (("fCWT, single", fcwt_run), ("ssqueezepy, single", ssqueezepy_run),
-              ("PyWavelets, double", pywavelets_run))
+    others = (("fCWT, single", of_fcwt), ("ssqueezepy, single", of_ssqueezepy),
+              ("pycwt, double", of_pycwt), ("PyWavelets, double", of_pywavelets))
     print("work  library                 s    ratio to one FFT    error")
     for name, n, octaves, voices, dense in WORKS:
+        if len(sys.argv) > 2 and name not in sys.argv[2:]:
+            continue
         x = np.random.default_rng(1).standard_normal(n)
         scales = scales_of(octaves, voices)
-        fft = one_fft(x)
-        runs = [("ours, accuracy %.0e" % tol, ours(library, tol)) for tol in (1e-3, 1e-6, 1e-12)]
+        w = []                  # ours, of all of our plans
+        runs = [("ours, %.0e" % tol, ours(library, tol, w)) for tol in (1e-3, 1e-4, 1e-6, 1e-8,
+                                                                       1e-12)]
         if n <= 1 << 17:        # measuring FFTs for longer records takes minutes
-            runs.append(("the same, measured", ours(library, 1e-12, planner=1)))
-        if os.cpu_count() > 1:
-            runs.append(("1e-12, 2 threads", ours(library, 1e-12, threads=2)))
-        for what, run in runs + list(others):
+            runs.append(("1e-12, measured", ours(library, 1e-12, w, planner=1)))
+        calls, rows = {"FFT": one_fft(x)}, {}
+        for what, prepare in runs + list(others):
             try:
-                seconds, rows = run(x, scales, voices, dense)
+                calls[what], rows[what] = prepare(x, scales, voices, dense)
             except ImportError:
                 print("%-5s %-20s not installed" % (name, what))
+        least, failed = take_turns(calls)
+        print("%-5s %-20s %8.5f" % (name, "one FFT", least["FFT"]))
+        for what in rows:
+            if what in failed:
+                print("%-5s %-20s failed: %s" % (name, what, failed[what]))
                 continue
-            except Exception as problem:    # theirs, of any kind
-                print("%-5s %-20s failed: %s" % (name, what, problem))
-                continue
-            error = "%.1e" % error_of(x, scales, rows) if rows else "-"
-            print("%-5s %-20s %8.4f  %8.4g  %17s" % (name, what, seconds, seconds / fft, error),
+            error = "-"
+            if rows[what]:
+                error = "%.1e" % error_of(x, scales, rows[what](calls[what]()))
+            print("%-5s %-20s %8.4f  %8.4g  %17s" % (name, what, least[what],
+                                                     least[what] / least["FFT"], error),
                   flush=True)
 
 
