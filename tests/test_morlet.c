@@ -333,7 +333,7 @@ threads_may_plan_at_the_same_time(void **state)
     }
 }
 
-/* Measured FFTs keep the bound, and what was found is read back. */
+/* Measured FFTs keep the bound, and what was found, in both precisions, is read back. */
 static void
 wisdom_is_kept_and_keeps_the_bound(void **state)
 {
@@ -342,9 +342,10 @@ wisdom_is_kept_and_keeps_the_bound(void **state)
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_error err = { "" };
     FILE *file = tmpfile();
+    char text[20000] = "";
     (void)state;
     opts.engine = SS_ENGINE_FFT, opts.planner = SS_PLANNER_MEASURE, opts.dense = 1;
-    opts.voices = 2;
+    opts.voices = 2, opts.accuracy = 1e-3;
     make(NOISE, x, N);
     ss_morlet *plan = plan_of(N, 2000, &opts);
     double *w = transform(plan, x);
@@ -352,6 +353,14 @@ wisdom_is_kept_and_keeps_the_bound(void **state)
     assert_int_equal(ss_wisdom_write(file), SS_OK);
     rewind(file);
     assert_int_equal(ss_wisdom_read(file, &err), SS_OK);
+    rewind(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    assert_non_null(strstr(text, "(fftw_codelet_"));
+    assert_non_null(strstr(text, "(fftwf_codelet_"));
+    fseek(file, strstr(text, "fftwf_wisdom #") - text, SEEK_SET);
+    fputs("fftwf_wisdom?", file);
+    rewind(file);
+    assert_int_equal(ss_wisdom_read(file, &err), SS_EINVAL);
     rewind(file);
     fputs("nonsense", file);
     rewind(file);

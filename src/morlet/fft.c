@@ -1122,7 +1122,9 @@ ss_wisdom_read(FILE *in, ss_error *err)
     char *text = NULL;
     size_t room = 0;
     int good = getdelim(&text, &room, '\0', in) > 0;
-    char *single = good ? strstr(text + 1, "(fftw") : NULL;
+    char *single = good ? strstr(text, "fftwf_wisdom") : NULL;
+    while (single != NULL && single > text && *single != '(')
+        single--;
     pthread_mutex_lock(&planner);
     good = good && fftw_import_wisdom_from_string(text)
         && (single == NULL || fftwf_import_wisdom_from_string(single));
