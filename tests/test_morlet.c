@@ -10,7 +10,6 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
-#include "morlet/plan.h"            /* for ss_fft_singles */
 #include "morlet_oracle.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
@@ -186,7 +185,7 @@ single_precision_keeps_the_bound(void **state)
                     x[k] *= amplitude[(i + j) % 3] / (which == OFFSET ? 1000 : 1);
                 ss_morlet *plan = plan_of(n, 2048, &opts);
                 double *w = transform(plan, x);
-                size_t used = ss_fft_singles(plan->fft), all = ss_morlet_scales(plan);
+                size_t used = ss_morlet_singles(plan), all = ss_morlet_scales(plan);
                 double worst = worst_error(plan, x, n, 2048, &opts, w, opts.dense ? 211 : 7);
                 if (!(worst <= 1))
                     fail_msg("%s, n %zu, accuracy %g, center %g, %s: %g times the bound",

@@ -128,9 +128,7 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
     if (coef->scale == NULL || coef->w == NULL)
         return SS_ENOMEM;
     memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
-    st = ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
-    coef->n_single = ss_fft_singles(plan->fft);
-    return st;
+    return ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
 }
 
 ss_status

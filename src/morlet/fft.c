@@ -1149,7 +1149,7 @@ ss_wisdom_write(FILE *out)
 size_t
 ss_fft_singles(const struct fft *fft)
 {
-    return fft != NULL ? fft->singles : 0;
+    return fft->singles;
 }
 
 int

@@ -271,6 +271,12 @@ ss_morlet_engine(const ss_morlet *plan, size_t i)
     return ss_fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
 }
 
+size_t
+ss_morlet_singles(const ss_morlet *plan)
+{
+    return plan != NULL && plan->fft != NULL ? ss_fft_singles(plan->fft) : 0;
+}
+
 void
 ss_morlet_free(ss_morlet *plan)
 {

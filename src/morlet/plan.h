@@ -98,7 +98,7 @@ ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 void ss_fft_release(spectra *s);
 void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                   double *scratch, span part, double factor, double *most, double *w);
-/* How many times a scale has been computed in single precision; NULL: 0. */
+/* How many times a scale has been computed in single precision. */
 size_t ss_fft_singles(const struct fft *fft);
 double *ss_fft_scratch(const struct fft *fft);         /* for one thread; NULL: no memory */
 void ss_fft_scratch_free(double *scratch);
