@@ -6,6 +6,7 @@
  * width follows from the noise: extremes of what it leaves (3 standard deviations at either end)
  * may change a height by ERROR of the one asked for; but it is no wider than half a fall, so that
  * it does not flatten the turning points. */
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -24,13 +25,6 @@ typedef struct drop_list {
     ss_drop *drop;
 } drop_list;
 
-static int
-by_value(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 /* The standard deviation of white noise whose second differences are those of x, by their median;
  * scratch holds n. */
 static double
@@ -40,8 +34,7 @@ noise_rms(const double *x, size_t n, double *scratch)
         return 0;
     for (size_t i = 1; i + 1 < n; i++)
         scratch[i - 1] = fabs(x[i - 1] - 2 * x[i] + x[i + 1]);
-    qsort(scratch, n - 2, sizeof *scratch, by_value);
-    return scratch[(n - 2) / 2] / (MAD * sqrt(6));
+    return gsl_stats_select(scratch, 1, n - 2, (n - 2) / 2) / (MAD * sqrt(6));
 }
 
 /* The place of v in the n sorted values, or where it is to be put in. */
@@ -129,8 +122,7 @@ fall_length(const drop_list *list, double rate, double *scratch)
 {
     for (size_t i = 0; i < list->n; i++)
         scratch[i] = (list->drop[i].end - list->drop[i].t) * rate;
-    qsort(scratch, list->n, sizeof *scratch, by_value);
-    return scratch[list->n / 2];
+    return gsl_stats_select(scratch, 1, list->n, list->n / 2);
 }
 
 static ss_status

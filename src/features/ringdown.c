@@ -21,6 +21,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,13 +90,6 @@ typedef struct linear {         /* what projecting a window gave */
 } linear;
 
 static const ss_value nothing = { NAN, NAN };
-
-static int
-by_size(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
 
 static double
 period(const work *k)
@@ -341,11 +335,9 @@ find_noise(work *k, const ss_window *window, size_t n)
         variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
         ring[used++] = fitted.ring / (double)length(window[i]);
     }
-    if (used > 0) {
-        qsort(variance, used, sizeof *variance, by_size);
-        qsort(ring, used, sizeof *ring, by_size);
-        k->noise = fmax(variance[used / 2], MISFIT * MISFIT * ring[used / 2]);
-    }
+    if (used > 0)
+        k->noise = fmax(gsl_stats_select(variance, 1, used, used / 2),
+                        MISFIT * MISFIT * gsl_stats_select(ring, 1, used, used / 2));
     free(variance);
     return SS_OK;
 }
@@ -813,12 +805,11 @@ take_median(const ss_window *window, size_t n, const ss_value *each, ss_value va
                 v[used++] = each[2 * i + j].value;
         if (used < FEW)
             break;
-        qsort(v, used, sizeof *v, by_size);
         for (size_t i = 0; i < used; i++)
             mean += v[i] / (double)used;
         for (size_t i = 0; i < used; i++)
             scatter += (v[i] - mean) * (v[i] - mean) / (double)(used - 1);
-        value[j].value = used % 2 ? v[used / 2] : 0.5 * (v[used / 2 - 1] + v[used / 2]);
+        value[j].value = gsl_stats_median(v, 1, used);
         value[j].error = sqrt(M_PI / 2 * scatter / (double)used);       /* of a Gaussian's median */
     }
     free(v);
