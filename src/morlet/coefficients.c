@@ -53,15 +53,20 @@ ss_coefficients_max(const ss_coefficients *coefficients)
 {
     if (coefficients == NULL || coefficients->w == NULL)
         return NAN;
-    double outside = -1, all = 0;
+    double outside = -1, all = 0, passed = 0;
     for (size_t i = 0; i < coefficients->n_scales; i++) {
         const ss_scale *scale = &coefficients->scale[i];
         const double *w = coefficients->w + 2 * scale->offset;
         for (size_t k = 0; k < scale->n; k++) {
-            double level = hypot(w[2 * k], w[2 * k + 1]);
+            double re = w[2 * k], im = w[2 * k + 1];
+            if (re * re + im * im < passed)             /* most are, and need no hypot */
+                continue;
+            double level = hypot(re, im);
             all = fmax(all, level);
-            if (level > outside && !ss_coefficients_edge(coefficients, i, k))
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k)) {
                 outside = level;
+                passed = level > 1e-140 ? level * level * (1 - 1e-14) : 0;
+            }
         }
     }
     return outside >= 0 ? outside : all;
