@@ -75,6 +75,7 @@ typedef struct work {
     size_t columns;             /* of the slow part and of the oscillation */
     wave slow, ring;            /* cos and sin of the forcing; the oscillation */
     basis basis;
+    double *limit;              /* see belong; 0: not known yet */
     double *r;                  /* the residual */
     double *j;                  /* its derivatives by w and by s */
     size_t n_windows;
@@ -393,9 +394,11 @@ place(work *k, size_t anchor, double size_in_periods)
 
 /* Do the q samples that raise the sum of squares by rise belong to the stick? */
 static int
-belong(const work *k, double rise, size_t q)
+belong(work *k, double rise, size_t q)
 {
-    return rise <= k->noise * gsl_cdf_chisq_Qinv(CHANCE, (double)q);
+    if (!(k->limit[q] > 0))
+        k->limit[q] = gsl_cdf_chisq_Qinv(CHANCE, (double)q);
+    return rise <= k->noise * k->limit[q];
 }
 
 /* Move one end of the window outwards, in steps down to one sample, at most room samples. */
@@ -427,8 +430,7 @@ grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
     if (length(core) >= longest)
         return core;
     size_t most = longest - length(core), left = core.first - low;
-    if (length(core) == 0 || project(k, core).rss > k->noise
-                             * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core) - k->columns)))
+    if (length(core) == 0 || !belong(k, project(k, core).rss, length(core) - k->columns))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, left < most ? left : most, 1);
     size_t right = high - win.end;
@@ -966,7 +968,7 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     if (!(apart >= APART * period(&k)) || (forcing > 0 && M_PI / forcing < APART * period(&k)))
         return SS_OK;
     k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
-    double *memory = malloc((COLUMNS + 1 + PARAMETERS + 4) * k.room * sizeof *memory);
+    double *memory = calloc((COLUMNS + 1 + PARAMETERS + 5) * k.room, sizeof *memory);
     if (memory == NULL)
         return SS_ENOMEM;
     for (int j = 0; j < COLUMNS; j++)
@@ -974,7 +976,8 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     k.r = memory + COLUMNS * k.room;
     k.slow.cos = k.r + k.room, k.slow.sin = k.slow.cos + k.room;
     k.ring.cos = k.slow.sin + k.room, k.ring.sin = k.ring.cos + k.room;
-    k.j = k.ring.sin + k.room;
+    k.limit = k.ring.sin + k.room;
+    k.j = k.limit + k.room;
     ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
     k.w = w, k.s = START * w;
     k.forcing = 0, k.columns = COLUMNS - 1;
