@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "list.h"
 #include "signal/gaps.h"
 #include <stickslip/spikes.h>
 
@@ -77,14 +78,10 @@ running_median(double *y, const double *x, size_t n, size_t half, double *window
 static ss_status
 append(drop_list *list, const double *y, size_t high, size_t low, double rate)
 {
-    if (list->n == list->room) {
-        size_t room = 2 * list->room + 64;
-        ss_drop *more = realloc(list->drop, room * sizeof *more);
-        if (more == NULL)
-            return SS_ENOMEM;
-        list->drop = more;
-        list->room = room;
-    }
+    ss_drop *drop = ss_list_room(list->drop, &list->room, list->n, sizeof *drop);
+    if (drop == NULL)
+        return SS_ENOMEM;
+    list->drop = drop;
     list->drop[list->n++] = (ss_drop){ (double)high / rate, (double)low / rate, y[high] - y[low] };
     return SS_OK;
 }

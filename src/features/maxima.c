@@ -14,6 +14,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "list.h"
 #include "maxima.h"
 
 #define DRY SIZE_MAX            /* a way that leads nowhere: no point of the map */
@@ -191,16 +192,12 @@ shorten(map *m, size_t at)
 static void
 keep_border(map *m, border b)
 {
-    if (m->n_borders == m->room) {
-        size_t room = 2 * m->room + 1024;
-        border *more = realloc(m->border, room * sizeof *more);
-        if (more == NULL) {
-            m->failed = 1;
-            return;
-        }
-        m->border = more;
-        m->room = room;
+    border *list = ss_list_room(m->border, &m->room, m->n_borders, sizeof *list);
+    if (list == NULL) {
+        m->failed = 1;
+        return;
     }
+    m->border = list;
     m->border[m->n_borders++] = b;
 }
 
