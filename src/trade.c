@@ -17,6 +17,7 @@
 #include <string.h>
 #include <time.h>
 #include "error.h"
+#include "list.h"
 #include "sim/engine.h"
 #include "trade.h"
 
@@ -107,16 +108,12 @@ static int
 keep_event(const ss_event *e, void *user)
 {
     taken *k = user;
-    if (k->n_events == k->room) {
-        size_t room = 2 * k->room + 64;
-        ss_event *event = realloc(k->event, room * sizeof *event);
-        if (event == NULL) {
-            k->no_memory = 1;
-            return 1;
-        }
-        k->event = event;
-        k->room = room;
+    ss_event *event = ss_list_room(k->event, &k->room, k->n_events, sizeof *event);
+    if (event == NULL) {
+        k->no_memory = 1;
+        return 1;
     }
+    k->event = event;
     k->event[k->n_events++] = *e;
     return 0;
 }

@@ -25,13 +25,17 @@ residual(const piece *p, double at, int lowest)
 {
     double q[TERMS][SAMPLES], left[SAMPLES], sum = 0;
     int terms = 0;
+    size_t right = 0;                   /* samples left of the break */
+    while (right < p->n && p->first + (double)right < at)
+        right++;
     memcpy(left, p->x, p->n * sizeof *left);
     for (int side = 0; side < 2; side++)
         for (int power = side == 0 ? 0 : lowest; power <= DEGREE; power++, terms++) {
             double *u = q[terms], norm = 0, along = 0, before = 0;
             for (size_t i = 0; i < p->n; i++) {
-                double s = (p->first + (double)i - at) / p->unit;
-                u[i] = side == 1 && s < 0 ? 0 : pow(s, power);
+                double s = (p->first + (double)i - at) / p->unit, s2 = s * s;
+                u[i] = side == 1 && i < right ? 0
+                    : power == 0 ? 1 : power == 1 ? s : power == 2 ? s2 : s2 * s;
                 before += u[i] * u[i];
             }
             for (int pass = 0; pass < 2; pass++)        /* twice is enough (Kahan, Parlett) */

@@ -6,11 +6,13 @@
  * width follows from the noise: extremes of what it leaves (3 standard deviations at either end)
  * may change a height by ERROR of the one asked for; but it is no wider than half a fall, so that
  * it does not flatten the turning points. */
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "list.h"
 #include "signal/gaps.h"
 #include <stickslip/spikes.h>
 
@@ -24,13 +26,6 @@ typedef struct drop_list {
     ss_drop *drop;
 } drop_list;
 
-static int
-by_value(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 /* The standard deviation of white noise whose second differences are those of x, by their median;
  * scratch holds n. */
 static double
@@ -40,8 +35,7 @@ noise_rms(const double *x, size_t n, double *scratch)
         return 0;
     for (size_t i = 1; i + 1 < n; i++)
         scratch[i - 1] = fabs(x[i - 1] - 2 * x[i] + x[i + 1]);
-    qsort(scratch, n - 2, sizeof *scratch, by_value);
-    return scratch[(n - 2) / 2] / (MAD * sqrt(6));
+    return gsl_stats_select(scratch, 1, n - 2, (n - 2) / 2) / (MAD * sqrt(6));
 }
 
 /* The place of v in the n sorted values, or where it is to be put in. */
@@ -84,14 +78,10 @@ running_median(double *y, const double *x, size_t n, size_t half, double *window
 static ss_status
 append(drop_list *list, const double *y, size_t high, size_t low, double rate)
 {
-    if (list->n == list->room) {
-        size_t room = 2 * list->room + 64;
-        ss_drop *more = realloc(list->drop, room * sizeof *more);
-        if (more == NULL)
-            return SS_ENOMEM;
-        list->drop = more;
-        list->room = room;
-    }
+    ss_drop *drop = ss_list_room(list->drop, &list->room, list->n, sizeof *drop);
+    if (drop == NULL)
+        return SS_ENOMEM;
+    list->drop = drop;
     list->drop[list->n++] = (ss_drop){ (double)high / rate, (double)low / rate, y[high] - y[low] };
     return SS_OK;
 }
@@ -129,8 +119,7 @@ fall_length(const drop_list *list, double rate, double *scratch)
 {
     for (size_t i = 0; i < list->n; i++)
         scratch[i] = (list->drop[i].end - list->drop[i].t) * rate;
-    qsort(scratch, list->n, sizeof *scratch, by_value);
-    return scratch[list->n / 2];
+    return gsl_stats_select(scratch, 1, list->n, list->n / 2);
 }
 
 static ss_status

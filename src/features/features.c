@@ -1,6 +1,7 @@
 /* features.c -- the transitions of a signal and what they have in common. */
 #include <stickslip/features.h>
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,13 +46,6 @@ typedef struct search {
     ss_features *out;
 } search;
 
-static int
-by_size(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 /* The rms of a white noise that would make the median of |W| at the shortest scale: |W|^2 is then
  * exponential with mean rms^2 / rate (a^-1/2 norm). */
 static ss_status
@@ -67,9 +61,9 @@ find_noise(search *s)
         if (!ss_near_gap(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
             level[n++] = hypot(w[0], w[1]);
     }
-    qsort(level, n, sizeof *level, by_size);
     double scale = s->opts->norm == SS_NORM_L1 ? last->a : 1;
-    s->out->noise = n == 0 ? 0 : level[n / 2] * sqrt(scale * s->rate / M_LN2);
+    s->out->noise = n == 0 ? 0
+        : gsl_stats_select(level, 1, n, n / 2) * sqrt(scale * s->rate / M_LN2);
     free(level);
     return SS_OK;
 }
@@ -199,14 +193,15 @@ match_maxima(search *s, const ss_maximum *swell, double f)
 {
     ss_features *out = s->out;
     double reach = CENTER / (M_PI * f);
-    size_t ringing = 0;
+    size_t ringing = 0, first = 0;
     for (size_t i = 0; i < out->n; i++) {
         const ss_maximum *best = NULL;
-        for (size_t k = 0; k < s->n_found; k++) {
+        while (first < s->n_found && s->found[first].t < swell[i].t - reach)
+            first++;
+        for (size_t k = first; k < s->n_found && s->found[k].t <= swell[i].t + reach; k++) {
             const ss_maximum *m = &s->found[k];
-            double distance = fabs(m->t - swell[i].t);
-            if (same_kind(m, f) && distance <= reach
-                && (best == NULL || distance < fabs(best->t - swell[i].t)))
+            if (same_kind(m, f)
+                && (best == NULL || fabs(m->t - swell[i].t) < fabs(best->t - swell[i].t)))
                 best = m;
         }
         ringing += best != NULL;
@@ -230,13 +225,12 @@ read_raw(search *s)
     for (size_t i = 0; i < out->n; i++)
         if (!isnan(out->transition[i].maximum.f))
             f[n++] = out->transition[i].maximum.f;
-    qsort(f, n, sizeof *f, by_size);
     for (size_t i = 0; i < n; i++)
         mean += f[i] / (double)n;
     for (size_t i = 0; i < n; i++)
         scatter += (f[i] - mean) * (f[i] - mean);
-    out->frequency_raw.value = n % 2 ? f[n / 2] : 0.5 * (f[n / 2 - 1] + f[n / 2]);
-    step = f[n / 2] * (exp2(1. / ss_morlet_defaults.voices) - 1);
+    out->frequency_raw.value = gsl_stats_median(f, 1, n);
+    step = gsl_stats_select(f, 1, n, n / 2) * (exp2(1. / ss_morlet_defaults.voices) - 1);
     out->frequency_raw.error = sqrt(step * step / 12
                                     + (n > 1 ? scatter / (double)(n - 1) / (double)n : 0));
     free(f);

@@ -14,6 +14,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "list.h"
 #include "maxima.h"
 
 #define DRY SIZE_MAX            /* a way that leads nowhere: no point of the map */
@@ -172,20 +173,18 @@ find_peaks(map *m)
     return SS_OK;
 }
 
-/* The peak that the way from a wet point ends at; it is short for the next one who asks. */
-static size_t
-peak_of(map *m, size_t at)
+/* Let the way from a point, and from all those on it, lead to the peak at once. */
+static inline void
+shorten(map *m, size_t at)
 {
-    size_t end = at;
-    while (m->way[end] < PEAK)
+    size_t end = m->way[at];
+    while (end < PEAK)
         end = m->way[end];
-    end = m->way[end];
     while (m->way[at] < PEAK) {
         size_t next = m->way[at];
         m->way[at] = end;
         at = next;
     }
-    return end - PEAK;
 }
 
 /* --- borders ------------------------------------------------------------------------------- */
@@ -193,29 +192,23 @@ peak_of(map *m, size_t at)
 static void
 keep_border(map *m, border b)
 {
-    if (m->n_borders == m->room) {
-        size_t room = 2 * m->room + 1024;
-        border *more = realloc(m->border, room * sizeof *more);
-        if (more == NULL) {
-            m->failed = 1;
-            return;
-        }
-        m->border = more;
-        m->room = room;
+    border *list = ss_list_room(m->border, &m->room, m->n_borders, sizeof *list);
+    if (list == NULL) {
+        m->failed = 1;
+        return;
     }
+    m->border = list;
     m->border[m->n_borders++] = b;
 }
 
 static inline void
 add_border(map *m, line *a, size_t i, line *b, size_t j)
 {
+    size_t p = m->way[a->at + i], q = m->way[b->at + j];
+    if (p == q || p == DRY || q == DRY)
+        return;
     double level = a->level[i] < b->level[j] ? a->level[i] : b->level[j];
-    if (!(level > 0))
-        return;
-    size_t p = peak_of(m, a->at + i), q = peak_of(m, b->at + j);
-    if (p == q)
-        return;
-    border found = { 0, p < q ? p : q, p < q ? q : p };
+    border found = { 0, (p < q ? p : q) - PEAK, (p < q ? q : p) - PEAK };
     border *slot = &m->recent[(found.p * 31 + found.q) % RECENT];
     memcpy(&found.key, &level, sizeof level);
     if (slot->p == found.p && slot->q == found.q) {
@@ -231,8 +224,11 @@ static ss_status
 find_borders(map *m, line l[2])
 {
     for (size_t row = m->first; row <= m->last; row++) {
-        fill(&l[row % 2], m, row);
-        touch_all(m, &l[row % 2], &l[(row + 1) % 2], add_border);
+        line *here = &l[row % 2], *before = &l[(row + 1) % 2];
+        fill(here, m, row);
+        for (size_t k = 0; k < here->n; k++)
+            shorten(m, here->at + k);
+        touch_all(m, here, before, add_border);
     }
     for (size_t i = 0; i < RECENT; i++)
         if (m->recent[i].q > 0)

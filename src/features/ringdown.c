@@ -21,6 +21,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,6 +75,7 @@ typedef struct work {
     size_t columns;             /* of the slow part and of the oscillation */
     wave slow, ring;            /* cos and sin of the forcing; the oscillation */
     basis basis;
+    double *limit;              /* see belong; 0: not known yet */
     double *r;                  /* the residual */
     double *j;                  /* its derivatives by w and by s */
     size_t n_windows;
@@ -89,13 +91,6 @@ typedef struct linear {         /* what projecting a window gave */
 } linear;
 
 static const ss_value nothing = { NAN, NAN };
-
-static int
-by_size(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
 
 static double
 period(const work *k)
@@ -341,11 +336,9 @@ find_noise(work *k, const ss_window *window, size_t n)
         variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
         ring[used++] = fitted.ring / (double)length(window[i]);
     }
-    if (used > 0) {
-        qsort(variance, used, sizeof *variance, by_size);
-        qsort(ring, used, sizeof *ring, by_size);
-        k->noise = fmax(variance[used / 2], MISFIT * MISFIT * ring[used / 2]);
-    }
+    if (used > 0)
+        k->noise = fmax(gsl_stats_select(variance, 1, used, used / 2),
+                        MISFIT * MISFIT * gsl_stats_select(ring, 1, used, used / 2));
     free(variance);
     return SS_OK;
 }
@@ -401,9 +394,11 @@ place(work *k, size_t anchor, double size_in_periods)
 
 /* Do the q samples that raise the sum of squares by rise belong to the stick? */
 static int
-belong(const work *k, double rise, size_t q)
+belong(work *k, double rise, size_t q)
 {
-    return rise <= k->noise * gsl_cdf_chisq_Qinv(CHANCE, (double)q);
+    if (!(k->limit[q] > 0))
+        k->limit[q] = gsl_cdf_chisq_Qinv(CHANCE, (double)q);
+    return rise <= k->noise * k->limit[q];
 }
 
 /* Move one end of the window outwards, in steps down to one sample, at most room samples. */
@@ -435,8 +430,7 @@ grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
     if (length(core) >= longest)
         return core;
     size_t most = longest - length(core), left = core.first - low;
-    if (length(core) == 0 || project(k, core).rss > k->noise
-                             * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core) - k->columns)))
+    if (length(core) == 0 || !belong(k, project(k, core).rss, length(core) - k->columns))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, left < most ? left : most, 1);
     size_t right = high - win.end;
@@ -813,12 +807,11 @@ take_median(const ss_window *window, size_t n, const ss_value *each, ss_value va
                 v[used++] = each[2 * i + j].value;
         if (used < FEW)
             break;
-        qsort(v, used, sizeof *v, by_size);
         for (size_t i = 0; i < used; i++)
             mean += v[i] / (double)used;
         for (size_t i = 0; i < used; i++)
             scatter += (v[i] - mean) * (v[i] - mean) / (double)(used - 1);
-        value[j].value = used % 2 ? v[used / 2] : 0.5 * (v[used / 2 - 1] + v[used / 2]);
+        value[j].value = gsl_stats_median(v, 1, used);
         value[j].error = sqrt(M_PI / 2 * scatter / (double)used);       /* of a Gaussian's median */
     }
     free(v);
@@ -975,7 +968,7 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     if (!(apart >= APART * period(&k)) || (forcing > 0 && M_PI / forcing < APART * period(&k)))
         return SS_OK;
     k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
-    double *memory = malloc((COLUMNS + 1 + PARAMETERS + 4) * k.room * sizeof *memory);
+    double *memory = calloc((COLUMNS + 1 + PARAMETERS + 5) * k.room, sizeof *memory);
     if (memory == NULL)
         return SS_ENOMEM;
     for (int j = 0; j < COLUMNS; j++)
@@ -983,7 +976,8 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     k.r = memory + COLUMNS * k.room;
     k.slow.cos = k.r + k.room, k.slow.sin = k.slow.cos + k.room;
     k.ring.cos = k.slow.sin + k.room, k.ring.sin = k.ring.cos + k.room;
-    k.j = k.ring.sin + k.room;
+    k.limit = k.ring.sin + k.room;
+    k.j = k.limit + k.room;
     ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
     k.w = w, k.s = START * w;
     k.forcing = 0, k.columns = COLUMNS - 1;

@@ -13,6 +13,7 @@
  * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
  * the reach of a gap, where something of another value and slope may stand. */
 #include <float.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -104,13 +105,6 @@ continued(const double *x, size_t n, size_t margin)
     return y;
 }
 
-static int
-by_value(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 /* The maximum of the parabola through three levels, the middle one the largest. */
 static peak
 summit(const double *level, double t, double step)
@@ -120,7 +114,7 @@ summit(const double *level, double t, double step)
     return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
 }
 
-/* The rms of |W| in the n levels, which are sorted, one every step from t on, by the median of
+/* The rms of |W| in the n levels, which lose their order, one every step from t on, by the median of
  * those that are farther than QUIET scales from all spikes found so far and out of the reach of
  * gaps: all that there are, if these are less than LEAST of them. */
 static double
@@ -142,8 +136,7 @@ noise_of(const row_source *source, const ss_spikes_found *loud, double *level, s
     }
     if ((double)left < LEAST * (double)n)
         left = n;
-    qsort(level, left, sizeof *level, by_value);
-    return level[left / 2] / sqrt(M_LN2);
+    return gsl_stats_select(level, 1, left, left / 2) / sqrt(M_LN2);
 }
 
 /* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
@@ -176,7 +169,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *lo
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_morlet *plan = NULL;
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
-    opts.octaves = 1, opts.engine = SS_ENGINE_QUADRATURE;
+    opts.octaves = 1;
     opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
     double a = exp2(opts.m0), rate = source->rate;
     size_t margin = (size_t)ceil(ROW_REACH * a * rate), n = source->n + 2 * margin;

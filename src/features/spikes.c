@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "error.h"
+#include "list.h"
 #include "features/breakpoint.h"
 #include "features/rows.h"
 #include <stickslip/spikes.h>
@@ -110,14 +111,10 @@ add_spike(search *s, size_t i, const peak *p)
 {
     ss_spikes_found *found = s->found;
     const row *r = &s->row[i];
-    if (found->n == s->room) {
-        size_t room = 2 * s->room + 64;
-        ss_spike *more = realloc(found->spike, room * sizeof *more);
-        if (more == NULL)
-            return SS_ENOMEM;
-        found->spike = more;
-        s->room = room;
-    }
+    ss_spike *spike = ss_list_room(found->spike, &s->room, found->n, sizeof *spike);
+    if (spike == NULL)
+        return SS_ENOMEM;
+    found->spike = spike;
     found->spike[found->n++] = (ss_spike){
         .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms };
     return SS_OK;

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "list.h"
 #include "morlet/plan.h"
 #include "morlet/rows.h"
 #include "signal/stream.h"
@@ -53,15 +54,20 @@ ss_coefficients_max(const ss_coefficients *coefficients)
 {
     if (coefficients == NULL || coefficients->w == NULL)
         return NAN;
-    double outside = -1, all = 0;
+    double outside = -1, all = 0, passed = 0;
     for (size_t i = 0; i < coefficients->n_scales; i++) {
         const ss_scale *scale = &coefficients->scale[i];
         const double *w = coefficients->w + 2 * scale->offset;
         for (size_t k = 0; k < scale->n; k++) {
-            double level = hypot(w[2 * k], w[2 * k + 1]);
+            double re = w[2 * k], im = w[2 * k + 1];
+            if (re * re + im * im < passed)             /* most are, and need no hypot */
+                continue;
+            double level = hypot(re, im);
             all = fmax(all, level);
-            if (level > outside && !ss_coefficients_edge(coefficients, i, k))
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k)) {
                 outside = level;
+                passed = level > 1e-140 ? level * level * (1 - 1e-14) : 0;
+            }
         }
     }
     return outside >= 0 ? outside : all;
@@ -382,14 +388,10 @@ static ss_status
 new_part(reader *r, int j, const double number[])
 {
     ss_error why = { "" };
-    if (r->n_parts == r->room) {
-        size_t room = 2 * r->room + 16;
-        part *more = room > SIZE_MAX / sizeof *more ? NULL : realloc(r->part, room * sizeof *more);
-        if (more == NULL)
-            return SS_ENOMEM;
-        r->part = more;
-        r->room = room;
-    }
+    part *parts = ss_list_room(r->part, &r->room, r->n_parts, sizeof *parts);
+    if (parts == NULL)
+        return SS_ENOMEM;
+    r->part = parts;
     part *p = &r->part[r->n_parts];
     *p = (part){ .n = 0 };
     if (ss_morlet_scale_at(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
@@ -425,15 +427,10 @@ find_part(reader *r, const double number[])
 static ss_status
 append(part *p, double re, double im)
 {
-    if (p->n == p->room) {
-        size_t room = 2 * p->room + 64;
-        double *more = room > SIZE_MAX / (2 * sizeof *more) ? NULL
-            : realloc(p->w, 2 * room * sizeof *more);
-        if (more == NULL)
-            return SS_ENOMEM;
-        p->w = more;
-        p->room = room;
-    }
+    double *w = ss_list_room(p->w, &p->room, p->n, 2 * sizeof *w);
+    if (w == NULL)
+        return SS_ENOMEM;
+    p->w = w;
     p->w[2 * p->n] = re;
     p->w[2 * p->n++ + 1] = im;
     return SS_OK;

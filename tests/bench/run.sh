@@ -66,3 +66,7 @@ for seconds in 10 1000; do
     echo
 done
 "$out/cost_sim" cost "$out/scratch.h5" | expand -t 18
+if [ "$LONG_RECORD" = 1 ]; then
+    compile cost_features ''
+    "$out/cost_features" | expand -t 18
+fi
