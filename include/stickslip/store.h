@@ -3,8 +3,8 @@
  *
  * Each writing call makes a whole file at path, replacing what is there; on failure path is
  * removed.  A caller that wants to keep the old file until the new one is whole writes to another
- * name and renames it, as the tools do.  The same input gives the same bytes.  Path may be a device or
- * a FIFO: the file is then made under no name and copied there.
+ * name and renames it, as the tools do.  The same input gives the same bytes.  Path may be a device
+ * or a FIFO: the file is then made under no name and copied there.
  *
  * HDF5 itself is safe in several threads only where it was built so, which its serial packages are
  * not: calls of this header then come from one thread at a time. */
@@ -31,10 +31,10 @@ typedef struct ss_record {
 ss_status ss_store_write(const char *path, const ss_record *record, ss_error *err);
 
 /* The same while samples and coefficients are still being made, in memory that does not grow with
- * their number.  Grid has head, n_scales, scale and center as in ss_coefficients; its n is the length
- * of the record, or 0 if that is not known yet: the datasets then have a time dimension without
- * limit.  Its head is ss_coefficients_header's.  Signal is the header of what the transform is of, with
- * all columns that are to be stored beside it, or NULL. */
+ * their number.  Grid has head, n_scales, scale and center as in ss_coefficients; its n is the
+ * length of the record, or 0 if that is not known yet: the datasets then have a time dimension
+ * without limit.  Its head is ss_coefficients_header's.  Signal is the header of what the transform
+ * is of, with all columns that are to be stored beside it, or NULL. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);
@@ -42,8 +42,8 @@ ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_
 ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_t n, size_t row,
                                  size_t column, ss_error *err);
 /* Arguments as a sink of coefficients gets them. */
-ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
-                               const double *w, size_t samples, ss_error *err);
+ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first,
+                               size_t n, const double *w, size_t samples, ss_error *err);
 /* The record has so many samples, and all of them and their coefficients have been given. */
 ss_status ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);
 /* A file that has not come to its end is removed; NULL is allowed. */

@@ -392,9 +392,11 @@ ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *op
     ss_status st = ss_morlet_check(n, rate, opts, err);
     if (st != SS_OK)
         return st;
-    if (!(a >= 0x1p-500 && a <= 0x1p500) || !(b >= 0 && b <= (double)(n - 1) / rate))
-        return ss_fail(err, SS_EINVAL, "a = %g s, b = %g s is not a scale and a time of the record",
-                       a, b);
+    if (!(a >= 0x1p-500 && a <= 0x1p500))
+        return ss_fail(err, SS_EINVAL, "a = %g s is not a scale", a);
+    if (!(b >= 0 && b <= (double)(n - 1) / rate))
+        return ss_fail(err, SS_EINVAL, "b = %g s lies outside the record, 0 ... %.9g s", b,
+                       (double)(n - 1) / rate);
     if ((st = ss_morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
         return st;
     if ((st = points(opts, rate, &rec, a, &b, 1, w)) == SS_OK)

@@ -53,10 +53,11 @@ ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double
 /* The notes among the root's attributes, in the order in which they were written. */
 ss_status ss_h5_read_notes(h5_file *file, ss_header *head);
 
-/* What ss_store_read_signal gives, of a file that is open (read.c).  On failure *out may hold a part
- * of it. */
+/* What ss_store_read_signal and ss_store_read_coefficients give, of a file that is open (read.c).
+ * On failure *out may hold a part of the signal. */
 ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
                             const ss_read_opts *opts);
+ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
 
 /* The dataset at a path, whatever wrote it (foreign.c). */
 ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,

@@ -355,20 +355,22 @@ struct ss_store_reader {
 
 static const char *const part_name[] = { "re", "im" };
 
+/* Of a file that is open. */
 static ss_status
 open_reader(ss_store_reader *r)
 {
     size_t longest = 0;
-    ss_status status = ss_h5_open(&r->file);
-    if (status != SS_OK)
-        return status;
+    r->group = r->part[0] = r->part[1] = -1;
+    r->grid = calloc(1, sizeof *r->grid);
+    if (r->grid == NULL)
+        return SS_ENOMEM;
     if (H5Lexists(r->file.id, "wavelet", H5P_DEFAULT) <= 0)
         return ss_h5_fail(&r->file, SS_EDATA, 0, "",
                           "no /wavelet in it; ss-morlet -o FILE.h5 makes one");
     r->group = ss_h5_open_group(r->file.id, "wavelet");
     if (r->group < 0)
         return ss_h5_fail(&r->file, SS_EDATA, 0, "/wavelet", "not a group of this file");
-    status = read_grid(&r->file, r->group, r->grid, &r->dense, &r->total);
+    ss_status status = read_grid(&r->file, r->group, r->grid, &r->dense, &r->total);
     if (status != SS_OK)
         return status;
     for (size_t i = 0; i < r->grid->n_scales; i++)
@@ -409,6 +411,35 @@ read_scale(ss_store_reader *r, size_t i, double *w)
     }
     if (!r->dense)
         H5Gclose(group);
+    return status;
+}
+
+/* All but the file. */
+static void
+close_reader(ss_store_reader *r)
+{
+    H5Dclose(r->part[0]);
+    H5Dclose(r->part[1]);
+    H5Gclose(r->group);
+    ss_coefficients_free(r->grid);
+    free(r->row);
+}
+
+ss_status
+ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
+{
+    ss_store_reader r = { .file = *file };
+    ss_status status = open_reader(&r);
+    ss_coefficients *c = r.grid;
+    if (status == SS_OK && (c->w = malloc(2 * r.total * sizeof *c->w)) == NULL)
+        status = SS_ENOMEM;
+    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
+        status = read_scale(&r, i, c->w + 2 * c->scale[i].offset);
+    if (status == SS_OK) {
+        *out = c;
+        r.grid = NULL;
+    }
+    close_reader(&r);
     return status;
 }
 
@@ -468,13 +499,10 @@ ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err)
         return SS_FAIL_NULL(err);
     ss_store_reader *r = calloc(1, sizeof *r);
     ss_status status = SS_ENOMEM;
-    if (r != NULL) {
+    if (r != NULL)
         r->file = (h5_file){ -1, r->path = strdup(path), &r->error };
-        r->group = r->part[0] = r->part[1] = -1;
-        r->grid = calloc(1, sizeof *r->grid);
-    }
     H5E_BEGIN_TRY {
-        if (r != NULL && r->path != NULL && r->grid != NULL)
+        if (r != NULL && r->path != NULL && (status = ss_h5_open(&r->file)) == SS_OK)
             status = open_reader(r);
     } H5E_END_TRY
     if (status == SS_OK)
@@ -516,10 +544,9 @@ ss_store_reader_free(ss_store_reader *r)
     if (r == NULL)
         return;
     H5E_BEGIN_TRY {
-        finish(&r->file, SS_OK);        /* closes all that is open in it */
+        close_reader(r);
+        finish(&r->file, SS_OK);
     } H5E_END_TRY
-    ss_coefficients_free(r->grid);
-    free(r->row);
     free(r->path);
     free(r);
 }
@@ -527,22 +554,15 @@ ss_store_reader_free(ss_store_reader *r)
 ss_status
 ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
-    ss_store_reader *r = NULL;
+    h5_file file = { -1, path, err };
+    ss_status status;
     if (out == NULL || path == NULL)
         return SS_FAIL_NULL(err);
-    ss_status status = ss_store_reader_new(&r, path, err);
-    if (status != SS_OK)
-        return status;
-    ss_coefficients *c = r->grid;
-    c->w = malloc(2 * r->total * sizeof *c->w);
-    if (c->w == NULL)
-        status = ss_fail(err, SS_ENOMEM, "%s: %s", path, ss_strerror(SS_ENOMEM));
-    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
-        status = ss_store_reader_scale(r, i, c->w + 2 * c->scale[i].offset, err);
-    if (status == SS_OK) {
-        *out = c;
-        r->grid = NULL;
-    }
-    ss_store_reader_free(r);
+    H5E_BEGIN_TRY {
+        status = ss_h5_open(&file);
+        if (status == SS_OK)
+            status = ss_h5_read_coefficients(out, &file);
+        status = finish(&file, status);
+    } H5E_END_TRY
     return status;
 }

@@ -31,8 +31,8 @@ typedef struct variable {
     hid_t file_type, memory_type;
     const void *values;         /* NULL: they come later */
     size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
-    hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is kept
-                                   in chunks of so many values of a row */
+    hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
+                                   kept in chunks of so many values of a row */
 } variable;
 
 struct ss_store_writer {
@@ -63,8 +63,8 @@ struct ss_store_writer {
     unsigned char *edge;
 };
 
-/* A call of HDF5 fails for want of memory, or of a name or size that it can store: of a full disk it
- * does not hear. */
+/* A call of HDF5 fails for want of memory, or of a name or size that it can store: of a full disk
+ * it does not hear. */
 static ss_status
 fail_write(h5_file *file, hid_t group, const char *name)
 {

@@ -1,5 +1,5 @@
-# A source that gives one sample at a time: before the next one comes, every coefficient is out whose
-# window, 8.5 a behind b, ended three samples ago or earlier, and none whose window has not ended.
+# A source that gives one sample at a time: before the next one comes, every coefficient is out
+# whose window, 8.5 a behind b, ended three samples ago or earlier, and none whose has not ended.
 mkfifo in
 grid="--fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3"
 ss-signal noise --rate 100 --duration 1.6 --seed 3 > s.tsv
@@ -7,13 +7,18 @@ ss-cat s.tsv -o s.au
 # shellcheck disable=SC2086  # grid is a list
 ss-morlet $grid s.tsv | awk '!/^#/ { print $1, $3 * 100, ($3 + 8.5 * $2) * 100 }' > windows
 
-au_header() { od -A n -t u1 -j 4 -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'; }
+au_header() {   # FILE: its bytes
+    od -A n -t u1 -j 4 -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
+}
 rows() {        # FORM: how many are out
     if [ "$1" = tsv ]; then grep -vc '^#' out || true
     else wc -c < out | awk -v head="$head_bytes" '{ print int(($1 > head) * ($1 - head) / 56) }'; fi
 }
 # Of the rows after sample I (the first is 0): how many there have to be, and can be, at most.
-due() { awk -v i="$1" '$3 + 3 <= i { due++ } $3 <= i + 1e-6 { most++ } END { print due + 0, most + 0 }' windows; }
+due() {
+    awk -v i="$1" '$3 + 3 <= i { due++ } $3 <= i + 1e-6 { most++ } END { print due + 0, most + 0 }' \
+        windows
+}
 
 follow() {      # FORM SAMPLES: samples that the tool gets by hand
     i=0
@@ -28,7 +33,7 @@ follow() {      # FORM SAMPLES: samples that the tool gets by hand
             tries=$((tries + 1))
         done
         [ "$now" -ge "$3" ] || { echo "$1: after sample $i only $now rows of $3"; return; }
-        [ "$now" -le "$4" ] || { echo "$1: after sample $i already $now rows, $4 are complete"; return; }
+        [ "$now" -le "$4" ] || { echo "$1: after sample $i already $now rows of $4"; return; }
         i=$((i + 1))
     done
     echo "$1: $2 samples, one by one; $now rows were out before the end"

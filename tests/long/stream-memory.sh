@@ -1,5 +1,5 @@
-# 10^8 samples as AU through a pipe, on each kind of grid, stay under 200 MB; and a tenth of them into
-# HDF5 of a length that is not known.
+# 10^8 samples as AU through a pipe, on each kind of grid, stay under 200 MB, as do fewer into HDF5
+# whose length is not known.
 [ -r /proc/self/status ] || { echo "no /proc"; exit 77; }
 [ -z "$SAN" ] || { echo "sanitizers need memory of their own"; exit 77; }
 watch() {       # NAME SECONDS OPTIONS ...: of a signal of 10 kHz
@@ -10,7 +10,7 @@ watch() {       # NAME SECONDS OPTIONS ...: of a signal of 10 kHz
     ss-morlet --stream "$@" < in > /dev/null &
     tool=$!
     most=0
-    while now=$(awk '/^VmHWM/ { print $2 }' /proc/$tool/status) && [ -n "$now" ]; do
+    while now=$(awk '/^VmHWM/ { print $2 }' /proc/$tool/status 2> /dev/null) && [ -n "$now" ]; do
         most=$now
         sleep 0.2
     done
@@ -21,5 +21,6 @@ watch() {       # NAME SECONDS OPTIONS ...: of a signal of 10 kHz
 watch dyadic 10000 --dyadic --octaves=-8:4 --format au
 watch dense 10000 --dense --voices 1 --octaves=-8:1 --format au
 watch stepped 10000 --voices 2 --octaves=-8:1.5 --format au
-watch 'dense into HDF5' 1000 --dense --voices 2 --octaves=-8:1.5 -o /dev/null
+watch 'dense into HDF5' 200 --dense --voices 2 --octaves=-8:1.5 -o x.h5
 watch 'stepped into HDF5' 1000 --voices 2 --octaves=-8:1.5 -o x.h5
+rm x.h5
