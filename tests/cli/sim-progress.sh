@@ -8,7 +8,9 @@ grep '%' log || true
 # So do transforms and what looks at them.
 ss-signal noise --rate 20000 --duration 20 -o long.au
 slow='--method quadrature --accuracy 1e-13 --step 4 --voices 128 --center 200 --fmax 3000'
-for command in "ss-morlet $slow long.au -o w.au" 'ss-features long.au -o f.tsv'; do
+ss-sim --set duration=30 compliant-light | ss-cat --column a -o run.au
+for command in "ss-morlet $slow long.au -o w.au" 'ss-features long.au -o f.tsv' \
+        'ss-rank run.au -o r.tsv' 'ss-rank --fit run.au -o f.scene'; do
     script -qec "$command" /dev/null < /dev/null > log || true
     tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
 done
