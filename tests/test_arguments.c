@@ -167,7 +167,7 @@ headers_and_samples_refuse_null(void **state)
     assert_refused(ss_noise_add_band(noise, NULL, 2, 1, 0, 1, 1, &e), &e);
     ss_noise_free(noise);
     assert_true(isnan(ss_noise_rms(NULL, 1, 0)));
-    assert_refused(ss_quantise(NULL, 1, 8, 1), NULL);
+    assert_refused(ss_quantise(NULL, 1, 8, 1, NULL), NULL);
     assert_int_equal(ss_number_format(NULL, 1), 0);
     assert_true(ss_number_parse(NULL, NULL) == 0);
     assert_int_equal(x[0] + x[1], 3);

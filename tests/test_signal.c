@@ -935,12 +935,13 @@ a_converter_rounds_and_clips(void **state)
     (void)state;
     for (int bits = 1; bits <= 16; bits += 5) {
         double range = 2.5, step = range / (double)(1 << (bits - 1)), square = 0;
-        size_t inside = 0;
+        size_t inside = 0, clipped = 7, outside = 7;
         for (size_t i = 0; i < N; i++)
             x[i] = 3 * (2. * (double)i / (N - 1) - 1);
-        assert_int_equal(ss_quantise(x, N, bits, range), SS_OK);
+        assert_int_equal(ss_quantise(x, N, bits, range, &clipped), SS_OK);
         for (size_t i = 0; i < N; i++) {
             double was = 3 * (2. * (double)i / (N - 1) - 1), off = x[i] - was;
+            outside += was < -range - step / 2 || was > range - step / 2;
             assert_true(x[i] / step == rint(x[i] / step));
             assert_true(x[i] >= -range && x[i] <= range - step);
             if (was < -range)
@@ -953,15 +954,16 @@ a_converter_rounds_and_clips(void **state)
                 inside++;
             }
         }
+        assert_int_equal(clipped, outside);
         if (bits > 1)
             assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
                         <= (bits > 11 ? 0.05 : 1e-2));
     }
-    assert_int_equal(ss_quantise(x, N, 0, 1), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 53, 1), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 8, 0), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 8, INFINITY), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 52, 1e-310), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 0, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 53, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, 0, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, INFINITY, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 52, 1e-310, NULL), SS_EINVAL);
 }
 
 /* --- gaps and other clocks ----------------------------------------------------------------- */

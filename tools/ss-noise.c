@@ -48,6 +48,27 @@ choose_columns(const ss_header *head)
     return chosen;
 }
 
+/* Of the samples that went through the converter. */
+static size_t n_converted, n_clipped;
+
+static void
+convert(double *x, size_t n)
+{
+    tool_check(ss_quantise(x, n, (int)bits, range, &n_clipped), NULL);
+    n_converted += n;
+}
+
+/* The note's value in text; 0: nothing was clipped. */
+static int
+tell_clipped(char *text, size_t size)
+{
+    if (n_clipped == 0)
+        return 0;
+    snprintf(text, size, "%zu of %zu samples", n_clipped, n_converted);
+    tool_warn("%s: %s are outside the converter's range and clipped", tool_input_name(path), text);
+    return 1;
+}
+
 static void
 add_notes(ss_header *head)
 {
@@ -100,6 +121,7 @@ change_whole(tool_kind kind, ss_noise *noise)
 {
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t n = signal->n, columns = signal->head->n_columns;
+    char text[128];
     double *chosen = choose_columns(signal->head), *level = choose_columns(signal->head);
     for (size_t c = 0; c < columns; c++)
         if (chosen[c] == 1)
@@ -108,8 +130,10 @@ change_whole(tool_kind kind, ss_noise *noise)
     add_noise(noise, signal, level);
     for (size_t c = 0; c < columns && bits > 0; c++)
         if (chosen[c] == 1)
-            tool_check(ss_quantise(signal->values + c * n, n, (int)bits, range), NULL);
+            convert(signal->values + c * n, n);
     add_notes(signal->head);
+    if (tell_clipped(text, sizeof text))
+        tool_check(ss_header_note(signal->head, "clipped", text), NULL);
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
     free(chosen);
@@ -124,7 +148,8 @@ change_stream(tool_kind kind, ss_noise *noise)
     ss_writer *writer;
     ss_error err = { "" };
     size_t n;
-    FILE *in = tool_open(path);
+    char text[128];
+    FILE *in = tool_open(path), *out;
     tool_check(ss_reader_new(&reader, in, tool_input_name(path), NULL, &err), &err);
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     double *rows = head != NULL ? malloc(PIECE * head->n_columns * sizeof *rows) : NULL;
@@ -134,8 +159,8 @@ change_stream(tool_kind kind, ss_noise *noise)
     for (size_t c = 0; c < head->n_columns; c++)
         level[c] *= isnan(rms) ? 0 : rms;
     add_notes(head);
-    tool_check(ss_writer_new(&writer, tool_output(output), kind == TOOL_AU ? SS_AU : SS_TSV, head),
-               NULL);
+    out = tool_output(output);
+    tool_check(ss_writer_new(&writer, out, kind == TOOL_AU ? SS_AU : SS_TSV, head), NULL);
     for (;;) {
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         if (n == 0)
@@ -143,10 +168,12 @@ change_stream(tool_kind kind, ss_noise *noise)
         ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level);
         for (size_t i = 0; i < n * head->n_columns && bits > 0; i++)
             if (chosen[i % head->n_columns] == 1)
-                tool_check(ss_quantise(&rows[i], 1, (int)bits, range), NULL);
+                convert(&rows[i], 1);
         tool_check(ss_writer_rows(writer, rows, n), NULL);
         tool_check(ss_writer_flush(writer), NULL);
     }
+    if (tell_clipped(text, sizeof text) && kind == TOOL_TSV)
+        fprintf(out, "# clipped: %s\n", text);
     ss_writer_free(writer);
     ss_header_free(head);
     ss_reader_free(reader);

@@ -188,9 +188,9 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
 
 /* What a converter of so many bits makes of x, whose input spans -range to range: multiples of the
  * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
- * below range.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
+ * below range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
-ss_status ss_quantise(double *x, size_t n, int bits, double range);
+ss_status ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped);
 
 /* --- numbers ------------------------------------------------------------------------------- */
 

@@ -202,7 +202,7 @@ static ss_status
 solve(match *m, answer *a)
 {
     static const double step[] = { 1e-3, 1e-4, 1e-6, 1e-4, 1e-6 };
-    enum { ROUNDS = 4 };
+    enum { LEAST = 3, ROUNDS = 16 };
     ss_status st = SS_OK;
     a->left = INFINITY;
     memset(a->d, 0, sizeof a->d);
@@ -210,8 +210,13 @@ solve(match *m, answer *a)
         take_axes(m, a, 0);
         st = descend(m, step[i], 0, a);
     }
-    for (int i = 0; st == SS_OK && i < ROUNDS && isfinite(a->left) && take_axes(m, a, 1); i++)
+    /* until the sum of squares falls by less than noise moves it: once in its variance */
+    double before = INFINITY;
+    for (int i = 0; st == SS_OK && isfinite(a->left) && take_axes(m, a, 1) && i < ROUNDS
+                    && (i < LEAST || a->left < before * (1 - 1 / (double)m->there)); i++) {
+        before = a->left;
         st = descend(m, 1, 1, a);
+    }
     return st;
 }
 

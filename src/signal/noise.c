@@ -132,14 +132,18 @@ ss_noise_rms(const double *x, size_t n, double snr_db)
 }
 
 ss_status
-ss_quantise(double *x, size_t n, int bits, double range)
+ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped)
 {
     if ((x == NULL && n > 0) || bits < 1 || bits > SS_BITS_MAX || !(range > 0 && isfinite(range)))
         return SS_EINVAL;
     double codes = ldexp(1, bits - 1), step = range / codes;
     if (!(step > 0))
         return SS_EINVAL;
-    for (size_t i = 0; i < n; i++)
-        x[i] = step * fmin(fmax(rint(x[i] / step), -codes), codes - 1);
+    for (size_t i = 0; i < n; i++) {
+        double code = rint(x[i] / step), kept = fmin(fmax(code, -codes), codes - 1);
+        if (clipped != NULL)
+            *clipped += kept != code;
+        x[i] = step * kept;
+    }
     return SS_OK;
 }

@@ -6,9 +6,10 @@
  * Signals are of the shipped scenes with every parameter drawn within +-30 %, at 40 and 20 dB.
  * f_k / (k Z_e) is drawn from .90 to .97: elsewhere most do not move, or stick for less than two
  * periods.  These draws too are made ("free"): there "cannot tell" is the right answer wherever the
- * signal shows no oscillation.  Then the compliant scenes are fitted.  Fails if more than one signal
- * in ten has another than its own model first, if one in ten free draws is told wrongly, or if a
- * fit's rms error is above the noise in the signal. */
+ * signal shows no oscillation.  Then the compliant scenes are fitted.  Fails if more than 3 signals
+ * in 100 at 40 dB, or 7 at 20 dB, and one of few, have another than their own model first, if one in
+ * ten free draws is told wrongly, if a fit's rms error is above the noise in the signal, or if of 200
+ * fits the truth is within one standard error of less than 0.55 or more than 0.80. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_rng.h>
 #include "bench.h"
@@ -205,6 +206,7 @@ fits(const char *name, const ss_scene *scene, double snr, int each, gsl_rng *rng
         printf(" %s %.2g %% (%.2g %% given) %d%s", what[i], 100 * rms, 100 * sqrt(given[i] / each),
                within[i], i + 1 < FITTED ? "," : "\n");
         failed |= !(rms <= bound);
+        failed |= each >= 200 && (within[i] < 0.55 * each || within[i] > 0.80 * each);
     }
     fflush(stdout);
     return failed || told < each;
@@ -238,7 +240,9 @@ main(int argc, char *argv[])
                 one_signal(&t, &s, shipped, m, run[i].snr, gsl_rng_get(rng), argc > 3);
             }
         print(&t, run[i].what, run[i].snr, seed + i);
-        failed |= 10 * told_wrong(&t) > t.n || (!run[i].is_free && 10 * right(&t) < 9 * t.n);
+        int wrong = t.n - right(&t), most = run[i].snr > 30 ? 3 : 7;
+        failed |= 10 * told_wrong(&t) > t.n
+                  || (!run[i].is_free && wrong > 1 && 100 * wrong > most * t.n);
     }
     static const double snr[] = { INFINITY, 40, 20 };
     for (size_t i = 0; i < sizeof snr / sizeof *snr; i++)

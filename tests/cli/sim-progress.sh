@@ -10,8 +10,10 @@ ss-signal noise --rate 20000 --duration 20 -o long.au
 slow='--method quadrature --accuracy 1e-13 --step 4 --voices 128 --center 200 --fmax 3000'
 ss-signal sine --amplitude 0 --rate 20000 --duration 20 |
     ss-morlet --dense --voices 16 --fmin 20 -o dense.h5
+ss-sim --set duration=30 compliant-light | ss-cat --column a -o run.au
 for command in "ss-morlet $slow long.au -o w.au" 'ss-features long.au -o f.tsv' \
-        'ss-contour dense.h5 -o c.gp'; do
+        'ss-contour dense.h5 -o c.gp' \
+        'ss-rank run.au -o r.tsv' 'ss-rank --fit run.au -o f.scene'; do
     script -qec "$command" /dev/null < /dev/null > log || true
     tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
 done
