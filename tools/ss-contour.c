@@ -84,7 +84,7 @@ open_lines(lines *l, const char *path, const char *magic, const char *what)
     if (fgets(l->text, sizeof l->text, l->in) != NULL)
         l->text[strcspn(l->text, "\r\n")] = '\0';
     if (strcmp(l->text, magic) != 0 && !ferror(l->in))
-        tool_die("%s:1: not a list of %s, which begins '%s'", tool_input_name(path), what, magic);
+        tool_die("%s:1: not what %s writes, which begins '%s'", tool_input_name(path), what, magic);
 }
 
 /* The next line that is not empty, or 0 at the end, when the file is closed.  Of a long comment its
@@ -142,7 +142,7 @@ static void
 read_events(drawing *d, const char *path)
 {
     lines l;
-    open_lines(&l, path, "# stickslip events 1", "events");
+    open_lines(&l, path, "# stickslip events 1", "ss-sim --events");
     while (next_line(&l)) {
         const char *text = l.text;
         if (*text == '#')
@@ -178,7 +178,7 @@ read_features(drawing *d, const char *path)
     static const char note[] = "# spike: ";
     ss_overlay *o = &d->overlay;
     lines l;
-    open_lines(&l, path, "# stickslip features 1", "features");
+    open_lines(&l, path, "# stickslip features 1", "ss-features");
     while (next_line(&l)) {
         const char *text = l.text + sizeof note - 1;
         if (l.text[0] != '#')
