@@ -48,6 +48,21 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     return ss_plot_contour(out, d->coefficients, &d->opts, opts, err);
 }
 
+/* Panel (a) shows the time of panel (b), so a signal that is none of that time or clock is told. */
+static void
+compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients *c)
+{
+    double start = signal->head->start, end = start + (double)signal->n / signal->head->rate;
+    double from = c->head->start, to = from + (double)c->n / c->head->rate;
+    double sample = 1 / fmin(signal->head->rate, c->head->rate);
+    if (fabs(signal->head->rate - c->head->rate) > 1e-6 * c->head->rate)
+        tool_warn("%s: sampled at %.9g Hz, and the coefficients at %.9g Hz: is it their signal?",
+                  tool_input_name(path), signal->head->rate, c->head->rate);
+    if (start > from + sample || end < to - sample)
+        tool_warn("%s: from %.6g to %.6g s, the coefficients from %.6g to %.6g s: is it their "
+                  "signal?", tool_input_name(path), start, end, from, to);
+}
+
 /* The signal for panel (a): the one asked for, or the one that an HDF5 file has, or none. */
 static ss_signal *
 find_signal(drawing *d, const char *path, const char *signal_path, const char *column)
@@ -55,7 +70,7 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
     if (signal_path != NULL)
-        signal = tool_read_signal(signal_path, NULL);
+        compare_clocks(signal = tool_read_signal(signal_path, NULL), signal_path, d->coefficients);
     else if (tool_is_hdf5(path) && ss_store_has_signal(path))
         signal = tool_read_signal(signal_path = path, NULL);
     if (signal == NULL)

@@ -273,6 +273,7 @@ static const char around[] =
     "left = 0.175; right = 0.835\n"
     "set lmargin at screen left; set rmargin at screen right\n"
     "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3\n"
+    SCRIPT_TIME_TICS
     "set title title noenhanced offset 0,-0.5\n";
 
 /* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */

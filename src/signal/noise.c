@@ -140,6 +140,6 @@ ss_quantise(double *x, size_t n, int bits, double range)
     if (!(step > 0))
         return SS_EINVAL;
     for (size_t i = 0; i < n; i++)
-        x[i] = step * fmin(fmax(rint(x[i] / step), -codes), codes - 1);
+        x[i] = step * fmin(fmax(rint(x[i] / step), -codes), codes - 1) + 0.0;       /* no -0 */
     return SS_OK;
 }
