@@ -57,15 +57,16 @@ ALL_LDFLAGS := $(SANFLAGS) $(LDFLAGS)
 COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@
 
 # --- what is built ---------------------------------------------------------------------------
-LIB_SRC := $(wildcard src/*.c src/*/*.c)
+# Sorted: GNU make 3.82 to 4.2 give names as they lie in the directory.
+LIB_SRC := $(sort $(wildcard src/*.c src/*/*.c))
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/scenes.o
-SCENES  := $(wildcard data/scenes/*.scene)
-HEADERS := $(wildcard include/stickslip/*.h)
-MANUAL  := $(wildcard man/*.[1-9])
-TOOLS   := $(patsubst tools/%.c,%,$(wildcard tools/ss-*.c))
-TESTS   := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
-BENCHES := $(patsubst tests/%.c,%,$(wildcard tests/bench/bench_*.c))
-FUZZERS := $(patsubst tests/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+SCENES  := $(sort $(wildcard data/scenes/*.scene))
+HEADERS := $(sort $(wildcard include/stickslip/*.h))
+MANUAL  := $(sort $(wildcard man/*.[1-9]))
+TOOLS   := $(patsubst tools/%.c,%,$(sort $(wildcard tools/ss-*.c)))
+TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
+BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
+FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
 OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
 	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \

@@ -299,13 +299,13 @@ read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error
 {
     size_t n = 0;
     int c;
-    while ((c = getc(in)) != EOF && c != '\n') {
-        if (c == '\0' || n + 1 == size)
-            return fail_at(at, err, c == '\0' ? "NUL byte: this is not a text file"
-                           : "line too long");
+    while ((c = getc(in)) != EOF && c != '\n' && c != '\0' && n + 1 < size)
         line[n++] = (char)c;
-    }
     line[n] = '\0';
+    if (at.line == 1 && ss_fail_kind(err, at.name, line, n, "a scene") != SS_OK)
+        return SS_EDATA;
+    if (c == '\0' || (c != EOF && c != '\n'))
+        return fail_at(at, err, c == '\0' ? "NUL byte: this is not a text file" : "line too long");
     *end = c == EOF;
     if (ferror(in))
         return ss_fail_errno(err, at.name, errno);

@@ -18,7 +18,8 @@ limited() {
 
 # Sets passed, failed, skipped from the test's words in TAP.
 run_program() {
-    TMPDIR=$scratch CMOCKA_MESSAGE_OUTPUT=TAP limited "$BUILD/tests/$1" > "$log" 2>&1 < /dev/null
+    # by env: an assignment before a function is not exported by every shell
+    limited env TMPDIR="$scratch" CMOCKA_MESSAGE_OUTPUT=TAP "$BUILD/tests/$1" > "$log" 2>&1 < /dev/null
     status=$?
     # shellcheck disable=SC2046  # four numbers
     set -- $(awk '/^(not )?ok .*# SKIP/ { s++; next } /^ok / { p++ } /^not ok / { f++ }

@@ -1066,8 +1066,8 @@ stream_may_interleave_scales(void **state)
 static const struct damage {
     const char *from, *to, *says;
 } damage[] = {
-    { "# stickslip coefficients 1", "# stickslip signal 1", "c.tsv:1: a signal where" },
-    { "# stickslip coefficients 1", "t,x,a", "c.tsv:1: not a coefficient stream" },
+    { "# stickslip coefficients 1", "# stickslip signal 1", "c.tsv: a signal, not wavelet coefficients" },
+    { "# stickslip coefficients 1", "t,x,a", "c.tsv:1: not wavelet coefficients" },
     { "# rate: 2000", "# rate: fast", "rate 'fast' is not a number" },
     { "# rate: 2000", "# rate: -1", "rate -1 Hz is out of range" },
     { "# samples: 300\n", "# a:b: c\n", "c.tsv:3: 'a:b' cannot be the key of a note" },

@@ -409,10 +409,11 @@ reads_every_au_encoding(void **state)
 #define HEAD "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m v/(m/s)\n"
 static const struct { const char *bytes; size_t n; const char *error; } malformed[] = {
     { BYTES(""), "in: empty" },
-    { BYTES("RIFF....WAVE"), "in: a sound file; convert it: sox FILE -t au -" },
+    { BYTES("RIFF....WAVE"), "in: a sound file, not a signal; sox FILE -t au - makes a signal of it" },
     { BYTES("\211HDF\r\n\032\n...."), "in: HDF5 cannot be read from a stream; give its path" },
-    { BYTES("# stickslip coefficients 1\n"), "in:1: these are wavelet coefficients, not a signal" },
-    { BYTES("# stickslip signal 2\n"), "in:1: '# stickslip signal 2' is not # stickslip signal 1" },
+    { BYTES("# stickslip coefficients 1\n"), "in: wavelet coefficients, not a signal; ss-contour reads them, and "
+      "ss-morlet --inverse" },
+    { BYTES("# stickslip signal 2\n"), "in:1: '# stickslip signal 2' is not '# stickslip signal 1'" },
     { BYTES("# stickslip signal 1\n"), "in:1: no '# columns:' line in the header" },
     { BYTES("# stickslip signal 1\n# columns: t/s\n"), "in:2: no column but time" },
     { BYTES("# stickslip signal 1\n# columns: t/s x\n0\t1\n"), "in:2: no '# rate:' line in the header" },
@@ -439,7 +440,8 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
     { BYTES("t,x\n0,1\n0.1,1e999\n"), "in:3: column x: '1e999' is not a finite number"
       "; ss-cat --gaps=split or interpolate fills the gap" },
     { BYTES("t,x\n0,1\n0.1,1\0\n"), "in:3: a NUL byte: this is not text of 8-bit characters" },
-    { BYTES("hello\nworld\n"), "in:2: no row of numbers up to here" },
+    { BYTES("hello\nworld\n"), "in:2: no row of numbers up to here; a table has them "
+      "between commas, semicolons, tabs or blanks" },
     { BYTES("t,x\n0,1\n"), "in: one row has no sample rate; give it with ss-cat --rate" },
     { BYTES("t\n0\n1\n"), "in: no column but time" },
     { BYTES("t,x\n0,1\n0,1\n"), "in:3: time stamps do not ascend; ss-cat --rate HZ takes "

@@ -546,7 +546,7 @@ refuses_streams_that_are_cut_or_changed(void **state)
         if (au) {
             assert_refused(text, size - 56, "", "", "cut short");
             assert_refused(text, size - 13, "", "", "truncated");
-            assert_refused(text, size, "coefficients 1", "signal 1", "is expected");
+            assert_refused(text, size, "coefficients 1", "signal 1", "a signal, not wavelet coefficients");
             assert_refused(text, size, "# columns: m ", "# columns: n ", "AU without coefficients");
             continue;
         }

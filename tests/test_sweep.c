@@ -594,7 +594,7 @@ reads_rows_back(void **state)
         "# stickslip sweep 1\n# columns: index contact_damping/(N s/m) period amplitude/m status\n"
         "2\t3\t2\t0.5\tok\r\n";
     static const struct { const char *text, *why; } bad[] = {
-        { "x\n", "a.tsv:1: not a sweep: it does not begin with '# stickslip sweep 1'" },
+        { "x\n", "a.tsv:1: not a sweep, which begins '# stickslip sweep 1'; ss-sweep makes one" },
         { "# stickslip sweep 1\n1\t2\tok\n", "a.tsv:2: no '# columns:' line in the header" },
         { "# stickslip sweep 1\n# columns: index x status\n1\tok\n",
           "a.tsv:3: expected 3 columns, found 2" },

@@ -73,6 +73,21 @@ open_coefficients(drawing *d, const char *path)
     d->opts.source_user = d->reader;
 }
 
+/* Panel (a) shows the time of panel (b), so a signal that is none of that time or clock is told. */
+static void
+compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients *c)
+{
+    double start = signal->head->start, end = start + (double)signal->n / signal->head->rate;
+    double from = c->head->start, to = from + (double)c->n / c->head->rate;
+    double sample = 1 / fmin(signal->head->rate, c->head->rate);
+    if (fabs(signal->head->rate - c->head->rate) > 1e-6 * c->head->rate)
+        tool_warn("%s: sampled at %.9g Hz, and the coefficients at %.9g Hz: is it their signal?",
+                  tool_input_name(path), signal->head->rate, c->head->rate);
+    if (start > from + sample || end < to - sample)
+        tool_warn("%s: from %.6g to %.6g s, the coefficients from %.6g to %.6g s: is it their "
+                  "signal?", tool_input_name(path), start, end, from, to);
+}
+
 /* The signal for panel (a): the one asked for, or the one that an HDF5 file has, or none. */
 static ss_signal *
 find_signal(drawing *d, const char *path, const char *signal_path, const char *column)
@@ -80,7 +95,7 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
     if (signal_path != NULL)
-        signal = tool_read_signal(signal_path, NULL);
+        compare_clocks(signal = tool_read_signal(signal_path, NULL), signal_path, d->coefficients);
     else if (tool_is_hdf5(path) && ss_store_has_signal(path))
         signal = tool_read_signal(signal_path = path, NULL);
     if (signal == NULL)
@@ -109,7 +124,7 @@ open_lines(lines *l, const char *path, const char *magic, const char *what)
     if (fgets(l->text, sizeof l->text, l->in) != NULL)
         l->text[strcspn(l->text, "\r\n")] = '\0';
     if (strcmp(l->text, magic) != 0 && !ferror(l->in))
-        tool_die("%s:1: not a list of %s, which begins '%s'", tool_input_name(path), what, magic);
+        tool_die("%s:1: not what %s writes, which begins '%s'", tool_input_name(path), what, magic);
 }
 
 /* The next line that is not empty, or 0 at the end, when the file is closed.  Of a long comment its
@@ -167,7 +182,7 @@ static void
 read_events(drawing *d, const char *path)
 {
     lines l;
-    open_lines(&l, path, "# stickslip events 1", "events");
+    open_lines(&l, path, "# stickslip events 1", "ss-sim --events");
     while (next_line(&l)) {
         const char *text = l.text;
         if (*text == '#')
@@ -203,7 +218,7 @@ read_features(drawing *d, const char *path)
     static const char note[] = "# spike: ";
     ss_overlay *o = &d->overlay;
     lines l;
-    open_lines(&l, path, "# stickslip features 1", "features");
+    open_lines(&l, path, "# stickslip features 1", "ss-features");
     while (next_line(&l)) {
         const char *text = l.text + sizeof note - 1;
         if (l.text[0] != '#')

@@ -2,6 +2,7 @@
 #include "common.h"
 
 #include <float.h>
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
@@ -106,6 +107,7 @@ read_line(const char *path, size_t *n)
     FILE *in = tool_open(path);
     char text[512], *end, *rest;
     double *line = NULL;
+    int points = 0;
     for (size_t room = 0; fgets(text, sizeof text, in) != NULL; ++*n) {
         if (*n == room) {
             double *more = realloc(line, (room = 2 * room + 64) * 2 * sizeof *more);
@@ -116,9 +118,12 @@ read_line(const char *path, size_t *n)
         double x = ss_number_parse(text, &end), y = ss_number_parse(end, &rest);
         line[2 * *n] = end > text && rest > end ? x : NAN;
         line[2 * *n + 1] = y;
+        points += !isnan(line[2 * *n]);
     }
     if (ferror(in))
-        tool_die("%s: read error", path);
+        tool_die("%s: %s", path, strerror(errno));
+    if (points == 0)
+        tool_die("%s: no row begins with two numbers, x and y of the line", path);
     fclose(in);
     return line;
 }

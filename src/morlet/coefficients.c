@@ -239,15 +239,12 @@ check_magic(const reader *r, const char *line)
     const char *name = r->in.in.name;
     if (line == NULL)
         return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", name);
-    if (strncmp(line, "\211HDF", 4) == 0)
-        return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
-                       name);
-    if (strncmp(line, "# stickslip signal", 18) == 0)
-        return ss_fail(r->err, SS_EDATA, "%s:1: a signal where coefficients are expected; "
-                       "ss-morlet makes them", name);
+    if (strcmp(line, COEFFICIENTS_MAGIC) != 0
+        && ss_fail_kind(r->err, name, line, strlen(line), "wavelet coefficients") != SS_OK)
+        return SS_EDATA;
     if (strcmp(line, COEFFICIENTS_MAGIC) != 0)
-        return ss_fail(r->err, SS_EDATA, "%s:1: not a coefficient stream, which begins '%s'",
-                       name, COEFFICIENTS_MAGIC);
+        return ss_fail(r->err, SS_EDATA, "%s:1: not wavelet coefficients, which begin '%s'; "
+                       "ss-morlet makes them of a signal", name, COEFFICIENTS_MAGIC);
     return SS_OK;
 }
 
@@ -302,7 +299,14 @@ read_header(reader *r)
     ss_status st = ss_input_need(in, 4, r->err);
     if (st != SS_OK)
         return st;
-    r->au = in->hi - in->lo >= 4 && memcmp(in->buffer + in->lo, ".snd", 4) == 0;
+    const char *bytes = in->buffer + in->lo;
+    size_t n = in->hi - in->lo;
+    r->au = n >= 4 && memcmp(bytes, ".snd", 4) == 0;
+    if (n >= 4 && memcmp(bytes, "\211HDF", 4) == 0)
+        return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
+                       in->name);
+    if (!r->au && ss_fail_kind(r->err, in->name, bytes, n, "wavelet coefficients") != SS_OK)
+        return SS_EDATA;
     return r->au ? read_au_header(r) : read_text_header(r);
 }
 

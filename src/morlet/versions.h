@@ -20,8 +20,9 @@
 #endif
 
 /* A function that is compiled for several kinds, where compiler and C library support that, and no
- * sanitizer runs before its own start. */
-#if defined(HAVE_TARGETS) && defined(__GLIBC__) \
+ * sanitizer runs before its own start.  Before GCC 10 the choice among them is a name that the shared
+ * library shows. */
+#if defined(HAVE_TARGETS) && defined(__GLIBC__) && __GNUC__ >= 10 \
     && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define VERSIONS __attribute__((target_clones("default", "avx2", "avx512f"), optimize("O3")))
 #else

@@ -14,6 +14,7 @@
 
 #define COLUMNS 700             /* pixels that panel (b) is wide, about */
 #define ROWS 580                /* and high */
+#define LEVELS 100              /* at most */
 #define BLUR 0.2                /* pixels that a line may be off by leaving points out */
 #define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0 */
 
@@ -107,7 +108,8 @@ typedef struct line_sink {
     FILE *out;
     const ss_coefficients *c;
     const script_span *span;
-    int level;                  /* number of the line */
+    int level;                  /* its number */
+    size_t lines;               /* of this level, so far */
 } line_sink;
 
 static void
@@ -142,7 +144,7 @@ is_straight(const double (*point)[2], size_t first, size_t last, double row)
 static void
 put_line(const double (*point)[2], size_t n, void *user)
 {
-    const line_sink *sink = user;
+    line_sink *sink = user;
     double row = (double)ROWS / (double)(sink->c->n_scales - 1);    /* pixels */
     put_point(sink, point[0]);
     for (size_t first = 0, last; first < n - 1; first = last) {
@@ -152,22 +154,31 @@ put_line(const double (*point)[2], size_t n, void *user)
         put_point(sink, point[last]);
     }
     putc('\n', sink->out);
+    sink->lines++;
 }
 
-/* A datablock of time, frequency and number of the line, a blank line after each. */
+/* A datablock of time, frequency and number of the level, a blank line after each line and two after
+ * each level, and which levels have lines; *any is 1 if one has. */
 static ss_status
 put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
-             const script_span *span, const double *level)
+             const script_span *span, const double *level, int *any)
 {
-    line_sink sink = { out, c, span, 0 };
+    char drawn[LEVELS * sizeof " 100"] = "";
+    line_sink sink = { out, c, span, 0, 0 };
     const isoline_map map = { COLUMNS + 1, c->n_scales, level };
     ss_status status = SS_OK;
     fputs("$contour << EOD\n", out);
     for (int k = 1; status == SS_OK && k <= contour->levels; k++) {
         sink.level = k;
+        sink.lines = 0;
         status = ss_isolines(&map, -k * contour->span / contour->levels, put_line, &sink);
+        if (sink.lines > 0) {
+            putc('\n', out);
+            snprintf(drawn + strlen(drawn), sizeof drawn - strlen(drawn), " %d", k);
+        }
     }
-    fputs("EOD\n", out);
+    *any = drawn[0] != '\0';
+    fprintf(out, "EOD\ndrawn = '%s'     # levels that have lines\n", drawn + (drawn[0] == ' '));
     return status;
 }
 
@@ -192,7 +203,8 @@ put_side(FILE *out, const script_span *span, double t, int sign, double stop, do
 }
 
 /* The cone of influence, nearer than sqrt(2) a to an end of the record, and the like around gaps:
- * closed curves, a blank line between them. */
+ * closed curves, two blank lines between them.  Each is drawn for itself: gnuplot 5.2 draws the way
+ * from one to the next, too. */
 static void
 put_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
 {
@@ -200,11 +212,11 @@ put_cone(FILE *out, const ss_coefficients *c, const script_span *span, const dou
     fputs("$cone << EOD\n", out);
     put_side(out, span, start, 1, start + (end - start) / 2, c->center, band);
     put_side(out, span, -INFINITY, -1, start, c->center, band);
-    putc('\n', out);
+    fputs("\n\n", out);
     put_side(out, span, end, -1, end - (end - start) / 2, c->center, band);
     put_side(out, span, INFINITY, 1, end, c->center, band);
     for (size_t i = 0; i < c->n_gaps; i++) {
-        putc('\n', out);
+        fputs("\n\n", out);
         put_side(out, span, c->gap[i].to, 1, end, c->center, band);
         put_side(out, span, c->gap[i].from, -1, start, c->center, band);
     }
@@ -300,6 +312,7 @@ static const char around[] =
     "left = 0.175; right = 0.835\n"
     "set lmargin at screen left; set rmargin at screen right\n"
     "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3\n"
+    SCRIPT_TIME_TICS
     "set title title noenhanced offset 0,-0.5\n";
 
 /* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */
@@ -338,10 +351,10 @@ put_features(FILE *out, const visible *seen)
 }
 
 /* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
- * read from them. */
+ * read from them.  A colour a level: of lines with a colour a point, gnuplot 6.0 loses some. */
 static void
 put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range,
-           const visible *seen)
+           int lines, const visible *seen)
 {
     fputs(around, out);
     if (contour->signal != NULL) {
@@ -354,12 +367,14 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
     put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
     if (contour->signal == NULL)
         fputs("unset label 1\n", out);
-    fputs("plot $cone using 1:2 with filledcurves closed fs solid 1 noborder lc rgb cone_colour, "
-          "\\\n", out);
+    fprintf(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
+            "fs solid 1 noborder lc rgb cone_colour", c->n_gaps + 1);
     if (contour->n_events > 0)
-        fputs("    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour, "
-              "\\\n", out);
-    fputs("    $contour using 1:2:(-$3*step) with lines lw 1 lc palette", out);
+        fputs(", \\\n    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 "
+              "lc rgb event_colour", out);
+    if (lines)
+        fputs(", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines lw 1 "
+              "lc palette cb -word(drawn,i)*step", out);
     put_features(out, seen);
     fputs("\nunset multiplot\n", out);
 }
@@ -367,8 +382,9 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
 static ss_status
 check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 {
-    if (contour->levels < 1 || contour->levels > 100)
-        return ss_fail(err, SS_EINVAL, "levels: %d is out of range 1 ... 100", contour->levels);
+    if (contour->levels < 1 || contour->levels > LEVELS)
+        return ss_fail(err, SS_EINVAL, "levels: %d is out of range 1 ... %d", contour->levels,
+                       LEVELS);
     if (!(contour->span > 0 && contour->span <= 10000))
         return ss_fail(err, SS_EINVAL, "span: more than 0 and at most 10000 dB are needed");
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
@@ -410,6 +426,7 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
         return status;
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
     double range = 0;
+    int lines = 0;
     visible seen = { 0, 0, 0 };
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
     drawn.from = span.from;
@@ -434,10 +451,10 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
         fputs("feature_colour = '#cc3311'; rim(part) = fmin*(fmax/fmin)**part\n", out);
         seen = put_overlay(out, contour->overlay, &span);
     }
-    status = put_contours(out, c, contour, &span, level);
+    status = put_contours(out, c, contour, &span, level, &lines);
     if (status != SS_OK)
         return status;
-    put_panels(out, c, contour, range, &seen);
+    put_panels(out, c, contour, range, lines, &seen);
     return ss_script_end(out);
 }
 

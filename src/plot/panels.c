@@ -18,6 +18,7 @@ static const char layout[] =
     "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
     "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
     "set autoscale yfix; set tics nomirror out scale 0.6; set xtics format ''\n"
+    SCRIPT_TIME_TICS
     "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
     "unset key\n";
 

@@ -23,6 +23,12 @@ ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *
                           ss_error *err);
 /* The named variables from and to, in the lines at the top. */
 void ss_script_put_span(FILE *out, const script_span *span);
+/* Lines of script: tics of time at 1, 2 or 5 times a power of ten, six intervals at most, also when
+ * from and to are changed. */
+#define SCRIPT_TIME_TICS \
+    "tic(share) = share < 1.001 ? 1 : share < 2.001 ? 2 : share < 5.001 ? 5 : 10\n" \
+    "part = (to > from ? to - from : 1)/6.0; decade = 10**floor(log10(part))\n" \
+    "set xtics decade*tic(part/decade)\n"
 
 /* Text from outside as a gnuplot string constant that does nothing but stand there. */
 void ss_script_quote(FILE *out, const char *text);

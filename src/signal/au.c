@@ -186,11 +186,9 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
     char *annotation = strndup(in->buffer + in->lo + AU_FIXED_HEADER, offset - AU_FIXED_HEADER);
-    if (annotation != NULL && strncmp(annotation, "# stickslip ", 12) == 0
-        && strncmp(annotation, reader->magic, strlen(reader->magic)) != 0) {
-        int length = (int)strcspn(annotation, "\n");
-        ss_fail(err, SS_EDATA, "%s: begins '%.*s', where '%s' is expected", in->name,
-                length < 40 ? length : 40, annotation, reader->magic);
+    const char *wanted = strcmp(reader->magic, STREAM_MAGIC) == 0 ? "a signal" : "wavelet coefficients";
+    if (annotation != NULL
+        && ss_fail_kind(err, in->name, annotation, strlen(annotation), wanted) != SS_OK) {
         free(annotation);
         return SS_EDATA;
     }

@@ -483,7 +483,8 @@ read_table(struct table *t, ss_error *err)
         if (st != SS_OK)
             return st;
         if (line == NULL || i == HEADER_LINES)
-            return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here", t->in->name,
+            return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
+                           "between commas, semicolons, tabs or blanks", t->in->name,
                            t->in->line);
         if (!comment && is_data(t, line, &found) != SS_OK)
             return out_of_memory(t, err);

@@ -143,7 +143,7 @@ ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped)
         double code = rint(x[i] / step), kept = fmin(fmax(code, -codes), codes - 1);
         if (clipped != NULL)
             *clipped += kept != code;
-        x[i] = step * kept;
+        x[i] = step * kept + 0.0;     /* no -0 */
     }
     return SS_OK;
 }

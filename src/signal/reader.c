@@ -30,12 +30,12 @@ open_kind(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: empty", in->name);
     if (n >= 4 && memcmp(p, ".snd", 4) == 0)
         return ss_au_open(reader, opts, err);
-    if (n >= 11 && memcmp(p, STREAM_MAGIC, 11) == 0)
-        return ss_text_open(reader, opts, err);
     if (n >= 4 && memcmp(p, "\211HDF", 4) == 0)
         return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
-    if (n >= 4 && (memcmp(p, "RIFF", 4) == 0 || memcmp(p, "fLaC", 4) == 0))
-        return ss_fail(err, SS_EDATA, "%s: a sound file; convert it: sox FILE -t au -", in->name);
+    if (ss_fail_kind(err, in->name, p, n, "a signal") != SS_OK)
+        return SS_EDATA;
+    if (n >= 11 && memcmp(p, STREAM_MAGIC, 11) == 0)
+        return ss_text_open(reader, opts, err);
     return ss_delimited_open(reader, opts, err);
 }
 

@@ -107,10 +107,9 @@ text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 static ss_status
 refuse_magic(const ss_reader *reader, const char *line, ss_error *err)
 {
-    if (strncmp(line, "# stickslip coefficients", 24) == 0)
-        return ss_fail(err, SS_EDATA, "%s:1: these are wavelet coefficients, not a signal",
-                       reader->in.name);
-    return ss_fail(err, SS_EDATA, "%s:1: '%.40s' is not %s", reader->in.name, line, STREAM_MAGIC);
+    if (ss_fail_kind(err, reader->in.name, line, strlen(line), "a signal") != SS_OK)
+        return SS_EDATA;
+    return ss_fail(err, SS_EDATA, "%s:1: '%.40s' is not '%s'", reader->in.name, line, STREAM_MAGIC);
 }
 
 /* The header ends before the first line that is no comment. */

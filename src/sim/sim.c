@@ -501,7 +501,7 @@ ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
         return;
     const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->y, s->z, s->mode };
     for (size_t i = 0; i < columns->n; i++)
-        row[i] = value[columns->pick[i]];
+        row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
 }
 
 /* The scene's own text as notes, but for the rate, which every header has. */

@@ -143,9 +143,12 @@ static ss_status
 take_line(reader *r, char *line, ss_error *err)
 {
     static const char columns[] = "# columns: ", scene[] = "# scene: ";
+    if (r->in.line == 1 && strcmp(line, "# stickslip sweep 1") != 0
+        && ss_fail_kind(err, r->in.name, line, strlen(line), "a sweep") != SS_OK)
+        return SS_EDATA;
     if (r->in.line == 1 && strcmp(line, "# stickslip sweep 1") != 0)
-        return ss_fail(err, SS_EDATA, "%s:1: not a sweep: it does not begin with "
-                       "'# stickslip sweep 1'", r->in.name);
+        return ss_fail(err, SS_EDATA, "%s:1: not a sweep, which begins '# stickslip sweep 1'; "
+                       "ss-sweep makes one", r->in.name);
     if (strncmp(line, columns, strlen(columns)) == 0)
         return take_columns(r, line + strlen(columns), err);
     if (strncmp(line, scene, strlen(scene)) == 0 && r->table->scene == NULL

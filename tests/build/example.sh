@@ -11,7 +11,7 @@ build() {       # shared|static [FLAG]: all examples, in a directory of this nam
     mkdir "$1"
     for source in "$SRC"/tests/examples/*.c; do
         # shellcheck disable=SC2046,SC2086  # flags are a list
-        $CCLD -o "$1/$(basename "$source" .c)" "$source" $(pkg-config $2 --cflags --libs stickslip gsl) -lm
+        $CCLD -o "$1/$(basename "$source" .c)" "$source" $(pkg-config $2 --cflags --libs stickslip gsl) -lpthread -lm
     done
 }
 run() {

@@ -11,7 +11,7 @@ ss-sim compliant-light | ss-morlet -o run.h5
 ss-contour run.h5 -o figure6.pdf
 ss-sim --events compliant-light > events
 ss-contour --events events --from 1 --to 1.2 run.h5 > transition.gp
-{ echo 'set terminal dumb'; cat transition.gp; } | gnuplot 2> /dev/null | grep -c 'time / s'
+{ echo 'set terminal dumb'; cat transition.gp; } | gnuplot 2> /dev/null | grep -c ' 1\.1 '
 ss-sim compliant-light | ss-morlet --dense -o run.h5
 ss-cat run.h5:/signal/a > a.tsv
 sed -n 's/^# columns: //p' a.tsv
