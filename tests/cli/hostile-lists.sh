@@ -74,7 +74,7 @@ done
 ss-morlet --method fft --wisdom wisdom run.tsv > once.tsv
 ss-morlet --method fft --wisdom wisdom run.tsv | cmp - once.tsv
 size=$(wc -c < wisdom)
-for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
+for i in 1 5 9; do
     head -c $((size * i / 13)) wisdom > cut
     { head -c $((size * i / 13)) wisdom; printf 7; tail -c +$((size * i / 13 + 2)) wisdom; } > flipped
     for file in cut flipped; do
