@@ -8,6 +8,8 @@ mkdir whole work
 ss-sim --set duration=20 coulomb > run
 ss-cat --to 5 run > short
 ss-morlet short > coefficients
+ss-cat --to 1 run | ss-morlet --dyadic > few
+ss-sim --set settle=2 --set duration=1 compliant-light > sticks
 
 # make_ FILE COMMAND ...: have it made by a tool that the command runs.
 make_() {
@@ -21,9 +23,16 @@ make_() {
     morlet.*)    "$@" ss-morlet -o "$file" ../short ;;
     plot.svg)    "$@" ss-plot -o plot.svg ../run ;;
     contour.*)   "$@" ss-contour -o "$file" ../coefficients ;;
+    inverse.au)  "$@" ss-morlet --inverse -o inverse.au ../few ;;
+    features.*)  "$@" ss-features -o "$file" ../short ;;
+    sweep.tsv)   "$@" ss-sweep -m amplitude --vary mass=2:3:40 --vary friction=1:2:40 -o sweep.tsv coulomb ;;
+    fit.scene)   "$@" ss-rank -q --fit -o fit.scene ../sticks ;;
+    map.svg)     "$@" ss-plot --map mass,friction,amplitude -o map.svg ../sweep ;;
     esac
 }
-all='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 plot.svg contour.png contour.gp'
+ss-sweep -m amplitude --vary mass=2:3:9 --vary friction=1:2:9 coulomb > sweep
+all='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 plot.svg contour.png contour.gp
+    inverse.au features.tsv sweep.tsv fit.scene map.svg'
 cd whole
 for file in $all; do make_ "$file" env; done
 cd ../work
