@@ -91,6 +91,22 @@ still(const row *r, const ss_scene *s, const run *got)
             wrong(r, got, "x", got->sample[i].x, s->x0, 0);
 }
 
+/* Samples are at n / rate, to the bit, and the base is where it must be then: off by rounding of the
+ * phase, 4 eps, whatever the time.  In long double f n / rate is known to 2^-64 of its cycles. */
+static void
+keeps_time(const row *r, const ss_scene *s, const run *got)
+{
+    for (size_t i = 0; i < got->n; i++) {
+        const ss_sample *at = &got->sample[i];
+        long double cycles = s->base_frequency * (long double)i / s->rate;
+        long double phase = 2 * acosl(-1) * (cycles - floorl(cycles)) + s->phase;
+        double allow = s->base_amplitude * (8 * DBL_EPSILON + 6.3 * ldexp((double)cycles, -63));
+        is_near(r, got, "time of a sample", at->t, (double)i / s->rate, 0);
+        is_near(r, got, "z", at->z, (double)(s->base_amplitude * cosl(phase)), allow);
+    }
+    is_near(r, got, "number of samples", (double)got->n, (double)ss_scene_samples(s), 0);
+}
+
 /* So many events. */
 static void
 events(const row *r, const ss_scene *s, const run *got)

@@ -389,6 +389,19 @@ read_coefficients(int variant)
     return st;
 }
 
+/* Made before, as it takes memory of FFTW's. */
+static char wisdom[4000];
+
+static ss_status
+read_wisdom(int variant)
+{
+    (void)variant;
+    FILE *in = fmemopen(wisdom, strlen(wisdom), "r");
+    ss_status st = ss_wisdom_read(in, &err);
+    fclose(in);
+    return st;
+}
+
 static ss_status
 features(int variant)
 {
@@ -576,7 +589,8 @@ static const struct row {
     { "closed forms", closed_forms, 2, 100 }, { "trades", trades, 2, 20 },
     { "transforms", transforms, 6, 30 }, { "streams", streams, 4, 30 },
     { "inverses", inverses, 1, 30 }, { "comparisons", comparisons, 2, 30 },
-    { "reading coefficients", read_coefficients, 1, 30 }, { "features", features, 2, 30 },
+    { "reading coefficients", read_coefficients, 1, 30 },
+    { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 }, { "plots", plots, 5, 30 },
@@ -630,6 +644,10 @@ set_up(void **state)
     fclose(in);
     if (st != SS_OK)
         return -1;
+    out = fmemopen(wisdom, sizeof wisdom, "w");
+    if (ss_wisdom_write(out) != SS_OK)
+        return -1;
+    fclose(out);
     ss_record record = { .signal = signal, .coefficients = coefficients };
     return ss_store_write(path, &record, NULL) == SS_OK ? 0 : -1;
 }

@@ -90,7 +90,7 @@ ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_
                         ss_error *err);
 /* What FFTW's planner has found out in this process, FFTW's own state: with what was read, plans for
  * the same lengths are made at once, whatever the planner, and always the same.  SS_EINVAL if in holds no
- * wisdom of this FFTW and machine, SS_EIO if out refuses it. */
+ * wisdom of this FFTW and machine (less than 16 MB), SS_ENOMEM, SS_EIO. */
 ss_status ss_wisdom_read(FILE *in, ss_error *err);
 ss_status ss_wisdom_write(FILE *out);
 size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */

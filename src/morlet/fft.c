@@ -32,7 +32,7 @@
  *
  * FFTW's planner is not safe for threads, so making and freeing of plans takes turns; other users
  * of FFTW in the program must not plan at the same time. */
-#include <stdio.h>         /* before it, for files of wisdom */
+#include <errno.h>
 #include <fftw3.h>
 #include <float.h>
 #include <limits.h>
@@ -1112,26 +1112,58 @@ ss_fft_free(struct fft *fft)
     free(fft);
 }
 
-/* A file has wisdom in double precision, then, unless it is an old one, in single; each is an
- * expression in parentheses. */
+/* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW aborts the
+ * program over flags that do not fit where it keeps them, in 20, 20 and 9 bits. */
+static int
+flags_fit(const char *wisdom)
+{
+    static const unsigned long most[] = { 0xfffff, 0xfffff, 0x1ff };
+    const char *entry = strchr(wisdom, '(');
+    while (entry != NULL && (entry = strchr(entry + 1, '(')) != NULL) {
+        const char *name = entry + 1 + strspn(entry + 1, " \t\r\n\v\f");
+        char *p = (char *)name + strcspn(name, " \t\r\n\v\f");
+        for (int i = 0; i < 3; i++)
+            if ((p = strstr(p, "#x")) == NULL || strtoul(p + 2, &p, 16) > most[i])
+                return 0;
+    }
+    return 1;
+}
+
+enum { WISDOM_ROOM = 1 << 24 };         /* a hundred thousand plans */
+
+/* A file has wisdom in double precision, then, unless it is an old one, in single. */
+static int
+import_wisdom(char *text)
+{
+    char *single = strstr(text, "fftwf_wisdom");
+    while (single != NULL && single > text && *single != '(')
+        single--;
+    if (single != NULL && single > text && single[-1] == '\n')
+        single[-1] = '\0';
+    if (!flags_fit(text) || (single != NULL && !flags_fit(single)))
+        return 0;
+    pthread_mutex_lock(&planner);
+    int good = fftw_import_wisdom_from_string(text)
+        && (single == NULL || fftwf_import_wisdom_from_string(single));
+    pthread_mutex_unlock(&planner);
+    return good;
+}
+
 ss_status
 ss_wisdom_read(FILE *in, ss_error *err)
 {
     if (in == NULL)
         return SS_FAIL_NULL(err);
-    char *text = NULL;
-    size_t room = 0;
-    int good = getdelim(&text, &room, '\0', in) > 0;
-    char *single = good ? strstr(text, "fftwf_wisdom") : NULL;
-    while (single != NULL && single > text && *single != '(')
-        single--;
-    pthread_mutex_lock(&planner);
-    good = good && fftw_import_wisdom_from_string(text)
-        && (single == NULL || fftwf_import_wisdom_from_string(single));
-    pthread_mutex_unlock(&planner);
-    free(text);
-    return good ? SS_OK : ss_fail(err, SS_EINVAL, "this is no wisdom of %s on this machine",
-                                  fftw_version);
+    char *wisdom = malloc(WISDOM_ROOM);
+    if (wisdom == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    size_t n = fread(wisdom, 1, WISDOM_ROOM - 1, in);
+    int read = !ferror(in), why = errno;
+    wisdom[n] = '\0';
+    int good = read && n < WISDOM_ROOM - 1 && import_wisdom(wisdom);
+    free(wisdom);
+    return good ? SS_OK : !read ? ss_fail(err, SS_EIO, "%s", strerror(why))
+        : ss_fail(err, SS_EINVAL, "this is no wisdom of %s on this machine", fftw_version);
 }
 
 ss_status

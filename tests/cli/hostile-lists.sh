@@ -74,10 +74,10 @@ done
 ss-morlet --method fft --wisdom wisdom run.tsv > once.tsv
 ss-morlet --method fft --wisdom wisdom run.tsv | cmp - once.tsv
 size=$(wc -c < wisdom)
-for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
-    head -c $((size * i / 13)) wisdom > cut
+for i in 1 5 9; do
+    head -c $((size * i / 13)) wisdom > begun
     { head -c $((size * i / 13)) wisdom; printf 7; tail -c +$((size * i / 13 + 2)) wisdom; } > flipped
-    for file in cut flipped; do
+    for file in begun flipped; do
         ss-morlet --method fft --wisdom $file run.tsv > again.tsv 2> words || [ $? = 1 ] || cat words
         [ "$(wc -l < words)" -le 1 ] || cat words
     done

@@ -16,6 +16,13 @@ make_() {
         for form in tsv h5; do ss-morlet $grid --threads "$1" -o morlet$grid.$form run; done
     done
     ss-morlet --method fft --threads "$1" -o fft.tsv run
+    ss-morlet --stream --octaves -7:-5 --threads "$1" run > stream.tsv
+    ss-morlet --inverse -o inverse.tsv morlet--voices=5.tsv
+    ss-features --threads "$1" -o features.tsv run
+    ss-sweep -m stops,amplitude --vary mass=2:3:7 --vary friction=1:2:7 --threads "$1" -o sweep.tsv coulomb
+    ss-plot --map mass,friction,stops -o map.gp sweep.tsv
+    ss-contour --features features.tsv -o features.gp morlet--voices=5.tsv
+    ss-rank -q -o rank.tsv run compliant-light coulomb
     ss-contour -o contour.gp morlet--voices=5.tsv
     ss-plot -o plot.gp run
     if command -v gnuplot > /dev/null; then ss-plot -o plot.svg run; fi

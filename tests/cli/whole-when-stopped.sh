@@ -1,5 +1,5 @@
 # Stopped at a moment of its own, each tool leaves the file that was there or a whole new one, and
-# nothing beside it unless it was killed.  TRIES times each; tests/long tries harder.
+# nothing beside it unless it was killed.  TRIES times each; tests/long tries harder, half by HALF.
 timeout --foreground -s INT 10 true 2> /dev/null || { echo "no timeout of GNU"; exit 77; }
 command -v gnuplot > /dev/null || { echo "no gnuplot"; exit 77; }
 # shellcheck disable=SC3045
@@ -8,6 +8,8 @@ mkdir whole work
 ss-sim --set duration=20 coulomb > run
 ss-cat --to 5 run > short
 ss-morlet short > coefficients
+ss-cat --to 1 run | ss-morlet --dyadic > few
+ss-sim --set settle=2 --set duration=1 compliant-light > sticks
 
 # make_ FILE COMMAND ...: have it made by a tool that the command runs.
 make_() {
@@ -22,9 +24,17 @@ make_() {
     stream.h5)   "$@" ss-morlet --stream --fmin 5 -o stream.h5 ../run ;;
     plot.svg)    "$@" ss-plot -o plot.svg ../run ;;
     contour.*)   "$@" ss-contour -o "$file" ../coefficients ;;
+    inverse.au)  "$@" ss-morlet --inverse -o inverse.au ../few ;;
+    features.*)  "$@" ss-features -o "$file" ../short ;;
+    sweep.tsv)   "$@" ss-sweep -m amplitude --vary mass=2:3:40 --vary friction=1:2:40 -o sweep.tsv coulomb ;;
+    fit.scene)   "$@" ss-rank -q --fit -o fit.scene ../sticks ;;
+    map.svg)     "$@" ss-plot --map mass,friction,amplitude -o map.svg ../sweep ;;
     esac
 }
-all='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 stream.h5 plot.svg contour.png contour.gp'
+ss-sweep -m amplitude --vary mass=2:3:9 --vary friction=1:2:9 coulomb > sweep
+one='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 stream.h5'
+two='plot.svg contour.png contour.gp inverse.au features.tsv sweep.tsv fit.scene map.svg'
+case ${HALF:-} in 1) all=$one ;; 2) all=$two ;; *) all="$one $two" ;; esac
 cd whole
 for file in $all; do make_ "$file" env; done
 cd ../work

@@ -91,6 +91,10 @@
 { "1e9 s, a million times as heavy as a thousand", "coulomb",
   "mass=2.42e12 base_frequency=2.5e-6 duration=1e9 rate=1e-6", "exact", events, 10001, 0,
   "as many as in 1000 s of the scene itself" },
+{ "stuck for 1e9 s", "coulomb", "friction=10 x0=1e-4 duration=1e9 rate=1e-3", NULL, keeps_time, 0, 0,
+  "samples n / rate; the base where it is after 2.5e9 cycles" },
+{ "1e8 s of slips once in 1e6 s", "coulomb",
+  "mass=2.42e12 base_frequency=2.5e-6 duration=1e8 rate=3.7e-5", "exact", keeps_time, 0, 0, "" },
 
 /* --- sizes --------------------------------------------------------------------------------- */
 { "Z_e = 1e-300", "coulomb", "base_amplitude=6e-300 friction=1.28e-296", NULL, scales, 0,

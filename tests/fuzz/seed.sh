@@ -3,7 +3,7 @@
 # Seeds are small, so that a fuzzer gets through them fast: few samples, few scales.
 set -eu
 cd "$(dirname "$0")/corpus"
-mkdir -p scene text delimited au coefficients hdf5 sweep
+mkdir -p scene text delimited au coefficients hdf5 sweep wisdom
 short='--set settle=0 --set rate=1000'
 
 for name in coulomb state-variable compliant-light; do
@@ -62,3 +62,11 @@ for shard in 1 2; do
     ss-sweep --shard $shard/2 -m stops,amplitude --vary friction=0.1:1.5:3 --vary contact_stiffness=1e5:1e6:3:log \
         compliant-light
 done > sweep/shards
+
+# Wisdom without its first line, which the harness knows for its machine.
+ss-signal sine --duration 0.02 > run
+ss-morlet --voices 1 --center 2 --force --dense --method fft --wisdom all run > coefficients-of-it
+sed 1d all > wisdom/measured
+printf ')' > wisdom/none
+printf '  (TIMEOUT 0 #x100000 #x100000 #x200 #x1 #x2 #x3 #x4)\n)\n' > wisdom/flags-too-wide
+rm run all coefficients-of-it

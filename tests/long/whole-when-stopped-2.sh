@@ -1,0 +1,3 @@
+# As tests/cli/whole-when-stopped.sh, a hundred times each: half 2 of the files.
+TRIES=100 HALF=2
+. "$SRC/tests/cli/whole-when-stopped.sh"
