@@ -2,9 +2,7 @@
  *
  * While the contact sticks, the signal is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) + C + D t: the
  * line stands for the slow response to the base. w and s belong to the contact and are the same in
- * every stick; A to D are not. So A to D are projected out of each window (variable projection,
- * Golub and Pereyra 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows
- * at once, by GSL's Levenberg-Marquardt.
+ * every stick; A to D are not. varpro.c fits that to windows.
  *
  * Where a stick begins and ends is not known. A core shorter than any stick that can be used is put
  * where an oscillation explains most; from there the window grows. With w and s fixed, q more
@@ -20,11 +18,11 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "varpro.h"
 
 /* In periods of the oscillation. */
 #define CORE 1.25               /* fits into a stick of two wherever that lies */
@@ -47,273 +45,29 @@
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 #define FINE 1e-8
 enum { FEW = 4 };               /* windows that a jackknife needs */
-enum { COLUMNS = 5, PLACES = 16 };  /* PLACES: of the core, a period */
-
-/* exp(-s t) cos(w t) and exp(-s t) sin(w t), as many samples as were asked for yet. */
-typedef struct wave {
-    double w, s;                /* per sample */
-    size_t n;
-    double *cos, *sin;
-} wave;
-
-/* What is projected out of windows of n samples, orthonormal; the oscillation's are the last two
- * columns.  Windows of one length share it. */
-typedef struct basis {
-    size_t n;                   /* 0: none yet */
-    double w, s, forcing;
-    double *q[COLUMNS];
-    double norm[COLUMNS], cross;        /* of a column less those before; of sin along cos */
-} basis;
+enum { PLACES = 16 };           /* of the core, a period */
 
 typedef struct work {
-    const double *x;
-    size_t n;
-    double w, s;                /* per sample */
+    varpro fit;
+    size_t n;                   /* samples */
     double noise;               /* variance */
-    size_t room;                /* samples of the longest window */
-    double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
-    size_t columns;             /* of the slow part and of the oscillation */
-    wave slow, ring;            /* cos and sin of the forcing; the oscillation */
-    basis basis;
     double *limit;              /* see belong; 0: not known yet */
-    double *r;                  /* the residual */
-    double *j;                  /* its derivatives by w and by s */
-    size_t n_windows;
-    const ss_window *window;
     size_t n_gaps;
     const ss_window *gap;
 } work;
-
-typedef struct linear {         /* what projecting a window gave */
-    double rss;                 /* sum of squares left */
-    double ring;                /* sum of squares that the oscillation explains */
-    double a, b;                /* of cos and sin */
-} linear;
 
 static const ss_value nothing = { NAN, NAN };
 
 static double
 period(const work *k)
 {
-    return 2 * M_PI / k->w;
+    return 2 * M_PI / k->fit.w;
 }
 
 static size_t
 periods(const work *k, double n)
 {
     return (size_t)ceil(n * period(k));
-}
-
-static size_t
-length(ss_window win)
-{
-    return win.end - win.first;
-}
-
-/* In lanes, which do not wait for each other. */
-static double
-dot(const double *a, const double *b, size_t n)
-{
-    enum { LANES = 8 };
-    double sum[LANES] = { 0 };
-    size_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (size_t l = 0; l < LANES; l++)
-            sum[l] += a[i + l] * b[i + l];
-    for (; i < n; i++)
-        sum[0] += a[i] * b[i];
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-}
-
-/* Take its part along the unit vector q out of v; the part. */
-static double
-take_out(double *v, const double *q, size_t n)
-{
-    double part = dot(q, v, n);
-    for (size_t i = 0; i < n; i++)
-        v[i] -= part * q[i];
-    return part;
-}
-
-static double
-normalise(double *v, size_t n)
-{
-    double norm = sqrt(dot(v, v, n));
-    for (size_t i = 0; i < n; i++)
-        v[i] /= norm;
-    return norm;
-}
-
-/* The first n samples, by rotation. */
-static void
-extend(wave *to, double w, double s, size_t n)
-{
-    double step = exp(-s), turn_c = step * cos(w), turn_s = step * sin(w);
-    if (to->w != w || to->s != s)
-        to->n = 0;
-    to->w = w, to->s = s;
-    for (; to->n < n; to->n++) {
-        size_t i = to->n;
-        to->cos[i] = i == 0 ? 1 : to->cos[i - 1] * turn_c - to->sin[i - 1] * turn_s;
-        to->sin[i] = i == 0 ? 0 : to->cos[i - 1] * turn_s + to->sin[i - 1] * turn_c;
-    }
-}
-
-/* The slow part, about the middle of the window: what is not of unit size is made so. */
-static void
-slow_columns(work *k, double **q, size_t n)
-{
-    double middle = 0.5 * (double)(n - 1);
-    double c = cos(k->forcing * middle), s = sin(k->forcing * middle);
-    if (k->forcing > 0)
-        extend(&k->slow, k->forcing, 0, n);
-    for (size_t i = 0; i < n; i++) {
-        q[0][i] = 1;
-        if (k->forcing > 0) {
-            q[1][i] = k->slow.sin[i] * c - k->slow.cos[i] * s;
-            q[2][i] = k->slow.cos[i] * c + k->slow.sin[i] * s;
-        } else
-            q[1][i] = (double)i - middle;
-    }
-}
-
-/* By modified Gram-Schmidt, for more samples than columns. */
-static void
-make_basis(work *k, size_t n)
-{
-    basis *b = &k->basis;
-    size_t c = k->columns - 2;
-    if (b->n == n && b->w == k->w && b->s == k->s && b->forcing == k->forcing)
-        return;
-    b->n = n, b->w = k->w, b->s = k->s, b->forcing = k->forcing;
-    slow_columns(k, b->q, n);
-    extend(&k->ring, k->w, k->s, n);
-    memcpy(b->q[c], k->ring.cos, n * sizeof(double));
-    memcpy(b->q[c + 1], k->ring.sin, n * sizeof(double));
-    for (size_t j = 0; j < k->columns; j++) {
-        for (size_t l = 0; l < j; l++)
-            b->cross = take_out(b->q[j], b->q[l], n);   /* the last one: of sin along cos */
-        b->norm[j] = normalise(b->q[j], n);
-    }
-}
-
-/* Make the basis, and fill r, for a window. */
-static linear
-project(work *k, ss_window win)
-{
-    const basis *p = &k->basis;
-    size_t n = length(win), c = k->columns - 2, s = c + 1;
-    double z[COLUMNS] = { 0 };
-    make_basis(k, n);
-    memcpy(k->r, k->x + win.first, n * sizeof *k->r);
-    for (size_t j = 0; j < k->columns; j++)
-        z[j] = take_out(k->r, p->q[j], n);
-    double b = z[s] / p->norm[s];
-    return (linear){ dot(k->r, k->r, n), z[c] * z[c] + z[s] * z[s],
-                     (z[c] - p->cross * b) / p->norm[c], b };
-}
-
-/* --- the fit of w and s -------------------------------------------------------------------- */
-
-static int
-residuals(const gsl_vector *at, void *user, gsl_vector *f)
-{
-    work *k = user;
-    double *to = f->data;
-    k->w = gsl_vector_get(at, 0);
-    k->s = gsl_vector_get(at, 1);
-    for (size_t i = 0; i < k->n_windows; i++) {
-        size_t n = length(k->window[i]);
-        if (n == 0)
-            continue;
-        project(k, k->window[i]);
-        memcpy(to, k->r, n * sizeof *to);
-        to += n;
-    }
-    return GSL_SUCCESS;
-}
-
-/* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
-static void
-window_jacobian(work *k, ss_window win, double *j_w, double *j_s)
-{
-    size_t n = length(win);
-    linear fit = project(k, win);
-    for (size_t i = 0; i < n; i++) {
-        double c = (double)i * k->ring.cos[i], s = (double)i * k->ring.sin[i];
-        j_w[i] = fit.a * s - fit.b * c;
-        j_s[i] = fit.a * c + fit.b * s;
-    }
-    for (size_t j = 0; j < k->columns; j++) {
-        take_out(j_w, k->basis.q[j], n);
-        take_out(j_s, k->basis.q[j], n);
-    }
-}
-
-static int
-jacobian(const gsl_vector *at, void *user, gsl_matrix *to)
-{
-    work *k = user;
-    k->w = gsl_vector_get(at, 0);
-    k->s = gsl_vector_get(at, 1);
-    for (size_t i = 0, row = 0; i < k->n_windows; i++) {
-        size_t n = length(k->window[i]);
-        double *j_w = k->j, *j_s = k->j + k->room;
-        if (n == 0)
-            continue;
-        window_jacobian(k, k->window[i], j_w, j_s);
-        for (size_t l = 0; l < n; l++, row++) {
-            gsl_matrix_set(to, row, 0, j_w[l]);
-            gsl_matrix_set(to, row, 1, j_s[l]);
-        }
-    }
-    return GSL_SUCCESS;
-}
-
-static size_t
-total(const ss_window *window, size_t n)
-{
-    size_t sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += length(window[i]);
-    return sum;
-}
-
-/* Fit k->w and k->s to n windows, from where they stand, to a relative tolerance.  *ok: they have
- * converged. */
-static ss_status
-fit(work *k, const ss_window *window, size_t n, double tol, int *ok)
-{
-    enum { STEPS = 50 };
-    double w = k->w, s = k->s;
-    size_t samples = total(window, n);
-    int info;
-    *ok = 0;
-    if (samples == 0)
-        return SS_OK;
-    k->window = window;
-    k->n_windows = n;
-    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf problem = { .f = residuals, .df = jacobian, .n = samples, .p = 2,
-                                         .params = k };
-    gsl_multifit_nlinear_workspace *space =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, samples, 2);
-    if (space == NULL)
-        return SS_ENOMEM;
-    double start[2] = { w, s };
-    gsl_vector_view at = gsl_vector_view_array(start, 2);
-    if (gsl_multifit_nlinear_init(&at.vector, &problem, space) == GSL_SUCCESS) {
-        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, tol, 0, 0, NULL, NULL, &info, space);
-        w = gsl_vector_get(space->x, 0);
-        s = gsl_vector_get(space->x, 1);
-        /* no progress: it stands at the minimum already */
-        *ok = (how_it_ended == GSL_SUCCESS || info == GSL_ENOPROG) && w > 0 && w < M_PI
-            && isfinite(s);
-    }
-    k->w = w;
-    k->s = s;
-    gsl_multifit_nlinear_free(space);
-    return SS_OK;
 }
 
 /* --- windows ------------------------------------------------------------------------------- */
@@ -329,12 +83,12 @@ find_noise(work *k, const ss_window *window, size_t n)
         return SS_ENOMEM;
     double *ring = variance + n;
     for (size_t i = 0; i < n; i++) {
-        if (length(window[i]) <= k->columns)
+        if (ss_window_length(window[i]) <= k->fit.columns)
             continue;
-        linear fitted = project(k, window[i]);
-        double freedom = (double)(length(window[i]) - k->columns);
+        linear fitted = ss_varpro_project(&k->fit, window[i]);
+        double freedom = (double)(ss_window_length(window[i]) - k->fit.columns);
         variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
-        ring[used++] = fitted.ring / (double)length(window[i]);
+        ring[used++] = fitted.ring / (double)ss_window_length(window[i]);
     }
     if (used > 0)
         k->noise = fmax(gsl_stats_select(variance, 1, used, used / 2),
@@ -373,7 +127,7 @@ place(work *k, size_t anchor, double size_in_periods)
     size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1);
     ss_window best = { 0, 0 };
-    size = size > k->columns + 2 ? size : k->columns + 2;
+    size = size > k->fit.columns + 2 ? size : k->fit.columns + 2;
     double most = 0, least = INFINITY;
     for (int pass = 0; pass < 2; pass++)
         for (size_t first = anchor > before ? anchor - before : 0;
@@ -381,7 +135,7 @@ place(work *k, size_t anchor, double size_in_periods)
             ss_window here = { first, first + size };
             if (has_gap(k, here))
                 continue;
-            linear fitted = project(k, here);
+            linear fitted = ss_varpro_project(&k->fit, here);
             if (pass == 0) {
                 most = fmax(most, fitted.ring);
             } else if (fitted.ring >= 0.25 * most && fitted.rss < least) {
@@ -405,7 +159,7 @@ belong(work *k, double rise, size_t q)
 static ss_window
 grow(work *k, ss_window win, size_t room, int backwards)
 {
-    double start = project(k, win).rss, rss = start;
+    double start = ss_varpro_project(&k->fit, win).rss, rss = start;
     size_t added = 0;
     for (size_t step = periods(k, BLOCK); step > 0; step /= 2)
         while (added + step <= room) {
@@ -414,7 +168,7 @@ grow(work *k, ss_window win, size_t room, int backwards)
                 more.first -= step;
             else
                 more.end += step;
-            double now = project(k, more).rss;
+            double now = ss_varpro_project(&k->fit, more).rss;
             if (!belong(k, now - rss, step) || !belong(k, now - start, added + step))
                 break;
             win = more;
@@ -427,14 +181,14 @@ grow(work *k, ss_window win, size_t room, int backwards)
 static ss_window
 grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
 {
-    if (length(core) >= longest)
+    if (ss_window_length(core) >= longest)
         return core;
-    size_t most = longest - length(core), left = core.first - low;
-    if (length(core) == 0 || !belong(k, project(k, core).rss, length(core) - k->columns))
+    size_t most = longest - ss_window_length(core), left = core.first - low;
+    if (ss_window_length(core) == 0 || !belong(k, ss_varpro_project(&k->fit, core).rss, ss_window_length(core) - k->fit.columns))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, left < most ? left : most, 1);
     size_t right = high - win.end;
-    most = longest - length(win);
+    most = longest - ss_window_length(win);
     return grow(k, win, right < most ? right : most, 0);
 }
 
@@ -444,7 +198,7 @@ grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
  * the same distance from their starts. So at each distance the gain is tried as a third parameter
  * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
  * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well. */
-enum { PARAMETERS = 4 };        /* w, s, real and imaginary part of the gain */
+enum { PARAMETERS = VARPRO_DERIVATIVES };   /* w, s, real and imaginary part of the gain */
 typedef struct score {
     double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
 } score;
@@ -453,29 +207,25 @@ typedef struct score {
 static void
 add_scores(work *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
 {
-    size_t n = length(win);
-    double *j[PARAMETERS];
-    for (int p = 0; p < PARAMETERS; p++)
-        j[p] = k->j + (size_t)p * k->room;
-    linear fitted = project(k, win);
-    window_jacobian(k, win, j[0], j[1]);
+    size_t n = ss_window_length(win);
+    double **j = k->fit.j;
+    linear fitted = ss_varpro_derive(&k->fit, win);
     for (size_t l = 0; l < n_places; l++, to++) {
         size_t at = first + l * step;
         int used = at < n ? PARAMETERS : 2;
         if (at < n) {
             for (size_t i = 0; i < n; i++) {
-                double c = i < at ? 0 : k->ring.cos[i], s = i < at ? 0 : k->ring.sin[i];
+                double c = i < at ? 0 : k->fit.ring.cos[i], s = i < at ? 0 : k->fit.ring.sin[i];
                 j[2][i] = fitted.a * c + fitted.b * s;
                 j[3][i] = fitted.b * c - fitted.a * s;
             }
             for (int p = 2; p < PARAMETERS; p++)
-                for (size_t q = 0; q < k->columns; q++)
-                    take_out(j[p], k->basis.q[q], n);
+                ss_varpro_take_out(&k->fit, j[p], n);
         }
         for (int p = 0; p < used; p++) {
             for (int q = 0; q < used; q++)
-                to->h[p * PARAMETERS + q] += dot(j[p], j[q], n);
-            to->g[p] += dot(j[p], k->r, n);
+                to->h[p * PARAMETERS + q] += ss_dot(j[p], j[q], n);
+            to->g[p] += ss_dot(j[p], k->fit.r, n);
         }
     }
 }
@@ -496,22 +246,22 @@ statistic(score *at)
     return sum;
 }
 
-/* Where the gain changes most, if it does at all; *at is k->room if not. */
+/* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
 static ss_status
 find_break(work *k, const ss_window *window, size_t n, size_t *at)
 {
     size_t step = periods(k, BLOCK), longest = 0;
     for (size_t i = 0; i < n; i++)
-        longest = length(window[i]) > longest ? length(window[i]) : longest;
+        longest = ss_window_length(window[i]) > longest ? ss_window_length(window[i]) : longest;
     size_t n_places = longest / step;
     score *place = calloc(n_places + 1, sizeof *place);
     if (place == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++)
-        if (length(window[i]) > 0)
+        if (ss_window_length(window[i]) > 0)
             add_scores(k, window[i], step, step, n_places, place);
     double most = 1;
-    *at = k->room;
+    *at = k->fit.room;
     for (size_t l = 0; l < n_places; l++) {
         double chance = (double)((l + 1) * step) < LEAST * period(k) ? BREAK_EARLY : BREAK;
         double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
@@ -533,7 +283,7 @@ drop_worst(work *k, ss_window *window, size_t n, size_t at)
     double most = 0;
     for (size_t i = 0; i < n; i++) {
         score s = { { 0 }, { 0 } };
-        if (length(window[i]) <= at)
+        if (ss_window_length(window[i]) <= at)
             continue;
         add_scores(k, window[i], at, 1, 1, &s);
         double found = statistic(&s);
@@ -551,7 +301,7 @@ static ss_window
 cut(const work *k, ss_window win, size_t longest)
 {
     size_t least = periods(k, LEAST), end = periods(k, TRIM_END);
-    if (length(win) <= longest)
+    if (ss_window_length(win) <= longest)
         return win;
     win.end = win.first + longest;
     win.end -= end < longest - least ? end : longest - least;
@@ -563,11 +313,11 @@ static ss_window
 trim(const work *k, ss_window win)
 {
     size_t least = periods(k, LEAST), start = periods(k, TRIM_START);
-    if (length(win) < least)
+    if (ss_window_length(win) < least)
         return (ss_window){ win.first, win.first };
-    size_t spare = length(win) - least;
+    size_t spare = ss_window_length(win) - least;
     win.first += start < spare ? start : spare;
-    return cut(k, win, length(win) - 1);
+    return cut(k, win, ss_window_length(win) - 1);
 }
 
 /* Windows about the cores, as the w, s and noise at hand show them. */
@@ -597,11 +347,11 @@ typedef struct normal {
 static normal
 normal_of(work *k, ss_window win)
 {
-    size_t n = length(win);
-    double *j_w = k->j, *j_s = k->j + k->room;
-    window_jacobian(k, win, j_w, j_s);
-    return (normal){ dot(j_w, j_w, n), dot(j_w, j_s, n), dot(j_s, j_s, n), dot(j_w, k->r, n),
-                     dot(j_s, k->r, n), dot(k->r, k->r, n) };
+    size_t n = ss_window_length(win);
+    const double *j_w = k->fit.j[0], *j_s = k->fit.j[1], *r = k->fit.r;
+    linear fitted = ss_varpro_derive(&k->fit, win);
+    return (normal){ ss_dot(j_w, j_w, n), ss_dot(j_w, j_s, n), ss_dot(j_s, j_s, n),
+                     ss_dot(j_w, r, n), ss_dot(j_s, r, n), fitted.rss };
 }
 
 /* The variances from the curvature of the sum of squares. */
@@ -619,17 +369,17 @@ jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
 {
     normal *each = malloc(n * sizeof *each), all = { 0 };
     double moved[2] = { 0, 0 }, mean[2] = { 0, 0 };
-    size_t used = 0, samples = total(window, n);
+    size_t used = 0, samples = ss_window_total(window, n);
     if (each == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
-        if (length(window[i]) == 0)
+        if (ss_window_length(window[i]) == 0)
             continue;
         normal h = each[used++] = normal_of(k, window[i]);
         all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
         all.rss += h.rss;
     }
-    errors_of_fit(&all, all.rss / (double)(samples - k->columns * used - 2), value);
+    errors_of_fit(&all, all.rss / (double)(samples - k->fit.columns * used - 2), value);
     for (int pass = 0; pass < 2 && used >= FEW; pass++)
         for (size_t i = 0; i < used; i++) {
             normal h = each[i];
@@ -659,7 +409,7 @@ variances(work *k, const ss_window *window, size_t n, double *variance, double o
     ss_value value[2];
     size_t used = 0;
     for (size_t i = 0; i < n; i++) {
-        if (length(window[i]) == 0)
+        if (ss_window_length(window[i]) == 0)
             continue;
         normal h = normal_of(k, window[i]);
         all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
@@ -667,7 +417,7 @@ variances(work *k, const ss_window *window, size_t n, double *variance, double o
         used++;
     }
     if (*variance < 0)
-        *variance = all.rss / (double)(total(window, n) - k->columns * used - 2);
+        *variance = all.rss / (double)(ss_window_total(window, n) - k->fit.columns * used - 2);
     errors_of_fit(&all, *variance, value);
     of[0] = value[0].error * value[0].error;
     of[1] = value[1].error * value[1].error;
@@ -679,7 +429,7 @@ variances(work *k, const ss_window *window, size_t n, double *variance, double o
 static ss_status
 add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
 {
-    const double at[2] = { k->w, k->s };
+    const double at[2] = { k->fit.w, k->fit.s };
     double most[2] = { 0, 0 }, whole[2], less[2], variance = -1;
     size_t off = periods(k, TRIM_END);
     ss_window *cut_off = malloc(n * sizeof *cut_off);
@@ -690,19 +440,19 @@ add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
     for (int end = 0; end < 2 && st == SS_OK; end++) {
         for (size_t i = 0; i < n; i++) {
             cut_off[i] = window[i];
-            if (length(window[i]) > 0 && end)
+            if (ss_window_length(window[i]) > 0 && end)
                 cut_off[i].end -= off;
-            else if (length(window[i]) > 0)
+            else if (ss_window_length(window[i]) > 0)
                 cut_off[i].first += off;
         }
-        st = fit(k, cut_off, n, FINE, &ok);
+        st = ss_varpro_fit(&k->fit, cut_off, n, FINE, &ok);
         if (st == SS_OK && ok) {
             variances(k, cut_off, n, &variance, less);
-            const double moved[2] = { k->w - at[0], k->s - at[1] };
+            const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
             for (int j = 0; j < 2; j++)
                 most[j] = fmax(most[j], moved[j] * moved[j] - fmax(less[j] - whole[j], 0));
         }
-        k->w = at[0], k->s = at[1];
+        k->fit.w = at[0], k->fit.s = at[1];
     }
     for (int j = 0; j < 2; j++)
         value[j].error = sqrt(value[j].error * value[j].error + 0.25 * most[j]);
@@ -716,16 +466,16 @@ static ss_status
 fit_one(work *k, ss_window win, ss_value each[2], linear *fitted)
 {
     int ok;
-    double w = k->w, s = k->s;
-    ss_status st = fit(k, &win, 1, FINE, &ok);
+    double w = k->fit.w, s = k->fit.s;
+    ss_status st = ss_varpro_fit(&k->fit, &win, 1, FINE, &ok);
     if (st == SS_OK && ok) {
-        *fitted = project(k, win);
+        *fitted = ss_varpro_project(&k->fit, win);
         normal h = normal_of(k, win);
-        each[0].value = k->w;
-        each[1].value = k->s;
-        errors_of_fit(&h, h.rss / (double)(length(win) - k->columns - 2), each);
+        each[0].value = k->fit.w;
+        each[1].value = k->fit.s;
+        errors_of_fit(&h, h.rss / (double)(ss_window_length(win) - k->fit.columns - 2), each);
     }
-    k->w = w, k->s = s;
+    k->fit.w = w, k->fit.s = s;
     return st;
 }
 
@@ -735,7 +485,7 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
     linear fitted;
     ss_status st = SS_OK;
     for (size_t i = 0; i < n && st == SS_OK; i++)
-        if (length(window[i]) > k->columns + 2)
+        if (ss_window_length(window[i]) > k->fit.columns + 2)
             st = fit_one(k, window[i], each + 2 * i, &fitted);
     return st;
 }
@@ -753,17 +503,17 @@ look_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double whit
     for (int turn = 0; turn < TURNS && ok; turn++) {
         for (size_t i = 0; i < n; i++)
             core[i] = place(k, anchor[i], CORE);
-        ss_status st = fit(k, core, n, COARSE, &ok);
+        ss_status st = ss_varpro_fit(&k->fit, core, n, COARSE, &ok);
         if (st != SS_OK)
             return st;
     }
     for (size_t i = 0; i < n; i++) {
-        if (length(core[i]) == 0)
+        if (ss_window_length(core[i]) == 0)
             continue;
-        linear fitted = project(k, core[i]);
+        linear fitted = ss_varpro_project(&k->fit, core[i]);
         used++;
         rough += fitted.rss > ROUGH * ROUGH * fitted.ring && fitted.rss > white * white
-            * gsl_cdf_chisq_Qinv(CHANCE, (double)(length(core[i]) - k->columns));
+            * gsl_cdf_chisq_Qinv(CHANCE, (double)(ss_window_length(core[i]) - k->fit.columns));
     }
     *is_rough = 2 * rough > used;
     return SS_OK;
@@ -779,12 +529,12 @@ fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *
         ss_window win = place(k, anchor[i], LEAST);
         ss_value own[2] = { nothing, nothing };
         linear fitted;
-        if (length(win) <= k->columns + 2)
+        if (ss_window_length(win) <= k->fit.columns + 2)
             continue;
         st = fit_one(k, win, own, &fitted);
-        if (st != SS_OK || !(fabs(log(own[0].value / k->w)) < M_LN2 / 2)
+        if (st != SS_OK || !(fabs(log(own[0].value / k->fit.w)) < M_LN2 / 2)
             || !(fitted.ring > EXPLAINED * (fitted.ring + fitted.rss))
-            || !(exp(-own[1].value * (double)length(win)) > LASTS))
+            || !(exp(-own[1].value * (double)ss_window_length(win)) > LASTS))
             continue;
         memcpy(each + 2 * i, own, sizeof own);
         window[i] = win;
@@ -803,7 +553,7 @@ take_median(const ss_window *window, size_t n, const ss_value *each, ss_value va
         double mean = 0, scatter = 0;
         size_t used = 0;
         for (size_t i = 0; i < n; i++)
-            if (length(window[i]) > 0 && !isnan(each[2 * i + j].value))
+            if (ss_window_length(window[i]) > 0 && !isnan(each[2 * i + j].value))
                 v[used++] = each[2 * i + j].value;
         if (used < FEW)
             break;
@@ -824,22 +574,22 @@ static ss_status
 fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
 {
-    double start = k->w;
+    double start = k->fit.w;
     int ok = 0, more = 1;
     for (size_t i = 0; i < n; i++)
         core[i] = window[i] = place(k, anchor[i], CORE);
-    ss_status st = fit(k, core, n, COARSE, &ok);
+    ss_status st = ss_varpro_fit(&k->fit, core, n, COARSE, &ok);
     if (st == SS_OK && ok)
         st = find_noise(k, core, n);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
-        if (st != SS_OK || !ok || !(fabs(log(k->w / start)) < M_LN2 / 2))
+        if (st != SS_OK || !ok || !(fabs(log(k->fit.w / start)) < M_LN2 / 2))
             return st;                  /* or it is something else */
         size_t longest = periods(k, limit);
         find_windows(k, core, window, n, longest);
         more = 0;
         for (size_t i = 0; i < n; i++)
-            more |= length(window[i]) == longest;
-        st = fit(k, window, n, COARSE, &ok);
+            more |= ss_window_length(window[i]) == longest;
+        st = ss_varpro_fit(&k->fit, window, n, COARSE, &ok);
         if (st == SS_OK && ok)
             st = find_noise(k, window, n);
     }
@@ -849,7 +599,7 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
         window[i] = trim(k, window[i]);
     size_t longest;
     do {
-        st = fit(k, window, n, FINE, &ok);
+        st = ss_varpro_fit(&k->fit, window, n, FINE, &ok);
         if (st == SS_OK && ok)
             st = find_noise(k, window, n);
         if (st == SS_OK && ok)
@@ -861,9 +611,9 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
         else
             for (size_t i = 0; i < n; i++)
                 window[i] = cut(k, window[i], longest);
-    } while (longest < k->room);
-    value[0].value = k->w;
-    value[1].value = k->s;
+    } while (longest < k->fit.room);
+    value[0].value = k->fit.w;
+    value[1].value = k->fit.s;
     st = jackknife(k, window, n, value);
     if (st == SS_OK)
         st = add_misfit(k, window, n, value);
@@ -898,7 +648,7 @@ static ss_status
 fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
          ss_value *each, double forcing)
 {
-    double w = k->w;
+    double w = k->fit.w;
     ss_status st = fit_with(k, anchor, n, window, value, each);
     if (st != SS_OK || !(forcing > 0))
         return st;
@@ -906,10 +656,7 @@ fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value va
     ss_value *other_each = malloc(2 * (n + 1) * sizeof *other_each), other_value[2];
     st = SS_ENOMEM;
     if (other != NULL && other_each != NULL) {
-        k->w = w;
-        k->s = START * w;
-        k->forcing = forcing;
-        k->columns = COLUMNS;
+        ss_varpro_start(&k->fit, w, START * w, forcing);
         st = fit_with(k, anchor, n, other, other_value, other_each);
         if (st == SS_OK && !(other_value[0].error >= value[0].error)
             && !isnan(other_value[0].error)) {
@@ -931,7 +678,7 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
     size_t strict = 0, used = 0;
     int rough = 0;
     for (size_t i = 0; i < n; i++)
-        strict += length(window[i]) > 0;
+        strict += ss_window_length(window[i]) > 0;
     if (2 * strict >= n)
         return SS_OK;
     ss_window *other = malloc(n * sizeof *other);
@@ -943,7 +690,7 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
         clear(anchor, n, other, other_value, other_each);
         st = fit_rough(k, anchor, n, other, other_each);
         for (size_t i = 0; i < n; i++)
-            used += length(other[i]) > 0;
+            used += ss_window_length(other[i]) > 0;
     }
     if (st == SS_OK && used > strict) {
         memcpy(window, other, n * sizeof *window);
@@ -960,29 +707,24 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
                 double forcing, double white, const ss_window *gap, size_t n_gaps,
                 ss_window *window, ss_value value[2], ss_value *each)
 {
-    work k = { .x = x, .n = n, .w = w, .s = START * w, .columns = COLUMNS - 1,
-               .n_gaps = n_gaps, .gap = gap };
+    work k = { .n = n, .n_gaps = n_gaps, .gap = gap };
+    const double turn = 2 * M_PI / w;
     clear(anchor, n_anchors, window, value, each);
     double apart = n_anchors < 2 ? 0
         : (double)(anchor[n_anchors - 1] - anchor[0]) / (double)(n_anchors - 1);
-    if (!(apart >= APART * period(&k)) || (forcing > 0 && M_PI / forcing < APART * period(&k)))
+    if (!(apart >= APART * turn) || (forcing > 0 && M_PI / forcing < APART * turn))
         return SS_OK;
-    k.room = periods(&k, 2 * MOST) + 2 * COLUMNS;
-    double *memory = calloc((COLUMNS + 1 + PARAMETERS + 5) * k.room, sizeof *memory);
-    if (memory == NULL)
-        return SS_ENOMEM;
-    for (int j = 0; j < COLUMNS; j++)
-        k.basis.q[j] = memory + (size_t)j * k.room;
-    k.r = memory + COLUMNS * k.room;
-    k.slow.cos = k.r + k.room, k.slow.sin = k.slow.cos + k.room;
-    k.ring.cos = k.slow.sin + k.room, k.ring.sin = k.ring.cos + k.room;
-    k.limit = k.ring.sin + k.room;
-    k.j = k.limit + k.room;
-    ss_status st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
-    k.w = w, k.s = START * w;
-    k.forcing = 0, k.columns = COLUMNS - 1;
+    size_t room = (size_t)ceil(2 * MOST * turn) + 2 * VARPRO_COLUMNS;
+    ss_status st = ss_varpro_init(&k.fit, x, room);
+    if (st == SS_OK && (k.limit = calloc(room, sizeof *k.limit)) == NULL)
+        st = SS_ENOMEM;
+    ss_varpro_start(&k.fit, w, START * w, 0);
+    if (st == SS_OK)
+        st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
+    ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
         st = fit_singly(&k, anchor, n_anchors, window, value, each, white);
-    free(memory);
+    ss_varpro_free(&k.fit);
+    free(k.limit);
     return st;
 }

@@ -4,10 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/features.h>
-
-typedef struct ss_window {
-    size_t first, end;          /* samples [first, end) */
-} ss_window;
+#include "window.h"
 
 /* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each of the n_anchors samples
  * given, w and s shared, starting from w. Where the forcing's omega per sample is known and that is

@@ -2,7 +2,8 @@
 #ifndef SLOPE_H
 #define SLOPE_H
 
-#include "ringdown.h"
+#include <stickslip/features.h>
+#include "window.h"
 
 /* |df/dx| over the n windows, each from first to end in samples, with its standard error; y is the
  * signal that the windows were found in.  All hold finite numbers, else the slope is NaN. */
