@@ -1,4 +1,4 @@
-/* list.h -- room in a list that grows. */
+/* list.h -- room in a list that grows, and places in one that is in order of time. */
 #ifndef LIST_H
 #define LIST_H
 
@@ -18,6 +18,21 @@ ss_list_room(void *list, size_t *room, size_t n, size_t size)
     if (longer != NULL)
         *room = more;
     return longer;
+}
+
+/* The first of n entries of size bytes that is not before t; each begins with its time. */
+static inline size_t
+ss_list_from(const void *list, size_t n, size_t size, double t)
+{
+    size_t lo = 0, hi = n;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (*(const double *)((const char *)list + mid * size) < t)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
 }
 
 #endif

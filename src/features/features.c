@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "error.h"
+#include "list.h"
 #include "maxima.h"
 #include "period.h"
 #include "rows.h"
@@ -254,7 +255,8 @@ snap_to_spikes(const search *s, ss_transition *tr, double period)
 {
     const ss_spikes_found *found = s->out->spikes;
     double nearest = 0.5 * period;
-    for (size_t i = 0; i < found->n; i++) {
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, tr->from - nearest);
+    for (; i < found->n && found->spike[i].t <= tr->end + period; i++) {
         const ss_spike *spike = &found->spike[i];
         double distance = fabs(spike->t - tr->from);
         if (!is_event(spike))

@@ -47,14 +47,7 @@ ss_spike_kind_name(ss_spike_kind kind)
 static const peak *
 nearest(const row *r, double t, double within)
 {
-    size_t lo = 0, hi = r->n;
-    while (lo < hi) {
-        size_t mid = lo + (hi - lo) / 2;
-        if (r->peak[mid].t < t)
-            lo = mid + 1;
-        else
-            hi = mid;
-    }
+    size_t lo = ss_list_from(r->peak, r->n, sizeof *r->peak, t);
     const peak *best = NULL;
     if (lo < r->n && r->peak[lo].t - t <= within)
         best = &r->peak[lo];
@@ -138,14 +131,7 @@ sort(ss_spikes_found *found)
 static int
 is_clear(const ss_spikes_found *found, size_t n, double t, double distance)
 {
-    size_t lo = 0, hi = n;
-    while (lo < hi) {
-        size_t mid = lo + (hi - lo) / 2;
-        if (found->spike[mid].t < t)
-            lo = mid + 1;
-        else
-            hi = mid;
-    }
+    size_t lo = ss_list_from(found->spike, n, sizeof *found->spike, t);
     return !(lo < n && found->spike[lo].t - t < distance)
         && !(lo > 0 && t - found->spike[lo - 1].t < distance);
 }
@@ -301,7 +287,12 @@ ss_spike_group
 ss_spikes_within(const ss_spikes_found *found, double onset, double end, double range)
 {
     ss_spike_group group = { 0, 0 };
-    for (size_t i = 0; found != NULL && i < found->n; i++) {
+    if (found == NULL || found->n == 0)
+        return group;
+    /* how far the bluntest may be off */
+    double reach = ROW_CENTER / (2 * M_PI * found->f) * exp2(DEEPEST + 1);
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, onset - reach);
+    for (; i < found->n && found->spike[i].t <= end + reach; i++) {
         const ss_spike *spike = &found->spike[i];
         double a = ROW_CENTER / (2 * M_PI * spike->f);
         if (spike->kind == SS_SPIKE_GLITCH || spike->kind == SS_SPIKE_BEND
