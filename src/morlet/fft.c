@@ -494,6 +494,34 @@ rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, dou
     return r->rounding * size + UNDERFLOW * (double)r->length;
 }
 
+/* Terms to points.  Returns what single precision may add to a coefficient; if that is too much,
+ * infinity, and nothing more is done. */
+static double
+transform_back(const route *r, const band *b, ptrdiff_t origin, int single, double accuracy,
+               void *c, void *points)
+{
+    double rounding = 0, likely = 0;
+    if (single)
+        rounding = rounding_of(r, b, origin, c, &likely);
+    if (rounding > 0.7 * accuracy * likely)
+        return INFINITY;
+    if (single)
+        fftwf_execute_dft(r->single, c, points);
+    else
+        fftw_execute_dft(r->inverse, c, points);
+    return rounding;
+}
+
+/* Values of the series.  Returns the largest |w|^2 for factor 1. */
+static double
+put_points(const void *points, ptrdiff_t first, size_t n, int single, double factor, double *w)
+{
+    const double *v = points;
+    const float *of_single = points;
+    return single ? put_lattice_single(of_single + 2 * first, n, factor, w)
+        : put_lattice(v + 2 * first, n, factor, w);
+}
+
 /* One pass over part of a scale.  Returns the largest |W|; *rounding is what single precision may
  * have added, or infinity if it is too much: then nothing is done. */
 static double
@@ -508,32 +536,22 @@ pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span p
     band b = band_of(f, lev, scale->a, f->half[bound]);
     const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, bound);
     double unit = single ? ldexp(1, ilogb(rec->x_max)) : 1;
-    double *c = r->length > APART ? v : terms_of(f, v);
+    void *points = v, *c = r->length > APART ? v : terms_of(f, v);
     ptrdiff_t origin = r->kind == LATTICE ? 0 : b.mid;
     terms(f, r, &b, x, origin, ker, single, unit, c);
-    *rounding = 0;
-    if (single) {
-        double likely;
-        *rounding = unit * rounding_of(r, &b, origin, (float *)c, &likely);
-        if (*rounding > plan->opts.accuracy * unit * likely * 0.7)
-            *rounding = INFINITY;
-        if (isinf(*rounding))
-            return 0;
-        fftwf_execute_dft(r->single, (fftwf_complex *)c, (fftwf_complex *)v);
-    } else
-        fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
+    *rounding = unit * transform_back(r, &b, origin, single, plan->opts.accuracy, c, points);
+    if (isinf(*rounding))
+        return 0;
     factor *= unit;
     if (r->kind == LATTICE) {
         double before = rint((double)rec->origin / step_of(lev, r));
         ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
-        double most = single ? put_lattice_single((float *)v + 2 * first, part.n, factor, w)
-            : put_lattice(v + 2 * first, part.n, factor, w);
-        return unit * sqrt(most);
+        return unit * sqrt(put_points(points, first, part.n, single, factor, w));
     }
     if (single)
-        close_circle_single((float *)v, r->length);
+        close_circle_single(points, r->length);
     else
-        close_circle(v, r->length);
+        close_circle(points, r->length);
     if (r->kind == ANYWHERE)
         return sqrt(put_anywhere(f, r, &b, scale, ker, v, rec->origin, part, factor, w));
     return unit * sqrt(ss_dense_put(r->weights[how], v, (size_t)b.mid, circle_of(lev),
