@@ -91,8 +91,9 @@ extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no colu
 
 /* Find the transitions of one column, whose values must be finite, and what they have in common.
  * Where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
- * onset of the oscillation to the last spike within a period of its end. Else strong spikes begin
- * transitions, and weaker ones end them; else there are the single events of ss_find_bursts.  What
+ * onset of the oscillation to the last spike within a period of its end. Else, if the signal repeats
+ * itself, strong spikes begin transitions, and weaker ones end them; else there are the single events
+ * of ss_find_bursts.  What
  * gaps (ss_header_gaps of the signal) reach is left out: local maxima nearer than sqrt(2) a, spikes
  * and events as ss_find_spikes, ss_find_bursts and ss_find_drops say; what is fitted ends there.  A
  * record too short for any scale, or with nothing in it, has none: SS_OK. opts may be NULL. To be

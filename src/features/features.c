@@ -551,7 +551,9 @@ find_maxima(search *s)
     return keep_prominent(s);
 }
 
-/* By what rings, prominently or slightly, else by spikes, else as single events. */
+/* By what rings, prominently or slightly; else by spikes where the signal repeats itself, which tells
+ * how far apart those that begin transitions are; else as single events, each of which may have many
+ * spikes. */
 static ss_status
 find_transitions(search *s)
 {
@@ -562,10 +564,12 @@ find_transitions(search *s)
         if (f > 0)
             st = find_ringing(s, f);
     }
-    if (st == SS_OK && out->n == 0 && out->spikes->conclusive)
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive && !isnan(out->forcing_frequency.value))
         st = find_spiked(s);
     if (st == SS_OK && out->n == 0)
         st = find_single(s);
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive)
+        st = find_spiked(s);            /* too short for the others */
     return st;
 }
 
