@@ -359,11 +359,11 @@ map_new(map **out, const ss_coefficients *coef, size_t first, size_t last, doubl
     for (size_t row = first; row <= last; row++)
         most = coef->scale[row].n > most ? coef->scale[row].n : most;
     double *memory = malloc(4 * most * sizeof *memory);
-    line l[2] = { { .level = memory, .best = memory + most },
-                  { .level = memory + 2 * most, .best = memory + 3 * most } };
     m->way = malloc((index_of(m, last, coef->scale[last].n) + 1) * sizeof *m->way);
     ss_status st = SS_ENOMEM;
     if (memory != NULL && m->way != NULL) {
+        line l[2] = { { .level = memory, .best = memory + most },
+                      { .level = memory + 2 * most, .best = memory + 3 * most } };
         find_ways(m, l);
         if ((st = find_peaks(m)) == SS_OK && (st = find_borders(m, l)) == SS_OK
             && (st = sort_borders(m)) == SS_OK)

@@ -1180,7 +1180,7 @@ ss_wisdom_read(FILE *in, ss_error *err)
     wisdom[n] = '\0';
     int good = read && n < WISDOM_ROOM - 1 && import_wisdom(wisdom);
     free(wisdom);
-    return good ? SS_OK : !read ? ss_fail(err, SS_EIO, "%s", strerror(why))
+    return good ? SS_OK : !read ? ss_fail_errno(err, "wisdom", why)
         : ss_fail(err, SS_EINVAL, "this is no wisdom of %s on this machine", fftw_version);
 }
 
