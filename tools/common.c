@@ -15,6 +15,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -213,6 +214,7 @@ tool_option(int c)
     case TOOL_OPT_VERSION: printf("%s (libstickslip) %s\n", tool_name, ss_version()); break;
     default: tool_usage(NULL);          /* getopt has said what is wrong */
     }
+    tool_verbosity = 0;
     tool_end();
     exit(0);
 }
@@ -511,6 +513,28 @@ tool_cut(FILE *out, long offset)
         tool_die("%s", strerror(errno));
 }
 
+/* What it cost, gnuplot with it; memory at most, of whichever took more. */
+static void
+note_cost(void)
+{
+    struct rusage own, gnuplot;
+    const double unit =
+#ifdef __APPLE__
+        1;
+#else
+        1024;
+#endif
+    if (getrusage(RUSAGE_SELF, &own) != 0 || getrusage(RUSAGE_CHILDREN, &gnuplot) != 0)
+        return;
+    long seconds = own.ru_utime.tv_sec + own.ru_stime.tv_sec + gnuplot.ru_utime.tv_sec
+        + gnuplot.ru_stime.tv_sec;
+    double micro = (double)(own.ru_utime.tv_usec + own.ru_stime.tv_usec + gnuplot.ru_utime.tv_usec
+                            + gnuplot.ru_stime.tv_usec);
+    long most = own.ru_maxrss > gnuplot.ru_maxrss ? own.ru_maxrss : gnuplot.ru_maxrss;
+    tool_note("%.3g s of CPU, %.0f MB of memory", (double)seconds + 1e-6 * micro,
+              ceil(1e-6 * unit * (double)most));
+}
+
 void
 tool_end(void)
 {
@@ -531,6 +555,7 @@ tool_end(void)
     int failed = ferror(stdout);
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));
+    note_cost();
     if (tool_stopping())                /* as a shell expects it, after a whole last row */
         raise(asked_to_stop);
 }

@@ -17,7 +17,7 @@
 
 /* Call first.  usage is the text of --help. */
 void tool_begin(char *argv[], const char *name, const char *usage);
-/* Call last, before returning 0: finishes standard output, or dies. */
+/* Call last, before returning 0: finishes standard output, or dies; with -v says what it all cost. */
 void tool_end(void);
 
 void tool_die(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;    /* "ss-x: text", exit 1 */

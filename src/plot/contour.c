@@ -315,10 +315,14 @@ static const char around[] =
     SCRIPT_TIME_TICS
     "set title title noenhanced offset 0,-0.5\n";
 
-/* label: "(a)" or "(b)" in the margin, at the height of the panel's top. */
+/* label: "(a)" or "(b)" in the margin, at the height of the panel's top; between them a long name of
+ * the signal is broken behind a _ or a blank. */
 static const char panel_a[] =
     "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
-    "set xtics format ''; set label 2 signal_label at screen 0.03,graph 0.5 center rotate noenhanced\n"
+    "n = strlen(signal_label); k = n/2\n"
+    "while (k < n && strstrt('_ ', signal_label[k:k]) == 0) { k = k + 1 }\n"
+    "label = n > 15 && k < n ? signal_label[1:k].\"\\n\".signal_label[k+1:*] : signal_label\n"
+    "set xtics format ''; set label 2 label at screen 0.03,graph 0.5 center rotate noenhanced\n"
     "set label 1 '(a)' at screen 0.01, screen 0.96\n"
     "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
     "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"

@@ -36,7 +36,8 @@ try() {         # NAME: the commands on standard input, in a directory of their 
     (cd "$1" && sh -eu "../$1.sh" > ../out 2> ../err < /dev/null) || echo "$1: exit status $?"
     # sox says that a pipe has no length, gnuplot that the C locale has no degree sign, ss-sim -v what
     # it does.
-    grep -v -i -e '^sox WARN' -e 'iconv failed' -e '^ss-sim: .* tol 1e-09' err | sed "s/^/$1: /"
+    grep -v -i -e '^sox WARN' -e 'iconv failed' -e '^ss-sim: .* tol 1e-09' \
+        -e '^ss-sim: .* of CPU' err | sed "s/^/$1: /"
 }
 
 for page in "$SRC"/man/*.[157]; do

@@ -1,5 +1,7 @@
 # Progress is for terminals: a log has none of it, a terminal shows a line after a second.
 timeout -s INT 2 ss-sim --set duration=1e6 coulomb > /dev/null || true
+# A session of its own: script of util-linux 2.34 ends its whole group when its input does.
+script() { setsid -w script "$@"; }
 script -qec true /dev/null < /dev/null > log 2>&1 || { echo "no pseudo-terminal to be had"; exit 77; }
 script -qec 'timeout -s INT 5 ss-sim --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
 tr '\r' '\n' < log | grep -q 'ss-sim:  *[0-9]* %, [0-9]* s left' || echo "no progress"
