@@ -44,6 +44,8 @@ enum { RUNS = 1000 };                  /* of the scene in one fit, about */
 /* Who leaves more of the rms than this, and than MARGIN times its noise, is another model's. */
 #define UNEXPLAINED 0.1
 #define MARGIN 1.5
+#define EXACT 1e-8                      /* of the rms: with less left, errors are of rounding's size,
+                                           and so would differences over them be */
 #define VAGUE 0.3                       /* a standard error above this part tells nothing */
 
 /* What is adjusted, by its change in the unit given.  Coordinates of a descent stand at 1:
@@ -212,6 +214,8 @@ solve(match *m, answer *a)
     }
     /* until the sum of squares falls by less than noise moves it: once in its variance */
     double before = INFINITY;
+    if (a->left <= EXACT * EXACT * m->y_unit * m->y_unit)
+        return st;
     for (int i = 0; st == SS_OK && isfinite(a->left) && take_axes(m, a, 1) && i < ROUNDS
                     && (i < LEAST || a->left < before * (1 - 1 / (double)m->there)); i++) {
         before = a->left;
