@@ -341,7 +341,7 @@ wisdom_is_kept_and_keeps_the_bound(void **state)
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_error err = { "" };
     FILE *file = tmpfile();
-    char text[20000] = "";
+    static char text[1 << 20];          /* with all that the tests before have planned */
     (void)state;
     opts.engine = SS_ENGINE_FFT, opts.planner = SS_PLANNER_MEASURE, opts.dense = 1;
     opts.voices = 2, opts.accuracy = 1e-3;
