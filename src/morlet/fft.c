@@ -30,6 +30,9 @@
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
  * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR.
  *
+ * Single precision comes first where it may be good enough: terms are rounded to it, transformed and
+ * interpolated in it, and what that adds is bounded from the sum of their sizes (single_rounding).
+ *
  * FFTW's planner is not safe for threads, so making and freeing of plans takes turns; other users
  * of FFTW in the program must not plan at the same time. */
 #include <errno.h>
