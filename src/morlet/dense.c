@@ -151,6 +151,7 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
     powers(turns, ROOT * width, circle, coarse);
     for (size_t i = 0; i < ROOT; i++)
         for (size_t j = 0; j < ROOT; j++)
+            /* cppcheck-suppress uninitvar ; it is written here */
             multiply(coarse[i], fine[j], to->near[i * ROOT + j]);
     to->far = (double (*)[2])(spare + 4 * width);
     for (size_t i = 0; i * ROOT * ROOT < rows; i++)

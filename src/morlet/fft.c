@@ -514,7 +514,7 @@ pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span p
     *rounding = 0;
     if (single) {
         double likely;
-        *rounding = unit * rounding_of(r, &b, origin, (float *)c, &likely);
+        *rounding = unit * rounding_of(r, &b, origin, (void *)c, &likely);
         if (*rounding > plan->opts.accuracy * unit * likely * 0.7)
             *rounding = INFINITY;
         if (isinf(*rounding))
@@ -526,12 +526,12 @@ pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span p
     if (r->kind == LATTICE) {
         double before = rint((double)rec->origin / step_of(lev, r));
         ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
-        double most = single ? put_lattice_single((float *)v + 2 * first, part.n, factor, w)
+        double most = single ? put_lattice_single((float *)(void *)v + 2 * first, part.n, factor, w)
             : put_lattice(v + 2 * first, part.n, factor, w);
         return unit * sqrt(most);
     }
     if (single)
-        close_circle_single((float *)v, r->length);
+        close_circle_single((void *)v, r->length);
     else
         close_circle(v, r->length);
     if (r->kind == ANYWHERE)
@@ -1112,8 +1112,8 @@ ss_fft_free(struct fft *fft)
     free(fft);
 }
 
-/* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW aborts the
- * program over flags that do not fit where it keeps them, in 20, 20 and 9 bits. */
+/* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW aborts
+ * the program over flags that do not fit where it keeps them, in 20, 20 and 9 bits. */
 static int
 flags_fit(const char *wisdom)
 {
