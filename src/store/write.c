@@ -820,24 +820,25 @@ ss_store_writer_signal(ss_store_writer *w, const double *x, size_t n, size_t row
 }
 
 ss_status
-ss_store_writer_rows(ss_store_writer *w, const ss_scale *scale, size_t first, size_t n,
-                     const double *x, size_t samples, ss_error *err)
+ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
+                     const double *w, size_t samples, ss_error *err)
 {
     size_t i = 0;
-    if (w == NULL || scale == NULL || (x == NULL && n > 0))
+    if (writer == NULL || scale == NULL || (w == NULL && n > 0))
         return SS_FAIL_NULL(err);
-    ss_status st = w->status;
-    while (i < w->n_scales && w->scale[i].j != scale->j)
+    ss_status st = writer->status;
+    while (i < writer->n_scales && writer->scale[i].j != scale->j)
         i++;
     H5E_BEGIN_TRY {
-        if (st == SS_OK && (i == w->n_scales || w->rows[i].done != first
-                            || (!w->growing && n > w->scale[i].n - first)))
-            st = ss_fail(&w->error, SS_EINVAL, "coefficients that are not the next of a scale");
+        if (st == SS_OK && (i == writer->n_scales || writer->rows[i].done != first
+                            || (!writer->growing && n > writer->scale[i].n - first)))
+            st = ss_fail(&writer->error, SS_EINVAL,
+                         "coefficients that are not the next of a scale");
         if (st == SS_OK)
-            st = write_scale(w, i, n, x, samples);
-        st = keep(w, st);
+            st = write_scale(writer, i, n, w, samples);
+        st = keep(writer, st);
     } H5E_END_TRY
-    return tell(w, st, err);
+    return tell(writer, st, err);
 }
 
 /* What only the end tells: the length, and times that all scales share. */
