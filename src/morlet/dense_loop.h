@@ -82,7 +82,7 @@ LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *
                         if (first + i == 0) {
                             VECTOR size = x * x;
                             size += LOOP_JOIN(LOOP, _swap)(size);
-                            __typeof__(size > size) more = size > largest[p];
+                            __typeof__(size > x) more = size > largest[p];
                             largest[p] = (VECTOR)((more & (__typeof__(more))size)
                                                   | (~more & (__typeof__(more))largest[p]));
                         }
