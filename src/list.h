@@ -27,7 +27,8 @@ ss_list_from(const void *list, size_t n, size_t size, double t)
     size_t lo = 0, hi = n;
     while (lo < hi) {
         size_t mid = lo + (hi - lo) / 2;
-        if (*(const double *)((const char *)list + mid * size) < t)
+        const void *entry = (const char *)list + mid * size;
+        if (*(const double *)entry < t)
             lo = mid + 1;
         else
             hi = mid;
