@@ -508,6 +508,17 @@ nothing_is_freed_without_complaint(void **state)
     ss_sweep_table_free(NULL);
 }
 
+static void
+every_status_has_words_of_its_own(void **state)
+{
+    (void)state;
+    for (int a = SS_OK; a <= SS_EBUDGET; a++) {
+        assert_string_not_equal(ss_strerror((ss_status)a), "unknown status");
+        for (int b = SS_OK; b < a; b++)
+            assert_string_not_equal(ss_strerror((ss_status)a), ss_strerror((ss_status)b));
+    }
+}
+
 int
 main(void)
 {
@@ -521,6 +532,7 @@ main(void)
         cmocka_unit_test(sweeps_refuse_null),
         cmocka_unit_test(plots_refuse_null),
         cmocka_unit_test(refuses_what_is_no_known_choice),
+        cmocka_unit_test(every_status_has_words_of_its_own),
         cmocka_unit_test(nothing_is_freed_without_complaint),
     };
     return cmocka_run_group_tests_name("arguments", tests, NULL, NULL);
