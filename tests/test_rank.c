@@ -110,7 +110,7 @@ folds_at_the_period_that_repeats(void **state)
     /* the scatter within a bin is noise and what the wave changes within it */
     assert_true(c.noise > 0.9 * 0.01 / 62.5 && c.noise < 4 * 0.01 / 62.5);
     char why[100] = "";
-    assert_int_equal(ss_cycle_find(&c, why, sizeof why, x, NULL, N, 1000, 0), SS_OK);
+    assert_int_equal(ss_cycle_find(&c, why, sizeof why, x, NULL, N, 1000, 0, &(ss_stretch){ 0 }), SS_OK);
     assert_true(fabs(c.period / 0.10037 - 1) <= 1. / 64 / (N / 100.37) && why[0] == '\0');
     free(x);
 }

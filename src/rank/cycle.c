@@ -123,15 +123,17 @@ shortest(const double *x, const char *missing, size_t n, double rate, double per
 
 ss_status
 ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
-              double rate, double frequency)
+              double rate, double frequency, const ss_stretch *progress)
 {
     ss_value samples = { rate / frequency, 0 };
     ss_error err = { "" };
-    if (!(frequency > 0)) {
-        ss_status st = ss_period_find(x, n, &samples);
-        if (st != SS_OK)
-            return st;
-    }
+    ss_status st = ss_stretch_at(progress, 0);
+    if (st == SS_OK && !(frequency > 0))
+        st = ss_period_find(x, n, &samples);
+    if (st == SS_OK)
+        st = ss_stretch_at(progress, 0.3);
+    if (st != SS_OK)
+        return st;
     c->period = 0;
     if (isnan(samples.value)) {
         snprintf(why, size, "nothing repeats in the record");

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/status.h>
+#include "progress.h"
 
 enum { CYCLE_LEAST = 64, CYCLE_MOST = 1024 };
 
@@ -27,9 +28,9 @@ double ss_cycle_period(const double *x, const char *missing, size_t n, double ra
 
 /* The cycle of a signal whose values are finite: at the frequency [Hz] given or, if that is 0,
  * found.  *why (of the given size) is filled in where there is none that says anything, and
- * c->period is then 0. */
+ * c->period is then 0.  SS_STOP if progress asks for it. */
 ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing,
-                        size_t n, double rate, double frequency);
+                        size_t n, double rate, double frequency, const ss_stretch *progress);
 
 /* The mean square that is left of c when a times m, shifted by *shift cycles, is taken from it, a
  * >= 0 and the shift being the best.  m has c's n bins. */

@@ -483,6 +483,7 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     ss_status st = check(signal, column, start, opts, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
+    const ss_stretch at_once = { opts->progress, opts->user, 0, 0 };    /* the fit takes longer */
     char *missing = NULL;
     cycle goal;
     if (st != SS_OK)
@@ -491,7 +492,7 @@ ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     st = ss_gaps_missing(&missing, signal);
     if (st == SS_OK)
         st = ss_cycle_find(&goal, fit->why, sizeof fit->why, x, missing, signal->n, rate,
-                           opts->forcing_frequency);
+                           opts->forcing_frequency, &at_once);
     if (st == SS_OK && goal.period > 0)
         st = fit_signal(fit, signal, column, &goal, missing, opts, err);
     free(missing);

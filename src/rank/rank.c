@@ -477,11 +477,13 @@ ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene
         r->row[i].scene = i;
     *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
     const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(n + 1));
     char *missing = NULL;
     st = ss_gaps_missing(&missing, signal);
     if (st == SS_OK)
         st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
-                           missing, signal->n, signal->head->rate, opts->forcing_frequency);
+                           missing, signal->n, signal->head->rate, opts->forcing_frequency,
+                           &reading);
     free(missing);
     r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
     if (st == SS_OK && w->goal.period > 0)

@@ -13,9 +13,10 @@ slow='--method quadrature --accuracy 1e-13 --step 4 --voices 128 --center 200 --
 ss-signal sine --amplitude 0 --rate 20000 --duration 20 |
     ss-morlet --dense --voices 16 --fmin 20 -o dense.h5
 ss-sim --set duration=30 compliant-light | ss-cat --column a -o run.au
+ss-sim --set duration=1500 compliant-light | ss-cat --column a -o longer.au
 for command in "ss-morlet $slow long.au -o w.au" 'ss-features long.au -o f.tsv' \
         'ss-contour dense.h5 -o c.gp' \
-        'ss-rank run.au -o r.tsv' 'ss-rank --fit run.au -o f.scene'; do
+        'ss-rank longer.au -o r.tsv' 'ss-rank --fit run.au -o f.scene'; do
     script -qec "$command" /dev/null < /dev/null > log || true
     tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
 done
