@@ -4,7 +4,6 @@
 
 #include <stdlib.h>             /* for __GLIBC__ */
 
-/* None of them fuses a multiplication with an addition: the result is the same. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define FAST __attribute__((optimize("O3")))
 #define UNROLL _Pragma("GCC unroll 8")
@@ -13,7 +12,8 @@
 #define UNROLL
 #endif
 
-/* A function for machines of one kind, to be called if __builtin_cpu_supports that. */
+/* A function for machines of one kind, to be called if __builtin_cpu_supports that.  It may fuse
+ * multiplications with additions: last bits differ from those of other kinds. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define HAVE_TARGETS
 #define FAST_FOR(kind) __attribute__((target(kind), optimize("O3", "fp-contract=fast")))
@@ -21,7 +21,7 @@
 
 /* A function that is compiled for several kinds, where compiler and C library support that, and no
  * sanitizer runs before its own start.  Before GCC 10 the choice among them is a name that the shared
- * library shows. */
+ * library shows.  None of them fuses: the result is the same on all. */
 #if defined(HAVE_TARGETS) && defined(__GLIBC__) && __GNUC__ >= 10 \
     && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define VERSIONS __attribute__((target_clones("default", "avx2", "avx512f"), optimize("O3")))
