@@ -21,13 +21,13 @@
  * Error.  A scale is computed for the accuracy asked for, and then what was left out is bounded by
  * what the record's own spectrum holds: the cut leaves out at most
  *     C/P sum over |v_k| > R of |X_k| exp(-v_k^2/2),
- * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of |X_k| over
- * ranges are differences of running sums, so that this costs next to nothing.  If the bound exceeds
- * what the largest |W| allows (9/10 of it, the rest being for lattices that are nearly met), the
- * scale is done again with R and e that suffice for any signal.
+ * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of
+ * |X_k| over ranges are differences of running sums, so that this costs next to nothing.  If the
+ * bound exceeds what the largest |W| allows (9/10 of it, the rest being for lattices that are nearly
+ * met), the scale is done again with R and e that suffice for any signal.
  *
- * Single precision comes first where it may be good enough: terms are rounded to it, transformed and
- * interpolated in it, and what that adds is bounded from the sum of their sizes. */
+ * Single precision comes first where it may be good enough: terms are rounded to it, transformed
+ * and interpolated in it, and what that adds is bounded from the sum of their sizes. */
 #include <fftw3.h>
 #include <math.h>
 #include <stdint.h>
@@ -249,15 +249,6 @@ left_out(const struct fft *f, const level *lev, const band *b, const double *sum
     return PI_M14 * sqrt(2 * M_PI) / (double)circle_of(lev) * sum;
 }
 
-/* --- a scale ---------------------------------------------------------------------------------- */
-
-/* Where the terms of a short series are put, after its values v. */
-static double *
-terms_of(const struct fft *f, double *v)
-{
-    return v + 2 * (f->longest + MARGIN);
-}
-
 /* --- single precision ------------------------------------------------------------------------- */
 
 /* Add sums of |c|, up to 8 % too large, and |c|^2. */
@@ -299,6 +290,15 @@ rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, dou
     sum_terms(c, n - first, &size, &square);
     *likely = 3 * sqrt(square);
     return r->rounding * size + UNDERFLOW * (double)r->length;
+}
+
+/* --- a scale ---------------------------------------------------------------------------------- */
+
+/* Where the terms of a short series are put, after its values v. */
+static double *
+terms_of(const struct fft *f, double *v)
+{
+    return v + 2 * (f->longest + MARGIN);
 }
 
 /* Terms to points.  Returns what single precision may add to a coefficient; if that is too much,

@@ -7,9 +7,9 @@
  * Each scale goes by the cheapest of what is possible on its circle, and with AUTO by the sum over
  * samples where that is cheaper still.
  *
- * The cut R and images e of the first pass are what noise needs at the accuracy asked for.  Those of
- * the last suffice for any signal: the sum over samples of the kernel's error is bounded by its size
- * near b and its decay, 1/|u|, away from it, in units of a^1/2 max|x|: for the cut
+ * The cut R and images e of the first pass are what noise needs at the accuracy asked for.  Those
+ * of the last suffice for any signal: the sum over samples of the kernel's error is bounded by its
+ * size near b and its decay, 1/|u|, away from it, in units of a^1/2 max|x|: for the cut
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
  * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR. */
 #include <fftw3.h>
@@ -37,7 +37,7 @@ enum { BLOCKS = 32768 };            /* of terms, about */
 
 pthread_mutex_t ss_fftw_planner = PTHREAD_MUTEX_INITIALIZER;
 
-/* --- circles ---------------------------------------------------------------------------------- */
+/* --- bounds and circles ----------------------------------------------------------------------- */
 
 /* in a circle's points; gaps of 12 % */
 static const size_t odd_part[] = { 1, 9, 5, 21, 45, 3, 7, 15 };
@@ -349,7 +349,7 @@ make_tables(struct fft *f, const ss_morlet *plan)
     return SS_OK;
 }
 
-/* --- FFTW's plans, made while ss_fftw_planner is held ------------------------------------------ */
+/* --- FFTW's plans, made while ss_fftw_planner is held ----------------------------------------- */
 
 static inverse *
 inverse_of_length(struct fft *f, size_t length, fftw_complex *v, fftw_complex *c, unsigned how)
@@ -432,6 +432,8 @@ make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x
     }
     return SS_OK;
 }
+
+/* --- all of it -------------------------------------------------------------------------------- */
 
 static ss_status
 plan_all(struct fft *f, const ss_morlet *plan)

@@ -20,8 +20,8 @@ enum {
     KERNELS = 40, STEPS = 4         /* kernels for bands apart by 2^(1/STEPS) */
 };
 
-/* FFTW's planner is not safe for threads: making and freeing of plans, and wisdom, take turns.  Other
- * users of FFTW in the program must not plan at the same time. */
+/* FFTW's planner is not safe for threads: making and freeing of plans, and wisdom, take turns.
+ * Other users of FFTW in the program must not plan at the same time. */
 extern pthread_mutex_t ss_fftw_planner;
 
 /* A circle: its points, and how many samples a point stands for. */
@@ -36,8 +36,8 @@ typedef struct level {
  * within the promise: in single precision, with the first cut, with the last. */
 typedef enum way { SINGLE, FIRST, LAST, WAYS } way;
 
-/* How a scale is computed: not here; at points of the series; or between them, at places that repeat
- * or anywhere. */
+/* How a scale is computed: not here; at points of its series; or between them, at places that
+ * repeat or anywhere. */
 typedef struct route {
     enum { BY_SUM, LATTICE, DENSE, ANYWHERE } kind;
     int level;
