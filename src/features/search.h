@@ -1,0 +1,33 @@
+/* search.h -- what is known while the features of a signal are looked for. */
+#ifndef SEARCH_H
+#define SEARCH_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stickslip/features.h>
+
+#define CENTER 6.0              /* of the wavelet */
+
+static const ss_value unknown = { NAN, NAN };
+
+typedef struct search {
+    const ss_signal *signal;
+    double *x;                  /* the column over largest, so that squares stay in range */
+    double largest;
+    size_t n;
+    double rate;
+    size_t n_gaps;
+    ss_span *gap;               /* [s] from the first sample */
+    const ss_features_opts *opts;
+    ss_coefficients *coef;
+    ss_maximum *found;          /* maxima, slight ones too */
+    size_t n_found;
+    int spiked;                 /* transitions end with their last spike, anywhere before the next */
+    ss_features *out;
+} search;
+
+/* The transitions, in time order, and, where they ring, the frequency and damping that they have in
+ * common, into s->out, which has spikes and forcing_frequency.  None found: s->out->n is 0. */
+ss_status ss_transitions_find(search *s);
+
+#endif

@@ -1,0 +1,361 @@
+/* transitions.c -- where the transitions of a signal begin and end. */
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+#include "list.h"
+#include "ringdown.h"
+#include "rows.h"
+#include "search.h"
+#include "signal/gaps.h"
+
+static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
+
+#define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
+#define STRONG 20.0             /* [dB] below the strongest: spikes that begin a transition */
+#define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
+#define CLEAR 15.0              /* [dB] below the strongest: single events */
+enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
+#define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
+
+static size_t
+row_of(const ss_coefficients *coef, double f)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < coef->n_scales; i++)
+        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[best].f / f)))
+            best = i;
+    return best;
+}
+
+static int
+same_kind(const ss_maximum *m, double f)
+{
+    return fabs(log2(m->f / f)) <= BAND;
+}
+
+/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do.
+ * An oscillation within a transition is faster than what repeats. */
+static double
+find_recurrent(const search *s, double prominence)
+{
+    double best = 0, best_level = 0, slowest = s->out->forcing_frequency.value;
+    size_t most = FEW - 1;
+    for (size_t i = 0; i < s->n_found; i++) {
+        double level = 0;
+        size_t count = 0;
+        if (s->found[i].f <= slowest)           /* not a number: nothing repeats */
+            continue;
+        for (size_t k = 0; k < s->n_found; k++)
+            if (s->found[k].prominence >= prominence && same_kind(&s->found[k], s->found[i].f)) {
+                count++;
+                level += s->found[k].level;
+            }
+        if (count > most || (count == most && most >= FEW && level > best_level)) {
+            most = count;
+            best = s->found[i].f;
+            best_level = level;
+        }
+    }
+    return best;
+}
+
+/* The label of a maximum in terms of the sinusoid that makes it. */
+static double
+true_frequency(const search *s, double label)
+{
+    return s->opts->norm == SS_NORM_L1 ? label
+        : label * (CENTER + sqrt(CENTER * CENTER + 2)) / (2 * CENTER);
+}
+
+static int
+is_event(const ss_spike *spike)
+{
+    return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
+}
+
+static int
+earlier(const void *a, const void *b)
+{
+    const ss_transition *p = a, *q = b;
+    return (p->onset > q->onset) - (p->onset < q->onset);
+}
+
+static ss_status
+new_transitions(ss_features *out, size_t n)
+{
+    free(out->transition);
+    out->n = 0;
+    out->transition = calloc(n + 1, sizeof *out->transition);
+    if (out->transition == NULL)
+        return SS_ENOMEM;
+    out->n = n;
+    for (size_t i = 0; i < n; i++)
+        out->transition[i] = (ss_transition){ .maximum = no_maximum, .frequency = unknown,
+                                              .damping_ratio = unknown, .from = NAN, .to = NAN };
+    return SS_OK;
+}
+
+/* Give every swell the nearest maximum of the kind, not further than the wavelet reaches, where it
+ * is above the threshold; how many have one at all. */
+static size_t
+match_maxima(search *s, const ss_maximum *swell, double f)
+{
+    ss_features *out = s->out;
+    double reach = CENTER / (M_PI * f);
+    size_t ringing = 0, first = 0;
+    for (size_t i = 0; i < out->n; i++) {
+        const ss_maximum *best = NULL;
+        while (first < s->n_found && s->found[first].t < swell[i].t - reach)
+            first++;
+        for (size_t k = first; k < s->n_found && s->found[k].t <= swell[i].t + reach; k++) {
+            const ss_maximum *m = &s->found[k];
+            if (same_kind(m, f)
+                && (best == NULL || fabs(m->t - swell[i].t) < fabs(best->t - swell[i].t)))
+                best = m;
+        }
+        ringing += best != NULL;
+        if (best == NULL || best->prominence < s->opts->threshold)
+            continue;
+        out->transition[i].maximum = *best;
+        out->recurring++;
+    }
+    return ringing;
+}
+
+/* The median of the labels; its error has the step of the grid in it, and their scatter. */
+static ss_status
+read_raw(search *s)
+{
+    ss_features *out = s->out;
+    double *f = malloc((out->recurring + 1) * sizeof *f), mean = 0, scatter = 0, step;
+    size_t n = 0;
+    if (f == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < out->n; i++)
+        if (!isnan(out->transition[i].maximum.f))
+            f[n++] = out->transition[i].maximum.f;
+    for (size_t i = 0; i < n; i++)
+        mean += f[i] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        scatter += (f[i] - mean) * (f[i] - mean);
+    out->frequency_raw.value = gsl_stats_median(f, 1, n);
+    step = gsl_stats_select(f, 1, n, n / 2) * (exp2(1. / ss_morlet_defaults.voices) - 1);
+    out->frequency_raw.error = sqrt(step * step / 12
+                                    + (n > 1 ? scatter / (double)(n - 1) / (double)n : 0));
+    free(f);
+    return SS_OK;
+}
+
+/* omega and s per sample into Hz and damping ratio. */
+static void
+set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_value *ratio)
+{
+    double w = fit[0].value, s = fit[1].value, r = hypot(w, s);
+    *frequency = (ss_value){ w * rate / (2 * M_PI), fit[0].error * rate / (2 * M_PI) };
+    *ratio = (ss_value){ s / r, hypot(w * w * fit[1].error, w * s * fit[0].error) / (r * r * r) };
+}
+
+/* Move the onset to the nearest jump or kink of the spikes found, within half a period; the end to
+ * the last one that comes within a period of another: what is released again sticks no longer than
+ * that. */
+static void
+snap_to_spikes(const search *s, ss_transition *tr, double period)
+{
+    const ss_spikes_found *found = s->out->spikes;
+    double nearest = 0.5 * period;
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, tr->from - nearest);
+    for (; i < found->n && found->spike[i].t <= tr->end + period; i++) {
+        const ss_spike *spike = &found->spike[i];
+        double distance = fabs(spike->t - tr->from);
+        if (!is_event(spike))
+            continue;
+        if (distance < nearest) {
+            nearest = distance;
+            tr->onset = spike->t;
+        }
+        if (spike->t > tr->end && spike->t <= tr->end + period)
+            tr->end = spike->t;
+    }
+}
+
+static ss_status
+refine(search *s, const ss_maximum *swell, double f)
+{
+    ss_features *out = s->out;
+    size_t n = out->n;
+    size_t *anchor = malloc((n + 1) * sizeof *anchor);
+    ss_window *window = malloc((n + 1) * sizeof *window);
+    ss_window *gap = malloc((s->n_gaps + 1) * sizeof *gap);
+    ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
+    ss_status st = SS_ENOMEM;
+    if (anchor != NULL && window != NULL && gap != NULL && each != NULL) {
+        for (size_t i = 0; i < n; i++)
+            anchor[i] = (size_t)(swell[i].t * s->rate);
+        for (size_t i = 0; i < s->n_gaps; i++)
+            ss_gap_rows(&s->gap[i], s->rate, &gap[i].first, &gap[i].end);
+        double forcing = isnan(out->forcing_frequency.value) ? 0
+            : 2 * M_PI * out->forcing_frequency.value / s->rate;
+        st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate, forcing,
+                             s->out->noise, gap, s->n_gaps, window, all, each);
+    }
+    if (st == SS_OK) {
+        set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
+        for (size_t i = 0; i < n; i++) {
+            ss_transition *tr = &out->transition[i];
+            tr->onset = tr->end = swell[i].t;
+            set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
+            if (window[i].end <= window[i].first)
+                continue;
+            tr->onset = tr->from = (double)window[i].first / s->rate;
+            tr->end = tr->to = (double)window[i].end / s->rate;
+            snap_to_spikes(s, tr, 1 / f);
+        }
+    }
+    free(anchor);
+    free(window);
+    free(gap);
+    free(each);
+    return st;
+}
+
+/* Transitions that ring: at each swell of |W| along the row of the frequency that recurs. */
+static ss_status
+find_ringing(search *s, double label)
+{
+    ss_features *out = s->out;
+    ss_maximum *swell = NULL;
+    size_t n = 0;
+    ss_status st = ss_spikes(&swell, &n, s->coef, row_of(s->coef, label), RANGE,
+                             s->opts->threshold);
+    if (st == SS_OK)
+        st = new_transitions(out, n);
+    size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
+    if (ringing < FEW || 2 * ringing < out->n) {        /* that is chance */
+        free(out->transition);
+        out->transition = NULL;
+        out->n = out->recurring = 0;
+    }
+    if (st == SS_OK && out->recurring > 0)
+        st = read_raw(s);
+    if (st == SS_OK && out->n > 0)
+        st = refine(s, swell, true_frequency(s, label));
+    if (out->n > 0)
+        qsort(out->transition, out->n, sizeof *out->transition, earlier);
+    free(swell);
+    return st;
+}
+
+/* Transitions that do not ring: each strong spike begins one, and the weaker ones up to the next
+ * strong one belong to it.  Strong ones nearer than an eighth of what repeats are one. */
+static ss_status
+find_spiked(search *s)
+{
+    ss_features *out = s->out;
+    const ss_spikes_found *found = out->spikes;
+    double apart = isnan(out->forcing_frequency.value) ? 0 : 0.125 / out->forcing_frequency.value;
+    ss_status st = new_transitions(out, found->n);
+    if (st != SS_OK)
+        return st;
+    out->n = 0;
+    s->spiked = 1;
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        ss_transition *last = out->n > 0 ? &out->transition[out->n - 1] : NULL;
+        if (!is_event(spike))
+            continue;
+        if (spike->level >= -STRONG && (last == NULL || spike->t > last->onset + apart)) {
+            last = &out->transition[out->n++];
+            last->onset = spike->t;
+        }
+        if (last != NULL)
+            last->end = spike->t;
+    }
+    return SS_OK;
+}
+
+/* Single events in a record that is quiet else. */
+static ss_status
+find_single(search *s)
+{
+    ss_bursts *found = NULL;
+    ss_status st = ss_find_bursts(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
+    if (st == SS_OK && (st = new_transitions(s->out, found->n)) == SS_OK)
+        for (size_t i = 0; i < found->n; i++)
+            s->out->transition[i].onset = s->out->transition[i].end = found->burst[i].t;
+    ss_bursts_free(found);
+    return st;
+}
+
+static ss_status
+find_dropped(search *s)
+{
+    ss_drop *drop = NULL;
+    size_t n = 0;
+    ss_status st = ss_find_drops(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest,
+                                 s->gap, s->n_gaps, NULL);
+    if (st == SS_OK && (st = new_transitions(s->out, n)) == SS_OK)
+        for (size_t i = 0; i < n; i++) {
+            s->out->transition[i].onset = drop[i].t;
+            s->out->transition[i].end = drop[i].end;
+        }
+    free(drop);
+    return st;
+}
+
+/* How far gaps reach for spikes as blunt as those found. */
+static double
+spike_reach(const ss_spikes_found *found)
+{
+    double f = INFINITY;
+    for (size_t i = 0; i < found->n; i++)
+        f = is_event(&found->spike[i]) ? fmin(f, found->spike[i].f) : f;
+    return 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * f);
+}
+
+/* Spikes that begin and end a transition may be half a period before and a period behind what was
+ * fitted. */
+static void
+count_spikes(const search *s)
+{
+    ss_features *out = s->out;
+    double period = isnan(out->frequency.value) ? 0 : 1 / out->frequency.value;
+    double reach = spike_reach(out->spikes);
+    for (size_t i = 0; i < out->n; i++) {
+        ss_transition *tr = &out->transition[i];
+        double next = i + 1 < out->n ? tr[1].onset : (double)s->n / s->rate;
+        double from = tr->onset - period / 2, to = s->spiked ? next : tr->end + period;
+        tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES).n;
+        tr->gap = ss_near_gap(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach);
+    }
+}
+
+/* By what rings, prominently or slightly; else by spikes where the signal repeats itself, which tells
+ * how far apart those that begin transitions are; else as single events, each of which may have many
+ * spikes. */
+static ss_status
+find_transitions(search *s)
+{
+    ss_features *out = s->out;
+    ss_status st = SS_OK;
+    for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
+        double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
+        if (f > 0)
+            st = find_ringing(s, f);
+    }
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive && !isnan(out->forcing_frequency.value))
+        st = find_spiked(s);
+    if (st == SS_OK && out->n == 0)
+        st = find_single(s);
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive)
+        st = find_spiked(s);            /* too short for the others */
+    return st;
+}
+
+ss_status
+ss_transitions_find(search *s)
+{
+    ss_status st = s->opts->drop > 0 ? find_dropped(s) : find_transitions(s);
+    if (st == SS_OK)
+        count_spikes(s);
+    return st;
+}
