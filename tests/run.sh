@@ -64,7 +64,7 @@ run_script() {
 if [ "${1-}" = --one ]; then
     scratch=$WORK/$(echo "$2" | tr / -)
     log=$scratch.log
-    mkdir "$scratch"
+    mkdir "$scratch" || exit 1
     began=$(date +%s)
     case $2 in
     */*) run_script "$2" ;;

@@ -385,7 +385,7 @@ static double
 single_rounding(size_t length, int taps)
 {
     static const struct { size_t prime; double u; } butterfly[] = {
-        { 2, 5 }, { 3, 11 }, { 5, 17 }, { 7, 19 }
+        { 2, 6 }, { 3, 11 }, { 5, 17 }, { 7, 19 }
     };
     double sum = taps > 0 ? taps + 10 : 1;
     for (size_t i = 0; i < sizeof butterfly / sizeof *butterfly; i++)
