@@ -439,11 +439,12 @@ add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
         variances(k, window, n, &variance, whole);
     for (int end = 0; end < 2 && st == SS_OK; end++) {
         for (size_t i = 0; i < n; i++) {
+            size_t part = off < ss_window_length(window[i]) ? off : ss_window_length(window[i]);
             cut_off[i] = window[i];
-            if (ss_window_length(window[i]) > 0 && end)
-                cut_off[i].end -= off;
-            else if (ss_window_length(window[i]) > 0)
-                cut_off[i].first += off;
+            if (end)
+                cut_off[i].end -= part;
+            else
+                cut_off[i].first += part;
         }
         st = ss_varpro_fit(&k->fit, cut_off, n, FINE, &ok);
         if (st == SS_OK && ok) {

@@ -211,20 +211,20 @@ jacobian(const gsl_vector *at, void *user, gsl_matrix *to)
 ss_status
 ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol, int *ok)
 {
-    enum { STEPS = 50 };
+    enum { STEPS = 50, FITTED = 2 };
     double w = v->w, s = v->s;
     size_t samples = ss_window_total(window, n);
     int info;
     *ok = 0;
-    if (samples == 0)
+    if (samples < FITTED)
         return SS_OK;
     v->window = window;
     v->n_windows = n;
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf problem = { .f = residuals, .df = jacobian, .n = samples, .p = 2,
+    gsl_multifit_nlinear_fdf problem = { .f = residuals, .df = jacobian, .n = samples, .p = FITTED,
                                          .params = v };
     gsl_multifit_nlinear_workspace *space =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, samples, 2);
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, samples, FITTED);
     if (space == NULL)
         return SS_ENOMEM;
     double start[2] = { w, s };
