@@ -260,6 +260,99 @@ finds_nothing_in_noise_silence_and_short_records(void **state)
 }
 
 /* The third harmonic is ten times the fundamental. */
+/* A square wave of +-12, whose reversals set off 4 of a damped oscillation at 38 Hz, and noise: the
+ * jumps hide it in the map.  Within four of its errors, which are those of the noise. */
+static void
+rings_beside_larger_jumps(void **state)
+{
+    const double rate = 1000, w = 2 * M_PI * 38, damping = 0.04;
+    const double damped = 38 * sqrt(1 - damping * damping);
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        ss_features *f = NULL;
+        ss_signal *signal = plain(8000, 0.05);
+        size_t reversal = 0, half = 385;
+        for (size_t i = 0; i < signal->n; i++) {
+            double sign = i / half % 2 ? -1 : 1, t = (double)(i % half) / rate;
+            double phase = 2 * M_PI * damped * t;
+            signal->values[i] += sign * (12 + 4 * exp(-damping * w * t)
+                                         * (k > 0 ? sin(phase) : cos(phase)));
+        }
+        assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+        if (!(fabs(f->frequency.value - damped) <= 4 * f->frequency.error
+              && f->frequency.error < 1e-4 * damped
+              && fabs(f->damping_ratio.value - damping) <= 4 * f->damping_ratio.error
+              && f->damping_ratio.error < 1e-2 * damping))
+            fail_msg("%d: %g Hz, %g", k, f->frequency.value, f->damping_ratio.value);
+        assert_int_equal(f->n, 8000 / half);
+        for (size_t i = 0; i < f->n; i++) {
+            reversal += half;           /* the jump is between this sample and the one before */
+            assert_true(fabs(f->transition[i].onset * rate - ((double)reversal - 0.5)) <= 1);
+            assert_true(f->transition[i].spikes >= 1);
+        }
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
+/* A pulse, a burst of oscillation and a step, 30 samples long, in noise of 0.002 of their height.
+ * The noise is seen up to band = 0.002 sqrt(2 ln m), m < 4000 samples, and may take as much off.
+ * The step, the slowest to rise, sin(pi u / 2)^2, is twice that at u = 2 / pi asin(sqrt(2 band));
+ * then there is a sample. */
+static void
+single_events_have_an_extent(void **state)
+{
+    enum { N = 4000, FROM = 1900, LONG = 30 };
+    const double band = 0.002 * sqrt(2 * log(N)), late = LONG * 2 / M_PI * asin(sqrt(2 * band)) + 1;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        ss_features *f = NULL;
+        ss_signal *signal = plain(N, 0.002);
+        for (size_t i = FROM; i < N; i++) {
+            double u = (double)(i - FROM) / LONG;
+            double pulse = u < 1 ? sin(M_PI * u) : 0;
+            signal->values[i] += k == 0 ? pulse : k == 1 ? pulse * sin(8 * M_PI * u)
+                : u < 1 ? 0.5 - 0.5 * cos(M_PI * u) : 1;
+        }
+        for (size_t i = 0; i < N; i++)
+            signal->values[i] += 3 + 1e-4 * (double)i;
+        assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+        assert_int_equal(f->n, 1);
+        double onset = f->transition[0].onset * 1000 - FROM;
+        double end = FROM + LONG - f->transition[0].end * 1000;
+        if (!(onset >= -1 && onset <= late && end >= -1 && end <= late))
+            fail_msg("%d: from %g to %g, not within %g", k, onset, LONG - end, late);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
+/* Jumps in the cycles of a sine that are prime: how many a second is not known; in each: as many. */
+static void
+no_slip_rate_where_repetitions_have_no_transition(void **state)
+{
+    (void)state;
+    for (int all = 0; all < 2; all++) {
+        ss_features *f = NULL;
+        ss_signal *signal = plain(6400, 1e-3);
+        double height = 0;
+        for (size_t i = 0; i < signal->n; i++) {
+            size_t cycle = i / 200;
+            if (i % 200 == 60 && (all || 0xa08a28acu >> cycle & 1))
+                height = 0.5 - height;
+            signal->values[i] += height + sin(2 * M_PI * (double)i / 200);
+        }
+        assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+        assert_true(all || fabs(f->forcing_frequency.value - 5) < 0.01);
+        if (all)
+            assert_true(fabs(f->slip_rate.value - 5) < 0.02);
+        else
+            assert_true(f->n == 11 && isnan(f->slip_rate.value));
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
 static void
 the_forcing_is_no_harmonic(void **state)
 {
@@ -451,6 +544,9 @@ main(void)
         cmocka_unit_test(units_and_rates_do_not_matter),
         cmocka_unit_test(finds_nothing_in_noise_silence_and_short_records),
         cmocka_unit_test(the_forcing_is_no_harmonic),
+        cmocka_unit_test(rings_beside_larger_jumps),
+        cmocka_unit_test(single_events_have_an_extent),
+        cmocka_unit_test(no_slip_rate_where_repetitions_have_no_transition),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),
         cmocka_unit_test(gaps_leave_out_what_they_reach_and_nothing_else),
         cmocka_unit_test(refuses_what_is_out_of_range),

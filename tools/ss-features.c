@@ -140,10 +140,52 @@ put_spikes(FILE *out, const ss_spikes_found *found, double start)
     }
 }
 
+static int
+is_smooth(const ss_spikes_found *found)
+{
+    for (size_t i = 0; i < found->n; i++)
+        if (found->spike[i].kind != SS_SPIKE_BEND)
+            return 0;
+    return 1;
+}
+
+/* Where none is sharp, but some are there, it is not for noise. */
+static const char *
+say_spikes(const ss_spikes_found *found)
+{
+    if (found->conclusive)
+        return "counted";
+    return found->n > 0 && is_smooth(found) ? "none to count, the signal is smooth"
+        : "too much noise to count them";
+}
+
+/* See find_slip_rate: three of them have a rate. */
+static int
+is_missing_slips(const ss_features *f)
+{
+    return f->n > 2 && isnan(f->slip_rate.value) && !isnan(f->forcing_frequency.value);
+}
+
+/* Why there is no frequency; NULL where there is one, or too few transitions to look for it. */
+static const char *
+why_no_fit(const ss_features *f)
+{
+    if (f->n < 3 || !isnan(f->frequency.value))
+        return NULL;
+    return f->recurring > 0
+        ? "none: what recurs lasts under 2 periods or is no damped oscillation; try a part (ss-cat)"
+        : "none: no local maximum of |W| recurs, as ringing makes them if jumps do not hide it";
+}
+
 static void
 put_summary(FILE *out, const ss_features *f, const ss_features_opts *opts)
 {
-    fprintf(out, "# spikes: %s\n", f->spikes->conclusive ? "counted" : "too much noise to count them");
+    fprintf(out, "# spikes: %s\n", say_spikes(f->spikes));
+    if (why_no_fit(f) != NULL)
+        fprintf(out, "# fit: %s\n", why_no_fit(f));
+    if (is_missing_slips(f))
+        fputs("# slip_rate_not_known: fewer transitions than repetitions of the signal; try --drop "
+              "for a force\n", out);
     fprintf(out, "# transitions: %zu -\n# slips: %zu -\n", f->n, f->slips);
     put_value(out, "slip_rate", f->slip_rate);
     put_value(out, "forcing_frequency", f->forcing_frequency);
@@ -209,9 +251,8 @@ main(int argc, char *argv[])
     ss_status st = ss_features_find(&features, signal, column, &req.opts, &err);
     if (st != SS_OK)
         tool_die("%s: %s", tool_input_name(path), err.text);
-    tool_note("noise of rms %.3g, %zu local maxima, %zu spikes%s", features->noise,
-              features->n_maxima, features->spikes->n, features->spikes->conclusive ? ""
-              : ", too much noise to count them");
+    tool_note("noise of rms %.3g, %zu local maxima, %zu spikes, %s", features->noise,
+              features->n_maxima, features->spikes->n, say_spikes(features->spikes));
     write_features(tool_output(req.output), features, signal, column, &req.opts);
     ss_features_free(features);
     ss_signal_free(signal);

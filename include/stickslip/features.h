@@ -65,7 +65,7 @@ typedef struct ss_features {
     size_t recurring;           /* transitions that have a local maximum */
 
     size_t slips;               /* macroscopic slips that begin in the record: the ends of transitions */
-    ss_value slip_rate;         /* [1/s] */
+    ss_value slip_rate;         /* [1/s]; NaN where the signal repeats itself faster than they come */
     ss_value forcing_frequency; /* [Hz] at which the signal repeats itself */
     ss_value frequency_raw;     /* [Hz] the paper's reading: label of the local maxima */
     ss_value frequency;         /* [Hz] damped, one for all transitions */
@@ -93,7 +93,7 @@ extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no colu
  * Where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
  * onset of the oscillation to the last spike within a period of its end. Else, if the signal repeats
  * itself, strong spikes begin transitions, and weaker ones end them; else there are the single events
- * of ss_find_bursts.  What
+ * of ss_find_bursts, from the first to the last sample off lines through what is quiet beside.  What
  * gaps (ss_header_gaps of the signal) reach is left out: local maxima nearer than sqrt(2) a, spikes
  * and events as ss_find_spikes, ss_find_bursts and ss_find_drops say; what is fitted ends there.  A
  * record too short for any scale, or with nothing in it, has none: SS_OK. opts may be NULL. To be

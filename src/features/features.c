@@ -112,6 +112,9 @@ find_slip_rate(search *s)
     if (!(s->opts->drop > 0) && each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
         out->slip_rate = (ss_value){ each * out->forcing_frequency.value,
                                      each * out->forcing_frequency.error };
+    else if (!(s->opts->drop > 0)
+             && out->forcing_frequency.value - 1 / mean > out->slip_rate.error)
+        out->slip_rate = unknown;       /* repetitions without any: it is not all that were found */
 }
 
 /* --- stiffness and damping ----------------------------------------------------------------- */

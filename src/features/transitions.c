@@ -2,6 +2,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include "extent.h"
 #include "list.h"
 #include "ringdown.h"
 #include "rows.h"
@@ -155,7 +156,8 @@ set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_valu
     *ratio = (ss_value){ s / r, hypot(w * w * fit[1].error, w * s * fit[0].error) / (r * r * r) };
 }
 
-/* Move the onset to the nearest jump or kink of the spikes found, within half a period; the end to
+/* Move the onset, of what was fitted or of the swell, to the nearest jump or kink of the spikes
+ * found, within half a period; the end to
  * the last one that comes within a period of another: what is released again sticks no longer than
  * that. */
 static void
@@ -163,10 +165,11 @@ snap_to_spikes(const search *s, ss_transition *tr, double period)
 {
     const ss_spikes_found *found = s->out->spikes;
     double nearest = 0.5 * period;
-    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, tr->from - nearest);
+    double from = tr->onset;
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from - nearest);
     for (; i < found->n && found->spike[i].t <= tr->end + period; i++) {
         const ss_spike *spike = &found->spike[i];
-        double distance = fabs(spike->t - tr->from);
+        double distance = fabs(spike->t - from);
         if (!is_event(spike))
             continue;
         if (distance < nearest) {
@@ -178,6 +181,55 @@ snap_to_spikes(const search *s, ss_transition *tr, double period)
     }
 }
 
+static int
+earlier_window(const void *a, const void *b)
+{
+    const ss_window *p = a, *q = b;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+/* What no stick reaches over: gaps, and strong jumps, which have no samples of their own. */
+static ss_status
+find_bars(const search *s, int jumps, ss_window **bar, size_t *n)
+{
+    const ss_spikes_found *found = s->out->spikes;
+    *bar = malloc((s->n_gaps + found->n + 1) * sizeof **bar);
+    if (*bar == NULL)
+        return SS_ENOMEM;
+    for (*n = 0; *n < s->n_gaps; ++*n)
+        ss_gap_rows(&s->gap[*n], s->rate, &(*bar)[*n].first, &(*bar)[*n].end);
+    for (size_t i = 0; i < found->n && jumps; i++)
+        if (found->spike[i].kind == SS_SPIKE_JUMP && found->spike[i].level >= -STRONG) {
+            size_t at = (size_t)ceil(fmax(found->spike[i].t * s->rate, 0));
+            (*bar)[(*n)++] = (ss_window){ at, at };
+        }
+    qsort(*bar, *n, sizeof **bar, earlier_window);
+    return SS_OK;
+}
+
+/* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
+ * smaller one does little harm, so that windows are kept off jumps only where nothing can be fitted
+ * else. */
+static ss_status
+fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
+    ss_value *each)
+{
+    double turn = 2 * M_PI / s->rate, forcing = s->out->forcing_frequency.value;
+    ss_status st = SS_OK;
+    all[0].value = NAN;
+    for (int jumps = 0; jumps < 2 && st == SS_OK && isnan(all[0].value); jumps++) {
+        ss_window *bar = NULL;
+        size_t n_bars = 0;
+        st = find_bars(s, jumps, &bar, &n_bars);
+        if (st == SS_OK && (jumps == 0 || n_bars > s->n_gaps))
+            st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f,
+                                 isnan(forcing) ? 0 : turn * forcing, s->out->noise, bar, n_bars,
+                                 window, all, each);
+        free(bar);
+    }
+    return st;
+}
+
 static ss_status
 refine(search *s, const ss_maximum *swell, double f)
 {
@@ -185,18 +237,12 @@ refine(search *s, const ss_maximum *swell, double f)
     size_t n = out->n;
     size_t *anchor = malloc((n + 1) * sizeof *anchor);
     ss_window *window = malloc((n + 1) * sizeof *window);
-    ss_window *gap = malloc((s->n_gaps + 1) * sizeof *gap);
     ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
     ss_status st = SS_ENOMEM;
-    if (anchor != NULL && window != NULL && gap != NULL && each != NULL) {
+    if (anchor != NULL && window != NULL && each != NULL) {
         for (size_t i = 0; i < n; i++)
             anchor[i] = (size_t)(swell[i].t * s->rate);
-        for (size_t i = 0; i < s->n_gaps; i++)
-            ss_gap_rows(&s->gap[i], s->rate, &gap[i].first, &gap[i].end);
-        double forcing = isnan(out->forcing_frequency.value) ? 0
-            : 2 * M_PI * out->forcing_frequency.value / s->rate;
-        st = ss_ringdown_fit(s->x, s->n, anchor, n, 2 * M_PI * f / s->rate, forcing,
-                             s->out->noise, gap, s->n_gaps, window, all, each);
+        st = fit(s, anchor, n, f, window, all, each);
     }
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -204,16 +250,15 @@ refine(search *s, const ss_maximum *swell, double f)
             ss_transition *tr = &out->transition[i];
             tr->onset = tr->end = swell[i].t;
             set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
-            if (window[i].end <= window[i].first)
-                continue;
-            tr->onset = tr->from = (double)window[i].first / s->rate;
-            tr->end = tr->to = (double)window[i].end / s->rate;
+            if (window[i].end > window[i].first) {
+                tr->onset = tr->from = (double)window[i].first / s->rate;
+                tr->end = tr->to = (double)window[i].end / s->rate;
+            }
             snap_to_spikes(s, tr, 1 / f);
         }
     }
     free(anchor);
     free(window);
-    free(gap);
     free(each);
     return st;
 }
@@ -245,6 +290,15 @@ find_ringing(search *s, double label)
     return st;
 }
 
+static int
+has_strong_event(const ss_spikes_found *found)
+{
+    for (size_t i = 0; i < found->n; i++)
+        if (is_event(&found->spike[i]) && found->spike[i].level >= -STRONG)
+            return 1;
+    return 0;
+}
+
 /* Transitions that do not ring: each strong spike begins one, and the weaker ones up to the next
  * strong one belong to it.  Strong ones nearer than an eighth of what repeats are one. */
 static ss_status
@@ -273,6 +327,25 @@ find_spiked(search *s)
     return SS_OK;
 }
 
+/* The samples about t up to the next event or gap on either side. */
+static ss_window
+room_about(const search *s, const ss_bursts *found, size_t i)
+{
+    double from = 0, to = (double)s->n / s->rate, t = found->burst[i].t;
+    double reach = ROW_REACH * ROW_CENTER / (2 * M_PI * found->f);
+    if (i > 0)
+        from = fmin(found->burst[i - 1].t + reach, t);
+    if (i + 1 < found->n)
+        to = fmax(found->burst[i + 1].t - reach, t);
+    for (size_t k = 0; k < s->n_gaps; k++) {
+        if (s->gap[k].to <= t)
+            from = fmax(from, s->gap[k].to);
+        if (s->gap[k].from >= t)
+            to = fmin(to, s->gap[k].from);
+    }
+    return (ss_window){ (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
+}
+
 /* Single events in a record that is quiet else. */
 static ss_status
 find_single(search *s)
@@ -280,8 +353,19 @@ find_single(search *s)
     ss_bursts *found = NULL;
     ss_status st = ss_find_bursts(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
     if (st == SS_OK && (st = new_transitions(s->out, found->n)) == SS_OK)
-        for (size_t i = 0; i < found->n; i++)
-            s->out->transition[i].onset = s->out->transition[i].end = found->burst[i].t;
+        for (size_t i = 0; i < found->n; i++) {
+            ss_transition *tr = &s->out->transition[i];
+            size_t at = (size_t)round(found->burst[i].t * s->rate);
+            ss_window room = room_about(s, found, i);
+            tr->onset = tr->end = found->burst[i].t;
+            if (room.first >= at || room.end <= at)
+                continue;
+            ss_window event = ss_extent(s->x, room, at, s->rate / found->f);
+            if (event.first < at)
+                tr->onset = (double)event.first / s->rate;
+            if (event.end > at)
+                tr->end = (double)event.end / s->rate;
+        }
     ss_bursts_free(found);
     return st;
 }
@@ -336,13 +420,17 @@ static ss_status
 find_transitions(search *s)
 {
     ss_features *out = s->out;
+    int spiked = out->spikes->conclusive && !isnan(out->forcing_frequency.value)
+        && has_strong_event(out->spikes);
     ss_status st = SS_OK;
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
         double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
         if (f > 0)
             st = find_ringing(s, f);
+        if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
+            out->n = 0;                 /* the spikes know the times better */
     }
-    if (st == SS_OK && out->n == 0 && out->spikes->conclusive && !isnan(out->forcing_frequency.value))
+    if (st == SS_OK && out->n == 0 && spiked)
         st = find_spiked(s);
     if (st == SS_OK && out->n == 0)
         st = find_single(s);

@@ -6,9 +6,11 @@ paper=paper_friction_k168_v42.csv
 number() { awk -v key="# $1:" 'index($0, key) == 1 { print $(NF - 1) }'; }
 near() { awk -v want="$1" -v allow="$2" '{ print $1 - want <= allow && want - $1 <= allow ? "yes" : $1 }'; }
 
+# Creep from 91.27 s, fast slip from 91.296 s with its peak at 91.306 s, at rest by 91.34 s.
 echo 'one event'
 for column in slip_mm slip_velocity_mm_s; do
-    ss-features --column $column $rock | awk '!/^#/ { print ($1 > 91.296 && $1 < 91.31) }'
+    ss-features --column $column $rock | awk '
+        !/^#/ { print ($1 > 91.268 && $1 < 91.3 && $2 > 91.306 && $2 < 91.342) }'
     ss-cat -c $column --from 91.25 --to 91.34 $rock | ss-features | number transitions
     ss-cat -c $column $rock | ss-noise --snr 20 | ss-features | number transitions
 done
