@@ -159,6 +159,32 @@ text_of_files_stands_between_quotes(void **state)
     ss_signal_free(signal);
 }
 
+/* A panel has room for some fourteen letters beside it. */
+static void
+long_labels_have_two_lines_and_smaller_letters(void **state)
+{
+    static const struct { const char *name, *unit, *label; int smaller; } row[] = {
+        { "velocity", "m/s", "'velocity '.\"\\n\".'/ (m/s)'", 1 },
+        { "friction_force_kip", "", "'friction_'.\"\\n\".'force_kip'", 1 },
+        { "a", "m/s", "'a / (m/s)'", 0 },
+        { "displacementofthemass", "", "'displacementofthemass'", 1 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char line[96];
+        ss_signal *signal = new_signal(2, 1, 0, row[i].name, row[i].unit);
+        signal->values[1] = 1;
+        char *script = signal_script(signal, &ss_plot_defaults);
+        snprintf(line, sizeof line, "\nlabel1 = %s\n", row[i].label);
+        if (strstr(script, line) == NULL)
+            fail_msg("no %s", row[i].label);
+        if ((strstr(script, "noenhanced font ','.(") != NULL) != row[i].smaller)
+            fail_msg("%s: letters of the other size", row[i].name);
+        free(script);
+        ss_signal_free(signal);
+    }
+}
+
 static void
 labels_carry_powers_of_ten_and_raised_digits(void **state)
 {
@@ -399,6 +425,7 @@ main(void)
         cmocka_unit_test(a_flat_map_has_no_lines),
         cmocka_unit_test(a_spike_of_one_sample_in_a_million_is_drawn),
         cmocka_unit_test(text_of_files_stands_between_quotes),
+        cmocka_unit_test(long_labels_have_two_lines_and_smaller_letters),
         cmocka_unit_test(labels_carry_powers_of_ten_and_raised_digits),
         cmocka_unit_test(what_lies_outside_the_record_is_refused),
         cmocka_unit_test(wrong_arguments_are_refused),

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include "common.h"
 
 static const char usage[] =
@@ -13,8 +14,7 @@ static const char usage[] =
 "can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
 "four shipped ones).\n"
 "  -c, --column=NAME|N   of the signal (default: a, else the only one)\n"
-"  -a, --as=QUANTITY     what it is of: x, v, a or f (default: its own name,\n"
-"                        else f if its unit is one of force, else a)\n"
+"  -a, --as=QUANTITY     what it is of: x, v, a or f @@\n"
 "  -s, --set=KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
 "  -p, --spread=PERCENT  how far the rig's parameters may be from a scene's\n"
 "                        (default 30)\n"
@@ -29,7 +29,7 @@ static const char usage[] =
 enum { OPT_FIT = TOOL_OPT_FIRST };
 
 typedef struct job {
-    const char *signal_path, *column_name, *as, *output;
+    const char *signal_path, *column_name, *as, *known_by, *output;
     const char **settings, **scenes;
     size_t n_settings, n_scenes;
     ss_rank_opts opts;
@@ -47,26 +47,81 @@ signal_name(const char *path)
 
 static const char *const quantities[] = { "x", "v", "a", "f", NULL };
 
+/* Of a force or a length; of a length over time, "mm/s" or as in names "mm_s"; -1: none of these. */
 static int
-is_force(const char *unit)
+quantity_of_unit(const char *unit)
 {
-    static const char *const units[] = { "N", "kN", "MN", "mN", "lbf", "kip", "kgf", NULL };
-    for (size_t i = 0; units[i] != NULL; i++)
-        if (strcmp(unit, units[i]) == 0)
-            return 1;
-    return 0;
+    static const char *const forces[] = { "N", "kN", "MN", "mN", "lbf", "kip", "kgf", NULL };
+    static const char *const lengths[] = { "m", "mm", "cm", "um", "\xc2\xb5m", "nm", "in", "ft",
+                                           NULL };
+    static const struct { const char *text; ss_quantity is; } over[] = {
+        { "", SS_DISPLACEMENT }, { "/s", SS_VELOCITY }, { "_s", SS_VELOCITY },
+        { "/s^2", SS_ACCELERATION }, { "/s2", SS_ACCELERATION }, { "/s\xc2\xb2", SS_ACCELERATION },
+        { "_s2", SS_ACCELERATION } };
+    for (size_t i = 0; forces[i] != NULL; i++)
+        if (strcmp(unit, forces[i]) == 0)
+            return SS_FORCE;
+    for (size_t i = 0; lengths[i] != NULL; i++)
+        for (size_t k = 0; k < sizeof over / sizeof *over; k++) {
+            size_t n = strlen(lengths[i]);
+            if (strncmp(unit, lengths[i], n) == 0 && strcmp(unit + n, over[k].text) == 0)
+                return (int)over[k].is;
+        }
+    return -1;
 }
 
-static ss_quantity
-quantity_of(const ss_column *column, const char *as)
+/* By the first of a name's words that is one of these, whatever its case: friction_force_kip. */
+static int
+quantity_of_word(const char *name)
 {
+    static const struct { const char *word; ss_quantity is; } known[] = {
+        { "displacement", SS_DISPLACEMENT }, { "position", SS_DISPLACEMENT },
+        { "velocity", SS_VELOCITY }, { "speed", SS_VELOCITY },
+        { "acceleration", SS_ACCELERATION }, { "acc", SS_ACCELERATION },
+        { "force", SS_FORCE } };
+    for (size_t length; *name != '\0'; name += length + (name[length] != '\0')) {
+        length = strcspn(name, "_ -./()[]");
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+            if (strlen(known[i].word) == length && strncasecmp(name, known[i].word, length) == 0)
+                return (int)known[i].is;
+    }
+    return -1;
+}
+
+/* How a name may end: slip_mm, load_kN. */
+static int
+quantity_of_ending(const char *name)
+{
+    while ((name = strchr(name, '_')) != NULL) {
+        int of_unit = quantity_of_unit(++name);
+        if (of_unit >= 0)
+            return of_unit;
+    }
+    return -1;
+}
+
+/* And by what that is known. */
+static ss_quantity
+quantity_of(const ss_column *column, const char *as, const char **by)
+{
+    int found = -1;
+    *by = "--as";
     if (as != NULL)
         return (ss_quantity)tool_choice("--as", as, quantities);
+    *by = "its name";
     for (int i = 0; quantities[i] != NULL; i++)
         if (strcmp(column->name, quantities[i]) == 0)
             return (ss_quantity)i;
-    if (is_force(column->unit))
+    if (strcmp(column->name, "F") == 0)
         return SS_FORCE;
+    if ((found = quantity_of_word(column->name)) >= 0)
+        return (ss_quantity)found;
+    *by = "its unit";
+    if ((found = quantity_of_unit(column->unit)) >= 0)
+        return (ss_quantity)found;
+    if ((found = quantity_of_ending(column->name)) >= 0)
+        return (ss_quantity)found;
+    *by = "default";
     if (column->name[0] != '\0')
         tool_warn("column %s is taken as an acceleration; --as says what it is", column->name);
     return SS_ACCELERATION;
@@ -86,9 +141,9 @@ put(FILE *out, double x, const char *behind)
 
 static void
 write_head(FILE *out, const ss_ranking *r, const char *column, ss_quantity quantity,
-           char *const name[])
+           const char *known_by, char *const name[])
 {
-    fprintf(out, "# column: %s\n# quantity: %s\n", column, quantities[quantity]);
+    fprintf(out, "# column: %s\n# quantity: %s (%s)\n", column, quantities[quantity], known_by);
     fputs("# forcing_frequency: ", out);
     put(out, r->forcing_frequency, "\n# thresholds:");
     for (int i = 0; i < SS_CRITERIA; i++)
@@ -158,6 +213,26 @@ write_rows(FILE *out, const ss_ranking *r, char *const name[])
 
 /* --- work ---------------------------------------------------------------------------------- */
 
+/* What was found, also where it is no answer. */
+static void
+note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
+{
+    if (isnan(r->forcing_frequency)) {
+        tool_note("no period found, so no scene was adjusted: %s", r->why);
+        return;
+    }
+    tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the mean cycle within %.3g %%",
+              r->forcing_frequency, opts->forcing_frequency > 0 ? "as given" : "found", r->n,
+              r->n == 1 ? "" : "s", 100 * opts->spread);
+    for (size_t i = 0; i < r->n; i++)
+        tool_note("%s: total %.4g, leaves %.3g %% of the cycle's power", name[r->row[i].scene],
+                  r->row[i].total, 100 * pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10));
+    if (r->n > 1)
+        tool_note("%s is ahead of %s by %.3g thresholds%s%s", name[r->row[0].scene],
+                  name[r->row[1].scene], r->row[1].total - r->row[0].total,
+                  r->told ? "" : ", but ", r->why);
+}
+
 static void
 rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
 {
@@ -176,13 +251,12 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
         tool_name_scene(name[i], NAME_SIZE, j->scenes[i], j->settings, j->n_settings);
     }
     tool_check(ss_rank(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
-    if (r->told)
-        tool_note("%s is ahead by %.3g thresholds", name[r->row[0].scene],
-                  r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY);
+    note_work(r, name, opts);
     FILE *out = tool_output(j->output);
     fprintf(out, "# stickslip ranking 1\n# signal_name: %s\n", signal_name(j->signal_path));
     fprintf(out, "# spread: %.4g\n", 100 * opts->spread);
-    write_head(out, r, signal->head->column[column].name, opts->quantity, name);
+    write_head(out, r, signal->head->column[column].name, opts->quantity,
+               j->known_by, name);
     if (!isnan(r->forcing_frequency))
         write_orders(out, r, name);
     write_rows(out, r, name);
@@ -259,7 +333,10 @@ main(int argc, char *argv[])
 
     ss_signal *signal = tool_read_signal(j.signal_path, NULL);
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
-    j.opts.quantity = quantity_of(&signal->head->column[column], j.as);
+    j.opts.quantity = quantity_of(&signal->head->column[column], j.as, &j.known_by);
+    tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
+              signal->n, signal->head->column[column].name, quantities[j.opts.quantity],
+              j.known_by);
     j.opts.progress = tool_progress;
     j.opts.user = &j;
     (fits ? fit : rank)(&j, signal, column, &j.opts);

@@ -249,7 +249,7 @@ main(int argc, char *argv[])
     req.path = argv[optind];
     req.opts.progress = tool_progress;
     ss_trade *trade = is_scene(req.path) ? measure_scene(&req) : measure_signal(&req);
-    plot.title = req.name;
+    plot.title = strcmp(req.name, tool_input_name("-")) == 0 ? NULL : req.name;
     if (kind != TOOL_TSV)
         tool_draw(req.output, &plot, write_script, trade);
     else if (req.opts.target > 0)

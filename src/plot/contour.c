@@ -315,23 +315,22 @@ static const char around[] =
     SCRIPT_TIME_TICS
     "set title title noenhanced offset 0,-0.5\n";
 
-/* label: "(a)" or "(b)" in the margin, at the height of the panel's top; between them a long name of
- * the signal is broken behind a _ or a blank. */
+#define ROOM 6.0                /* [ems] for the name of the signal, between "(a)" and "(b)" */
+
 static const char panel_a[] =
     "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
-    "n = strlen(signal_label); k = n/2\n"
-    "while (k < n && strstrt('_ ', signal_label[k:k]) == 0) { k = k + 1 }\n"
-    "label = n > 15 && k < n ? signal_label[1:k].\"\\n\".signal_label[k+1:*] : signal_label\n"
-    "set xtics format ''; set label 2 label at screen 0.03,graph 0.5 center rotate noenhanced\n"
     "set label 1 '(a)' at screen 0.01, screen 0.96\n"
-    "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
+    "set xtics format ''; set label 2 signal_label " SCRIPT_AT("signal_label");
+
+static const char panel_a_plot[] =
+    "\nset offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
     "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"
-    "unset title; set offsets 0,0,0,0\n";
+    "unset title; set offsets 0,0,0,0\nunset label 2\n";
 
 static const char panel_b[] =
     "set bmargin at screen bottom; set tmargin at screen top_b\n"
     "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
-    "set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
+    SCRIPT_TIME_LABELS
     "set label 2 'frequency / Hz' at screen 0.03,graph 0.5 center rotate\n"
     "set logscale y; set yrange [fmin:fmax]\n"
     "set palette defined (@colours) maxcolors levels\n"
@@ -354,16 +353,24 @@ put_features(FILE *out, const visible *seen)
               "    $maxima using 1:2 with points pt 6 ps 0.9 lw 1.5 lc rgb feature_colour", out);
 }
 
+/* What the script is told of panel (a). */
+typedef struct panel {
+    double range;               /* of the signal, as drawn */
+    double font;                /* size of its label's letters, part of the usual */
+} panel;
+
 /* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
  * read from them.  A colour a level: of lines with a colour a point, gnuplot 6.0 loses some. */
 static void
-put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, double range,
+put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, const panel *a,
            int lines, const visible *seen)
 {
     fputs(around, out);
     if (contour->signal != NULL) {
-        ss_script_put_tics(out, "ytics", range, 5);
+        ss_script_put_tics(out, "ytics", a->range, 5);
         fputs(panel_a, out);
+        ss_script_put_font(out, a->font);
+        fputs(panel_a_plot, out);
     }
     fputs(contour->signal != NULL ? "bottom = 0.12; top_b = 0.68\n"
                                   : "bottom = 0.16; top_b = 0.925\n", out);
@@ -403,7 +410,7 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 }
 
 static ss_status
-put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, double *range,
+put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, panel *a,
            ss_error *err)
 {
     const ss_signal *signal = contour->signal;
@@ -414,9 +421,9 @@ put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, 
         return status;
     int exponent = ss_script_exponent(x + span.first, span.n);
     fputs("signal_label = ", out);
-    ss_script_put_label(out, &signal->head->column[contour->column], exponent);
+    a->font = ss_script_put_label(out, &signal->head->column[contour->column], exponent, ROOM);
     putc('\n', out);
-    *range = ss_script_put_trace(out, "$signal", x, signal->head, &span, exponent);
+    a->range = ss_script_put_trace(out, "$signal", x, signal->head, &span, exponent);
     return SS_OK;
 }
 
@@ -429,7 +436,7 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     if (status != SS_OK)
         return status;
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
-    double range = 0;
+    panel a = { 0, 1 };
     int lines = 0;
     visible seen = { 0, 0, 0 };
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
@@ -445,7 +452,7 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     fputs("colours = \"0 '#7ad151', 0.3 '#22a884', 0.55 '#2a788e', 0.8 '#414487', 1 '#440154'\"\n"
           "cone_colour = '#e4e4e4'; event_colour = '#d55e00'\n", out);
     if (contour->signal != NULL)
-        status = put_signal(out, contour, &drawn, &range, err);
+        status = put_signal(out, contour, &drawn, &a, err);
     if (status != SS_OK)
         return status;
     put_cone(out, c, &span, (const double[2]){ fmin, fmax });
@@ -458,7 +465,7 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     status = put_contours(out, c, contour, &span, level, &lines);
     if (status != SS_OK)
         return status;
-    put_panels(out, c, contour, range, lines, &seen);
+    put_panels(out, c, contour, &a, lines, &seen);
     return ss_script_end(out);
 }
 

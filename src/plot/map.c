@@ -2,7 +2,8 @@
  *
  * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and
  * each a quarter of a row high into the next, so that no seams show.  Lines are traced through the
- * grid as isoline.c does, and carry their value where it covers no other. */
+ * grid as isoline.c does.  Each level has its value on one line at least: those with least choice of
+ * place are labelled first; the other lines of some length carry it where it covers no other. */
 #include "isoline.h"
 #include "script.h"
 
@@ -12,7 +13,9 @@
 #include <string.h>
 #include "../error.h"
 
-enum { REGIONS_MAX = 10, LEVELS_MAX = 40, LABEL_POINTS = 12, LABELS_MAX = 60 };
+enum { REGIONS_MAX = 10, LEVELS_MAX = 40, LABELS_MAX = 80 };
+#define LONG 0.15                       /* a line worth a second label: in widths of the map */
+#define RIM 0.04                        /* where no label stands, if it can be helped */
 
 /* Light to dark, in equal steps of lightness, from pale yellow to violet: the order is seen by all
  * kinds of colour vision, in print without colour too. */
@@ -209,47 +212,39 @@ put_regions(FILE *out, const grid *g, const double *column, const regions *r)
 
 /* --- lines --------------------------------------------------------------------------------- */
 
+/* A piece of a line, all corners of its cells known. */
+typedef struct piece {
+    size_t first, n;                /* of the points */
+    double level, length;           /* [widths of the map] */
+    int longest;                    /* of its level */
+} piece;
+
 typedef struct line_sink {
-    FILE *out, *labels;
+    FILE *out;
     const grid *g;
     const double *column;
     double level;
-    double taken[LABELS_MAX][2];    /* places of labels, in widths and heights of the map */
-    size_t n;
+    double (*point)[2];             /* of all pieces, in units of the grid */
+    piece *piece;
+    size_t n_points, n_pieces;
+    size_t points_room, pieces_room;
+    int no_memory;
 } line_sink;
 
-/* Is there room for a label? */
-static int
-is_free(const line_sink *s, const double at[2])
+/* Where x stands on the axis: 0 to 1. */
+static double
+place_on(const axis *a, double at)
 {
-    int free = s->n < LABELS_MAX && fabs(at[0] - 0.5) < 0.46 && fabs(at[1] - 0.5) < 0.46;
-    for (size_t i = 0; i < s->n; i++)
-        free &= fabs(at[0] - s->taken[i][0]) > 0.09 || fabs(at[1] - s->taken[i][1]) > 0.055;
-    return free;
+    double x = along(a, at), lo = a->value[0], hi = a->value[a->n - 1];
+    return a->log ? log(x / lo) / log(hi / lo) : (x - lo) / (hi - lo);
 }
 
 static void
-put_point(FILE *out, const line_sink *s, const double point[2])
+put_point(FILE *out, const grid *g, const double point[2], double level)
 {
-    put(out, along(&s->g->x, point[0]), ' ');
-    put(out, along(&s->g->y, point[1]), ' ');
-    put(out, s->level, '\n');
-}
-
-/* Label a line in its middle, or else where it has room nearest to that. */
-static void
-put_line_label(line_sink *s, const double (*point)[2], size_t n)
-{
-    for (size_t k = 0; k < n; k++) {
-        const double *at = point[k % 2 == 0 ? n / 2 - k / 2 : n / 2 + k / 2];
-        const double place[2] = { at[0] / (double)(s->g->x.n - 1),
-                                  at[1] / (double)(s->g->y.n - 1) };
-        if (!is_free(s, place))
-            continue;
-        put_point(s->labels, s, at);
-        memcpy(s->taken[s->n++], place, sizeof place);
-        return;
-    }
+    put(out, along(&g->x, point[0]), ' ');
+    put(out, along(&g->y, point[1]), ' ');
+    put(out, level, '\n');
 }
 
 /* Are all corners of the cell around a point known? */
@@ -263,18 +258,137 @@ is_known(const line_sink *s, const double point[2])
     return isfinite(sum);
 }
 
+static int
+has_room(void **array, size_t *room, size_t need, size_t size)
+{
+    if (need <= *room)
+        return 1;
+    size_t more = 2 * need + 64;
+    void *wider = more < SIZE_MAX / size ? realloc(*array, more * size) : NULL;
+    if (wider == NULL)
+        return 0;
+    *array = wider;
+    *room = more;
+    return 1;
+}
+
+static void
+keep_piece(line_sink *s, const double (*point)[2], size_t n)
+{
+    piece p = { s->n_points, n, s->level, 0, 0 };
+    void *points = s->point, *pieces = s->piece;
+    s->no_memory |= !has_room(&points, &s->points_room, s->n_points + n, sizeof *s->point)
+        || !has_room(&pieces, &s->pieces_room, s->n_pieces + 1, sizeof *s->piece);
+    s->point = points;
+    s->piece = pieces;
+    if (s->no_memory)
+        return;
+    memcpy(s->point + s->n_points, point, n * sizeof *point);
+    s->n_points += n;
+    for (size_t i = 1; i < n; i++)
+        p.length += hypot(place_on(&s->g->x, point[i][0]) - place_on(&s->g->x, point[i - 1][0]),
+                          place_on(&s->g->y, point[i][1]) - place_on(&s->g->y, point[i - 1][1]));
+    s->piece[s->n_pieces++] = p;
+}
+
 static void
 put_line(const double (*point)[2], size_t n, void *user)
 {
     line_sink *s = user;
     for (size_t first = 0, end; first < n; first = end + 1) {
         for (end = first; end < n && is_known(s, point[end]); end++)
-            put_point(s->out, s, point[end]);
-        if (end > first)
-            putc('\n', s->out);
-        if (end - first >= LABEL_POINTS)
-            put_line_label(s, point + first, end - first);
+            put_point(s->out, s->g, point[end], s->level);
+        if (end == first)
+            continue;
+        putc('\n', s->out);
+        keep_piece(s, point + first, end - first);
     }
+}
+
+/* --- their labels -------------------------------------------------------------------------- */
+
+typedef struct labels {
+    double at[LABELS_MAX][2], width[LABELS_MAX];    /* in widths and heights of the map */
+    size_t n;
+} labels;
+
+static double
+label_width(double level)
+{
+    char text[32];
+    return 0.02 + 0.022 * snprintf(text, sizeof text, "%g", level);
+}
+
+/* How far a label is from the next and from the rim, 1 if it just touches none. */
+static double
+clearance(const labels *l, const double at[2], double width)
+{
+    double nearest = 1;
+    for (int k = 0; k < 2; k++) {
+        double need = k == 0 ? width / 2 : RIM;
+        nearest = fmin(nearest, fmin(at[k], 1 - at[k]) / need);
+    }
+    for (size_t i = 0; i < l->n; i++)
+        nearest = fmin(nearest, fmax(fabs(at[0] - l->at[i][0]) / ((width + l->width[i]) / 2),
+                                     fabs(at[1] - l->at[i][1]) / 0.055));
+    return nearest;
+}
+
+/* Label a piece in its middle, or else where it has room nearest to that; if it has nowhere and must
+ * have a label, where that covers least. */
+static void
+put_label_on(FILE *out, labels *l, const line_sink *s, const piece *p, int must)
+{
+    const double (*point)[2] = (const double (*)[2])s->point + p->first, *best = NULL;
+    double most = must ? 0 : 1 - 1e-9, width = label_width(p->level);
+    for (size_t k = 0; k < p->n && l->n < LABELS_MAX; k++) {
+        const double *at = point[k % 2 == 0 ? p->n / 2 - k / 2 : p->n / 2 + k / 2];
+        const double place[2] = { place_on(&s->g->x, at[0]), place_on(&s->g->y, at[1]) };
+        double clear = clearance(l, place, width);
+        if (clear <= most)
+            continue;
+        most = clear;
+        best = at;
+        memcpy(l->at[l->n], place, sizeof place);
+        if (clear >= 1)
+            break;
+    }
+    if (best == NULL)
+        return;
+    put_point(out, s->g, best, p->level);
+    l->width[l->n++] = width;
+}
+
+/* The longest of each level first, and of these the shortest; then from the longest on. */
+static int
+by_need(const void *a, const void *b)
+{
+    const piece *p = a, *q = b;
+    if (p->longest != q->longest)
+        return q->longest - p->longest;
+    int order = (p->length > q->length) - (p->length < q->length);
+    if (order == 0)
+        return (p->first > q->first) - (p->first < q->first);
+    return p->longest ? order : -order;
+}
+
+static void
+put_line_labels(FILE *out, line_sink *s)
+{
+    labels l = { .n = 0 };
+    for (size_t i = 0, end; i < s->n_pieces; i = end) {
+        size_t longest = i;
+        for (end = i; end < s->n_pieces && s->piece[end].level == s->piece[i].level; end++)
+            longest = s->piece[end].length > s->piece[longest].length ? end : longest;
+        s->piece[longest].longest = 1;
+    }
+    if (s->n_pieces > 0)
+        qsort(s->piece, s->n_pieces, sizeof *s->piece, by_need);
+    fputs("$label << EOD\n", out);
+    for (size_t i = 0; i < s->n_pieces; i++)
+        if (s->piece[i].longest || s->piece[i].length >= LONG)
+            put_label_on(out, &l, s, &s->piece[i], s->piece[i].longest);
+    fputs("EOD\n", out);
 }
 
 /* Levels at 1, 2 and 5 times powers of ten where the middle 96 % of values above 0 span more than a
@@ -322,29 +436,26 @@ fill_heights(double *height, double *known, size_t *n_known, const grid *g, cons
 static ss_status
 put_lines(FILE *out, const grid *g, const double *column, ss_error *err)
 {
-    size_t cells = g->x.n * g->y.n, n_known, size;
+    size_t cells = g->x.n * g->y.n, n_known;
     double *height = malloc(cells * sizeof *height), *known = malloc(cells * sizeof *known);
     double level[LEVELS_MAX];
-    char *text = NULL;
-    FILE *labels = open_memstream(&text, &size);
-    ss_status st = height != NULL && known != NULL && labels != NULL ? SS_OK : SS_ENOMEM;
+    line_sink sink = { .out = out, .g = g, .column = column };
+    ss_status st = height != NULL && known != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK) {
         fill_heights(height, known, &n_known, g, column);
         const isoline_map map = { g->x.n, g->y.n, height };
         size_t levels = n_known > 0 ? choose_levels(level, known, n_known) : 0;
         fputs("$line << EOD\n", out);
-        line_sink sink = { .out = out, .labels = labels, .g = g, .column = column };
         for (size_t i = 0; st == SS_OK && i < levels; i++) {
             sink.level = level[i];
             st = ss_isolines(&map, level[i], put_line, &sink);
         }
         fputs("EOD\n", out);
+        put_line_labels(out, &sink);
+        st = sink.no_memory ? SS_ENOMEM : st;
     }
-    if (labels != NULL && fclose(labels) != 0)
-        st = SS_ENOMEM;
-    if (st == SS_OK)
-        fprintf(out, "$label << EOD\n%sEOD\n", text);
-    free(text);
+    free(sink.point);
+    free(sink.piece);
     free(height);
     free(known);
     return st == SS_OK ? SS_OK : ss_fail(err, st, "%s", ss_strerror(st));
@@ -431,6 +542,8 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
         return st;
     put_label(out, "x_label", t, map->x);
     put_label(out, "y_label", t, map->y);
+    if (has_lines)
+        put_label(out, "line_label", t, line);
     fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
           "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "
           "'8')\n", out);
@@ -447,9 +560,10 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
         st = put_lines(out, g, t->value + line * t->n, err);
     if (st != SS_OK)
         return st;
-    fputs("set encoding utf8\nset title title noenhanced offset 0,-0.5\n"
-          "set lmargin at screen 0.14; set tmargin at screen 0.92; set bmargin at screen 0.14\n",
-          out);
+    fprintf(out, "set encoding utf8\nset title %s noenhanced offset 0,-0.5\n"
+            "set lmargin at screen 0.14; set tmargin at screen %s; set bmargin at screen 0.14\n",
+            has_lines ? "title.(title eq '' ? '' : \"\\n\").'lines: '.line_label" : "title",
+            has_lines ? "title eq '' ? 0.92 : 0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", has_region || r->missing ? "0.835" : "0.965");
     put_axis(out, "x", &g->x);
     put_axis(out, "y", &g->y);
@@ -458,7 +572,7 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
           "set tics nomirror out scale 0.6; set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     if (has_region || r->missing)
-        fputs("set key at screen 0.995,screen 0.92 right top Left reverse samplen 0.6 spacing 1.3 "
+        fputs("set key at screen 0.995,graph 1 right top Left reverse samplen 0.6 spacing 1.3 "
               "noenhanced font fine\n", out);
     else
         fputs("unset key\n", out);

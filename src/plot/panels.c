@@ -8,6 +8,8 @@
 #define PANEL 2.1               /* height of one panel [cm] */
 #define TITLE 0.6               /* height above the panels [cm] */
 #define TIME 1.0                /* and below them */
+#define ROOM 6.8                /* for the label of a panel [ems] */
+#define XY_ROOM 17.0            /* and for those of one column over another */
 
 /* Margins in the script's own terms: panel i of n stands in its share of the height between rims,
  * its left edge where that of all others is. */
@@ -15,10 +17,10 @@ static const char layout[] =
     "set encoding utf8\n"
     "set multiplot\n"
     "set title title noenhanced offset 0,-0.5\n"
-    "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+    SCRIPT_TIME_TICS
+    "set lmargin at screen 0.175; set rmargin at screen letters < 5 ? 0.965 : 1 - 0.0095*letters\n"
     "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
     "set autoscale yfix; set tics nomirror out scale 0.6; set xtics format ''\n"
-    SCRIPT_TIME_TICS
     "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
     "unset key\n";
 
@@ -43,7 +45,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         status = ss_script_begin(out, opts, head, height, err);
     if (status != SS_OK)
         return status;
-    double *ranges = malloc(panels * sizeof *ranges);
+    double (*ranges)[2] = malloc(panels * sizeof *ranges);     /* and size of the letters */
     if (ranges == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
     ss_script_put_span(out, &span);
@@ -54,9 +56,9 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         int exponent = ss_script_exponent(x + span.first, span.n);
         char name[32];
         snprintf(name, sizeof name, "$panel%zu", i + 1);
-        ranges[i] = ss_script_put_trace(out, name, x, head, &span, exponent);
+        ranges[i][0] = ss_script_put_trace(out, name, x, head, &span, exponent);
         fprintf(out, "label%zu = ", i + 1);
-        ss_script_put_label(out, &head->column[c], exponent);
+        ranges[i][1] = ss_script_put_label(out, &head->column[c], exponent, ROOM);
         putc('\n', out);
     }
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
@@ -64,11 +66,13 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     fputs(layout, out);
     for (size_t i = 1; i <= panels; i++) {
         if (i == panels)
-            fputs("set xtics format '%g'; set xlabel 'time / s' noenhanced offset 0,0.5\n", out);
+            fputs(SCRIPT_TIME_LABELS, out);
         fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
                 "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
-        fprintf(out, "set label 1 label%zu at screen 0.03,graph 0.5 center rotate noenhanced\n", i);
-        ss_script_put_tics(out, "ytics", ranges[i - 1], 5);
+        fprintf(out, "unset label 1; set label 1 label%zu " SCRIPT_AT("label%zu"), i, i);
+        ss_script_put_font(out, ranges[i - 1][1]);
+        putc('\n', out);
+        ss_script_put_tics(out, "ytics", ranges[i - 1][0], 5);
         fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
         if (i == 1)
             fputs("unset title\n", out);
@@ -132,14 +136,17 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     const double *of_y = signal->values + y * signal->n + span.first;
     int exponent[2] = { ss_script_exponent(of_x, span.n), ss_script_exponent(of_y, span.n) };
     fputs("colour = '#0072b2'\nx_label = ", out);
-    ss_script_put_label(out, &head->column[x], exponent[0]);
+    double x_font = ss_script_put_label(out, &head->column[x], exponent[0], XY_ROOM);
     fputs("\ny_label = ", out);
-    ss_script_put_label(out, &head->column[y], exponent[1]);
+    double y_font = ss_script_put_label(out, &head->column[y], exponent[1], XY_ROOM);
     putc('\n', out);
     put_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
     fputs("set encoding utf8\n"
-          "set title title noenhanced offset 0,-0.5; set xlabel x_label noenhanced offset 0,0.3\n"
-          "set label 1 y_label at screen 0.035,graph 0.5 center rotate noenhanced; unset key\n"
+          "set title title noenhanced offset 0,-0.5; set xlabel x_label noenhanced offset 0,0.3", out);
+    ss_script_put_font(out, x_font);
+    fputs("\nset label 1 y_label " SCRIPT_AT("y_label"), out);
+    ss_script_put_font(out, y_font);
+    fputs("\nunset key\n"
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
           "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"

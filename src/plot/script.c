@@ -118,25 +118,42 @@ add_unit(label *l, const char *unit)
     }
 }
 
-/* Where a label too long for the height of a panel goes on in a second line: behind the blank,
- * underscore or slash nearest to its middle; 0 if it need not. */
-static size_t
-line_break(const label *l)
+/* About how wide text is, in ems of a sans serif; beyond ASCII stand superscripts. */
+static double
+text_width(const char *text, size_t n)
 {
-    size_t best = 0, letters = 0;
-    for (size_t i = 0; i < l->n; i++)
-        letters += ((unsigned char)l->text[i] & 0xc0) != 0x80;      /* of UTF-8 */
-    for (size_t i = 1; letters > 18 && i + 1 < l->n; i++) {
-        long off = labs(2 * (long)(i + 1) - (long)l->n);
-        if (strchr(" _/", l->text[i]) != NULL
-            && (best == 0 || off < labs(2 * (long)best - (long)l->n)))
+    double width = 0;
+    for (size_t i = 0; i < n; i++) {
+        unsigned byte = (unsigned char)text[i] & 0xc0;
+        if (byte == 0xc0)
+            width += 0.4;
+        else if (byte != 0x80)
+            width += strchr("fijlrtI /|.,:;!'()[]-", text[i]) != NULL ? 0.35
+                : strchr("mwMW@%", text[i]) != NULL ? 0.95 : 0.6;
+    }
+    return width;
+}
+
+/* Where a label wider than the room goes on in a second line, so that the wider of them is least:
+ * behind a blank, underscore or slash; 0 if it need or can not.  *width is then what it takes. */
+static size_t
+line_break(const label *l, double room, double *width)
+{
+    size_t best = 0;
+    *width = text_width(l->text, l->n);
+    for (size_t i = 1; text_width(l->text, l->n) > room && i + 1 < l->n; i++) {
+        double wider = fmax(text_width(l->text, i + 1),
+                            text_width(l->text + i + 1, l->n - i - 1));
+        if (strchr(" _/", l->text[i]) != NULL && wider < *width) {
             best = i + 1;
+            *width = wider;
+        }
     }
     return best;
 }
 
-void
-ss_script_put_label(FILE *out, const ss_column *column, int exponent)
+double
+ss_script_put_label(FILE *out, const ss_column *column, int exponent, double room)
 {
     const char *unit = column->unit;
     int brackets = unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL);
@@ -151,7 +168,8 @@ ss_script_put_label(FILE *out, const ss_column *column, int exponent)
     }
     add_unit(&l, unit);
     add(&l, brackets ? ")" : "");
-    size_t split = line_break(&l);
+    double width;
+    size_t split = line_break(&l, room, &width);
     if (split > 0) {
         char second[sizeof l.text];
         memcpy(second, l.text + split, l.n - split + 1);
@@ -162,6 +180,15 @@ ss_script_put_label(FILE *out, const ss_column *column, int exponent)
     } else {
         ss_script_quote(out, l.text);
     }
+    return fmin(room / width, split > 0 ? 0.85 : 1);     /* two lines leave tics their room */
+}
+
+void
+ss_script_put_font(FILE *out, double part)
+{
+    if (part < 1)
+        fprintf(out, " font ','.(exists('font') ? sprintf('%%.1f', %.2f*word(substr(font, 6, 9), 1)) "
+                ": '%.1f')", part, 10 * part);
 }
 
 /* --- top and end --------------------------------------------------------------------------- */

@@ -66,7 +66,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
         return ss_fail(err, SS_EINVAL, "nothing to draw: no row was measured");
     if (titled.title == NULL)
         titled.title = "";
-    ss_status st = ss_script_begin(out, &titled, NULL, 8.5, err);
+    ss_status st = ss_script_begin(out, &titled, NULL, 9, err);
     if (st != SS_OK)
         return st;
     fprintf(out, "fastest = %.3g        # s of CPU time\n", fastest);
@@ -83,9 +83,11 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
           "set logscale xy; set format x '%g'; set format y '%.0e'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
+          "set bmargin at screen 0.38; set tmargin at screen 0.93\n"
           "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
           "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
-          "set key outside below horizontal maxrows 4 samplen 2 noenhanced\n", out);
+          "set key at screen 0.54,screen 0.265 center top horizontal maxcols 3 samplen 2 "
+          "noenhanced\n", out);
     fprintf(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
             trade->transform ? "W / largest |W| of its scale" : "x / max|x|");
     put_plot(out, trade);

@@ -353,13 +353,19 @@ static void
 doubt(ss_ranking *r)
 {
     double lead = r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY;
-    double left = pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10);
+    double left = pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10), least = left;
+    for (size_t i = 1; i < r->n; i++)
+        least = fmin(least, pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10));
     if (r->value[SS_BY_SPIKES] < SELDOM && r->value[SS_BY_MAXIMUM] < SELDOM)
         snprintf(r->why, sizeof r->why, "no transitions: neither spikes nor local maxima in most "
                  "half cycles");
+    else if (least > UNEXPLAINED)
+        snprintf(r->why, sizeof r->why, "no scene explains the signal: each leaves %.3g %% of "
+                 "its cycle's power%s", 100 * least, least < 0.9995 ? " or more" : "");
     else if (left > UNEXPLAINED)
-        snprintf(r->why, sizeof r->why, "no scene explains the signal: the best leaves %.0f %% of "
-                 "its power", 100 * left);
+        snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the cycle's "
+                 "power, and another, which leaves %.3g %%, shows other transitions", 100 * left,
+                 100 * least);
     else if (lead < DOUBTFUL)
         snprintf(r->why, sizeof r->why, "the best two scenes differ by %.2g, less than half a "
                  "threshold", lead);

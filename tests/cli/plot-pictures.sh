@@ -23,3 +23,18 @@ grep -c '^set terminal\|^set output' contour.gp || :
 grep -c 'time / s' dumb
 ss-contour run.h5 -o again.gp
 cmp contour.gp again.gp
+
+# Times are told apart and stand apart: tics of spans short and late, by gnuplot itself; 34 letters fit.
+ss-plot -c x run.tsv | grep '^tic(\|^every(\|^wide(\|^letters' > tics
+while read -r from to; do
+    printf 'from = %s; to = %s\n' "$from" "$to"
+    cat tics
+    echo 'n = letters < 5 ? 6.0 : 34.0/(letters + 1); print every(n), letters'
+done > tics.gp <<'SPANS'
+0 3
+0 10
+91.1813 91.38128
+1 1.0001
+1000000 1000000.01
+SPANS
+gnuplot tics.gp 2>&1

@@ -19,3 +19,20 @@ ss-sim coulomb --columns a | awk 'BEGIN { print "g" } !/^#/ { print $1 * 0.1 + 3
 ss-cat --rate 2000 g.csv | answer -c g
 # the order under thresholds that move is said either way
 grep -c '^# order' rows
+# the quantity by name, by unit, by the unit a name ends in; V may be volts: nothing tells
+for name in F displacement_in Friction-Force_kip slip_velocity_mm_s acc_raw slip_mm 'load (kN)' \
+            load_kN table_mm_s2 V stress_MPa; do
+    printf '%s\n' "$name" 0 1 2 3 4 5 6 7 | ss-cat --rate 1 - | ss-rank 2> err |
+        sed -n 's/^# quantity: //p'
+    sed 's/^ss-rank: /    /' err
+done
+# the per cents of a refusal are those of the rows
+ss-sim state-variable --columns v | ss-rank --as a > rows
+grep -o 'no scene explains.*leaves' rows
+awk -F '\t' '/^# answer/ { sub(/.*leaves /, ""); said = $0 + 0 }
+    !/^#/ { left = 100 * 10^($4 / 10); least = least == "" || left < least ? left : least }
+    END { print (said > 10 && said - least < 0.1 && least - said < 0.1) }' rows
+# -v tells of the work, also where there is no answer
+ss-sim state-variable --columns v | ss-rank -v --as a 2>&1 > /dev/null |
+    grep -c 'taken as a, by --as$\|4 scenes adjusted\|: total .* leaves .* %\|ahead of .*, but no scene'
+ss-signal noise -d 4 | ss-rank -v 2>&1 > /dev/null | grep 'adjusted'
