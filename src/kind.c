@@ -57,11 +57,25 @@ is_scene(const char *p, const char *end)
     return 0;
 }
 
+/* No scene has a line that separates columns before any "=" and comment. */
+static int
+is_table(const char *p, const char *end)
+{
+    for (; p < end && *p != '#' && *p != '=' && *p != '\n'; p++)
+        if (*p == ',' || *p == ';' || *p == '\t')
+            return 1;
+    return 0;
+}
+
 ss_status
 ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, const char *wanted)
 {
     static const struct kind scene = { "", "a scene", "ss-sim makes a signal of it" };
-    const struct kind *found = is_scene(bytes, bytes + n) ? &scene : NULL;
+    static const struct kind table = { "", "a table of numbers or names",
+                                       "ss-cat, ss-morlet, ss-features and ss-plot read a signal "
+                                       "in it" };
+    const struct kind *found = is_scene(bytes, bytes + n) ? &scene
+        : strcmp(wanted, "a scene") == 0 && is_table(bytes, bytes + n) ? &table : NULL;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         size_t length = strlen(kinds[i].magic);
         if (n >= length && memcmp(bytes, kinds[i].magic, length) == 0)

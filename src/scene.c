@@ -195,6 +195,21 @@ nearest_key(const char *name)
     return best;
 }
 
+/* The key that a name is most like may be one mistyped, if few letters differ. */
+static ss_status
+fail_unknown(const char *name, struct place at, ss_error *err)
+{
+    const char *best = nearest_key(name);
+    size_t length = strlen(name), off = distance(name, best);
+    char text[256];
+    if (off < length && off <= (length / 3 > 2 ? length / 3 : 2))
+        snprintf(text, sizeof text, "unknown key '%.64s'; the nearest is '%s'", name, best);
+    else
+        snprintf(text, sizeof text, "unknown key '%.64s'; ss-sim --list SCENE shows a scene's, "
+                 "stickslip-scene(5) all", name);
+    return fail_at(at, err, text);
+}
+
 double *
 ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *err)
 {
@@ -204,8 +219,7 @@ ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *
     }
     const struct key *k = find_key(name);
     if (k == NULL) {
-        ss_fail(err, SS_EINVAL, "unknown key '%.64s'; the nearest is '%s'", name,
-                nearest_key(name));
+        fail_unknown(name, (struct place){ "", -1 }, err);
     } else if (!(k->models & 1u << scene->model)) {
         ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model_words[scene->model], name);
     } else if (k->words != NULL) {
@@ -242,11 +256,8 @@ read_setting(ss_scene *scene, char *text, struct place at, long given[KEYS], ss_
     *equals = '\0';
     char *name = trim(text);
     const struct key *k = find_key(name);
-    if (k == NULL) {
-        snprintf(message, sizeof message, "unknown key '%.64s'; the nearest is '%s'", name,
-                 nearest_key(name));
-        return fail_at(at, err, message);
-    }
+    if (k == NULL)
+        return fail_unknown(name, at, err);
     long *seen = &given[k - key];
     if (at.line < 0 && *seen > 0)
         *seen = 0;                      /* a setting takes the place of the file's line */

@@ -663,7 +663,7 @@ what_cannot_be_read_is_refused_in_clear_words(void **state)
 {
     static const struct { const char *dataset, *words; } row[] = {
         { "", "no /signal in it; choose one as %s:/PATH from /line /tall /wide" },
-        { "/line", "has no clock; give its rate in Hz" },
+        { "/line", "has no clock; give its rate with ss-cat --rate" },
         { "/cube", "has more than two dimensions" },
         { "/word", "holds text, not numbers" },
         { "/complex", "holds complex numbers; a signal is real" },

@@ -167,6 +167,8 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, optind);
     if (opts.time != NULL && opts.rate > 0)
         tool_usage("--time and --rate exclude each other");
+    if (from >= to)
+        tool_usage("--from does not lie before --to");
     kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
     if (kind == TOOL_H5 || tool_is_hdf5(path) || opts.resample > 0)
         copy_whole(kind, &opts);

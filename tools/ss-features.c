@@ -253,6 +253,9 @@ main(int argc, char *argv[])
         tool_die("%s: %s", tool_input_name(path), err.text);
     tool_note("noise of rms %.3g, %zu local maxima, %zu spikes, %s", features->noise,
               features->n_maxima, features->spikes->n, say_spikes(features->spikes));
+    if (req.opts.stiffness > features->total_stiffness.value)
+        tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "
+                  "leaves none to the contact", features->total_stiffness.value);
     write_features(tool_output(req.output), features, signal, column, &req.opts);
     ss_features_free(features);
     ss_signal_free(signal);

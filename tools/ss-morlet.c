@@ -189,17 +189,36 @@ read_wisdom(const char *path)
     fclose(in);
 }
 
+/* Beside path, to take its place. */
+static FILE *
+open_wisdom(const char *path, char name[PATH_MAX])
+{
+    if (snprintf(name, PATH_MAX, "%s.%ld", path, (long)getpid()) >= PATH_MAX)
+        tool_die("%s: the name is too long", path);
+    FILE *out = fopen(name, "w");
+    if (out == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return out;
+}
+
+/* Before the work, which may be long. */
+static void
+check_wisdom(const char *path)
+{
+    char name[PATH_MAX];
+    fclose(open_wisdom(path, name));
+    remove(name);
+}
+
 static void
 write_wisdom(const char *path)
 {
     char name[PATH_MAX];
-    int fits = snprintf(name, sizeof name, "%s.%ld", path, (long)getpid()) < (int)sizeof name;
-    FILE *out = fits ? fopen(name, "w") : NULL;
-    if (out == NULL || ss_wisdom_write(out) != SS_OK || fclose(out) != 0
-        || rename(name, path) != 0) {
+    FILE *out = open_wisdom(path, name);
+    if (ss_wisdom_write(out) != SS_OK || fclose(out) != 0 || rename(name, path) != 0) {
         int why = errno;
         remove(name);
-        tool_die("%s: %s", path, fits ? strerror(why) : "the name is too long");
+        tool_die("%s: %s", path, strerror(why));
     }
 }
 
@@ -470,8 +489,10 @@ main(int argc, char *argv[])
         set_option(&req, c == 'c' ? OPT_COLUMN : c);
     check_request(&req);
     const char *path = tool_input(argc, argv, optind);
-    if (req.wisdom != NULL)
+    if (req.wisdom != NULL) {
         read_wisdom(req.wisdom);
+        check_wisdom(req.wisdom);
+    }
     if (req.inverse)
         invert(&req, path);
     else if (req.stream)

@@ -46,6 +46,16 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     return ss_plot_signal(out, d->signal, d->column, d->n, opts, err);
 }
 
+static size_t
+find_signal_column(const drawing *d, const char *path, const char *name)
+{
+    const ss_header *head = d->signal->head;
+    if ((strcmp(name, "t") == 0 || strcmp(name, "time") == 0) && ss_header_column(head, name) < 0)
+        tool_die("%s: time is no column but the clock%s", tool_input_name(path), d->xy
+                 ? "; --column Y draws Y over it" : ", which every panel has as its axis");
+    return tool_column(head, path, name);
+}
+
 /* Cut "X,Y" in two names. */
 static void
 cut_pair(char *pair, const char *name[2])
@@ -213,7 +223,7 @@ main(int argc, char *argv[])
     ss_signal *signal = tool_read_signal(path, &read_opts);
     d.signal = signal;
     for (size_t i = 0; i < d.n; i++)
-        d.column[i] = tool_column(signal->head, path, name[i]);
+        d.column[i] = find_signal_column(&d, path, name[i]);
     tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
               signal->head->n_columns);
     tool_draw(output, &opts, write_script, &d);

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <getopt.h>
+#include <math.h>
 
 static const char usage[] =
 "usage: ss-signal [options] KIND\n"
@@ -41,7 +42,22 @@ static const struct {
     { OPT_AT, "--at", SET(SS_SINE) | SET(SS_IMPULSE) | SET(SS_STEP) | SET(SS_RINGDOWN) },
     { OPT_SEED, "--seed", SET(SS_NOISE) },
 };
-enum { N_ONLY = sizeof only / sizeof *only };
+enum { N_ONLY = sizeof only / sizeof *only, AT = 3 };     /* AT: --at in it */
+
+/* What can be made, but is hardly meant.  used: set of indices in only[]. */
+static void
+check_sense(ss_wave wave, const ss_wave_opts *o, unsigned used)
+{
+    double n = round(o->duration * o->rate), highest = o->frequency;
+    if (wave == SS_CHIRP)
+        highest = fmax(highest, o->frequency_end);
+    if ((SET(wave) & only[0].kinds) && highest > o->rate / 2)
+        tool_warn("%g Hz is above half the rate, %g Hz, and folds down", highest, o->rate / 2);
+    if (wave == SS_IMPULSE && (used & 1u << AT) && !(o->at * o->rate > -0.5
+                                                     && round(o->at * o->rate) < n))
+        tool_usage("--at %g: the record goes from 0 to %g s, no sample is nearest", o->at,
+                   (n - 1) / o->rate);
+}
 
 int
 main(int argc, char *argv[])
@@ -88,6 +104,7 @@ main(int argc, char *argv[])
     for (int i = 0; i < N_ONLY; i++)
         if ((used & 1u << i) && !(only[i].kinds & SET(wave)))
             tool_usage("%s: a signal of kind %s has none", only[i].name, kinds[wave]);
+    check_sense(wave, &opts, used);
     kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
 
     tool_check(ss_wave_new(&signal, wave, &opts, &err), &err);

@@ -174,6 +174,17 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->tol = ss_sim_defaults.tol;
 }
 
+/* A rate that was mistyped should not fill the disk, or the memory before a word is said. */
+static void
+check_samples(const request *req, const ss_scene *scene)
+{
+    const double most = 1e10;
+    double n = scene->duration * scene->rate;
+    if (!req->events && req->opts.max_steps == 0 && n > most)
+        tool_die("duration x rate = %g s x %g Hz are %.2g samples: more than %.0g are written only "
+                 "with --max-steps", scene->duration, scene->rate, n, most);
+}
+
 static void
 note_origin(ss_header *head, const request *req)
 {
@@ -277,6 +288,7 @@ main(int argc, char *argv[])
         tool_end();
         return 0;
     }
+    check_samples(&req, &scene);
     set_method(&req.opts, &scene, req.accuracy);
     o.head = ss_sim_header(&scene, &req.columns);
     if (o.head == NULL)

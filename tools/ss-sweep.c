@@ -344,6 +344,20 @@ resume(request *req, const char *header)
     tool_note("%s: %zu rows are there", req->resume, req->opts.first);
 }
 
+/* A value that is varied cannot be given too. */
+static void
+check_settings(const request *req)
+{
+    for (size_t i = 0; i < req->n_settings; i++) {
+        const char *name = req->settings[i] + strspn(req->settings[i], " \t");
+        size_t length = strcspn(name, " \t=");
+        for (size_t k = 0; k < req->opts.n_axes; k++)
+            if (strlen(req->axis[k].key) == length
+                && strncmp(req->axis[k].key, name, length) == 0)
+                tool_usage("%s is both varied and set", req->axis[k].key);
+    }
+}
+
 int
 main(int argc, char *argv[])
 {
@@ -357,6 +371,7 @@ main(int argc, char *argv[])
     if (req.settings == NULL || req.axis == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     parse(&req, argc, argv);
+    check_settings(&req);
     ss_scene scene = tool_read_scene(req.scene_path, req.settings, req.n_settings);
     if (req.n_picks == 0)
         pick_usual(&req, scene.model);

@@ -200,8 +200,9 @@ int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k
  * own: what of the coefficients it fails to explain, times the square root of the ratio of the grid's
  * frame bounds there.  With steps above 0.5 more than that may be wrong beyond the labels.
  * SS_ESCALE: the ratio exceeds 100, the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ... 0.1, of
- * the coefficients stays unexplained: they are not those of any signal.  SS_EDATA: notes lack options,
- * or scales are missing.  Costs three to a hundred transforms and as many adjoints by the sum. */
+ * the coefficients stays unexplained, so that they are those of no signal, or is left after 500 passes.
+ * SS_EDATA: notes lack options, or scales are missing.  Costs three to 500 transforms and as many
+ * adjoints by the sum. */
 ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
                             double *error, ss_error *err);
 

@@ -78,8 +78,13 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
  * where no step is out of line, the one farthest from the best clock. */
 static ss_status
 refuse(const char *file, const double *t, const unsigned long *line, size_t n, double usual,
-       struct line l, ss_error *err)
+       int gaps, struct line l, ss_error *err)
 {
+    if (gaps && l.period > 0)
+        return ss_fail(err, SS_EDATA, "%s:%lu: time stamps are not uniform, with gaps counted too: "
+                       "this one is off by %.3g sample periods, %.1f is allowed; ss-cat --resample "
+                       "HZ --gaps=interpolate (or split) makes them so", file, line[l.worst],
+                       l.deviation / l.period, TOLERANCE);
     double off = 0;
     size_t worst = 1;
     for (size_t i = 1; i < n; i++)
@@ -142,7 +147,7 @@ ss_find_clock(const char *file, const double *t, const unsigned long *line, size
         count_samples(t, n, usual, sample);
     struct line l = fit(t, sample, n);
     if (!(l.period > 0 && l.deviation <= TOLERANCE * l.period))
-        return refuse(file, t, line, n, usual, l, err);
+        return refuse(file, t, line, n, usual, gaps, l, err);
 
     /* Each stamp is off by the deviation at most, so the period over all of them by twice that. */
     double rounding = 2 * DBL_EPSILON * fmax(fabs(t[0]), fabs(t[n - 1]));

@@ -97,7 +97,7 @@ refuse_opts(ss_wave wave, const ss_wave_opts *o)
     if (!(o->rate > 0 && isfinite(o->rate)))
         return "rate must be above 0";
     if (!(o->duration >= 0 && o->duration * o->rate < (double)(SIZE_MAX / 64)))
-        return "duration must be at least 0 and finite";
+        return "duration must be at least 0, and duration x rate a number of samples that fits";
     if (!isfinite(o->amplitude) || !isfinite(o->at))
         return "amplitude and at must be finite";
     if (!(o->frequency >= 0 && o->frequency_end >= 0 && isfinite(o->frequency + o->frequency_end)))
@@ -121,6 +121,9 @@ ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *e
     if (st == SS_OK)
         st = ss_signal_new(out, head, (size_t)round(opts->duration * opts->rate));
     ss_header_free(head);
+    if (st == SS_ENOMEM)
+        return ss_fail(err, st, "%s for %.3g samples, which is duration x rate = %g s x %g Hz",
+                       ss_strerror(st), opts->duration * opts->rate, opts->duration, opts->rate);
     if (st == SS_OK && wave == SS_NOISE)
         st = ss_add_noise((*out)->values, (*out)->n, fabs(opts->amplitude), opts->seed);
     if (st != SS_OK) {

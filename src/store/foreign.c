@@ -121,7 +121,7 @@ find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *s
         ss_h5_get_number(group, "start", start);
     H5Gclose(group);
     if (!found || !(*rate > 0) || !isfinite(*rate) || !isfinite(*start))
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, "has no clock; give its rate in Hz");
+        return ss_h5_fail(file, SS_EDATA, 0, dataset, "has no clock; give its rate with ss-cat --rate");
     return SS_OK;
 }
 
@@ -192,7 +192,7 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
     if (wrong == NULL)
         wrong = get_shape(id, &shape);
     if (wrong == NULL && opts != NULL && opts->time != NULL)
-        wrong = "an array has no column of time to choose; give its rate in Hz";
+        wrong = "an array has no column of time to choose; give its rate with ss-cat --rate";
     ss_status status = wrong == no_memory ? SS_ENOMEM
                        : wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
                        : make_header(file, id, dataset, &shape, rate, &head);

@@ -37,6 +37,9 @@ ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
         axis.log = strcmp(end, ":log") == 0;
         ok = *end == '\0' || axis.log;
     }
+    if (!ok && axis.n > 0)              /* the digits of 1e12, say */
+        return ss_fail(err, SS_EINVAL, "'%s': n is '%s', but must be digits, of a number up to %zu",
+                       text, rest + 1, SIZE_MAX / 2);
     if (!ok || !isfinite(axis.from) || !isfinite(axis.to))
         return ss_fail(err, SS_EINVAL, "'%s' is not key=from:to:n or key=from:to:n:log", text);
     if (axis.n < 1)
@@ -70,8 +73,11 @@ ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
     if (opts->n_axes == 0)
         return ss_fail(err, SS_EINVAL, "nothing to vary");
     for (size_t i = 0; i < opts->n_axes; i++) {
-        if (opts->axis[i].n < 1 || all > SIZE_MAX / 2 / opts->axis[i].n)
-            return ss_fail(err, SS_EINVAL, "%s: no number of points to be had", opts->axis[i].key);
+        if (opts->axis[i].n < 1)
+            return ss_fail(err, SS_EINVAL, "%s: at least one value is needed", opts->axis[i].key);
+        if (all > SIZE_MAX / 2 / opts->axis[i].n)
+            return ss_fail(err, SS_EINVAL, "%s: that makes more than %zu points", opts->axis[i].key,
+                           SIZE_MAX / 2);
         all *= opts->axis[i].n;
     }
     *n = all;

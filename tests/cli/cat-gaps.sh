@@ -18,3 +18,8 @@ ss-signal sine --duration .005 | ss-cat --resample 1000
 ss-signal sine --duration .0005 | ss-cat --resample 1000 || echo $?
 ss-cat --resample 0 gap.csv || echo $?
 ss-cat --gaps=hide gap.csv || echo $?
+echo '-- both'
+awk 'BEGIN { print "t,x"; for (i = 0; i < 60; i++) if (i < 20 || i > 39)
+    print (i + 0.3 * (i % 3 - 1)) / 10 "," i }' > both.csv
+ss-cat --gaps=interpolate both.csv || echo $?
+ss-cat --resample 10 --gaps=interpolate both.csv | sed -n '/^# rate/p;/^# gaps/p;$p'

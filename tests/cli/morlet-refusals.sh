@@ -10,3 +10,12 @@ ss-morlet --force --fmin 0.1 --fmax 2000 s.tsv | tail -n 1 | cut -f 1
 ss-signal sine --duration 0 | ss-morlet 2>&1 || echo "exit $?"
 ss-signal sine --duration 0.0005 | ss-morlet 2>&1 || echo "exit $?"
 ss-signal sine --duration 0.001 | ss-morlet --force --fmin 100 --fmax 200 | grep -vc '^#'
+ss-features --fmin 900 s.tsv 2>&1 || echo "exit $?"
+ss-morlet --wisdom nowhere/w s.tsv -o c.tsv 2>&1 || echo "exit $?"
+[ ! -e c.tsv ]
+# what lies beyond the scales comes slowly in the inverse; the accuracy offered is taken
+ss-sim --set duration=1 --set rate=500 compliant-light | ss-morlet --fmin 20 -o q.tsv
+ss-morlet --inverse --accuracy 1e-9 q.tsv 2> said || echo "exit $?"
+sed 's/[0-9.]*e*[-0-9]* \(of the coeff\)/N \1/; s/\(--accuracy\) [^ ]*/\1 N/' said
+takes=$(sed 's/.*--accuracy \([^ ]*\) takes.*/\1/' said)
+ss-morlet --inverse --accuracy "$takes" q.tsv | grep -vc '^#'

@@ -11,6 +11,8 @@ for options in '--levels 0' '--levels 101' '--span 0' '-o a.tsv' '--signal -' '-
 done
 ss-contour -c a - < /dev/null || echo $?
 ss-plot -c force run.tsv || echo $?
+ss-plot --xy t,a run.tsv || echo $?
+ss-plot -c t run.tsv || echo $?
 ss-plot absent.tsv || echo $?
 ss-contour run.tsv || echo $?
 ss-contour --signal run.tsv --column force run.h5 || echo $?

@@ -1,5 +1,5 @@
 for kind in sine impulse step chirp ringdown; do
-    ss-signal "$kind" --rate 4 --duration 1 --amplitude 2 | tail -n +4 |
+    ss-signal -q "$kind" --rate 4 --duration 1 --amplitude 2 | tail -n +4 |
         awk '/^#/ { print; next } { printf "%s\t%.9f\n", $1, $2 * ($2 * $2 > 1e-20) }'
 done
 ss-signal step --rate 4 --duration 1 --at 0.5 | tail -n 2

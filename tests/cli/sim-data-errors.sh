@@ -9,6 +9,9 @@ try .
 try -o nowhere/x.tsv coulomb
 try --max-steps 5 -o x.tsv coulomb
 try -o x.h5 --max-steps 5 coulomb
+try --set rate=1e12 coulomb
+try -o x.h5 --set rate=1e12 coulomb
+try --max-steps 5 --set rate=1e12 coulomb
 ls
 [ -w /dev/full ] || exit 0
 ss-sim coulomb > /dev/full || echo "exit $?"

@@ -17,3 +17,5 @@ try --max-steps 0 coulomb
 try -o out.png coulomb
 try --events --format au coulomb
 try --frobnicate
+try --set foo=1 coulomb
+try --set q=1 coulomb

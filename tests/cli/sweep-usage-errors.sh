@@ -29,8 +29,11 @@ try $vary --shard 4/3 coulomb
 try $vary --shard 1/0 coulomb
 try $vary --threads 0 coulomb
 try $vary --max-period 65 coulomb
-try $vary --set mass=x coulomb
+try $vary --set friction=x coulomb
 try $vary --resume b.tsv coulomb
 ss-sweep --resume - $vary coulomb || echo "exit $?"
 ss-sweep -o a.png $vary coulomb || echo "exit $?"
 ls
+try --vary friction=0:1:3 --set friction=3 coulomb
+try --vary friction=0:1:3 --set ' friction = 3' coulomb
+ss-sweep --vary friction=1:2:1e12 coulomb 2>&1 | sed 's/up to [0-9]*$/up to N/'

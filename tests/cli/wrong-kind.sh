@@ -25,6 +25,7 @@ printf 'MATLAB 5.0 MAT-file, Platform: GLNXA64\0\0' > old.mat
 printf 'TDSm\016\0\0\0aaaaaaaaaaaaaa' > log.tdms
 printf 'CDF\001\0\0\0\0aaaaaaaaaaaaaa' > log.nc
 echo 'hello world' > hello.txt
+printf 't,a\n0,1\n0.1,2\n' > table.csv
 : > empty
 
 refused() {     # COMMAND ...: exit 1, one line, nothing on standard output
@@ -48,7 +49,8 @@ for tool in ss-contour 'ss-morlet --inverse'; do
     done
 done
 for tool in ss-sim 'ss-sweep --vary mass=1:2:3' 'ss-rank signal.tsv'; do
-    for file in signal.tsv signal.au signal.h5 coefficients.tsv plot.gp plot.png hello.txt empty; do
+    for file in signal.tsv signal.au signal.h5 coefficients.tsv plot.gp plot.png table.csv \
+            hello.txt empty; do
         refused $tool $file
     done
 done
