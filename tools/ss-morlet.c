@@ -384,7 +384,8 @@ invert(const request *req, const char *path)
     ss_signal *signal;
     ss_error err = { "" };
     double error, accuracy = req->accurate ? req->opts.accuracy : 1e-3;
-    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, &err), &err, path);
+    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, tool_progress, NULL, &err),
+          &err, path);
     tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
               coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
     tool_write_signal(signal, req->output, req->kind);

@@ -201,10 +201,10 @@ int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k
  * frame bounds there.  With steps above 0.5 more than that may be wrong beyond the labels.
  * SS_ESCALE: the ratio exceeds 100, the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ... 0.1, of
  * the coefficients stays unexplained, so that they are those of no signal, or is left after 500 passes.
- * SS_EDATA: notes lack options, or scales are missing.  Costs three to 500 transforms and as many
- * adjoints by the sum. */
+ * SS_EDATA: notes lack options, or scales are missing.  SS_STOP if progress asks for it, which may be
+ * NULL.  Costs three to 500 transforms and as many adjoints by the sum. */
 ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
-                            double *error, ss_error *err);
+                            double *error, ss_progress *progress, void *user, ss_error *err);
 
 /* Write coefficients as they come.  The header says the column's signal and the options, and with
  * n = 0 that the samples are not counted yet: then end writes their number. */

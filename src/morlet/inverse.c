@@ -12,6 +12,7 @@
 #include <string.h>
 #include "error.h"
 #include "morlet/plan.h"
+#include "progress.h"
 
 /* A residual that STALL_FROM or more passes, doubled, lower by less than STALL stays. */
 enum { PASSES = 500, STALL_FROM = 16 };
@@ -19,6 +20,7 @@ static const double STALL = 0.1;
 
 typedef struct solver {
     const ss_coefficients *coef;
+    ss_stretch progress;
     ss_morlet *plan;
     wavelet **wave;                 /* a scale's */
     double *x, *gradient, *step;
@@ -104,7 +106,10 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     double slope = norm2(s->gradient, n), then = left;
     int pass = 0, mark = STALL_FROM, stays = 0;
     for (; left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
-        if ((st = ss_morlet_execute(s->plan, s->step, s->w, err)) != SS_OK)
+        /* what is left falls by about the same factor every pass */
+        double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
+        if ((st = ss_stretch_at(&s->progress, fmax(0, done))) != SS_OK
+            || (st = ss_morlet_execute(s->plan, s->step, s->w, err)) != SS_OK)
             return st;
         double length = slope / norm2_weighted(s, s->w);
         for (size_t i = 0; i < n; i++)
@@ -264,12 +269,12 @@ release(solver *s)
 
 ss_status
 ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
-                  double *error, ss_error *err)
+                  double *error, ss_progress *progress, void *user, ss_error *err)
 {
     if (out == NULL || coefficients == NULL)
         return SS_FAIL_NULL(err);
     enum { BOUNDS_MAX = 100 };
-    solver s = { .coef = coefficients };
+    solver s = { .coef = coefficients, .progress = { progress, user, 0, 1 } };
     double residual = 0;
     *out = NULL;
     if (!(tol >= 1e-12 && tol <= 0.1))
