@@ -10,7 +10,7 @@ python3 -c 'import numpy' 2> /dev/null || printf '#!/bin/sh\n' > bin/python3
 command -v h5dump > /dev/null || printf '#!/bin/sh\n' > bin/h5dump
 # shellcheck disable=SC2016  # for the script written
 command -v sox > /dev/null ||
-    printf '#!/bin/sh\n[ "$4" = - ] || exec ss-signal sine --format au\ncat > /dev/null\n' > bin/sox
+    printf '#!/bin/sh\n[ "$4" != - ] || exec ss-signal sine --rate 44100 --format au\ncat > /dev/null\n' > bin/sox
 # ss-trade measures as long as it is let.
 printf '#!/bin/sh\nexec "%s/bin/ss-trade" "$@" --budget 0.05\n' "$BUILD" > bin/ss-trade
 chmod +x bin/*
