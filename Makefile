@@ -2,6 +2,7 @@
 #
 #   make                    libraries and tools, under build/
 #   make check              all tests; installs first what is missing for them
+#                           (ONLY='test_store cli/features': these alone)
 #   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench-errors
 #   make bench              error and cost, measured here, simulation against CVODE and SciPy too;
 #                           fails if an error exceeds its bound
@@ -197,6 +198,7 @@ THIS_MAKE = $(MAKE)
 run-tests: all $(TESTS:%=$(BUILD)/tests/%) $(REPLAYS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
 		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
+		ONLY=$(call quote,$(ONLY)) \
 		LIBS=$(call quote,$(LIBS)) INCLUDES=$(call quote,$(INCLUDES)) sh tests/run.sh $(TESTS)
 
 draw-paper: all $(BUILD)/bin/paper-table

@@ -6,6 +6,7 @@
 # directory, with the tools in PATH and $SRC, $BUILD, $CC, $CCLD (compiler with flags for linking),
 # $LIBS, $INCLUDES, $MAKE and $SAN set.  It must give what NAME.out, NAME.err and NAME.exit beside it
 # hold (nothing, nothing and 0 if they are absent).  Exit 77 skips it, its first line saying why.
+# ONLY='test_store cli/features' runs these alone.
 set -u
 SRC=$(cd "$(dirname "$0")/.." && pwd)
 : "${LIMIT:=600}" "${JOBS:=$(getconf _NPROCESSORS_ONLN)}"
@@ -103,6 +104,7 @@ for script in tests/cli/*.sh tests/build/*.sh ${LONG:+tests/long/*.sh}; do
     [ ! -f "$script" ] || { script=${script#tests/}; tests="$tests ${script%.sh}"; }
 done
 
+tests=${ONLY:-$tests}
 [ -n "$tests" ] || { echo "no tests"; exit 1; }
 
 # shellcheck disable=SC2086  # a list of names
