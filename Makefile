@@ -59,7 +59,7 @@ COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@
 
 # --- what is built ---------------------------------------------------------------------------
 # Sorted: GNU make 3.82 to 4.2 give names as they lie in the directory.
-LIB_SRC := $(sort $(wildcard src/*.c src/*/*.c))
+LIB_SRC := $(sort $(wildcard src/*.c src/*/*.c src/*/*/*.c))
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/scenes.o
 SCENES  := $(sort $(wildcard data/scenes/*.scene))
 HEADERS := $(sort $(wildcard include/stickslip/*.h))

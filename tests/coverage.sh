@@ -1,7 +1,7 @@
 #!/bin/sh
 # coverage.sh: which lines of src/ the tests in $BUILD ran, file by file and in all; at least 95 %.
 #
-# Of the rest most are in morlet/fft.c and kaiser.c, whose inner loops are compiled for several
+# Of the rest most are in morlet/fft/fft.c and kaiser.c, whose inner loops are compiled for several
 # processors (VERSIONS) and counted once for each, while one machine runs one of them.  Others are
 # failures of GSL, FFTW and HDF5 on memory of their own, which nothing here can bring about, words for
 # statuses that always come with a text, and guards against sizes beyond what a machine has.

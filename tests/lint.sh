@@ -16,11 +16,11 @@ analyze() {
         -Wno-analyzer-null-dereference -Wno-analyzer-use-after-free -c -o /dev/null "$1"
 }
 if have gcc; then
-    for file in src/*.c src/*/*.c tools/*.c; do analyze "$file" || failed=1; done
+    for file in src/*.c src/*/*.c src/*/*/*.c tools/*.c; do analyze "$file" || failed=1; done
 fi
 if have clang-tidy; then
     # shellcheck disable=SC2086
-    clang-tidy --quiet src/*.c src/*/*.c -- $FLAGS 2> /dev/null || failed=1
+    clang-tidy --quiet src/*.c src/*/*.c src/*/*/*.c -- $FLAGS 2> /dev/null || failed=1
     # A tool is one thread.
     # shellcheck disable=SC2086
     clang-tidy --quiet --checks=-concurrency-mt-unsafe tools/*.c -- $FLAGS 2> /dev/null || failed=1

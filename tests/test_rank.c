@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stickslip.h>
 #include "shipped.h"
-#include "rank/candidate.h"
-#include "rank/cycle.h"
+#include "study/rank/candidate.h"
+#include "study/rank/cycle.h"
 
 enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
 

@@ -5,8 +5,8 @@
  * the events, and the next one below says how sure that is. */
 #include <math.h>
 #include <stdlib.h>
-#include "error.h"
-#include "features/rows.h"
+#include "base/error.h"
+#include "features/scale_rows.h"
 
 #define LONGEST 20.0            /* scales in the record at least: some of them must be quiet */
 

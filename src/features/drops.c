@@ -11,8 +11,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "error.h"
-#include "list.h"
+#include "base/error.h"
+#include "base/list.h"
 #include "signal/gaps.h"
 #include <stickslip/spikes.h>
 

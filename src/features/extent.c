@@ -5,7 +5,7 @@
  * to the last sample that is farther from it than noise is expected to come in so many samples,
  * sqrt(2 ln m) of its standard deviations, before all are near for half a period: an oscillation
  * crosses the line more often than that. */
-#include "extent.h"
+#include "features/extent.h"
 
 #include <math.h>
 

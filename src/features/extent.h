@@ -3,7 +3,7 @@
 #define EXTENT_H
 
 #include <stddef.h>
-#include "window.h"
+#include "features/window.h"
 
 /* The first and the last sample of the event about sample at that are off a line through the quiet
  * samples before and behind it, within the samples of win; both are at where too few are quiet.

@@ -4,13 +4,13 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
-#include "error.h"
-#include "maxima.h"
-#include "period.h"
-#include "rows.h"
-#include "search.h"
+#include "base/error.h"
+#include "features/maxima.h"
+#include "features/period.h"
+#include "features/scale_rows.h"
+#include "features/search.h"
 #include "signal/gaps.h"
-#include "slope.h"
+#include "features/slope.h"
 
 const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displacement = -1,
                                                 .force = -1, .threads = 1 };

@@ -14,8 +14,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "list.h"
-#include "maxima.h"
+#include "base/list.h"
+#include "features/maxima.h"
 
 #define DRY SIZE_MAX            /* a way that leads nowhere: no point of the map */
 #define PEAK (SIZE_MAX / 2 + 1) /* a way's end: plus the number of the peak */

@@ -6,7 +6,7 @@
  * square (Tolonen and Karjalainen 2000, "compressed"): else one strong line makes peaks of its own
  * and a slow drift hides them all. Peaks at the multiples of the lag then refine it, and their
  * scatter is its error. */
-#include "period.h"
+#include "features/period.h"
 
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_fft_real.h>

@@ -14,7 +14,7 @@
  * all windows share, of the slow part or the ends: that moves the fit as the windows change. So all
  * are cut at their starts, or at their ends, and half of what that moves the fit by, noise apart, is
  * added in quadrature. */
-#include "ringdown.h"
+#include "features/ringdown.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
@@ -22,7 +22,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "varpro.h"
+#include "features/varpro.h"
 
 /* In periods of the oscillation. */
 #define CORE 1.25               /* fits into a stick of two wherever that lies */

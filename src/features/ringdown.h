@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/features.h>
-#include "window.h"
+#include "features/window.h"
 
 /* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each of the n_anchors samples
  * given, w and s shared, starting from w. Where the forcing's omega per sample is known and that is

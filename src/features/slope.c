@@ -5,7 +5,7 @@
  * oscillation serves as instrument, K_y = sum y f / sum y x with each window's means taken off,
  * whose noise has nothing to do with that of x.  v is in quadrature with x and y but for the decay,
  * which leaves an error of the order of the damping ratio squared. */
-#include "slope.h"
+#include "features/slope.h"
 
 #include <math.h>
 #include <stdlib.h>

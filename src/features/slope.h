@@ -3,7 +3,7 @@
 #define SLOPE_H
 
 #include <stickslip/features.h>
-#include "window.h"
+#include "features/window.h"
 
 /* |df/dx| over the n windows, each from first to end in samples, with its standard error; y is the
  * signal that the windows were found in.  All hold finite numbers, else the slope is NaN. */

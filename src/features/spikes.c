@@ -9,10 +9,10 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include "error.h"
-#include "list.h"
+#include "base/error.h"
+#include "base/list.h"
 #include "features/breakpoint.h"
-#include "features/rows.h"
+#include "features/scale_rows.h"
 #include <stickslip/spikes.h>
 
 #define DEEPEST 5.0             /* octaves looked at for the first: 100 samples are smooth */

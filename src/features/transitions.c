@@ -2,11 +2,11 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
-#include "extent.h"
-#include "list.h"
-#include "ringdown.h"
-#include "rows.h"
-#include "search.h"
+#include "features/extent.h"
+#include "base/list.h"
+#include "features/ringdown.h"
+#include "features/scale_rows.h"
+#include "features/search.h"
 #include "signal/gaps.h"
 
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };

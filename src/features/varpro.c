@@ -4,7 +4,7 @@
  * three columns. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
  * projected out of each window (variable projection, Golub and Pereyra 1973, with Kaufman's
  * Jacobian), and two numbers are left to fit to all windows at once, by GSL's Levenberg-Marquardt. */
-#include "varpro.h"
+#include "features/varpro.h"
 
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/status.h>
-#include "window.h"
+#include "features/window.h"
 
 enum { VARPRO_COLUMNS = 5, VARPRO_DERIVATIVES = 4 };
 

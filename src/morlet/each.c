@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include "error.h"
+#include "base/error.h"
 #include "morlet/plan.h"
 
 typedef struct job {

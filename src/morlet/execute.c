@@ -5,7 +5,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
-#include "error.h"
+#include "base/error.h"
 #include "morlet/plan.h"
 
 ss_status

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include "error.h"
+#include "base/error.h"
 #include "morlet/plan.h"
 
 #define SLACK 1e-9          /* in j; rounding of V log2 a is below 1e-10 */

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "error.h"
+#include "base/error.h"
 #include "morlet/plan.h"
-#include "progress.h"
+#include "base/progress.h"
 
 /* A residual that STALL_FROM or more passes, doubled, lower by less than STALL stays. */
 enum { PASSES = 500, STALL_FROM = 16 };

@@ -23,7 +23,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include "error.h"
+#include "base/error.h"
 #include "morlet/plan.h"
 
 /* [s], measured by tests/bench/bench_morlet: a coefficient, and a tap of it. */

@@ -4,13 +4,13 @@
  * share a column give it their largest |W|, so that a spike is never lost; between translations
  * farther apart |W| is interpolated linearly.  The lines of equal level on it go into the script,
  * as few points of them as keep them within a fraction of a pixel. */
-#include "isoline.h"
-#include "script.h"
+#include "plot/isoline.h"
+#include "plot/script.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "../error.h"
+#include "base/error.h"
 
 #define COLUMNS 700             /* pixels that panel (b) is wide, about */
 #define ROWS 580                /* and high */

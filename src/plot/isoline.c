@@ -5,7 +5,7 @@
  * Every crossed side belongs to one line and is passed once, so all lines of a level cost one
  * look at every side and one step a crossing.  (gnuplot's own contouring looks for each new line
  * from the start of a list: 4 s for a clean signal, 10 s and more for noise.) */
-#include "isoline.h"
+#include "plot/isoline.h"
 
 #include <stdlib.h>
 

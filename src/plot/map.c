@@ -4,14 +4,14 @@
  * each a quarter of a row high into the next, so that no seams show.  Lines are traced through the
  * grid as isoline.c does.  Each level has its value on one line at least: those with least choice of
  * place are labelled first; the other lines of some length carry it where it covers no other. */
-#include "isoline.h"
-#include "script.h"
+#include "plot/isoline.h"
+#include "plot/script.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "../error.h"
+#include "base/error.h"
 
 enum { REGIONS_MAX = 10, LEVELS_MAX = 40, LABELS_MAX = 80 };
 #define LONG 0.15                       /* a line worth a second label: in widths of the map */

@@ -1,9 +1,9 @@
 /* panels.c -- a signal over time, one panel a column, and one column over another. */
-#include "script.h"
+#include "plot/script.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include "../error.h"
+#include "base/error.h"
 
 #define PANEL 2.1               /* height of one panel [cm] */
 #define TITLE 0.6               /* height above the panels [cm] */

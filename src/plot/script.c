@@ -2,13 +2,13 @@
  * run, numbers that no locale changes, lines thinned to the picture's width.
  *
  * A picture on paper is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
-#include "script.h"
+#include "plot/script.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "../error.h"
+#include "base/error.h"
 
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */

@@ -1,9 +1,9 @@
 /* trade.c -- the work-precision diagram: error over CPU time, one line a method. */
-#include "script.h"
+#include "plot/script.h"
 
 #include <math.h>
 #include <string.h>
-#include "../error.h"
+#include "base/error.h"
 
 /* Okabe and Ito's colours, told apart by all kinds of colour vision; point types and
  * dashes tell methods that share one. */

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "error.h"
+#include "base/error.h"
 #include "signal/gaps.h"
-#include "stream.h"
+#include "stream/stream.h"
 
 static const char key[] = "gaps";
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "stream.h"
+#include "stream/stream.h"
 
 ss_header *
 ss_header_new(double rate, double start)

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include "error.h"
+#include "base/error.h"
 #include <stickslip/signal.h>
 
 struct ss_noise {

@@ -4,8 +4,8 @@
 #include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdlib.h>
-#include "error.h"
-#include "stream.h"
+#include "base/error.h"
+#include "stream/stream.h"
 
 #define LONGEST 10              /* median steps; stamps farther apart have a gap between them */
 #define AT_END 1e-6             /* sample periods that a sample may lie beyond the last stamp */

@@ -6,8 +6,8 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include "error.h"
-#include "stream.h"
+#include "base/error.h"
+#include "stream/stream.h"
 
 const ss_wave_opts ss_wave_defaults = {
     .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,

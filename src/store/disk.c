@@ -3,7 +3,7 @@
  * HDF5 cannot let go of a file that it failed to write (a full disk): it tries again at exit, in
  * vain and aloud.  So it is not told: the first failure is kept, after which nothing is written any
  * more, and who made the file looks at it in the end. */
-#include "h5.h"
+#include "store/h5.h"
 
 #include <errno.h>
 #include <string.h>

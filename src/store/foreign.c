@@ -3,15 +3,15 @@
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
  * or its group, which our own files have. */
-#include "../signal/stream.h"
-#include "h5.h"
+#include "stream/stream.h"
+#include "store/h5.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "../error.h"
-#include "../signal/stream.h"
+#include "base/error.h"
+#include "stream/stream.h"
 
 typedef struct array {
     size_t rows, columns;

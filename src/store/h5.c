@@ -2,14 +2,14 @@
  *
  * A file may claim what it likes, so what would open other files, or ask for memory out of all
  * proportion to the file, is refused before HDF5 is asked to do it. */
-#include "h5.h"
+#include "store/h5.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "../error.h"
-#include "../signal/stream.h"
+#include "base/error.h"
+#include "stream/stream.h"
 
 ss_status
 ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)

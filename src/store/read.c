@@ -2,15 +2,15 @@
  *
  * A file may have come through other hands, so every size is checked before it is believed: those
  * of datasets against each other, those in attributes against the datasets. */
-#include "h5.h"
+#include "store/h5.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "../error.h"
-#include "../signal/stream.h"
+#include "base/error.h"
+#include "stream/stream.h"
 
 /* A required attribute of a group, lo <= value <= hi. */
 static ss_status

@@ -7,7 +7,7 @@
  * Samples and coefficients come in pieces.  Where their number is known, a scale's datasets are
  * closed when they are full; else all stay open, in chunks so short that one of each fits into
  * memory. */
-#include "h5.h"
+#include "store/h5.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -17,8 +17,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include "../error.h"
-#include "../signal/stream.h"
+#include "base/error.h"
+#include "stream/stream.h"
 
 #define CHUNK 65536             /* values in a chunk, or written at a time, at most */
 #define PLAIN_BYTES 65536       /* a dataset up to this size is stored as it is */

@@ -14,5 +14,5 @@ $CCLD -I"$SRC/include" -o sim sim.c "$BUILD/libstickslip.a" $(pkg-config --libs 
 # Only these know these libraries.
 cd "$SRC"
 grep -rlE --include='*.[ch]' 'gsl_odeiv2\.h' src tools
-grep -rlE --include='*.[ch]' 'include.*(fftw3|fft_plan)\.h' src tools | sort
+grep -rlE --include='*.[ch]' 'include.*(fftw3|fft/plan)\.h' src tools | sort
 grep -rlE --include='*.[ch]' 'hdf5(_hl)?\.h' src tools | grep -v '^src/store' || true

@@ -1,0 +1,88 @@
+/* kind.c -- what a file is that is none of those wanted, by its first bytes. */
+#include <string.h>
+#include "base/error.h"
+
+#define PICTURE "a picture", "give what it was drawn from"
+#define NETCDF "a netCDF 3 file", "nccopy -k nc4 makes HDF5 of it"
+#define UTF16 "text in UTF-16", "iconv -f UTF-16 -t UTF-8 FILE | gives it to a tool"
+#define SOUND "a sound file", "sox FILE -t au - makes a signal of it"
+
+static const struct kind {
+    const char *magic, *what, *advice;
+} kinds[] = {
+    { "# stickslip signal ", "a signal", "ss-morlet makes coefficients of it, ss-plot draws it" },
+    { "# stickslip coefficients ", "wavelet coefficients",
+      "ss-contour reads them, and ss-morlet --inverse" },
+    { "# stickslip features ", "a list of features", "ss-contour --features reads it" },
+    { "# stickslip events ", "a list of events", "ss-contour --events reads it" },
+    { "# stickslip sweep ", "a sweep", "ss-plot --map reads it" },
+    { "# stickslip ranking ", "a ranking", "give what was ranked" },
+    { "# stickslip trade ", "rows of ss-trade", "ss-trade -o FILE.png draws them" },
+    { "# Made by libstickslip ", "a gnuplot script", "gnuplot -p FILE shows it" },
+    { ".snd", "a Sun AU stream", "ss-cat, ss-morlet and ss-contour read it" },
+    { "\211HDF", "an HDF5 file", "ss-cat, ss-morlet and ss-contour read it" },
+    { "\211PNG", PICTURE }, { "%PDF-", PICTURE }, { "<?xml", PICTURE }, { "<svg", PICTURE },
+    { "\377\330\377", PICTURE },
+    { "RIFF", SOUND }, { "fLaC", SOUND }, { "OggS", SOUND },
+    { "ID3\003", SOUND }, { "ID3\004", SOUND },
+    { "\037\213", "a gzip file", "gunzip -c FILE | gives a tool what is in it" },
+    { "\377\376", UTF16 }, { "\376\377", UTF16 },
+    { "PK\003\004", "a workbook or another zip archive", "save its sheet as CSV" },
+    { "\320\317\021\340", "a workbook", "save its sheet as CSV" },
+    { "MATLAB 5.0 MAT-file", "a MATLAB file older than v7.3",
+      "in MATLAB, save('FILE', '-v7.3') writes one that can be read" },
+    { "TDSm", "a LabVIEW TDMS file", "export it as text" },
+    { "CDF\001", NETCDF }, { "CDF\002", NETCDF },
+};
+
+/* A scene mostly begins with its model, below comments. */
+static int
+is_scene(const char *p, const char *end)
+{
+    static const char *const models[] = { "coulomb", "state-variable", "compliant" };
+    while (p < end && (*p == '#' || *p == '\n' || *p == '\r')) {
+        const char *newline = memchr(p, '\n', (size_t)(end - p));
+        p = newline != NULL ? newline + 1 : end;
+    }
+    char word[2][16] = { "", "" };
+    for (int i = 0; i < 2; i++) {
+        for (; p < end && strchr(" \t=", *p) != NULL && *p != '\0'; p++)
+            ;
+        for (size_t n = 0; p < end && *p > ' ' && *p != '=' && n < sizeof word[i] - 1; n++)
+            word[i][n] = *p++;
+    }
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++)
+        if (strcmp(word[0], "model") == 0 && strcmp(word[1], models[i]) == 0)
+            return 1;
+    return 0;
+}
+
+/* No scene has a line that separates columns before any "=" and comment. */
+static int
+is_table(const char *p, const char *end)
+{
+    for (; p < end && *p != '#' && *p != '=' && *p != '\n'; p++)
+        if (*p == ',' || *p == ';' || *p == '\t')
+            return 1;
+    return 0;
+}
+
+ss_status
+ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, const char *wanted)
+{
+    static const struct kind scene = { "", "a scene", "ss-sim makes a signal of it" };
+    static const struct kind table = { "", "a table of numbers or names",
+                                       "ss-cat, ss-morlet, ss-features and ss-plot read a signal "
+                                       "in it" };
+    const struct kind *found = is_scene(bytes, bytes + n) ? &scene
+        : strcmp(wanted, "a scene") == 0 && is_table(bytes, bytes + n) ? &table : NULL;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t length = strlen(kinds[i].magic);
+        if (n >= length && memcmp(bytes, kinds[i].magic, length) == 0)
+            found = &kinds[i];
+    }
+    if (found == NULL || strcmp(found->what, wanted) == 0)
+        return SS_OK;
+    return ss_fail(err, SS_EDATA, "%s: %s, not %s; %s", name, found->what, wanted,
+                   found->advice);
+}

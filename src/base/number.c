@@ -1,0 +1,326 @@
+/* number.c -- doubles to the fewest decimal digits and back, whatever the locale.
+ *
+ * Both ways multiply a 64-bit integer by a power of ten kept to 128 bits, which is enough to
+ * decide the rounding: writing always (Giulietti, "The Schubfach way to render doubles", 2020),
+ * reading but for a few inputs in 2^60 (Clinger 1990; Lemire, "Number parsing at a gigabyte per
+ * second", 2021).  Those, the subnormal and the overflowing ones are left to strtod.  Both ways
+ * are exact: no error is made but the one rounding that reading cannot avoid. */
+#include <float.h>
+#include <locale.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#if defined(__APPLE__)
+#include <xlocale.h>
+#endif
+#include <stickslip/signal.h>
+#include "base/number_pow10.h"
+
+struct wide {
+    uint64_t hi, lo;
+};
+
+static struct wide
+product(uint64_t a, uint64_t b)
+{
+#ifdef __SIZEOF_INT128__
+    __extension__ typedef unsigned __int128 uint128;
+    uint128 p = (uint128)a * b;
+    return (struct wide){ (uint64_t)(p >> 64), (uint64_t)p };
+#else
+    uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
+    uint64_t low = al * bl, mid = ah * bl + (low >> 32), mid2 = al * bh + (uint32_t)mid;
+    return (struct wide){ ah * bh + (mid >> 32) + (mid2 >> 32), mid2 << 32 | (uint32_t)low };
+#endif
+}
+
+/* floor(log2(10^e)) for |e| < 1233, and floor(log10(f 2^q)) for |q| < 1500, f = 1 or 3/4: fixed
+ * point, with the sign-extending shift that every compiler of ours has. */
+static int
+log2_pow10(int e)
+{
+    return e * 1741647 >> 19;
+}
+
+static int
+log10_pow2(int q, int three_quarters)
+{
+    return (q * 1262611 - (three_quarters ? 524031 : 0)) >> 22;
+}
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+/* g c 2^-128 to the next odd integer, unless it is exact: enough to compare it with any even one. */
+static uint64_t
+round_to_odd(struct pow10 g, uint64_t c)
+{
+    struct wide x = product(g.lo, c), y = product(g.hi, c);
+    uint64_t low = y.lo + x.hi;
+    return (y.hi + (low < y.lo)) | (low > 1);
+}
+
+/* The shortest, then nearest decimal d 10^k in the interval that rounds to c 2^q; d may end in
+ * zeros.  irregular: the neighbour below is only half as far, as at powers of two. */
+static uint64_t
+shortest(uint64_t c, int q, int irregular, int *exponent)
+{
+    int k = log10_pow2(q, irregular), h = q + log2_pow10(-k) + 1;
+    struct pow10 g = pow10_table[-k - POW10_FIRST];
+    g.lo += -k < 0 || -k > 55;                  /* rounded up, unless 10^-k is exact */
+    uint64_t odd = c & 1;
+    uint64_t v = round_to_odd(g, 4 * c << h);               /* all in quarters of 10^k */
+    uint64_t lower = round_to_odd(g, (4 * c - (irregular ? 1 : 2)) << h) + odd;
+    uint64_t upper = round_to_odd(g, (4 * c + 2) << h) - odd;
+    uint64_t s = v / 4, tens = s / 10;
+
+    if (tens > 0) {                             /* one digit less? */
+        int below = lower <= 40 * tens, above = 40 * tens + 40 <= upper;
+        if (below != above) {
+            *exponent = k + 1;
+            return tens + (uint64_t)above;
+        }
+    }
+    *exponent = k;
+    int below = lower <= 4 * s, above = 4 * s + 4 <= upper;
+    if (below != above)
+        return s + (uint64_t)above;
+    return s + (v > 4 * s + 2 || (v == 4 * s + 2 && (s & 1)));
+}
+
+/* The n digits of d without its zeros at the end, which go into the exponent; they end at the end
+ * of digit. */
+static const char *
+digits_of(uint64_t d, char digit[20], int *n, int *exponent)
+{
+    static const char pair[] =
+        "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243"
+        "4445464748495051525354555657585960616263646566676869707172737475767778798081828384858687"
+        "888990919293949596979899";
+    char *p = digit + 20, *end = p;     /* cppcheck-suppress ctuPointerArith */
+    for (; d >= 100; d /= 100)
+        memcpy(p -= 2, pair + 2 * (d % 100), 2);
+    if (d >= 10)
+        memcpy(p -= 2, pair + 2 * d, 2);
+    else
+        *--p = (char)('0' + d);
+    for (; end[-1] == '0'; end--)
+        ++*exponent;
+    *n = (int)(end - p);
+    return p;
+}
+
+static char *
+put(char *to, const char *from, int n)
+{
+    memcpy(to, from, (size_t)n);
+    return to + n;
+}
+
+/* As %.17g lays them out: n digits 0.ddd x 10^point. */
+static char *
+lay_out(char *p, const char *digit, int n, int point)
+{
+    static const char zeros[] = "00000000000000000";
+    if (point > 17 || point < -3) {
+        int e = point - 1;
+        *p++ = digit[0];
+        if (n > 1) {
+            *p++ = '.';
+            p = put(p, digit + 1, n - 1);
+        }
+        *p++ = 'e';
+        *p++ = e < 0 ? '-' : '+';
+        e = abs(e);
+        if (e >= 100)
+            *p++ = (char)('0' + e / 100);
+        *p++ = (char)('0' + e / 10 % 10);
+        *p++ = (char)('0' + e % 10);
+    } else if (point <= 0) {
+        p = put(p, "0.", 2);
+        p = put(p, zeros, -point);
+        p = put(p, digit, n);
+    } else if (point >= n) {
+        p = put(p, digit, n);
+        p = put(p, zeros, point - n);
+    } else {
+        p = put(p, digit, point);
+        *p++ = '.';
+        p = put(p, digit + point, n - point);
+    }
+    return p;
+}
+
+size_t
+ss_number_format(char text[SS_NUMBER_MAX], double x)
+{
+    if (text == NULL)
+        return 0;
+    char *p = text, digit[20];
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    uint64_t fraction = bits & ((UINT64_C(1) << 52) - 1);
+    int biased = (int)(bits >> 52 & 0x7ff), n, exponent;
+
+    if (isnan(x))
+        return strlen(strcpy(text, "nan"));
+    if (bits >> 63)
+        *p++ = '-';
+    if (biased == 0x7ff) {
+        p = put(p, "inf", 3);
+    } else if (biased == 0 && fraction == 0) {
+        *p++ = '0';
+    } else {
+        uint64_t c = biased == 0 ? fraction : fraction | UINT64_C(1) << 52;
+        uint64_t d = shortest(c, (biased == 0 ? 1 : biased) - 1075, fraction == 0 && biased > 1,
+                              &exponent);
+        const char *first = digits_of(d, digit, &n, &exponent);
+        p = lay_out(p, first, n, n + exponent);
+    }
+    *p = '\0';
+    return (size_t)(p - text);
+}
+
+/* --- reading ------------------------------------------------------------------------------- */
+
+struct decimal {
+    uint64_t w;         /* the first 19 digits */
+    long e;             /* its value is w 10^e, or up to 10^e more if digits were dropped */
+    int dropped;        /* a digit other than 0 did not fit in w */
+};
+
+static const char *
+scan_digits(struct decimal *d, const char *p, int behind_point)
+{
+    for (; *p >= '0' && *p <= '9'; p++) {
+        if (d->w < UINT64_C(1000000000000000000)) {
+            d->w = d->w * 10 + (uint64_t)(*p - '0');
+            d->e -= behind_point;
+        } else {
+            d->dropped |= *p != '0';
+            d->e += !behind_point;
+        }
+    }
+    return p;
+}
+
+/* The unsigned number at p; its end, or NULL if there is none. */
+static const char *
+scan(struct decimal *d, const char *p)
+{
+    const char *start = p;
+    p = scan_digits(d, p, 0);
+    if (*p == '.') {
+        const char *q = scan_digits(d, p + 1, 1);
+        if (q == p + 1 && p == start)
+            return NULL;
+        p = q;
+    } else if (p == start) {
+        return NULL;
+    }
+    if (*p != 'e' && *p != 'E')
+        return p;
+    const char *q = p + 1;
+    int negative = *q == '-';
+    long e = 0;
+    q += *q == '-' || *q == '+';
+    if (*q < '0' || *q > '9')
+        return p;
+    for (; *q >= '0' && *q <= '9'; q++)
+        if (e < 100000000)
+            e = e * 10 + (*q - '0');
+    d->e += negative ? -e : e;
+    return q;
+}
+
+static int
+leading_zeros(uint64_t w)
+{
+#if defined(__GNUC__)
+    return __builtin_clzll(w);
+#else
+    int n = 0;
+    for (; !(w >> 63); w <<= 1)
+        n++;
+    return n;
+#endif
+}
+
+/* w 10^e in double precision: gives 0 if 128 bits cannot tell how it rounds.
+ *
+ * With w moved to the top of 64 bits, the exact product lies in [z, z + 2) units of the 128 bits
+ * kept, or in [z, z + 17 2^64) if digits were dropped (then w >= 10^18).  If all of it has the
+ * same leading 54 bits and z is not itself half-way, the 54th of them decides. */
+static int
+multiply(struct decimal d, double *x)
+{
+    if (d.e < POW10_FIRST || d.e > 308)
+        return 0;
+    int e = (int)d.e, zeros = leading_zeros(d.w);
+    struct pow10 g = pow10_table[e - POW10_FIRST];
+    struct wide z = product(d.w << zeros, g.hi), rest = product(d.w << zeros, g.lo);
+    z.lo += rest.hi;
+    z.hi += z.lo < rest.hi;
+
+    int top = (int)(z.hi >> 63), exponent = log2_pow10(e) - zeros + 11 + top;
+    uint64_t mask = (UINT64_C(1) << (9 + top)) - 1, below = z.hi & mask, m = z.hi >> (9 + top);
+    if (d.dropped ? below + 18 > mask : below == mask && z.lo >= UINT64_MAX - 1)
+        return 0;
+    if ((m & 1) && below == 0 && z.lo == 0)
+        return 0;
+    if (exponent < -1074 || exponent > 970)
+        return 0;
+    /* m is 53 bits or, rounded up to it, 2^53, which then carries into the exponent. */
+    uint64_t bits = ((uint64_t)(exponent + 1074) << 52) + ((m + 1) >> 1);
+    memcpy(x, &bits, sizeof bits);
+    return 1;
+}
+
+static double
+strtod_in_c(const char *text)
+{
+    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    locale_t old = uselocale(c);                /* of this thread only */
+    double x = strtod(text, NULL);
+    uselocale(old);
+    if (c != (locale_t)0)
+        freelocale(c);
+    return x;
+}
+
+double
+ss_number_parse(const char *text, char **end)
+{
+    if (text == NULL) {
+        if (end != NULL)
+            *end = NULL;
+        return 0;
+    }
+    static const double pow10[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
+        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+    struct decimal d = { 0, 0, 0 };
+    const char *p = text;
+    double x = 0;
+
+    while (*p == ' ' || (*p >= '\t' && *p <= '\r'))
+        p++;
+    const char *start = p;
+    int negative = *p == '-';
+    p = scan(&d, p + (*p == '-' || *p == '+'));
+    if (end != NULL)
+        *end = (char *)(p != NULL ? p : text);
+    if (p == NULL)
+        return 0;
+    while (d.w >> 53 && d.w % 10 == 0) {        /* 1.000000000000000000e+00, as NumPy writes it */
+        d.w /= 10;
+        d.e++;
+    }
+    int exact = FLT_EVAL_METHOD == 0 && !d.dropped && !(d.w >> 53);     /* then one rounding */
+    if (exact && d.e >= 0 && d.e <= 22)
+        x = (double)d.w * pow10[d.e];
+    else if (exact && d.e < 0 && d.e >= -22)
+        x = (double)d.w / pow10[-d.e];
+    else if (d.w != 0 && !multiply(d, &x))
+        return strtod_in_c(start);
+    return negative ? -x : x;
+}

@@ -1,0 +1,55 @@
+/* status.c -- status codes to text. */
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include "base/error.h"
+
+const char *
+ss_strerror(ss_status status)
+{
+    switch (status) {
+    case SS_OK:       return "no error";
+    case SS_STOP:     return "stopped on request";
+    case SS_EINVAL:   return "argument out of range";
+    case SS_ENOMEM:   return "out of memory";
+    case SS_EIO:      return "input or output error";
+    case SS_EDATA:    return "malformed input";
+    case SS_ESCALE:   return "scales outside the range that the record resolves";
+    case SS_ETOL:     return "tolerance cannot be met";
+    case SS_ECHATTER: return "events too close to tell apart";
+    case SS_EBUDGET:  return "step budget used up";
+    }
+    return "unknown status";
+}
+
+const char *
+ss_version(void)
+{
+    return SS_VERSION;
+}
+
+/* Names of files and pieces of input stand in these texts: what would break the line or reach into
+ * the terminal is shown as a question mark. */
+ss_status
+ss_fail(ss_error *err, ss_status status, const char *format, ...)
+{
+    if (err != NULL) {
+        va_list args;
+        va_start(args, format);
+        vsnprintf(err->text, sizeof err->text, format, args);
+        va_end(args);
+        for (char *p = err->text; *p != '\0'; p++)
+            *p = iscntrl((unsigned char)*p) ? '?' : *p;
+    }
+    return status;
+}
+
+ss_status
+ss_fail_errno(ss_error *err, const char *name, int number)
+{
+    char text[128];
+    if (strerror_r(number, text, sizeof text) != 0)
+        snprintf(text, sizeof text, "error %d of the system", number);
+    return ss_fail(err, SS_EIO, "%s: %s", name, text);
+}

@@ -1,0 +1,205 @@
+/* scale_rows.c -- |W| along single scales.
+ *
+ * Noise: the rms of |W| in a row, from the median, which events do not move: |W|^2 of Gaussian
+ * noise is exponential, its median ln 2 of its mean.  Not less than what rounding of the samples
+ * makes: of a converter's step, or of the last digit that numbers are trusted to have.
+ *
+ * Threshold: |W| of Gaussian noise crosses the level u (in units of its rms) upwards u exp(-u^2) /
+ * (a sqrt(2 pi)) times a second (Rice 1945, with the spectral width 1 / (sqrt(2) a) of the Morlet
+ * wavelet); summed over the rows that is to be false_alarms.  Neighbouring rows are not
+ * independent, so there are fewer.
+ *
+ * The record is continued oddly about its end points, so that it goes on with the same value and
+ * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
+ * the reach of a gap, where something of another value and slope may stand. */
+#include <float.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "base/error.h"
+#include "features/scale_rows.h"
+#include <stickslip/morlet.h>
+
+#define ACCURACY 1e-10          /* of W: 200 dB */
+#define QUIET 3.0               /* scales from a spike on that it is heard */
+#define LEAST 0.1               /* part of a row that its noise is read from at least */
+
+/* Does sample i stand in a gap? */
+static int
+missing(const row_source *source, size_t i)
+{
+    return ss_near_gap(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
+}
+
+/* The step of the converter that the samples came through, 0 if none is seen: the smallest change,
+ * if nearly all others are multiples of it.  A signal of few levels that changes seldom is one of
+ * steps. */
+static double
+converter_step(const row_source *source)
+{
+    const double *x = source->x;
+    size_t n = source->n, changes = 0, fit = 0;
+    double step = INFINITY, lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 1; i < n; i++)
+        if (x[i] != x[i - 1] && !missing(source, i) && !missing(source, i - 1))
+            step = fmin(step, fabs(x[i] - x[i - 1]));
+    for (size_t i = 1; i < n; i++) {
+        if (missing(source, i) || missing(source, i - 1))
+            continue;
+        double steps = fabs(x[i] - x[i - 1]) / step;
+        lo = fmin(lo, fmin(x[i], x[i - 1]));
+        hi = fmax(hi, fmax(x[i], x[i - 1]));
+        changes += steps > 0;
+        fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* by chance a fifth of them */
+    }
+    int seldom = changes < n / 20, few = hi - lo < 64 * step;
+    if (!(hi - lo >= 8 * step) || (seldom && few) || (double)fit < 0.9 * (double)changes)
+        return 0;
+    return step;
+}
+
+ss_status
+ss_row_source_init(row_source *source, const double *x, size_t n, double rate, double precision,
+                   const ss_span *gap, size_t n_gaps, ss_error *err)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    if (n == 0 || n > SIZE_MAX / 64)
+        return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
+    if (!(rate >= 1e-100 && rate <= 1e100))
+        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
+    *source = (row_source){ .x = x, .n = n, .rate = rate, .gap = gap, .n_gaps = n_gaps };
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
+        if (missing(source, i))
+            continue;
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
+    }
+    if (hi - lo > DBL_MAX)
+        return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
+    source->constant = !(hi > lo);
+    if (hi > lo)
+        source->rounding = fmax(precision * (hi - lo), converter_step(source) / sqrt(12))
+            / sqrt(rate);
+    return SS_OK;
+}
+
+/* The record less its first value, with margin samples more at either end, an odd continuation;
+ * past the other end of a record that is too short for that, its last value stays. */
+static double *
+continued(const double *x, size_t n, size_t margin)
+{
+    double *y = malloc((n + 2 * margin) * sizeof *y);
+    if (y == NULL)
+        return NULL;
+    double start = x[0], end = x[n - 1] - start;
+    for (size_t i = 0; i < n; i++)
+        y[margin + i] = x[i] - start;
+    for (size_t i = 1; i <= margin; i++) {
+        size_t k = i < n ? i : n - 1;
+        y[margin - i] = start - x[k];
+        y[margin + n - 1 + i] = 2 * end - (x[n - 1 - k] - start);
+    }
+    return y;
+}
+
+/* The maximum of the parabola through three levels, the middle one the largest. */
+static peak
+summit(const double *level, double t, double step)
+{
+    double bend = level[0] - 2 * level[1] + level[2];
+    double off = bend < 0 ? 0.5 * (level[0] - level[2]) / bend : 0;
+    return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
+}
+
+/* The rms of |W| in the n levels, which lose their order, one every step from t on, by the median of
+ * those that are farther than QUIET scales from all spikes found so far and out of the reach of
+ * gaps: all that there are, if these are less than LEAST of them. */
+static double
+noise_of(const row_source *source, const ss_spikes_found *loud, double *level, size_t n, double t,
+         double step, double a)
+{
+    double quiet = QUIET * a;
+    size_t left = 0, i = 0;
+    for (size_t k = 0; k < n; k++) {
+        double at = t + (double)k * step;
+        while (loud != NULL && i < loud->n && loud->spike[i].t + quiet < at)
+            i++;
+        if ((loud != NULL && i < loud->n && loud->spike[i].t - quiet <= at)
+            || ss_near_gap(source->gap, source->n_gaps, at, ROW_REACH * a))
+            continue;
+        double swap = level[left];
+        level[left++] = level[k];
+        level[k] = swap;
+    }
+    if ((double)left < LEAST * (double)n)
+        left = n;
+    return gsl_stats_select(level, 1, left, left / 2) / sqrt(M_LN2);
+}
+
+/* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
+static ss_status
+fill_row(row *r, const row_source *source, const ss_spikes_found *loud, const ss_scale *scale,
+         double *level, double margin)
+{
+    double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
+    double length = (double)(source->n - 1) / source->rate;
+    size_t first = (size_t)ceil((margin + cone) / step);
+    size_t last = (size_t)floor((margin + length - cone) / step);
+    r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
+    if (r->peak == NULL)
+        return SS_ENOMEM;
+    for (size_t k = first; k <= last; k++)
+        if (level[k] > level[k - 1] && level[k] >= level[k + 1]
+            && !ss_near_gap(source->gap, source->n_gaps, ss_scale_b(scale, k) - margin,
+                            ROW_REACH * r->a))
+            r->peak[r->n++] = summit(level + k - 1, ss_scale_b(scale, k) - margin, step);
+    for (size_t i = 0; i < r->n; i++)
+        r->top = fmax(r->top, r->peak[i].level);
+    r->rms = noise_of(source, loud, level + first, last - first + 1,
+                      ss_scale_b(scale, first) - margin, step, r->a);
+    return SS_OK;
+}
+
+ss_status
+ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *loud, ss_error *err)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet *plan = NULL;
+    opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
+    opts.octaves = 1;
+    opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
+    double a = exp2(opts.m0), rate = source->rate;
+    size_t margin = (size_t)ceil(ROW_REACH * a * rate), n = source->n + 2 * margin;
+    double *x = continued(source->x, source->n, margin), *w = NULL;
+    ss_status st = x == NULL ? SS_ENOMEM : ss_morlet_new(&plan, n, rate, &opts, err);
+    if (st == SS_OK && (w = malloc(2 * ss_morlet_total(plan) * sizeof *w)) == NULL)
+        st = SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_morlet_execute(plan, x, w, err);
+    if (st == SS_OK) {
+        const ss_scale *scale = ss_morlet_scale(plan, 0);
+        for (size_t k = 0; k < scale->n; k++)
+            w[k] = hypot(w[2 * k], w[2 * k + 1]);
+        *r = (row){ .a = a, .f = scale->f };
+        st = fill_row(r, source, loud, scale, w, (double)margin / rate);
+        r->rms = hypot(r->rms, source->rounding);
+    }
+    ss_morlet_free(plan);
+    free(w);
+    free(x);
+    return st;
+}
+
+double
+ss_row_threshold(double length, double shortest, size_t rows, double false_alarms)
+{
+    double count = 0, u = 4;
+    for (size_t i = 0; i < rows; i++)
+        count += length / (shortest * exp2((double)i / ROW_VOICES) * sqrt(2 * M_PI));
+    for (int pass = 0; pass < 30; pass++)
+        u = sqrt(fmax(log(u * count / false_alarms), 1));
+    return u;
+}

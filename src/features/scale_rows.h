@@ -1,0 +1,49 @@
+/* scale_rows.h -- |W| along single scales: its maxima, its noise, and the threshold between them. */
+#ifndef ROWS_H
+#define ROWS_H
+
+#include <stddef.h>
+#include <stickslip/spikes.h>
+
+#define ROW_CENTER 6.0
+#define ROW_VOICES 4
+#define ROW_HIGHEST 0.6         /* of Nyquist: nearer to it converters have their filters */
+/* Scales by which a wavelet reaches: it is 1.5e-8 of its height there. */
+#define ROW_REACH 6.0
+
+typedef struct row_source {
+    const double *x;
+    size_t n;
+    double rate;
+    int constant;               /* 1: all samples are the same */
+    double rounding;            /* rms of |W| that the rounding of the samples makes */
+    const ss_span *gap;         /* in time order [s]: what stands there is not of the signal */
+    size_t n_gaps;
+} row_source;
+
+/* Checks the samples and the rate.  precision: of a sample, re the largest change. */
+ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate,
+                             double precision, const ss_span *gap, size_t n_gaps, ss_error *err);
+
+typedef struct peak {
+    double t, level;            /* [s], |W| */
+} peak;
+
+typedef struct row {
+    double a, f;
+    double rms, top;            /* of the noise; the largest peak's level */
+    size_t n;
+    peak *peak;                 /* all maxima outside the cone of influence and out of the
+                                   reach of gaps, in time order */
+} row;
+
+/* The row whose scale is nearest to the label f, of 2^(j / ROW_VOICES); its noise is read where no
+ * spike of loud is near, NULL for everywhere.  free(row->peak) when done. */
+ss_status ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *loud,
+                     ss_error *err);
+
+/* The level, in units of the noise's rms, that Gaussian noise is expected to reach false_alarms
+ * times in so many rows, the first of scale shortest, of a record of that length [s]. */
+double ss_row_threshold(double length, double shortest, size_t rows, double false_alarms);
+
+#endif

@@ -1,0 +1,508 @@
+/* fft.c -- wavelet coefficients from the spectrum of the record.
+ *
+ * On a circle of P samples, of which the record fills the first n and zeros the rest, the sum over
+ * samples is, for any b = c/rate and with C = pi^-1/4 sqrt(2 pi), in units of a^1/2,
+ *     C/P sum_k X_k exp(-v_k^2/2) exp(2 pi i k c/P),   v_k = 2 pi k a rate/P - omega_c,
+ * over all integers k, X being periodic in k (Poisson): negative frequencies, the mean and what
+ * aliases are in it.  It is exact but for what reaches around the circle; the sum is cut to
+ * |v| <= R.  What a scale then is, is a Fourier series of few terms.
+ *
+ * Lattice: translations that divide the circle into L equal parts come from the terms folded modulo
+ * L and one inverse FFT of that length, exactly.
+ * Other translations: the terms, shifted to zero frequency, by an inverse FFT of a length L that
+ * oversamples them, then interpolation between its points (kaiser.c) and the carrier's rotation.
+ * With a coefficient a sample the places between points repeat, so that their weights do, too; else
+ * each place has its own, and b is met to the last bit.
+ *
+ * On a circle of which a point stands for D samples, x is spread to its points by the same
+ * interpolation, run backwards, with 16 taps and 8 points a cycle, which leaves an error below
+ * rounding.
+ *
+ * Error.  A scale is computed for the accuracy asked for, and then what was left out is bounded by
+ * what the record's own spectrum holds: the cut leaves out at most
+ *     C/P sum over |v_k| > R of |X_k| exp(-v_k^2/2),
+ * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of
+ * |X_k| over ranges are differences of running sums, so that this costs next to nothing.  If the
+ * bound exceeds what the largest |W| allows (9/10 of it, the rest being for lattices that are nearly
+ * met), the scale is done again with R and e that suffice for any signal.
+ *
+ * Single precision comes first where it may be good enough: terms are rounded to it, transformed
+ * and interpolated in it, and what that adds is bounded from the sum of their sizes. */
+#include <fftw3.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "morlet/dense.h"
+#include "morlet/fft/plan.h"
+#include "morlet/kaiser.h"
+#include "morlet/plan.h"
+#include "morlet/versions.h"
+
+#define UNDERFLOW 0x1p-126            /* of a point in single precision, a term */
+#define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
+
+enum {
+    TERMS = KAISER_AT_ONCE,         /* terms at a time */
+    LANES = 8                       /* samples at a time */
+};
+
+/* --- the series of a scale -------------------------------------------------------------------- */
+
+static const double inverse_of[] = { 0, 1, 1 / 2., 1 / 3., 1 / 4., 1 / 5., 1 / 6., 1 / 7., 1 / 8.,
+    1 / 9., 1 / 10., 1 / 11., 1 / 12., 1 / 13. };
+
+/* y = -(v + i h)^2/2 for i < TERMS */
+VERSIONS static void
+exponents(double v, double h, double *restrict y)
+{
+    for (int i = 0; i < TERMS; i++) {
+        double u = v + h * i;
+        y[i] = -u * u / 2;
+    }
+}
+
+/* g = scale exp(y), y being above -690 or taken for that: 2^k times a Taylor polynomial about 0 of
+ * what is left of the logarithm, |r| <= log(2)/2. */
+VERSIONS static void
+exponentials(const double *restrict y, double scale, double *restrict g)
+{
+    const double ln2 = 0x1.62e42fefa0000p-1, ln2_low = 0x1.cf79abc9e3b3ap-40, shift = 0x1.8p52;
+    double r[TERMS], k[TERMS];
+    uint64_t bits[TERMS];
+    for (int i = 0; i < TERMS; i++) {
+        double z = y[i] < -690 ? -690 : y[i];
+        k[i] = z * (1 / M_LN2) + shift;
+        r[i] = z - (k[i] - shift) * ln2 - (k[i] - shift) * ln2_low;
+    }
+    memcpy(bits, k, sizeof bits);
+    for (int i = 0; i < TERMS; i++)
+        bits[i] = (bits[i] + 1023) << 52;
+    memcpy(k, bits, sizeof bits);
+    for (int i = 0; i < TERMS; i++)
+        g[i] = 1;
+    for (int n = 13; n > 0; n--)
+        for (int i = 0; i < TERMS; i++)
+            g[i] = 1 + g[i] * r[i] * inverse_of[n];
+    for (int i = 0; i < TERMS; i++)
+        g[i] *= k[i] * scale;
+}
+
+#define REAL double
+#define NAMED(name) name
+#include "morlet/fft/points.h"
+
+#define REAL float
+#define NAMED(name) name##_single
+#include "morlet/fft/points.h"
+
+/* The admissible wavelet's second term, v being that of the first: y becomes its exponents. */
+static void
+subtract_second(const struct fft *f, double u, double h, double v, double *y, double scale,
+                double *g)
+{
+    double of_first[TERMS], of_second[TERMS], second[TERMS];
+    exponents(v, h, of_first);
+    exponents(u, h, of_second);
+    for (size_t i = 0; i < TERMS; i++)
+        y[i] += of_second[i] - of_first[i];
+    exponentials(y, scale * f->second, second);
+    for (size_t i = 0; i < TERMS; i++)
+        g[i] -= second[i];
+}
+
+/* Terms in units of a^1/2 times unit, divided by the response of ker, unless that is NULL: term k at
+ * k - origin modulo L of c. */
+static void
+terms(const struct fft *f, const route *r, const band *b, const double *x, ptrdiff_t origin,
+      const kaiser *ker, int single, double unit, void *c)
+{
+    const level *lev = &f->level[r->level];
+    ptrdiff_t length = (ptrdiff_t)r->length, k = b->lo;
+    double scale = PI_M14 * sqrt(2 * M_PI) / (double)lev->points / (double)lev->samples / unit;
+    memset(c, 0, 2 * r->length * (single ? sizeof(float) : sizeof(double)));
+    while (k <= b->hi) {
+        double g[TERMS], y[TERMS], first = fma((double)k, b->h, -f->center) + (double)k * b->h_low;
+        size_t n = b->hi - k < TERMS ? (size_t)(b->hi - k) + 1 : TERMS;
+        exponents(first, b->h, y);
+        if (ker != NULL)
+            ss_kaiser_correct(ker, (double)(k - b->mid), 1 / (double)length, y);
+        exponentials(y, scale, g);
+        if (f->second > 0)
+            subtract_second(f, (double)k * b->h, b->h, first, y, scale, g);
+        ptrdiff_t rest = (k - origin) % length;
+        size_t at = (size_t)(rest < 0 ? rest + length : rest);
+        if (single)
+            add_terms_single(x, lev->points, k, g, n, c, r->length, at);
+        else
+            add_terms(x, lev->points, k, g, n, c, r->length, at);
+        k += (ptrdiff_t)n;
+    }
+}
+
+/* --- output ----------------------------------------------------------------------------------- */
+
+/* ANYWHERE: each coefficient at its own b, tau samples after sample c. */
+static double
+put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale *scale,
+             const kaiser *ker, const double *v, ptrdiff_t origin, span part, double factor,
+             double *w)
+{
+    const level *lev = &f->level[r->level];
+    double per_sample = (double)r->length / (double)circle_of(lev), most = 0;
+    size_t circle = circle_of(lev);
+    for (size_t i = 0; i < part.n; i++) {
+        double at = ss_scale_b(scale, part.first + i), c = rint(at * f->rate);
+        double tau = c / f->rate == at ? 0 : fma(at, f->rate, -c);
+        c -= (double)origin;
+        double weight[KAISER_TAPS_MAX], e[2], re = 0, im = 0;
+        uint64_t whole = (uint64_t)c * r->length / circle;  /* both below 2^32 */
+        double rest = (double)((uint64_t)c * r->length % circle) / (double)circle
+            + tau * per_sample;
+        ptrdiff_t j = (ptrdiff_t)whole + (ptrdiff_t)floor(rest);
+        ss_kaiser_weights(ker, rest - floor(rest), weight);
+        const double *p = v + 2 * j - (ker->taps - 2);
+        for (int k = 0; k < ker->taps; k++) {
+            re += weight[k] * p[2 * k];
+            im += weight[k] * p[2 * k + 1];
+        }
+        double phase = 2 * M_PI * ((double)((uint64_t)b->mid % circle * (uint64_t)c % circle)
+                                   + (double)b->mid * tau) / (double)circle;
+        e[0] = cos(phase);
+        e[1] = sin(phase);
+        double x = re * e[0] - im * e[1], y = re * e[1] + im * e[0];
+        most = fmax(most, x * x + y * y);
+        w[2 * i] = x * factor;
+        w[2 * i + 1] = y * factor;
+    }
+    return most;
+}
+
+/* --- what is left out ------------------------------------------------------------------------- */
+
+/* sums[i] = sum of |Re X_k| + |Im X_k|, which is no less than |X_k|, over k < i block. */
+VERSIONS static void
+sum_sizes(const double *restrict x, size_t terms, size_t block, double *restrict sums)
+{
+    double sum = 0;
+    size_t at = 0;
+    for (size_t k = 0; k < terms; k += block) {
+        size_t n = terms - k < block ? terms - k : block;
+        double part[LANES] = { 0 };
+        sums[at++] = sum;
+        size_t i = 2 * k, end = 2 * (k + n);
+        for (; i + LANES <= end; i += LANES)
+            for (size_t l = 0; l < LANES; l++)
+                part[l] += fabs(x[i + l]);
+        for (; i < end; i++)
+            part[0] += fabs(x[i]);
+        for (size_t l = 0; l < LANES; l++)
+            sum += part[l];
+    }
+    sums[at] = sum;
+}
+
+/* Sum over terms 0 to k, or less k to 0, of the periodic spectrum; up to a block too much or, if
+ * not up, too little. */
+static double
+sum_to(const level *lev, const double *sums, ptrdiff_t k, int up)
+{
+    ptrdiff_t m = (ptrdiff_t)lev->points, turns = k >= 0 ? k / m : -((m - 1 - k) / m);
+    size_t rest = (size_t)(k - turns * m), blocks = (lev->points / 2) / lev->block + 1;
+    double half = sums[blocks], all = 2 * half;
+    int mirrored = rest > lev->points / 2;
+    size_t to = mirrored ? lev->points - rest + 1 : rest;
+    size_t i = (to + (up != mirrored ? lev->block - 1 : 0)) / lev->block;
+    double sum = sums[i < blocks ? i : blocks];
+    return (double)turns * all + (mirrored ? all - sum : sum);
+}
+
+/* No less than the sum of |X_k| over lo <= k < hi.  (The mean and Nyquist count twice.) */
+static double
+size_of(const level *lev, const double *sums, ptrdiff_t lo, ptrdiff_t hi)
+{
+    return sum_to(lev, sums, hi, 1) - sum_to(lev, sums, lo, 0);
+}
+
+/* Bound on what the cut, and interpolation, leave out of any coefficient of a scale. */
+static double
+left_out(const struct fft *f, const level *lev, const band *b, const double *sums, int images)
+{
+    static const double beyond[] = { 0, 0.1, 0.2, 0.4, 0.7, 1, 1.5, 2, 3 };
+    enum { STEPS_BEYOND = sizeof beyond / sizeof *beyond };
+    double sum = images ? f->images[0] * size_of(lev, sums, b->lo, b->hi + 1) : 0;
+    ptrdiff_t lo = b->lo, hi = b->hi + 1;
+    for (int i = 0; i < STEPS_BEYOND; i++) {
+        double v = f->half[0] + beyond[i], u = fmax(0, v - f->center);
+        double most = exp(-v * v / 2) + f->second * exp(-u * u / 2), part;
+        if (i + 1 < STEPS_BEYOND) {
+            double far = f->half[0] + beyond[i + 1];
+            ptrdiff_t next_lo = (ptrdiff_t)ceil((f->center - far) / b->h);
+            ptrdiff_t next_hi = (ptrdiff_t)floor((f->center + far) / b->h) + 1;
+            part = size_of(lev, sums, next_lo, lo) + size_of(lev, sums, hi, next_hi);
+            lo = next_lo;
+            hi = next_hi;
+        } else      /* the circle twice, and once more for all turns after that */
+            part = 3 * size_of(lev, sums, 0, (ptrdiff_t)lev->points);
+        sum += most * part;
+    }
+    return PI_M14 * sqrt(2 * M_PI) / (double)circle_of(lev) * sum;
+}
+
+/* --- single precision ------------------------------------------------------------------------- */
+
+/* Add sums of |c|, up to 8 % too large, and |c|^2. */
+VERSIONS static void
+sum_terms(const float *restrict c, size_t n, double *size, double *square)
+{
+    enum { MANY = 2 * LANES, BLOCK = 64 * MANY };   /* sums in single precision of a block only */
+    for (size_t i = 0; i < n; i += BLOCK) {
+        float sizes[MANY] = { 0 }, squares[MANY] = { 0 };
+        size_t end = n - i < BLOCK ? n : i + BLOCK, j = i;
+        for (; j + MANY <= end; j += MANY)
+            for (size_t l = 0; l < MANY; l++) {
+                float re = fabsf(c[2 * (j + l)]), im = fabsf(c[2 * (j + l) + 1]);
+                float more = re > im ? re : im, less = re > im ? im : re;
+                sizes[l] += more + 0.4142136f * less;
+                squares[l] += re * re + im * im;
+            }
+        for (; j < end; j++) {
+            sizes[0] += fabsf(c[2 * j]) + fabsf(c[2 * j + 1]);
+            squares[0] += c[2 * j] * c[2 * j] + c[2 * j + 1] * c[2 * j + 1];
+        }
+        for (size_t l = 0; l < MANY; l++) {
+            *size += (double)sizes[l];
+            *square += (double)squares[l];
+        }
+    }
+}
+
+/* What rounding may add to a coefficient.  *likely: the largest |W| of noise of this power. */
+static double
+rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, double *likely)
+{
+    double size = 0, square = 0;
+    ptrdiff_t length = (ptrdiff_t)r->length, rest = (b->lo - origin) % length;
+    size_t at = (size_t)(rest < 0 ? rest + length : rest), n = (size_t)(b->hi - b->lo) + 1;
+    n = n < r->length ? n : r->length;
+    size_t first = n < r->length - at ? n : r->length - at;
+    sum_terms(c + 2 * at, first, &size, &square);
+    sum_terms(c, n - first, &size, &square);
+    *likely = 3 * sqrt(square);
+    return r->rounding * size + UNDERFLOW * (double)r->length;
+}
+
+/* --- a scale ---------------------------------------------------------------------------------- */
+
+/* Where the terms of a short series are put, after its values v. */
+static double *
+terms_of(const struct fft *f, double *v)
+{
+    return v + 2 * (f->longest + MARGIN);
+}
+
+/* Terms to points.  Returns what single precision may add to a coefficient; if that is too much,
+ * infinity, and nothing more is done. */
+static double
+transform_back(const route *r, const band *b, ptrdiff_t origin, int single, double accuracy,
+               void *c, void *points)
+{
+    double rounding = 0, likely = 0;
+    if (single)
+        rounding = rounding_of(r, b, origin, c, &likely);
+    if (rounding > 0.7 * accuracy * likely)
+        return INFINITY;
+    if (single)
+        fftwf_execute_dft(r->single, c, points);
+    else
+        fftw_execute_dft(r->inverse, c, points);
+    return rounding;
+}
+
+/* Values of the series.  Returns the largest |w|^2 for factor 1. */
+static double
+put_points(const void *points, ptrdiff_t first, size_t n, int single, double factor, double *w)
+{
+    const double *v = points;
+    const float *of_single = points;
+    return single ? put_lattice_single(of_single + 2 * first, n, factor, w)
+        : put_lattice(v + 2 * first, n, factor, w);
+}
+
+/* One pass over part of a scale.  Returns the largest |W|; *rounding is what single precision may
+ * have added, or infinity if it is too much: then nothing is done. */
+static double
+pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span part, way how,
+     double *v, double factor, double *w, double *rounding)
+{
+    const struct fft *f = plan->fft;
+    const route *r = &f->route[i];
+    const ss_scale *scale = &plan->scale[i];
+    const level *lev = &f->level[r->level];
+    int single = how == SINGLE, bound = how == LAST;
+    band b = band_of(f, lev, scale->a, f->half[bound]);
+    const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, bound);
+    double unit = single ? ldexp(1, ilogb(rec->x_max)) : 1;
+    void *points = v, *c = r->length > APART ? v : terms_of(f, v);
+    ptrdiff_t origin = r->kind == LATTICE ? 0 : b.mid;
+    terms(f, r, &b, x, origin, ker, single, unit, c);
+    *rounding = unit * transform_back(r, &b, origin, single, plan->opts.accuracy, c, points);
+    if (isinf(*rounding))
+        return 0;
+    factor *= unit;
+    if (r->kind == LATTICE) {
+        double before = rint((double)rec->origin / step_of(lev, r));
+        ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
+        return unit * sqrt(put_points(points, first, part.n, single, factor, w));
+    }
+    if (single)
+        close_circle_single(points, r->length);
+    else
+        close_circle(points, r->length);
+    if (r->kind == ANYWHERE)
+        return sqrt(put_anywhere(f, r, &b, scale, ker, v, rec->origin, part, factor, w));
+    return unit * sqrt(ss_dense_put(r->weights[how], v, (size_t)b.mid, circle_of(lev),
+                                    (size_t)((ptrdiff_t)part.first - rec->origin), part.n, factor,
+                                    terms_of(f, v) + 2 * APART, w));
+}
+
+void
+ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
+             span part, double factor, double *most, double *w)
+{
+    struct fft *f = plan->fft;
+    const route *r = &f->route[i];
+    const level *lev = &f->level[r->level];
+    double before = *most, rounding;
+    for (way how = r->single != NULL && rec->x_max > 0 ? SINGLE : FIRST; how < WAYS; how++) {
+        double largest = pass(plan, i, rec, s->level[r->level], part, how, scratch + 2 * MARGIN,
+                              factor, w, &rounding);
+        if (isinf(rounding))
+            continue;
+        *most = fmax(before, largest);
+        if (how == LAST || f->half[0] == f->half[1] || rec->x_max == 0)
+            return;
+        band b = band_of(f, lev, plan->scale[i].a, f->half[0]);
+        double error = rounding + left_out(f, lev, &b, s->size[r->level], r->kind != LATTICE);
+        if (error <= TAIL_FLOOR * rec->x_max + 0.9 * plan->opts.accuracy * fmax(0, *most - error)) {
+            f->singles += how == SINGLE;
+            return;
+        }
+    }
+}
+
+double *
+ss_fft_scratch(const struct fft *fft)
+{
+    size_t room = 2 * (fft->longest + 2 * MARGIN + APART) + ss_dense_room(fft->n);
+    return fftw_malloc(room * sizeof(double));
+}
+
+void
+ss_fft_scratch_free(double *scratch)
+{
+    fftw_free(scratch);
+}
+
+/* --- the record's spectra --------------------------------------------------------------------- */
+
+/* Samples to points: point j receives those less than SPREAD_TAPS/2 points away. */
+VERSIONS static void
+spread(const level *lev, const double *x, size_t n, const double *kernel, double *y)
+{
+    size_t d = lev->samples, points = (n - 1) / d + SPREAD_TAPS / 2 + 1;
+    memset(y, 0, lev->points * sizeof *y);
+    for (ptrdiff_t j = 1 - SPREAD_TAPS / 2; j < (ptrdiff_t)points; j++) {
+        ptrdiff_t first = (j - SPREAD_TAPS / 2) * (ptrdiff_t)d, lo = first > 0 ? first : 0;
+        ptrdiff_t end = first + SPREAD_TAPS * (ptrdiff_t)d;
+        end = end < (ptrdiff_t)n ? end : (ptrdiff_t)n;
+        double s[LANES] = { 0 };
+        ptrdiff_t i = lo;
+        for (; i + LANES <= end; i += LANES)
+            for (size_t l = 0; l < LANES; l++)
+                s[l] += x[i + (ptrdiff_t)l] * kernel[i - first + (ptrdiff_t)l];
+        for (; i < end; i++)
+            s[0] += x[i] * kernel[i - first];
+        y[j < 0 ? j + (ptrdiff_t)lev->points : j] =
+            ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+    }
+}
+
+static ss_status
+spread_record(const level *lev, const record *rec, double *y)
+{
+    size_t width = SPREAD_TAPS * lev->samples;
+    double *kernel = malloc(width * sizeof *kernel);
+    if (kernel == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < width; i++)
+        kernel[i] = ss_kaiser_at(SPREAD_TAPS, SPREAD_BETA,
+                                 (double)i / (double)lev->samples - SPREAD_TAPS / 2);
+    spread(lev, rec->x, rec->n, kernel, y);
+    free(kernel);
+    return SS_OK;
+}
+
+/* What spreading did to low frequencies. */
+static void
+undo_spreading(const level *lev, double *x)
+{
+    for (size_t k = 0; k <= lev->points / 8; k++) {
+        double nu = (double)k / (double)lev->points;
+        double c = 1 / ss_kaiser_response(SPREAD_TAPS, SPREAD_BETA, nu);
+        x[2 * k] *= c;
+        x[2 * k + 1] *= c;
+    }
+}
+
+static ss_status
+forward_level(const level *lev, const record *rec, double **out)
+{
+    double *x = *out = fftw_malloc((lev->points + 2) * sizeof *x);
+    ss_status st = x == NULL ? SS_ENOMEM : SS_OK;
+    if (st == SS_OK && lev->samples == 1) {
+        memcpy(x, rec->x, rec->n * sizeof *x);
+        memset(x + rec->n, 0, (lev->points - rec->n) * sizeof *x);
+    }
+    else if (st == SS_OK)
+        st = spread_record(lev, rec, x);
+    if (st != SS_OK)
+        return st;
+    fftw_execute_dft_r2c(lev->forward, x, (fftw_complex *)x);
+    if (lev->samples > 1)
+        undo_spreading(lev, x);
+    return SS_OK;
+}
+
+static ss_status
+sizes_of_level(const level *lev, const double *x, double **out)
+{
+    size_t terms = lev->points / 2 + 1;
+    *out = malloc((terms / lev->block + 2) * sizeof **out);
+    if (*out == NULL)
+        return SS_ENOMEM;
+    sum_sizes(x, terms, lev->block, *out);
+    return SS_OK;
+}
+
+ss_status
+ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
+{
+    ss_status st = SS_OK;
+    for (int i = 0; st == SS_OK && i < fft->levels; i++)
+        if (fft->level[i].forward != NULL) {
+            st = forward_level(&fft->level[i], rec, &out->level[i]);
+            if (st == SS_OK && fft->half[0] < fft->half[1])
+                st = sizes_of_level(&fft->level[i], out->level[i], &out->size[i]);
+        }
+    return st;
+}
+
+void
+ss_fft_release(spectra *s)
+{
+    for (int i = 0; i < 2; i++) {
+        fftw_free(s->level[i]);
+        free(s->size[i]);
+    }
+}

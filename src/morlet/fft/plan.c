@@ -1,0 +1,566 @@
+/* plan.c -- how the scales of a grid are transformed by FFT: circles, lengths and routes.
+ *
+ * What reaches around a circle is an error, so it has the record's n samples and REACH a of zeros.
+ * Long scales want many zeros and use low frequencies only.  For them there is a second circle, on
+ * which a point stands for D samples.
+ *
+ * Each scale goes by the cheapest of what is possible on its circle, and with AUTO by the sum over
+ * samples where that is cheaper still.
+ *
+ * The cut R and images e of the first pass are what noise needs at the accuracy asked for.  Those
+ * of the last suffice for any signal: the sum over samples of the kernel's error is bounded by its
+ * size near b and its decay, 1/|u|, away from it, in units of a^1/2 max|x|: for the cut
+ *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
+ * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR. */
+#include <fftw3.h>
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "morlet/dense.h"
+#include "morlet/fft/plan.h"
+#include "morlet/kaiser.h"
+#include "morlet/plan.h"
+
+/* [s], measured by tests/bench/bench_morlet: a point of an inverse FFT times log2 of its length, a
+ * term of the series, a coefficient and a tap of it at places that repeat, and at others. */
+#define COST_FFT 0.13e-9
+#define COST_TERM 1.2e-9
+#define COST_DENSE 0.5e-9
+#define COST_DENSE_TAP 0.05e-9
+#define COST_PLACE 50e-9
+#define COST_TAP 1.5e-9
+
+enum { BLOCKS = 32768 };            /* of terms, about */
+
+pthread_mutex_t ss_fftw_planner = PTHREAD_MUTEX_INITIALIZER;
+
+/* --- bounds and circles ----------------------------------------------------------------------- */
+
+/* in a circle's points; gaps of 12 % */
+static const size_t odd_part[] = { 1, 9, 5, 21, 45, 3, 7, 15 };
+enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
+
+/* The smallest good number of points, at least so many and a multiple of factor. */
+static size_t
+good_points(double least, size_t factor)
+{
+    double best = INFINITY;
+    for (int i = 0; i < ODD_PARTS; i++) {
+        double points = (double)(odd_part[i] * factor);
+        while (points < least)
+            points *= 2;
+        best = fmin(best, points);
+    }
+    return best < INT_MAX ? (size_t)best : 0;
+}
+
+/* The odd factor that a circle needs for the lattice of octaves: that of the step in samples, if
+ * it is small, else 1. */
+static size_t
+lattice_factor(const ss_morlet *plan)
+{
+    int e;
+    double s = plan->scale[0].b_num / plan->scale[0].b_den * plan->rate;
+    if (plan->opts.voices != 1 || plan->opts.dense)
+        return 1;
+    s = frexp(s, &e);
+    for (int i = 0; i < 53 && s != floor(s); i++)
+        s *= 2;
+    return s < 2048 ? (size_t)s : 1;
+}
+
+static size_t
+samples_reached(const ss_scale *scale, double rate)
+{
+    double reach = ceil(REACH * scale->a * rate);
+    return reach < 0x1p50 ? (size_t)reach : (size_t)1 << 50;
+}
+
+/* The admissible wavelet has a hump about v = -omega_c, which must be inside, too. */
+static double
+half_width(const struct fft *f, double reach)
+{
+    double c = f->center;
+    return f->second > 0 && reach > c ? c + sqrt(reach * reach - c * c) : reach;
+}
+
+/* See above; nd is the record's length in units of the shortest scale. */
+static void
+choose_bounds(struct fft *f, double nd, double accuracy)
+{
+    double factor = 2.4 * (1 + log1p(nd / 2)), hump = f->second > 0 ? 2 : 1;
+    double cut = TAIL_FLOOR / 2 / (factor * hump), images = TAIL_FLOOR / 2 / (2 * factor);
+    double first = accuracy * 4 / hump / sqrt(nd);
+    f->half[1] = half_width(f, sqrt(-2 * log(cut)));
+    f->half[0] = half_width(f, sqrt(-2 * log(fmin(0.1, fmax(cut, first)))));
+    f->images[1] = images;
+    f->images[0] = fmin(0.01, fmax(images, accuracy * 0.16 / sqrt(nd)));
+    if (f->half[0] == f->half[1])
+        f->images[0] = images;
+}
+
+/* Samples that a point may stand for, the shortest scale being so many samples. */
+static size_t
+samples_for(const struct fft *f, double shortest, size_t most)
+{
+    double omega = (f->center + f->half[1]) / shortest;
+    size_t samples = 1;
+    while ((double)(16 * samples) * omega <= 2 * M_PI && samples < most)
+        samples *= 2;
+    return samples < 4 ? 1 : samples;
+}
+
+/* One circle, which a window fills but for what spreading needs. */
+static void
+choose_window(struct fft *f, ss_morlet *plan)
+{
+    level *lev = &f->level[0];
+    double shortest = plan->scale[plan->n_scales - 1].a * f->rate;
+    lev->samples = samples_for(f, shortest, f->n / 8);
+    size_t margin = lev->samples > 1 ? 2 * SPREAD_TAPS : 0;
+    double least = (double)f->n / (double)lev->samples + (double)margin;
+    lev->points = good_points(least, lattice_factor(plan));
+    lev->reach = SIZE_MAX;
+    f->levels = 1;
+    if (lev->points > margin)
+        f->n = plan->n = (lev->points - margin) * lev->samples;
+}
+
+/* Circle 0 has few zeros; circle 1, if longer scales need one, so many that they do. */
+static void
+choose_levels(struct fft *f, const ss_morlet *plan)
+{
+    size_t factor = lattice_factor(plan), far = 0, near = SIZE_MAX;
+    level *one = &f->level[1], *zero = &f->level[0];
+    zero->samples = 1;
+    zero->points = good_points((double)f->n * 17 / 16 + 64, factor);
+    zero->reach = zero->points > f->n ? zero->points - f->n : 0;
+    f->levels = 1;
+    for (size_t i = 0; i < plan->n_scales; i++) {
+        size_t reach = samples_reached(&plan->scale[i], f->rate);
+        if (reach <= zero->reach || reach / 64 > f->n)      /* the longest by their sum */
+            continue;
+        far = reach > far ? reach : far;
+        near = reach < near ? reach : near;
+    }
+    if (far == 0)
+        return;
+    one->samples = samples_for(f, (double)near / REACH, f->n / 8);
+    double least = (double)(f->n + far) / (double)one->samples + 3 * SPREAD_TAPS;
+    one->points = good_points(least, factor);
+    one->reach = far;
+    f->levels = 2;
+}
+
+/* --- routes ----------------------------------------------------------------------------------- */
+
+/* L, if every translation stands at a multiple of the circle's L-th part, else 0.  Within the
+ * promise is near enough, W changing by no more than (omega_c + REACH)/a of its largest a second. */
+static size_t
+lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy,
+               int window)
+{
+    double circle = (double)circle_of(lev);
+    int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5, dense = scale->b_den != 1;
+    double step = dense ? 1 : scale->b_num * f->rate, parts = rint(circle / step);
+    double off = (fabs(circle / parts - step) + 2e-16 * step) * (double)scale->n;
+    double allow = accuracy / 20 * scale->a * f->rate / (f->center + REACH);
+    int near = !dense && scale->b_num <= scale->a && off < allow;
+    if (!(parts >= (double)scale->n && parts < INT_MAX))
+        return 0;
+    if (window)
+        return power_of_two && circle == parts * step && step <= 4 * scale->a * f->rate
+            ? (size_t)parts : 0;
+    return near || ((dense || power_of_two) && circle == parts * step) ? (size_t)parts : 0;
+}
+
+/* Powers of two are fastest; short series stay in the first cache, long ones in none. */
+static double
+inverse_cost(size_t length)
+{
+    double cost = COST_FFT * (double)length * log2((double)length + 1);
+    cost = (length & (length - 1)) == 0 ? cost : 1.4 * cost;
+    return length < 1 << 12 ? cost : length < 1 << 18 ? 1.6 * cost : 3.5 * cost;
+}
+
+/* A kernel for a band to edge <= EDGE_MAX in this round; 0 if none is good enough. */
+static int
+kernel_for(const struct fft *f, double edge, int round, kaiser *out)
+{
+    kaiser_band shape = { .edge = edge, .reach = f->half[round], .center = f->center,
+                          .second = f->second };
+    return ss_kaiser_choose(out, &shape, f->images[round]);
+}
+
+/* The kernel for a band to this edge, made now if need be; NULL if there is none or no memory. */
+static const kaiser *
+advance_kernel(struct fft *f, int round, double edge)
+{
+    double made_for;
+    int k = kernel_index(edge, &made_for);
+    kaiser ker;
+    if (edge > EDGE_MAX)
+        return NULL;
+    kaiser **at = &f->kernel[round][k];
+    if (*at != NULL || !kernel_for(f, made_for, round, &ker))
+        return *at;
+    *at = malloc(sizeof ker);
+    if (*at != NULL)
+        **at = ker;
+    else
+        f->no_memory = 1;
+    return *at;
+}
+
+/* With L points: about what the scale costs [s], infinity if it is not possible. */
+static double
+interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int dense, size_t length)
+{
+    const kaiser *kernel[2];
+    band b = { 0 };
+    for (int round = 1; round >= 0; round--) {
+        b = band_of(f, lev, scale->a, f->half[round]);
+        kernel[round] = advance_kernel(f, round, edge_of(&b, length));
+        if (kernel[round] == NULL)
+            return INFINITY;
+    }
+    double tap = kernel[0]->taps * (dense ? COST_DENSE_TAP : COST_TAP);
+    return inverse_cost(length) + COST_TERM * (double)(b.hi - b.lo + 1)
+        + (double)scale->n * ((dense ? COST_DENSE : COST_PLACE) + tap);
+}
+
+/* Choose how a scale is computed on its level; its cost. */
+static double
+choose_route(struct fft *f, const ss_morlet *plan, size_t i)
+{
+    route *r = &f->route[i];
+    const ss_scale *scale = &plan->scale[i];
+    const level *lev = &f->level[r->level];
+    int dense = plan->opts.dense;
+    if (lev->points == 0)
+        return INFINITY;
+    band fine = band_of(f, lev, scale->a, f->half[1]);
+    double best = INFINITY, terms = (double)(fine.hi - fine.lo) + 1;
+    size_t length = lattice_length(f, lev, scale, plan->opts.accuracy, plan->window && !dense);
+    if (terms > (double)lev->points)
+        return best;
+    if (length > 0) {
+        r->kind = LATTICE;
+        r->length = length;
+        double half = f->half[0] / f->half[1];
+        best = inverse_cost(length) + COST_TERM * terms * half + COST_DENSE * (double)scale->n;
+    }
+    for (int o = 0; o < ODD_PARTS; o++)     /* twice as many points as the circle has, or fewer */
+        for (size_t two = 1; 2 * lev->points >= two * odd_part[o]; two *= 2) {
+            size_t part = two * odd_part[o], phases = part / 2 * lev->samples;
+            size_t points = 2 * lev->points / part;
+            if (2 * lev->points % part != 0 || points > INT_MAX || points < 8
+                || (dense && (part % 2 != 0 || phases > DENSE_PHASES_MAX)))
+                continue;
+            if ((double)points * EDGE_MAX * 2 < terms)
+                break;
+            double cost = interpolation_cost(f, lev, scale, dense, points);
+            if (cost < best) {
+                best = cost;
+                r->kind = dense ? DENSE : ANYWHERE;
+                r->length = points;
+            }
+        }
+    return best;
+}
+
+/* Routes of all scales; by AUTO those only where they are cheaper, the spectra included. */
+static void
+choose_routes(struct fft *f, const ss_morlet *plan)
+{
+    double gain[2] = { 0, 0 };
+    for (size_t i = 0; i < plan->n_scales; i++) {
+        route *r = &f->route[i];
+        size_t reach = samples_reached(&plan->scale[i], f->rate);
+        r->level = reach > f->level[0].reach;
+        if (r->level == 1 && (f->levels == 1 || reach > f->level[1].reach))
+            continue;
+        double cost = choose_route(f, plan, i);
+        double sum = ss_quadrature_cost(plan, &plan->scale[i], plan->scale[i].n);
+        if (plan->opts.engine == SS_ENGINE_AUTO && cost > sum)
+            r->kind = BY_SUM;
+        if (r->kind == BY_SUM)
+            continue;
+        gain[r->level] += sum - cost;
+        f->cost += cost;
+    }
+    for (int l = 0; l < f->levels; l++) {
+        double forward = inverse_cost(f->level[l].points) / 2
+            + (f->level[l].samples > 1 ? (double)f->n * SPREAD_TAPS * COST_DENSE_TAP : 0);
+        gain[l] -= forward;
+        f->cost += forward;
+    }
+    for (size_t i = 0; plan->opts.engine == SS_ENGINE_AUTO && i < plan->n_scales; i++)
+        if (gain[f->route[i].level] < 0)
+            f->route[i].kind = BY_SUM;
+}
+
+/* --- weights of dense scales ------------------------------------------------------------------ */
+
+/* How many places between points repeat. */
+static size_t
+phases_of(const level *lev, const route *r)
+{
+    return circle_of(lev) / r->length;
+}
+
+static const weights *
+table_of(struct fft *f, const kaiser *kernel, size_t phases, int single)
+{
+    table *t = f->table;
+    for (; t < f->table + f->tables; t++)
+        if (t->kernel == kernel && t->phases == phases && t->single == single)
+            return t->weights;
+    *t = (table){ kernel, phases, single, ss_dense_new(kernel, phases, single) };
+    f->tables += t->weights != NULL;
+    return t->weights;
+}
+
+static ss_status
+make_tables(struct fft *f, const ss_morlet *plan)
+{
+    f->table = calloc(WAYS * plan->n_scales, sizeof *f->table);
+    if (f->table == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < WAYS * plan->n_scales; i++) {
+        route *r = &f->route[i / WAYS];
+        way how = i % WAYS;
+        if ((r->kind != DENSE && r->kind != ANYWHERE) || (how == SINGLE && r->single == NULL))
+            continue;
+        const level *lev = &f->level[r->level];
+        band b = band_of(f, lev, plan->scale[i / WAYS].a, f->half[how == LAST]);
+        kaiser *kernel = kernel_of(f, r, &b, how == LAST);
+        if (!kernel->prepared)
+            ss_kaiser_prepare(kernel);
+        if (r->kind != DENSE)
+            continue;
+        r->weights[how] = table_of(f, kernel, phases_of(lev, r), how == SINGLE);
+        if (r->weights[how] == NULL)
+            return SS_ENOMEM;
+    }
+    return SS_OK;
+}
+
+/* --- FFTW's plans, made while ss_fftw_planner is held ----------------------------------------- */
+
+static inverse *
+inverse_of_length(struct fft *f, size_t length, fftw_complex *v, fftw_complex *c, unsigned how)
+{
+    inverse *of = f->inverse;
+    for (; of < f->inverse + f->n_inverse; of++)
+        if (of->length == length)
+            return of;
+    c = length > APART ? v : c;
+    of->length = length;
+    of->plan = fftw_plan_dft_1d((int)length, c, v, FFTW_BACKWARD, how);
+    f->n_inverse++;
+    return of;
+}
+
+/* What rounding in single precision adds to any coefficient, over the sum of the sizes of the terms.
+ *
+ * With u = 2^-24, to first order, as a part of that sum: u for the terms themselves.  In the FFT
+ * every point is a sum of all terms times roots of unity, which passes one butterfly for each prime
+ * p of L.  Such a butterfly of 2 adds a term, u, after it has been multiplied by a root, which is
+ * sqrt(5) u (Brent, Percival and Zimmermann 2007) and u for the root's own rounding; where FFTW keeps
+ * few roots and multiplies them, some of them have 3 u more for each product, and one product per
+ * codelet of 8 or more: 6 u for each 2 in L is more than all of that.  Butterflies of 3, 5 and 7 add
+ * pairs and multiply them by sines and cosines, which for 5 are taken apart once more: with k
+ * operations in a row and coefficients whose sizes add up to s, s k u and the root, with 3: s = 1.37
+ * and k = 4; 5: 1.76 and 6.5; 7: 1.42 and 7, and the root: below 11, 17 and 19 u.  (Higham 2002,
+ * section 24.1, has the like for the 2-norm, which for the largest error gives no more.)
+ * Interpolation rounds weights, products and sums of taps, and two products with carriers: the
+ * weights are positive and their sum is 1 but for images.  2 % are more than the higher orders.
+ *
+ * Other primes: there is no such bound, infinity. */
+static double
+single_rounding(size_t length, int taps)
+{
+    static const struct { size_t prime; double u; } butterfly[] = {
+        { 2, 6 }, { 3, 11 }, { 5, 17 }, { 7, 19 }
+    };
+    double sum = taps > 0 ? taps + 10 : 1;
+    for (size_t i = 0; i < sizeof butterfly / sizeof *butterfly; i++)
+        for (; length % butterfly[i].prime == 0; length /= butterfly[i].prime)
+            sum += butterfly[i].u;
+    return length == 1 ? 1.02 * sum * FLT_EPSILON / 2 : INFINITY;
+}
+
+/* For scales of which single precision may be good enough: those for which a tone's would be. */
+static void
+plan_single(const struct fft *f, const ss_morlet *plan, size_t i, inverse *of, fftwf_complex *v,
+            fftwf_complex *c, unsigned how)
+{
+    route *r = &f->route[i];
+    band b = band_of(f, &f->level[r->level], plan->scale[i].a, f->half[0]);
+    int taps = r->kind == DENSE ? kernel_of(f, r, &b, 0)->taps : 0;
+    r->rounding = single_rounding(r->length, taps);
+    if (r->kind == ANYWHERE || f->half[0] == f->half[1] || r->rounding > plan->opts.accuracy / 2)
+        return;
+    if (of->single == NULL)
+        of->single = fftwf_plan_dft_1d((int)r->length, r->length > APART ? v : c, v, FFTW_BACKWARD,
+                                       how);
+    r->single = of->single;
+}
+
+/* v, c and x are where the arrays will be as far as alignment is concerned. */
+static ss_status
+make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x)
+{
+    static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
+    unsigned how = flags[plan->opts.planner];
+    for (size_t i = 0; i < plan->n_scales; i++) {
+        route *r = &f->route[i];
+        level *lev = &f->level[r->level];
+        if (r->kind == BY_SUM)
+            continue;
+        inverse *of = inverse_of_length(f, r->length, (fftw_complex *)v, (fftw_complex *)c, how);
+        r->inverse = of->plan;
+        plan_single(f, plan, i, of, (fftwf_complex *)v, (fftwf_complex *)c, how);
+        if (lev->forward == NULL)
+            lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x, how);
+        if (r->inverse == NULL || lev->forward == NULL)
+            return SS_ENOMEM;
+    }
+    return SS_OK;
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+static ss_status
+plan_all(struct fft *f, const ss_morlet *plan)
+{
+    size_t n_scales = plan->n_scales;
+    size_t longest = f->level[0].points > f->level[1].points ? f->level[0].points
+        : f->level[1].points;
+    for (size_t i = 0; i < n_scales; i++)
+        if (f->route[i].kind != BY_SUM && f->route[i].length > f->longest)
+            f->longest = f->route[i].length;
+    longest = longest > f->longest ? longest : f->longest;
+    f->inverse = calloc(n_scales, sizeof *f->inverse);
+    double *v = fftw_malloc(2 * (longest + 2 * MARGIN + APART) * sizeof *v);
+    ss_status st = SS_ENOMEM;
+    if (f->inverse != NULL && v != NULL) {
+        pthread_mutex_lock(&ss_fftw_planner);
+        st = make_plans(f, plan, v + 2 * MARGIN, v + 2 * (longest + 2 * MARGIN), v);
+        pthread_mutex_unlock(&ss_fftw_planner);
+    }
+    fftw_free(v);
+    for (int i = 0; i < f->levels; i++)
+        f->level[i].block = f->level[i].points / 2 / BLOCKS + 1;
+    return st == SS_OK ? make_tables(f, plan) : st;
+}
+
+static int
+any_route(const struct fft *f, size_t n_scales)
+{
+    for (size_t i = 0; i < n_scales; i++)
+        if (f->route[i].kind != BY_SUM)
+            return 1;
+    return 0;
+}
+
+ss_status
+ss_fft_new(ss_morlet *plan)
+{
+    if (plan->opts.engine == SS_ENGINE_QUADRATURE || plan->n > INT_MAX / 2)
+        return SS_OK;
+    struct fft *f = plan->fft = calloc(1, sizeof *f);
+    if (f == NULL || (f->route = calloc(plan->n_scales, sizeof *f->route)) == NULL)
+        return SS_ENOMEM;
+    double wc = plan->opts.center;
+    double shortest = plan->scale[plan->n_scales - 1].a * plan->rate;
+    f->n = plan->n;
+    f->rate = plan->rate;
+    f->center = wc;
+    f->second = plan->opts.admissible ? exp(-wc * wc / 2) : 0;
+    choose_bounds(f, (double)plan->n * (plan->window ? 2 : 1) / shortest, plan->opts.accuracy);
+    if (plan->window)
+        choose_window(f, plan);
+    else
+        choose_levels(f, plan);
+    choose_routes(f, plan);
+    if (f->no_memory)
+        return SS_ENOMEM;
+    if (any_route(f, plan->n_scales))
+        return plan_all(f, plan);
+    ss_fft_free(f);
+    plan->fft = NULL;
+    return SS_OK;
+}
+
+void
+ss_fft_free(struct fft *fft)
+{
+    if (fft == NULL)
+        return;
+    pthread_mutex_lock(&ss_fftw_planner);
+    for (size_t i = 0; i < fft->n_inverse; i++) {
+        fftw_destroy_plan(fft->inverse[i].plan);
+        if (fft->inverse[i].single != NULL)
+            fftwf_destroy_plan(fft->inverse[i].single);
+    }
+    for (int i = 0; i < fft->levels; i++)
+        if (fft->level[i].forward != NULL)
+            fftw_destroy_plan(fft->level[i].forward);
+    pthread_mutex_unlock(&ss_fftw_planner);
+    for (int i = 0; i < KERNELS; i++) {
+        free(fft->kernel[0][i]);
+        free(fft->kernel[1][i]);
+    }
+    for (size_t i = 0; i < fft->tables; i++)
+        ss_dense_free(fft->table[i].weights);
+    free(fft->table);
+    free(fft->inverse);
+    free(fft->route);
+    free(fft);
+}
+
+size_t
+ss_fft_singles(const struct fft *fft)
+{
+    return fft->singles;
+}
+
+int
+ss_fft_takes(const struct fft *fft, size_t i)
+{
+    return fft != NULL && fft->route[i].kind != BY_SUM;
+}
+
+double
+ss_fft_cost(const struct fft *fft)
+{
+    return fft->cost;
+}
+
+size_t
+ss_fft_unit(const ss_morlet *plan)
+{
+    double unit = 1;
+    for (size_t i = 0; i < plan->n_scales && plan->fft != NULL; i++) {
+        const route *r = &plan->fft->route[i];
+        if (r->kind != LATTICE || plan->opts.dense)
+            continue;
+        double step = step_of(&plan->fft->level[r->level], r);
+        while (step != floor(step))     /* a multiple of it that is a whole number */
+            step *= 2;
+        unit = fmax(unit, step);        /* they differ by powers of two */
+    }
+    return (size_t)unit;
+}
+
+size_t
+ss_fft_places(const struct fft *fft, size_t i)
+{
+    const route *r = &fft->route[i];
+    return r->kind == DENSE ? phases_of(&fft->level[r->level], r) : 1;
+}

@@ -1,0 +1,148 @@
+/* plan.h -- what plan.c prepares for fft.c, and the lock around FFTW's planner. */
+#ifndef FFT_PLAN_H
+#define FFT_PLAN_H
+
+#include <fftw3.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include "morlet/dense.h"
+#include "morlet/kaiser.h"
+#include "morlet/plan.h"
+
+#define EDGE_MAX 0.45                /* of a kernel's band, in cycles a point */
+
+enum {
+    SPREAD_TAPS = 16,               /* of what brings samples to points that stand for several */
+    APART = 16384,                  /* to this length FFTW is faster from one array to another */
+    MARGIN = DENSE_MARGIN,          /* points before and after the circle that repeat it */
+    KERNELS = 40, STEPS = 4         /* kernels for bands apart by 2^(1/STEPS) */
+};
+
+/* FFTW's planner is not safe for threads: making and freeing of plans, and wisdom, take turns.
+ * Other users of FFTW in the program must not plan at the same time. */
+extern pthread_mutex_t ss_fftw_planner;
+
+/* A circle: its points, and how many samples a point stands for. */
+typedef struct level {
+    size_t points, samples;
+    fftw_plan forward;
+    size_t reach;                   /* samples that zeros allow a wavelet to reach beyond */
+    size_t block;                   /* terms of the spectrum whose sizes are summed up together */
+} level;
+
+/* A scale is computed in one of these ways after the other, until the bound on its error lies
+ * within the promise: in single precision, with the first cut, with the last. */
+typedef enum way { SINGLE, FIRST, LAST, WAYS } way;
+
+/* How a scale is computed: not here; at points of its series; or between them, at places that
+ * repeat or anywhere. */
+typedef struct route {
+    enum { BY_SUM, LATTICE, DENSE, ANYWHERE } kind;
+    int level;
+    size_t length;                  /* L */
+    fftw_plan inverse;              /* owned by the list of them */
+    fftwf_plan single;              /* NULL: never in single precision; owned likewise */
+    double rounding;                /* that adds to a coefficient, over the sum of terms' sizes */
+    const weights *weights[WAYS];   /* of those that are dense; owned likewise */
+} route;
+
+/* Weights that dense scales of one kernel and as many phases share. */
+typedef struct table {
+    const kaiser *kernel;
+    size_t phases;
+    int single;
+    weights *weights;
+} table;
+
+/* FFTW's plans of one length, which scales share. */
+typedef struct inverse {
+    size_t length;
+    fftw_plan plan;
+    fftwf_plan single;
+} inverse;
+
+/* All of it: what is constant while scales are computed, but for singles. */
+struct fft {
+    size_t n;                       /* samples */
+    double rate;                    /* [Hz] */
+    double center, second;          /* exp(-omega_c^2/2) if admissible, else 0 */
+    double half[2];                 /* of the band, in 1/a: a scale is computed with the first, */
+    double images[2];               /* again with the last; and of interpolation */
+    level level[2];
+    int levels;
+    route *route;
+    inverse *inverse;
+    size_t n_inverse, longest;      /* longest of their lengths */
+    kaiser *kernel[2][KERNELS];     /* for each of half; NULL: none needed */
+    double cost;                    /* of all that is done here, about [s] */
+    int no_memory;                  /* for one of them */
+    atomic_size_t singles;          /* scales computed in single precision so far */
+    table *table;
+    size_t tables;
+};
+
+/* The terms of the spectrum that a scale consists of. */
+typedef struct band {
+    double h, h_low;                /* v_k = k h - omega_c */
+    ptrdiff_t lo, mid, hi;          /* k */
+} band;
+
+/* Samples around a circle. */
+static inline size_t
+circle_of(const level *lev)
+{
+    return lev->points * lev->samples;
+}
+
+/* h in two parts: k h is needed to the last bit where k is large. */
+static inline band
+band_of(const struct fft *f, const level *lev, double a, double half)
+{
+    const double two_pi = 6.2831853071795865, two_pi_low = 2.4492935982947064e-16;
+    double points = (double)circle_of(lev);
+    double p = a * f->rate, p_low = fma(a, f->rate, -p);
+    double s = two_pi * p, s_low = fma(two_pi, p, -s) + two_pi * p_low + two_pi_low * p;
+    band b = { .h = s / points };
+    b.h_low = (fma(-b.h, points, s) + s_low) / points;
+    b.lo = (ptrdiff_t)ceil((f->center - half) / b.h);
+    b.mid = (ptrdiff_t)rint(f->center / b.h);
+    b.hi = (ptrdiff_t)floor((f->center + half) / b.h);
+    return b;
+}
+
+/* Cycles a point that the band reaches from its middle with L points. */
+static inline double
+edge_of(const band *b, size_t length)
+{
+    double most = (double)(b->hi - b->mid > b->mid - b->lo ? b->hi - b->mid : b->mid - b->lo);
+    return most / (double)length;
+}
+
+/* Samples between the translations of a lattice. */
+static inline double
+step_of(const level *lev, const route *r)
+{
+    return (double)circle_of(lev) / (double)r->length;
+}
+
+/* Which of the kernels made in advance is for this band, and the edge that it is made for. */
+static inline int
+kernel_index(double edge, double *made_for)
+{
+    int i = (int)floor(STEPS * log2(EDGE_MAX / edge) + 1e-9);
+    i = i < 0 ? 0 : i < KERNELS ? i : KERNELS - 1;
+    *made_for = EDGE_MAX * exp2(-(double)i / STEPS);
+    return i;
+}
+
+/* The kernel that a scale needs in a round. */
+static inline kaiser *
+kernel_of(const struct fft *f, const route *r, const band *b, int round)
+{
+    double made_for;
+    return f->kernel[round][kernel_index(edge_of(b, r->length), &made_for)];
+}
+
+#endif

@@ -1,0 +1,60 @@
+/* engine.h -- what carries a motion from one event to the next: a GSL stepper or a closed form. */
+#ifndef ENGINE_H
+#define ENGINE_H
+
+#include "scene/model.h"
+
+typedef struct engine engine;
+
+/* Where a state is asked for.  A run of samples, each one interval after the last, may be carried on
+ * from one to the next. */
+typedef enum place {
+    ANYWHERE, FIRST_SAMPLE, NEXT_SAMPLE
+} place;
+
+struct engine_type {
+    /* The motion has entered a mode: forget what belonged to the last one. */
+    ss_status (*begin)(engine *e);
+    /* Take one step from m->u: fills h, q1, dq1.  It is at most h_max long, or longer where the guard
+     * cannot reach 0 within it. */
+    ss_status (*step)(engine *e, double h_max, ss_error *err);
+    /* Look for the end of the mode without steps, up to s_max after m->u: 1 and *s_event, or 0 if it
+     * is later; then h, q1 and dq1 are those of s_max.  -1: only steps can tell.  May be NULL. */
+    int (*ahead)(engine *e, double s_max, double *s_event);
+    /* The state at m->u + s, 0 <= s <= h, within the step just taken, and its rate of change; base
+     * is the phase there. */
+    void (*at)(engine *e, place where, double s, turn base, double q[], double dqdt[]);
+    /* The motion has come to the end of the step: count u from a new origin if it is time to. */
+    void (*go_on)(engine *e);
+    void (*free)(engine *e);
+};
+
+struct engine {
+    const struct engine_type *type;
+    motion *m;
+    double h;                               /* of the last step */
+    double dq0[MAX_DIM];                    /* rate of change of the state at its start */
+    double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
+    int lands_on_samples;                   /* at() answers at the nearer end */
+    unsigned long steps, rhs, events;
+};
+
+#define EXACT "exact"                       /* what methods in closed form are called */
+const char *ss_ode_method_name(size_t i);      /* NULL after the last */
+ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
+ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
+/* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over
+ * mass has done (G), in the present mode of an exact engine; their rates of change are -(k/m) S,
+ * C - (c/m) S and S. */
+void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
+
+/* run.c: SS_OK if the scene is one and its record can be counted. */
+ss_status ss_record_check(const ss_scene *scene, ss_error *err);
+/* run.c: what a walk shares with a record. */
+motion ss_motion_of(const ss_scene *scene, int exact, double tol);
+int ss_engine_ends_within(engine *e, double *s_event);     /* the mode ends in the step just taken */
+int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s after m->u */
+void ss_engine_accept(engine *e);                           /* it does not */
+ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
+
+#endif

@@ -1,0 +1,318 @@
+/* exact.c -- a motion in closed form: Coulomb and compliant contact are linear within a mode.
+ *
+ * From the start of a mode, with m q'' + c q' + k q = D cos(theta + Omega u) - f0,
+ *
+ *     q(u) = P(u) + (q0 - P(0)) C(u) + (q0' - P'(0)) S(u) - (f0/m) G(u),
+ *
+ * where S and C answer a unit velocity and a unit displacement, G is the integral of S, and P is the
+ * steady motion.  C, S and G are written so that nothing cancels or overflows at critical damping,
+ * far beyond it, or for w u -> 0.  P has a singularity at resonance; within a tenth of it (where
+ * the damping is light, too) the motion from rest takes its place, as a divided difference of
+ * exponentials, which has none.  Its error is rounding: a few ulp of each term.
+ *
+ * Steps are there for the guard's sake only.  With B a bound of its second derivative, a guard that
+ * is g at both ends of a step h is nowhere below g - B h^2 / 8: where that is positive, no event can
+ * be missed, whatever extrema there are between.  Elsewhere steps are as short as for any method. */
+#include "motion/engine.h"
+
+#include <complex.h>
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+
+/* |k - m Omega^2 + i c Omega| below this part of k is treated as resonance: from there on, P costs
+ * one digit at most. */
+#define RESONANCE 0.1
+
+/* Cycles of the base after which the mode is taken up anew from its present state, so that Omega u
+ * keeps its digits. */
+enum { CYCLES = 4 };
+
+/* The longest step in units of those that any method may take. */
+#define LONGEST 10
+
+typedef struct exact {
+    engine base;
+    double k_m, c_m, f_m;           /* k, c, f0 over m */
+    double s, w;                    /* roots of m r^2 + c r + k: -s +- i w, or -s +- w */
+    int overdamped;
+    int resonant;
+    double p_cos, p_sin;            /* P = p_cos cos(theta + Omega u) + p_sin sin(...) */
+    double q, v;                    /* factors of C and S */
+    double curvature, third;        /* the guard's second and third derivatives are at most this */
+    double width;                   /* to which the next event is narrowed down at least */
+    int in_samples;                 /* a sample has been taken since q and v were set */
+    turn swing;                     /* exp((-s + i w) u) of the last one */
+    turn swing_further;             /* the same for one sample interval */
+} exact;
+
+/* exp((-s + i w) u) */
+static turn
+swing_at(const exact *x, double u)
+{
+    double decay = x->s == 0 ? 1 : exp(-x->s * u);
+    turn t = turn_of(x->w * u);
+    return (turn){ decay * t.co, decay * t.si };
+}
+
+/* C, S, G and the first two's derivatives follow from these: C' = -(k/m) S, S' = C - 2 s S.  The
+ * swing serves where the motion swings, u where it creeps. */
+static void
+free_motion(const exact *x, double u, turn swing, double *C, double *S, double *G)
+{
+    if (x->overdamped) {
+        double slow = -x->k_m / (x->s + x->w), decay = exp(slow * u), part = -expm1(-2 * x->w * u);
+        *S = decay * part / (2 * x->w);
+        *C = decay * (1 - part / 2) + x->s * *S;
+        *G = (1 - *C) / x->k_m;
+        return;
+    }
+    *S = x->w > 0 ? swing.si / x->w : swing.co * u;
+    *C = swing.co + x->s * *S;
+    *G = (1 - *C) / x->k_m;
+    if (x->s == 0 && swing.co > 0)          /* the same without cancellation */
+        *G = swing.si * swing.si / (1 + swing.co) / x->k_m;
+}
+
+/* (exp(z) - 1) / z */
+static double complex
+expm1_over(double complex z)
+{
+    double x = creal(z), y = cimag(z), half = sin(y / 2);
+    if (x == 0 && y == 0)
+        return 1;
+    return (expm1(x) * cos(y) - 2 * half * half + I * (exp(x) * sin(y))) / z;
+}
+
+/* The answer, from rest at u = 0, to D cos(theta + Omega u): q and q'. */
+static void
+driven_from_rest(const exact *x, double u, double *q, double *v)
+{
+    const motion *m = x->base.m;
+    double complex io = I * m->omega, r[2] = { -x->s + I * x->w, -x->s - I * x->w }, part[2];
+    double complex D = m->drive / m->scene->mass * cexp(I * m->theta);
+    for (int i = 0; i < 2; i++)             /* integral of exp(r (u - t)) exp(i Omega t) */
+        part[i] = u * cexp(r[i] * u) * expm1_over((io - r[i]) * u);
+    *q = creal(D * (part[0] - part[1]) / (r[0] - r[1]));
+    *v = creal(D * (r[0] * part[0] - r[1] * part[1]) / (r[0] - r[1]));
+}
+
+static void
+evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqdt[])
+{
+    const motion *m = x->base.m;
+    double C, S, G, p, dp;
+    free_motion(x, u, swing, &C, &S, &G);
+    if (x->resonant) {
+        driven_from_rest(x, u, &p, &dp);
+    } else {
+        p = x->p_cos * base.co + x->p_sin * base.si;
+        dp = m->omega * (x->p_sin * base.co - x->p_cos * base.si);
+    }
+    q[0] = p + x->q * C + x->v * S - x->f_m * G;
+    q[1] = dp - x->q * x->k_m * S + x->v * (C - x->c_m * S) - x->f_m * S;
+    m->model->rates(m, m->drive * base.co, q, dqdt);
+}
+
+static void
+evaluate_at(const exact *x, double u, double q[], double dqdt[])
+{
+    evaluate(x, u, ss_motion_base(x->base.m, u), swing_at(x, u), q, dqdt);
+}
+
+/* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is that of
+ * K exp((-s + i w) u); the guard is linear in q and v, up to signs that do not raise a minimum.  So
+ * its slope, asked for with the bounds of the (n+1)-th derivatives in place of q' and v', is the
+ * bound of its own. */
+static void
+bound_guard(exact *x, double omega0)
+{
+    const motion *m = x->base.m;
+    double offset = x->q + m->f0 / m->k, P = hypot(x->p_cos, x->p_sin);
+    double K = hypot(offset, (x->v + x->s * offset) / x->w), omega = m->omega;
+    const double positive[MAX_DIM] = { 1, 1 };
+    double *const bounded[] = { &x->curvature, &x->third };
+    P *= omega * omega;
+    K *= omega0 * omega0;
+    for (int i = 0; i < 2; i++, P *= omega, K *= omega0) {
+        const double bound[MAX_DIM] = { P + K, omega * P + omega0 * K };
+        double slope;
+        m->model->guard(m, positive, bound, &slope);
+        *bounded[i] = fabs(slope);
+    }
+}
+
+static ss_status
+exact_begin(engine *e)
+{
+    exact *x = (exact *)e;
+    motion *m = e->m;
+    double mass = m->scene->mass, omega0 = sqrt(m->k / mass);
+    double stiffness = m->k - mass * m->omega * m->omega, damping = m->c * m->omega;
+    double impedance = hypot(stiffness, damping);
+
+    ss_motion_rebase(m);
+    x->k_m = m->k / mass;
+    x->c_m = m->c / mass;
+    x->f_m = m->f0 / mass;
+    x->s = m->c / (2 * mass);
+    x->overdamped = x->s > omega0;
+    x->w = sqrt(fabs(omega0 - x->s) * (omega0 + x->s));
+    x->resonant = impedance < RESONANCE * m->k;
+    x->q = m->q[0];
+    x->v = m->q[1];
+    if (!x->resonant) {
+        double in_phase = m->drive * (stiffness / impedance) / impedance;
+        double late = m->drive * (damping / impedance) / impedance;
+        turn base = turn_of(m->theta);
+        x->p_cos = in_phase;
+        x->p_sin = late;
+        x->q -= in_phase * base.co + late * base.si;
+        x->v -= m->omega * (late * base.co - in_phase * base.si);
+    }
+    x->curvature = x->third = INFINITY;
+    if (!x->resonant && !x->overdamped)
+        bound_guard(x, omega0);
+    x->width = 0x1p-52 / fmax(omega0, m->omega);
+    x->swing_further = swing_at(x, 1 / m->scene->rate);
+    x->in_samples = 0;
+    e->rhs++;
+    double q[MAX_DIM];
+    evaluate_at(x, 0, q, e->dq0);
+    return SS_OK;
+}
+
+static ss_status
+exact_step(engine *e, double h_max, ss_error *err)
+{
+    const exact *x = (exact *)e;
+    const motion *m = e->m;
+    double slope, g = m->model->guard(m, m->q, e->dq0, &slope);
+    double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);   /* B h^2 / 8 is g / 2 at most */
+    (void)err;
+    e->steps++;
+    if (h > h_max) {
+        e->h = h;
+        e->rhs++;
+        evaluate_at(x, m->u + h, e->q1, e->dq1);
+        if (m->model->guard(m, e->q1, e->dq1, &slope) > x->curvature * h * h / 8)
+            return SS_OK;
+    }
+    e->h = h_max;
+    e->rhs++;
+    evaluate_at(x, m->u + h_max, e->q1, e->dq1);
+    return SS_OK;
+}
+
+/* How far from a guard g at least, with its rates of change, it is to the next zero.  Its Taylor
+ * polynomials of order 1 and 2, less the most that the next derivative can take off, are below it;
+ * g itself is left out of the second, which serves where a mode has just begun. */
+static double
+safe_distance(const exact *x, double g, double slope, double bend)
+{
+    double B = x->curvature, C = x->third / 3, root = sqrt(slope * slope + 2 * B * g);
+    if (slope < 0)
+        return 2 * g / (root - slope);
+    return fmax((slope + root) / B, (bend / 2 + sqrt(bend * bend / 4 + 2 * C * slope)) / C);
+}
+
+/* The next event by going safe distances until they vanish, which near a crossing they do as
+ * quadratically as Newton's: about ten evaluations a mode, where steps and a search in the last of
+ * them take fifty.  Microstick has a limit on either side; the guard tells of the nearer. */
+static int
+exact_ahead(engine *e, double s_max, double *s_event)
+{
+    enum { PASSES = 60 };
+    exact *x = (exact *)e;
+    const motion *m = e->m;
+    const double origin[MAX_DIM] = { 0 };
+    double s = 0, unused, limit = m->model->guard(m, origin, origin, &unused);
+    if (!isfinite(x->third))
+        return -1;
+    memcpy(e->q1, m->q, sizeof e->q1);
+    memcpy(e->dq1, e->dq0, sizeof e->dq1);
+    turn base = ss_motion_base(m, m->u);
+    e->steps++;
+    for (int i = 0; i < PASSES; i++) {
+        double jerk = (-m->drive * m->omega * base.si - m->k * e->q1[1] - m->c * e->dq1[1])
+            / m->scene->mass;
+        const double bends[MAX_DIM] = { e->dq1[1], jerk };
+        double slope, bend, g = m->model->guard(m, e->q1, e->dq1, &slope);
+        m->model->guard(m, e->q1, bends, &bend);
+        if (s == 0 && g == 0)
+            slope = fmax(slope, 0);         /* the mode has just begun: rounding made it negative */
+        double step = safe_distance(x, fmax(g, 0), slope, bend);
+        if (m->mode == 0)
+            step = fmin(step, safe_distance(x, 2 * limit - g, -slope, -bend));
+        double width = fmax(x->width, 2 * DBL_EPSILON * (m->u + s));
+        if (step <= width && s > 0) {
+            *s_event = e->h = s + step + width;
+            return 1;
+        }
+        if (!(step > width))
+            return -1;
+        s = fmin(s + step, s_max);
+        base = ss_motion_base(m, m->u + s);
+        e->rhs++;
+        evaluate(x, m->u + s, base, swing_at(x, m->u + s), e->q1, e->dq1);
+        if (s == s_max) {
+            e->h = s_max;
+            return 0;
+        }
+    }
+    return -1;
+}
+
+void
+ss_exact_response(const engine *e, double s, double *C, double *S, double *G)
+{
+    const exact *x = (const exact *)e;
+    free_motion(x, s, swing_at(x, s), C, S, G);
+}
+
+static void
+exact_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
+{
+    exact *x = (exact *)e;
+    double u = e->m->u + s;
+    turn swing = where == NEXT_SAMPLE && x->in_samples ? turn_further(x->swing, x->swing_further)
+        : swing_at(x, u);
+    if (where != ANYWHERE) {
+        x->swing = swing;
+        x->in_samples = 1;
+    }
+    e->rhs++;
+    evaluate(x, u, base, swing, q, dqdt);
+}
+
+static void
+exact_go_on(engine *e)
+{
+    if (e->m->u * e->m->omega > CYCLES * 2 * M_PI)
+        exact_begin(e);
+}
+
+static void
+exact_free(engine *e)
+{
+    free(e);
+}
+
+static const struct engine_type exact_type = {
+    .begin = exact_begin, .step = exact_step, .ahead = exact_ahead, .at = exact_at,
+    .go_on = exact_go_on, .free = exact_free
+};
+
+ss_status
+ss_exact_new(engine **out, motion *m, ss_error *err)
+{
+    if (m->scene->model == SS_STATE_VARIABLE)
+        return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");
+    exact *x = calloc(1, sizeof *x);
+    if (x == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    x->base = (engine){ .type = &exact_type, .m = m };
+    *out = &x->base;
+    return SS_OK;
+}

@@ -1,0 +1,361 @@
+/* ode.c -- a motion carried by a GSL odeiv2 stepper.
+ *
+ * GSL has no dense output.  Linear modes know the higher derivatives of their state, so what lies
+ * inside a step is read off the polynomial of degree 9 that has the state and four derivatives at
+ * both ends (Hermite).  With the cap of run.c, w h = 2 pi / 40, it is off by
+ * (w h)^10 / 10! / 4^5 = 2e-18 of the amplitude: rounding is all that it adds, whatever the method.
+ * The state variable, which may be stiff and has no such cap, is stepped again from the step's
+ * start by one-step methods; multistep ones, whose memory that would spoil, land on every sample. */
+#include "motion/engine.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+
+/* A step this much shorter than 1/40 of the fastest period, and than the friction's own time, means
+ * that the tolerance asks for more digits than double precision has; a first-order start at 1e-14
+ * needs about 1e-7. */
+#define STEP_FLOOR 1e-12
+
+typedef struct ode {
+    engine base;
+    gsl_odeiv2_system system;
+    gsl_odeiv2_driver *driver;              /* owns the main stepper and its error control */
+    gsl_odeiv2_step *side;                  /* NULL if not needed */
+    int multistep;
+    int has_curve;                          /* of the last step; asked for by the first at() in it */
+    double curve[2 * ORDERS + 2][MAX_DIM];  /* its coefficients in s / h */
+    double h_next;
+    double tol;
+    double shortest;                        /* of all steps [s] */
+    double unit[MAX_DIM];                   /* in which GSL has the state: y = q / unit */
+    double zero[MAX_DIM];                   /* what stands for a y of 0 */
+} ode;
+
+static void
+rates(ode *o, double u, const double q[], double dqdt[])
+{
+    const motion *m = o->base.m;
+    o->base.rhs++;
+    m->model->rates(m, ss_motion_drive(m, u), q, dqdt);
+}
+
+/* To and from GSL's units, which are powers of two: nothing is rounded.  Implicit methods solve
+ * equations in which x, v and theta stand side by side; where these are 1e20 apart, as m and rad/s
+ * and N can be, the solution is nothing but rounding. */
+static void
+to_units(const ode *o, const double q[], double y[])
+{
+    for (size_t i = 0; i < o->system.dimension; i++)
+        y[i] = q[i] / o->unit[i];
+}
+
+static void
+from_units(const ode *o, const double y[], double q[])
+{
+    for (size_t i = 0; i < o->system.dimension; i++)
+        q[i] = y[i] * o->unit[i];
+}
+
+static int
+rhs(double u, const double y[], double dydt[], void *params)
+{
+    ode *o = params;
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    from_units(o, y, q);
+    rates(o, u, q, dqdt);
+    to_units(o, dqdt, dydt);
+    return GSL_SUCCESS;
+}
+
+static int
+jacobian(double u, const double y[], double *dfdy, double dfdt[], void *params)
+{
+    const ode *o = params;
+    size_t n = o->system.dimension;
+    double q[MAX_DIM] = { 0 };
+    from_units(o, y, q);
+    o->base.m->model->jacobian(o->base.m, u, q, dfdy, dfdt);
+    to_units(o, dfdt, dfdt);
+    for (size_t i = 0; i < n * n; i++)
+        dfdy[i] *= o->unit[i % n] / o->unit[i / n];
+    return GSL_SUCCESS;
+}
+
+static ss_status
+ode_begin(engine *e)
+{
+    ode *o = (ode *)e;
+    gsl_odeiv2_step_reset(o->driver->s);
+    if (o->side != NULL)
+        gsl_odeiv2_step_reset(o->side);
+    rates(o, e->m->u, e->m->q, e->dq0);
+    o->shortest = STEP_FLOOR * ss_motion_step_cap(e->m);
+    if (e->m->model->quickest != NULL)
+        o->shortest = fmin(o->shortest, STEP_FLOOR / e->m->model->quickest(e->m->scene));
+    return SS_OK;
+}
+
+static int
+all_finite(const double q[], size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(q[i]))
+            return 0;
+    return 1;
+}
+
+/* GSL's bsimp gives up a step over which a part of the state grows 300-fold, and takes 0 for 1: there
+ * this stands for 0, times the scale of x, omega_n times that, and f_k: so all three move x by no more
+ * than this much of its scale.  (A v of this much Omega times the scale, where Omega is a thousand
+ * times omega_n, moved x by 1e-11.)  They have the sign of the motion, so that a scene and its mirror
+ * image move alike.  Since v' is omega_n^2 times the scale of x at most, v grows 300-fold in
+ * 300 BSIMP_ZERO / omega_n or more: the first step is over STEP_FLOOR.
+ * (Modes without friction of their own start with steps long enough to do without.) */
+#define BSIMP_ZERO 0x1p-46
+
+/* One step over h from the start of the present one, in GSL's units; dydt or NULL gets the rate of
+ * change at its end from methods that know it. */
+static int
+apply(ode *o, gsl_odeiv2_step *step, double h, double y[], double error[], double dydt[])
+{
+    const engine *e = &o->base;
+    double dydt_in[MAX_DIM], v = e->m->q[1] != 0 ? e->m->q[1] : e->dq0[1];
+    to_units(o, e->m->q, y);
+    to_units(o, e->dq0, dydt_in);
+    for (size_t i = 0; i < o->system.dimension; i++)
+        if (y[i] == 0)
+            y[i] = copysign(o->zero[i], v);
+    return gsl_odeiv2_step_apply(step, e->m->u, h, y, error,
+                                 step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
+}
+
+/* Try steps of decreasing size from the start of the step until one keeps the tolerance. */
+static ss_status
+ode_step(engine *e, double h_max, ss_error *err)
+{
+    ode *o = (ode *)e;
+    const motion *m = e->m;
+    gsl_odeiv2_step *step = o->driver->s;
+    size_t dim = o->system.dimension;
+    double h = fmin(o->h_next, h_max), y[MAX_DIM], dydt[MAX_DIM], error[MAX_DIM];
+
+    for (;;) {
+        double h_adjusted = h / 2;
+        int verdict = GSL_ODEIV_HADJ_DEC;
+        int failed = apply(o, step, h, y, error, dydt);
+        if (!failed && all_finite(y, dim) && all_finite(error, dim)) {
+            h_adjusted = h;
+            verdict = gsl_odeiv2_control_hadjust(o->driver->c, step, y, error, dydt, &h_adjusted);
+        }
+        if (verdict != GSL_ODEIV_HADJ_DEC) {
+            if (h >= o->h_next || h_adjusted > o->h_next)
+                o->h_next = h_adjusted;     /* a step cut short by h_max says nothing */
+            break;
+        }
+        if (!(h_adjusted >= o->shortest))
+            return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
+                           "step fell below %.3g s", step->type->name, o->tol, m->origin.hi + m->u,
+                           o->shortest);
+        o->h_next = h = h_adjusted;
+    }
+    from_units(o, y, e->q1);
+    if (step->type->gives_exact_dydt_out)
+        from_units(o, dydt, e->dq1);
+    else
+        rates(o, m->u + h, e->q1, e->dq1);
+    e->h = h;
+    e->steps++;
+    o->has_curve = 0;
+    return SS_OK;
+}
+
+/* The Taylor coefficients in s / h, s from u. */
+static void
+taylor(const engine *e, double u, const double q[], const double dqdt[],
+       double c[ORDERS + 1][MAX_DIM])
+{
+    double scale = e->h;
+    memcpy(c[0], q, sizeof c[0]);
+    memcpy(c[1], dqdt, sizeof c[1]);
+    e->m->model->derivatives(e->m, u, q, dqdt, c + 2);
+    for (int k = 1; k <= ORDERS; scale *= e->h / ++k)
+        for (size_t i = 0; i < e->m->model->dim; i++)
+            c[k][i] *= scale;
+}
+
+/* With x = s / h, the curve is T(x) + x^5 g(x): T the Taylor polynomial at the start, and g, in
+ * powers of x - 1, what the one at the end leaves of it, over x^5.  Both are rewritten in powers
+ * of x - 1 by Horner's scheme and by the series of x^-5. */
+static void
+draw_curve(ode *o)
+{
+    static const double over_x5[ORDERS + 1] = { 1, -5, 15, -35, 70 };
+    const engine *e = &o->base;
+    double end[ORDERS + 1][MAX_DIM];
+    taylor(e, e->m->u, e->m->q, e->dq0, o->curve);
+    taylor(e, e->m->u + e->h, e->q1, e->dq1, end);
+    for (size_t i = 0; i < o->system.dimension; i++) {
+        double T[ORDERS + 1];
+        for (int k = 0; k <= ORDERS; k++)
+            T[k] = o->curve[k][i];
+        for (int k = 0; k < ORDERS; k++)
+            for (int j = ORDERS - 1; j >= k; j--)
+                T[j] += T[j + 1];
+        for (int k = 0; k <= ORDERS; k++) {
+            double g = 0;
+            for (int j = 0; j <= k; j++)
+                g += (end[j][i] - T[j]) * over_x5[k - j];
+            o->curve[ORDERS + 1 + k][i] = g;
+        }
+    }
+    o->has_curve = 1;
+}
+
+static void
+read_curve(const ode *o, double x, double q[])
+{
+    double x5 = x * x * x * x * x;
+    for (size_t i = 0; i < o->system.dimension; i++) {
+        double T = 0, g = 0;
+        for (int k = ORDERS; k >= 0; k--) {
+            T = T * x + o->curve[k][i];
+            g = g * (x - 1) + o->curve[ORDERS + 1 + k][i];
+        }
+        q[i] = T + x5 * g;
+    }
+}
+
+static void
+ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
+{
+    ode *o = (ode *)e;
+    const motion *m = e->m;
+    double y[MAX_DIM], error[MAX_DIM];
+    (void)where;
+    int inside = s > 0 && s < e->h && !e->lands_on_samples;
+    if (inside && o->side != NULL) {
+        apply(o, o->side, s, y, error, NULL);
+        from_units(o, y, q);
+    } else if (inside) {
+        if (!o->has_curve)
+            draw_curve(o);
+        read_curve(o, s / e->h, q);
+    } else {
+        memcpy(q, s > e->h / 2 ? e->q1 : m->q, sizeof e->q1);
+    }
+    e->rhs++;
+    m->model->rates(m, m->drive * base.co, q, dqdt);
+}
+
+static void
+ode_go_on(engine *e)
+{
+    if (!((ode *)e)->multistep)             /* GSL's multistep methods must see time go on */
+        ss_motion_rebase(e->m);
+}
+
+static void
+ode_free(engine *e)
+{
+    ode *o = (ode *)e;
+    if (o->driver != NULL)
+        gsl_odeiv2_driver_free(o->driver);
+    if (o->side != NULL)
+        gsl_odeiv2_step_free(o->side);
+    free(o);
+}
+
+static const struct engine_type ode_type = {
+    .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on, .free = ode_free
+};
+
+/* GSL's methods; the address of each is known at run time only. */
+static const struct { const char *name; const gsl_odeiv2_step_type **type; int multistep; }
+method[] = {
+    { "rk8pd", &gsl_odeiv2_step_rk8pd, 0 },
+    { "rkf45", &gsl_odeiv2_step_rkf45, 0 },
+    { "rkck", &gsl_odeiv2_step_rkck, 0 },
+    { "rk4", &gsl_odeiv2_step_rk4, 0 },
+    { "rk2", &gsl_odeiv2_step_rk2, 0 },
+    { "rk1imp", &gsl_odeiv2_step_rk1imp, 0 },
+    { "rk2imp", &gsl_odeiv2_step_rk2imp, 0 },
+    { "rk4imp", &gsl_odeiv2_step_rk4imp, 0 },
+    { "bsimp", &gsl_odeiv2_step_bsimp, 0 },
+    { "msadams", &gsl_odeiv2_step_msadams, 1 },
+    { "msbdf", &gsl_odeiv2_step_msbdf, 1 },
+};
+enum { METHODS = sizeof method / sizeof *method };
+
+const char *
+ss_ode_method_name(size_t i)
+{
+    return i < METHODS ? method[i].name : NULL;
+}
+
+/* Absolute tolerances in the scene's own measure, since x is about 1e-4 m: x by its scale, v by that
+ * times the larger of Omega and omega_n, theta by f_k. */
+static void
+absolute_scales(const motion *m, double scale[MAX_DIM])
+{
+    const ss_scene *s = m->scene;
+    scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
+    scale[1] = scale[0] * fmax(m->omega, sqrt(s->stiffness / s->mass));
+    scale[2] = s->friction > 0 ? s->friction : 1;
+}
+
+static void
+set_zeros(ode *o)
+{
+    const motion *m = o->base.m;
+    double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
+    o->zero[0] = BSIMP_ZERO * (m->x_scale / o->unit[0]);
+    o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->unit[1]);
+    o->zero[2] = BSIMP_ZERO * (m->scene->friction / o->unit[2]);
+}
+
+ss_status
+ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
+{
+    size_t i = 0;
+    double scale[MAX_DIM];
+    while (i < METHODS && strcmp(name, method[i].name) != 0)
+        i++;
+    if (i == METHODS)
+        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
+    ode *o = calloc(1, sizeof *o);
+    if (o == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    o->base = (engine){ .type = &ode_type, .m = m,
+                        .lands_on_samples = method[i].multistep && m->model->guard == NULL };
+    o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
+    o->multistep = method[i].multistep;
+    o->tol = tol;
+    o->h_next = ss_motion_step_cap(m);
+    absolute_scales(m, scale);
+    for (size_t k = 0; k < m->model->dim; k++) {
+        if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {
+            ode_free(&o->base);
+            return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
+        }
+        o->unit[k] = ldexp(1, ilogb(scale[k]));
+        scale[k] /= o->unit[k];
+    }
+    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
+        && m->scene->model == SS_STATE_VARIABLE)
+        set_zeros(o);
+    o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
+                                                   tol, tol, 1, 0, scale);
+    int sides = m->model->derivatives == NULL && !o->multistep;
+    if (sides)
+        o->side = gsl_odeiv2_step_alloc(*method[i].type, m->model->dim);
+    if (o->driver == NULL || (sides && o->side == NULL)
+        || (sides && gsl_odeiv2_step_set_driver(o->side, o->driver) != GSL_SUCCESS)) {
+        ode_free(&o->base);
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    }
+    *out = &o->base;
+    return SS_OK;
+}

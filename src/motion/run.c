@@ -1,0 +1,592 @@
+/* run.c -- a motion from event to event, its samples and events fed to the sinks.
+ *
+ * The steps know nothing of the samples: an engine steps freely, capped by the mode's own fastest
+ * period, and samples are read off inside its steps.  So the events are the same, to the last digit,
+ * whatever the rate.  (Only multistep methods on the state variable, which has no events, land on
+ * the samples.) */
+#include <stickslip/sim.h>
+
+#include <float.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "motion/engine.h"
+#include "motion/event.h"
+
+/* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
+ * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and a guard has at most one extremum a step. */
+enum { STEPS_PER_PERIOD = 40 };
+
+double
+ss_motion_step_cap(const motion *m)
+{
+    return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
+}
+
+/* Chatter: so many events in a row, each within so small a part of the fastest period of the last,
+ * are the rounding of one grazing contact and no motion. */
+enum { CHATTER_EVENTS = 1000 };
+#define CHATTER_PART 1e-6
+
+enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
+
+const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
+
+const char *
+ss_sim_method_name(size_t i)
+{
+    return i == 0 ? EXACT : ss_ode_method_name(i - 1);
+}
+
+const char *
+ss_event_kind_name(ss_event_kind kind)
+{
+    static const char *const name[] = { "stick", "slip", "reverse" };
+    return (unsigned)kind <= SS_REVERSE ? name[kind] : "?";
+}
+
+static const struct model *
+model_of(const ss_scene *scene)
+{
+    static const struct model *const model[] = { &ss_coulomb_model, &ss_state_variable_model,
+                                                 &ss_compliant_model };
+    return model[scene->model];
+}
+
+static const char *
+method_for(const ss_scene *scene)
+{
+    const struct model *model = model_of(scene);
+    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
+}
+
+const char *
+ss_sim_method_for(const ss_scene *scene)
+{
+    return scene != NULL && (unsigned)scene->model <= SS_COMPLIANT ? method_for(scene) : NULL;
+}
+
+/* --- the motion ---------------------------------------------------------------------------- */
+
+/* Let u count from the instant of the present step, with the phase there. */
+void
+ss_motion_rebase(motion *m)
+{
+    m->origin = instant_add(m->origin, m->u);
+    m->u = 0;
+    m->theta = 2 * M_PI * instant_cycles(m->origin, m->scene->base_frequency) + m->phase;
+}
+
+/* What counts as touching the contact's limit: ten times the absolute tolerance of x, which is what
+ * an integrator's error makes of the limit in the course of a stick; in units of the limit no less
+ * than 1e-10, and no more than 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4
+ * for one of 0.1 ms in the light scene). */
+#define GRAZE_TOL 10
+#define GRAZE_LEAST 1e-10
+#define GRAZE_MOST 1e-6
+
+/* What the closed form rounds off of x: an ulp for each of its four terms. */
+#define EXACT_DOUBT (4 * DBL_EPSILON)
+
+/* x is measured by the largest of Z_e, |x0|, |v0| / omega_n and f_k / k. */
+static void
+set_scales(motion *m, int exact, double tol)
+{
+    const ss_scene *s = m->scene;
+    double omega_n = sqrt(s->stiffness / s->mass), limit = s->friction / s->contact_stiffness;
+    m->x_scale = fmax(fmax(s->base_amplitude, fabs(s->x0)),
+                      fmax(fabs(s->v0) / omega_n, s->friction / s->stiffness));
+    m->doubt = m->x_scale * (exact ? EXACT_DOUBT : tol);
+    if (s->model == SS_COMPLIANT)
+        m->graze = fmin(fmax(GRAZE_TOL * tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
+}
+
+motion
+ss_motion_of(const ss_scene *scene, int exact, double tol)
+{
+    motion m = { .scene = scene, .model = model_of(scene),
+                 .omega = 2 * M_PI * scene->base_frequency,
+                 .drive = scene->stiffness * scene->base_amplitude,
+                 .phase = atan2(sin(scene->phase), cos(scene->phase)) };
+    set_scales(&m, exact, tol);
+    ss_motion_rebase(&m);
+    return m;
+}
+
+/* The phase of the base at t. */
+static turn
+base_at(const motion *m, instant t)
+{
+    return turn_of(2 * M_PI * instant_cycles(t, m->scene->base_frequency) + m->phase);
+}
+
+/* --- the record ---------------------------------------------------------------------------- */
+
+typedef struct record {
+    const ss_scene *scene;
+    const ss_sim_opts *opts;
+    instant end;                        /* of the record, from the start of settling */
+    size_t n, i;                        /* samples in all (that anyone wants), next sample */
+    double interval;                    /* between samples */
+    turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
+    size_t filled;
+    ss_sample buffer[256];
+} record;
+
+/* Base and motion are carried from sample to sample by turning further, and taken up anew at each of
+ * which the number divides by this: the error is at most 16 times 3 eps / 2 of their size. */
+enum { RENEWAL = 16 };
+
+static ss_status
+flush(record *r)
+{
+    size_t filled = r->filled;
+    r->filled = 0;
+    if (filled > 0 && r->opts->samples(r->buffer, filled, r->opts->user) != 0)
+        return SS_STOP;
+    return SS_OK;
+}
+
+/* What the phase of the base gains in one interval. */
+static turn
+base_turns(const ss_scene *scene)
+{
+    return turn_of(2 * M_PI * instant_cycles(instant_sample(1, scene->rate), scene->base_frequency));
+}
+
+/* t seconds of settling and record are done. */
+static ss_status
+report(const record *r, double t)
+{
+    const ss_sim_opts *o = r->opts;
+    double all = r->scene->settle + r->scene->duration;
+    return o->progress != NULL && o->progress(fmin(t / all, 1), o->user) != 0 ? SS_STOP : SS_OK;
+}
+
+static instant
+instant_of_sample(const record *r, size_t i)
+{
+    return instant_add(instant_sample((double)i, r->scene->rate), r->scene->settle);
+}
+
+/* The time from m->u to the i-th sample of the record. */
+static double
+until_sample(const record *r, const motion *m, size_t i)
+{
+    return instant_diff(instant_of_sample(r, i), m->origin) - m->u;
+}
+
+/* The i-th sample, s after m->u. */
+static void
+fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
+{
+    const motion *m = e->m;
+    double q[MAX_DIM], dqdt[MAX_DIM] = { 0 };
+    int renew = r->i % RENEWAL == 0;
+    r->base = renew ? base_at(m, instant_of_sample(r, r->i))
+        : turn_further(r->base, r->base_further);
+    if (still)
+        memcpy(q, m->q, sizeof q);
+    else
+        e->type->at(e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, fmax(s, 0), r->base, q, dqdt);
+    m->model->sample(m, m->drive * r->base.co, q, dqdt, sample);
+    sample->t = (double)r->i / r->scene->rate;
+    sample->z = r->scene->base_amplitude * r->base.co;
+}
+
+/* All samples up to, not including, h after m->u. */
+static ss_status
+write_samples(record *r, engine *e, int still, double h)
+{
+    if (r->i == r->n)
+        return SS_OK;
+    double first = until_sample(r, e->m, r->i), s = first;
+    for (size_t n = 1; r->i < r->n && s < h; r->i++, s = first + (double)n++ * r->interval) {
+        if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
+            ss_status st = flush(r);
+            if (st == SS_OK)
+                st = report(r, instant_of_sample(r, r->i).hi);
+            if (st != SS_OK)
+                return st;
+        }
+        fill_sample(&r->buffer[r->filled++], r, e, still, s);
+    }
+    return SS_OK;
+}
+
+static ss_status
+write_event(record *r, const motion *m, ss_event *e)
+{
+    instant t = instant_add(m->origin, m->u);
+    e->t = (t.hi - r->scene->settle) + t.lo;
+    e->x = m->x_ref + m->q[0];
+    e->v = m->q[1];
+    if (!(e->t >= 0 && instant_diff(t, r->end) < 0) || r->opts->events == NULL)
+        return SS_OK;
+    ss_status st = flush(r);
+    if (st == SS_OK && r->opts->events(e, r->opts->user) != 0)
+        st = SS_STOP;
+    return st;
+}
+
+/* --- from event to event ------------------------------------------------------------------- */
+
+static guard_value
+guard_at(double s, void *user)
+{
+    engine *e = user;
+    const motion *m = e->m;
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    guard_value at;
+    e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
+    at.g = m->model->guard(m, q, dqdt, &at.slope);
+    return at;
+}
+
+/* Whether the mode ends within the step just taken, and when. */
+int
+ss_engine_ends_within(engine *e, double *s_event)
+{
+    const motion *m = e->m;
+    guard_value at_0, at_h;
+    if (m->model->guard == NULL)
+        return 0;
+    at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
+    at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
+    return ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
+}
+
+/* The mode has ended s after m->u: enter the next one.  1 if that is an event. */
+int
+ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
+{
+    motion *m = e->m;
+    if (!still) {
+        double q[MAX_DIM], dqdt[MAX_DIM];
+        e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
+        memcpy(m->q, q, sizeof q);
+    }
+    m->u += s;
+    ss_motion_rebase(m);
+    if (m->mode != 0 && fabs(m->x_ref + m->q[0] - m->x_begin) <= m->doubt)
+        m->unresolved++;
+    if (!m->model->next(m, event))
+        return 0;
+    m->x_begin = m->x_ref + m->q[0];
+    e->events++;
+    return 1;
+}
+
+static ss_status
+change_mode(record *r, engine *e, int still, double s)
+{
+    ss_event event;
+    ss_status st = SS_OK;
+    if (ss_engine_next_mode(e, still, s, &event))
+        st = write_event(r, e->m, &event);
+    return st == SS_OK ? e->type->begin(e) : st;
+}
+
+/* The step is done with, and no event was in it. */
+void
+ss_engine_accept(engine *e)
+{
+    motion *m = e->m;
+    memcpy(m->q, e->q1, sizeof m->q);
+    memcpy(e->dq0, e->dq1, sizeof e->dq0);
+    m->u += e->h;
+    e->type->go_on(e);
+}
+
+ss_status
+ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
+{
+    double period = 2 * M_PI / m->model->fastest(m, NULL);
+    *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
+    if (*in_a_row <= CHATTER_EVENTS)
+        return SS_OK;
+    return ss_fail(err, SS_ECHATTER, "more than %d events in a row at t = %.9g s, each within "
+                   "%.2g s of the last: the contact grazes its limit", CHATTER_EVENTS,
+                   m->origin.hi, CHATTER_PART * period);
+}
+
+/* Why a run was too long for its budget, and how long it would have been. */
+static ss_status
+over_budget(const record *r, const engine *e, double cap, ss_error *err)
+{
+    const motion *m = e->m;
+    const char *what;
+    double t = m->origin.hi + m->u, all = r->scene->settle + r->scene->duration;
+    double estimate = (double)e->steps * all / t;
+    m->model->fastest(m, &what);
+    if (e->h < cap / 2)
+        return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about "
+                       "%.2g steps would do; the tolerance forces steps of %.3g s, where the "
+                       "motion of %s allows %.3g s", r->opts->max_steps, t, all, estimate, e->h,
+                       what, cap);
+    return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about %.2g "
+                   "steps would do; they are %.3g s long, 1/%d of the period of %s",
+                   r->opts->max_steps, t, all, estimate, cap, STEPS_PER_PERIOD, what);
+}
+
+/* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
+#define TOO_MANY_STEPS 1e12
+
+static ss_status
+check_length(const motion *m, double length, ss_error *err)
+{
+    const char *what;
+    double steps = length / ss_motion_step_cap(m), end;
+    m->model->fastest(m, &what);
+    if (steps <= TOO_MANY_STEPS || (m->model->still != NULL && m->model->still(m, &end)))
+        return SS_OK;
+    return ss_fail(err, SS_EBUDGET, "%.3g s are %.2g steps of 1/%d of the period of %s: more than "
+                   "%.0g are not tried", length, steps, STEPS_PER_PERIOD, what, TOO_MANY_STEPS);
+}
+
+static ss_status
+run(record *r, engine *e, ss_error *err)
+{
+    motion *m = e->m;
+    const struct model *model = m->model;
+    double lasted = 0;                      /* of the present mode */
+    int in_a_row = 0;
+
+    for (;;) {
+        double h, cap = ss_motion_step_cap(m);
+        int still = model->still != NULL && model->still(m, &h), ends = still && isfinite(h);
+        ss_status st = SS_OK;
+        if (still) {
+            h -= m->u;
+        } else {
+            if (r->opts->max_steps > 0 && e->steps >= r->opts->max_steps)
+                return over_budget(r, e, cap, err);
+            if (e->lands_on_samples && r->i < r->n) {
+                double s = until_sample(r, m, r->i);
+                cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
+            }
+            if (model->sight != NULL)
+                cap = fmin(cap, model->sight(m, e->dq0));
+            st = e->type->step(e, cap, err);
+            if (st == SS_OK && e->steps % REPORT_STEPS == 0)
+                st = report(r, m->origin.hi + m->u);
+            if (st != SS_OK)
+                return st;
+            h = e->h;
+            ends = ss_engine_ends_within(e, &h);
+        }
+        st = write_samples(r, e, still, h);
+        if (st != SS_OK)
+            return st;
+        if (instant_diff(r->end, m->origin) - m->u <= h)
+            return flush(r);
+        lasted += h;
+        if (ends) {
+            st = change_mode(r, e, still, h);
+            if (st == SS_OK)
+                st = ss_motion_chatters(m, lasted, &in_a_row, err);
+            if (st != SS_OK)
+                return st;
+            lasted = 0;
+        } else {
+            ss_engine_accept(e);
+        }
+    }
+}
+
+/* A start in slip is an event at t = 0. */
+static ss_status
+begin(record *r, engine *e, int slips)
+{
+    ss_event event = { .kind = SS_SLIP, .direction = e->m->mode };
+    ss_status st = SS_OK;
+    if (slips) {
+        e->events++;
+        st = write_event(r, e->m, &event);
+    }
+    return st == SS_OK ? e->type->begin(e) : st;
+}
+
+ss_status
+ss_record_check(const ss_scene *scene, ss_error *err)
+{
+    ss_status st = ss_scene_check(scene, err);
+    if (st == SS_OK && ss_scene_samples(scene) == SIZE_MAX)
+        return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
+    return st;
+}
+
+ss_status
+ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, ss_error *err)
+{
+    if (scene == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_record_check(scene, err);
+    if (st != SS_OK)
+        return st;
+    record r = { .scene = scene, .opts = opts,
+                 .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
+                 .end = instant_sum(scene->settle, scene->duration),
+                 .interval = 1 / scene->rate,
+                 .base_further = base_turns(scene) };
+    const char *method = opts->method != NULL ? opts->method : method_for(scene);
+    int exact = strcmp(method, EXACT) == 0;
+    motion m = ss_motion_of(scene, exact, opts->tol);
+    engine *e = NULL;
+
+    if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
+        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
+    int slips = m.model->start(&m);
+    m.x_begin = m.x_ref + m.q[0];
+    st = check_length(&m, scene->settle + scene->duration, err);
+    if (st != SS_OK)
+        return st;
+    st = exact ? ss_exact_new(&e, &m, err) : ss_ode_new(&e, &m, method, opts->tol, err);
+    if (st == SS_OK)
+        st = begin(&r, e, slips);
+    if (st == SS_OK)
+        st = run(&r, e, err);
+    if (stats != NULL && e != NULL)
+        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, m.unresolved };
+    if (e != NULL)
+        e->type->free(e);
+    return st;
+}
+
+/* --- as a signal --------------------------------------------------------------------------- */
+
+static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
+    { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "y", "m" }, { "z", "m" },
+    { "mode", "" }
+};
+
+ss_status
+ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
+{
+    if (out == NULL || list == NULL)
+        return SS_FAIL_NULL(err);
+    ss_sim_columns columns = { 0 };
+    for (const char *name = list;; name++) {
+        size_t length = strcspn(name, ",");
+        int c = 0, repeated = 0;
+        if (length == 1 && *name == 't' && name == list) {
+            columns.has_time = 1;
+        } else {
+            while (c < SS_SIM_COLUMNS && (strlen(column[c].name) != length
+                                          || strncmp(name, column[c].name, length) != 0))
+                c++;
+            for (size_t i = 0; i < columns.n; i++)
+                repeated |= columns.pick[i] == c;
+            if (c == SS_SIM_COLUMNS || repeated)
+                return ss_fail(err, SS_EINVAL, repeated ? "'%.*s' is there twice in '%s'"
+                               : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, y, z, "
+                               "mode", (int)length, name, list);
+            columns.pick[columns.n++] = c;
+        }
+        name += length;
+        if (*name == '\0')
+            break;
+    }
+    if (columns.n == 0)
+        return ss_fail(err, SS_EINVAL, "a signal needs a column besides t");
+    *out = columns;
+    return SS_OK;
+}
+
+void
+ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
+{
+    if (columns == NULL || s == NULL || row == NULL)
+        return;
+    const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->y, s->z, s->mode };
+    for (size_t i = 0; i < columns->n; i++)
+        row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
+}
+
+/* The scene's own text as notes, but for the rate, which every header has. */
+static ss_status
+note_scene(ss_header *head, const ss_scene *scene)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (out == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_scene_write(scene, out);
+    if (fclose(out) != 0)
+        st = SS_ENOMEM;
+    for (char *line = text; st == SS_OK && *line != '\0';) {
+        char *equals = strstr(line, " = "), *end = strchr(line, '\n');
+        *equals = *end = '\0';
+        if (strcmp(line, "rate") != 0)
+            st = ss_header_note(head, line, equals + 3);
+        line = end + 1;
+    }
+    free(text);
+    return st;
+}
+
+ss_header *
+ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns)
+{
+    if (scene == NULL || columns == NULL)
+        return NULL;
+    ss_header *head = ss_header_new(scene->rate, 0);
+    if (head == NULL)
+        return NULL;
+    head->has_time = columns->has_time;
+    ss_status st = note_scene(head, scene);
+    for (size_t i = 0; st == SS_OK && i < columns->n; i++)
+        st = ss_header_add_column(head, column[columns->pick[i]].name,
+                                  column[columns->pick[i]].unit);
+    if (st == SS_OK)
+        return head;
+    ss_header_free(head);
+    return NULL;
+}
+
+struct collector {
+    const ss_sim_columns *columns;
+    ss_signal *signal;
+    size_t i;
+};
+
+static int
+collect(const ss_sample *s, size_t n, void *user)
+{
+    struct collector *c = user;
+    double row[SS_SIM_COLUMNS];
+    for (size_t k = 0; k < n; k++, c->i++) {
+        ss_sim_row(c->columns, &s[k], row);
+        for (size_t j = 0; j < c->columns->n; j++)
+            c->signal->values[j * c->signal->n + c->i] = row[j];
+    }
+    return 0;
+}
+
+ss_status
+ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err)
+{
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
+    const ss_sim_columns columns = { 1, 4, { 0, 1, 2, 3 } };
+    ss_status st = ss_scene_check(scene, err);
+    if (st != SS_OK)
+        return st;
+    struct collector c = { &columns, NULL, 0 };
+    ss_header *head = ss_sim_header(scene, &columns);
+    st = head != NULL ? ss_signal_new(&c.signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
+    ss_header_free(head);
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    ss_sim_opts opts = ss_sim_defaults;
+    opts.samples = collect;
+    opts.user = &c;
+    st = ss_sim_run(scene, &opts, NULL, err);
+    if (st == SS_OK)
+        *out = c.signal;
+    else
+        ss_signal_free(c.signal);
+    return st;
+}

@@ -1,0 +1,110 @@
+/* walk.c -- from event to event with nothing read off on the way. */
+#include "motion/walk.h"
+
+#include <string.h>
+#include "base/error.h"
+
+ss_status
+ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err)
+{
+    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
+    int exact = strcmp(method, EXACT) == 0;
+    *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
+    w->m.model->start(&w->m);
+    w->m.x_begin = w->m.x_ref + w->m.q[0];
+    ss_status st = exact ? ss_exact_new(&w->e, &w->m, err)
+                         : ss_ode_new(&w->e, &w->m, method, opts->tol, err);
+    return st == SS_OK ? w->e->type->begin(w->e) : st;
+}
+
+ss_status
+ss_walk_begin_at(walk *w, const motion *from)
+{
+    w->m = *from;
+    w->m.origin = (instant){ 0, 0 };
+    w->m.u = 0;
+    ss_motion_rebase(&w->m);
+    w->lasted = 0;
+    w->in_a_row = 0;
+    return w->e->type->begin(w->e);
+}
+
+void
+ss_walk_at(walk *w, double s, double q[], double dqdt[])
+{
+    const motion *m = &w->m;
+    turn base = ss_motion_base(m, m->u + s);
+    if (!w->still) {
+        w->e->type->at(w->e, ANYWHERE, s, base, q, dqdt);
+        return;
+    }
+    memcpy(q, m->q, sizeof m->q);
+    memset(dqdt, 0, sizeof m->q);
+}
+
+/* A leg by steps, as ss_sim_run takes them. */
+static ss_status
+take_step(walk *w, double longest, ss_error *err)
+{
+    double cap = ss_motion_step_cap(&w->m);
+    ss_status st = w->e->type->step(w->e, fmin(cap, longest), err);
+    if (st != SS_OK)
+        return st;
+    if (w->e->h > longest) {            /* steps of an exact engine may be longer than asked for */
+        w->e->h = longest;
+        ss_walk_at(w, longest, w->e->q1, w->e->dq1);
+    }
+    w->h = w->e->h;
+    w->ends = ss_engine_ends_within(w->e, &w->h);
+    return SS_OK;
+}
+
+ss_status
+ss_walk_leg(walk *w, double longest, ss_error *err)
+{
+    motion *m = &w->m;
+    engine *e = w->e;
+    double u_end;
+    if (w->max_steps > 0 && e->steps >= w->max_steps)
+        return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s", w->max_steps,
+                       m->origin.hi + m->u);
+    w->still = m->model->still != NULL && m->model->still(m, &u_end);
+    if (w->still) {
+        w->h = u_end - m->u;
+        w->ends = w->h <= longest;
+        if (w->ends)
+            return SS_OK;
+        w->h = longest;
+        memcpy(e->q1, m->q, sizeof m->q);
+        e->h = longest;
+        return SS_OK;
+    }
+    w->h = longest;
+    w->ends = e->type->ahead != NULL ? e->type->ahead(e, longest, &w->h) : -1;
+    return w->ends >= 0 ? SS_OK : take_step(w, longest, err);
+}
+
+ss_status
+ss_walk_on(walk *w, int *is_event, ss_event *event, ss_error *err)
+{
+    *is_event = 0;
+    w->lasted += w->h;
+    if (!w->ends) {
+        ss_engine_accept(w->e);
+        return SS_OK;
+    }
+    *is_event = ss_engine_next_mode(w->e, w->still, w->h, event);
+    ss_status st = w->e->type->begin(w->e);
+    if (st == SS_OK)
+        st = ss_motion_chatters(&w->m, w->lasted, &w->in_a_row, err);
+    w->lasted = 0;
+    return st;
+}
+
+void
+ss_walk_end(walk *w)
+{
+    if (w->e != NULL)
+        w->e->type->free(w->e);
+    w->e = NULL;
+}

@@ -1,0 +1,630 @@
+/* coefficients.c -- coefficients with the grid they stand on, and how they are read.
+ *
+ * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the
+ * grid and holds each row against it: a row that is missing, doubled or out of place is found.
+ * Rows of different scales may come in any order, those of one scale with b ascending.  A stream
+ * written before its length was known says that at its end. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "morlet/plan.h"
+#include "stream/coefficient_rows.h"
+#include "stream/stream.h"
+
+static const char columns[] = "# columns: m a/s b/s f/Hz re im edge";
+
+static const char *const norm_name[] = { "l2", "l1" };
+static const char *const engine_name[] = { "auto", "quadrature", "fft" };
+static const char *const detrend_name[] = { "none", "mean", "linear" };
+
+void
+ss_coefficients_free(ss_coefficients *coefficients)
+{
+    if (coefficients == NULL)
+        return;
+    ss_header_free(coefficients->head);
+    free(coefficients->scale);
+    free(coefficients->w);
+    free(coefficients->gap);
+    free(coefficients);
+}
+
+/* 1 if nearer to a gap than the cone of influence is wide. */
+static int
+near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
+{
+    return ss_near_gap(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
+}
+
+int
+ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
+{
+    if (c == NULL || i >= c->n_scales)
+        return 1;
+    const ss_scale *scale = &c->scale[i];
+    return ss_scale_edge(scale, k, c->n, c->head->rate) || near_gap(c, scale, k);
+}
+
+double
+ss_coefficients_max(const ss_coefficients *coefficients)
+{
+    if (coefficients == NULL || coefficients->w == NULL)
+        return NAN;
+    double outside = -1, all = 0, passed = 0;
+    for (size_t i = 0; i < coefficients->n_scales; i++) {
+        const ss_scale *scale = &coefficients->scale[i];
+        const double *w = coefficients->w + 2 * scale->offset;
+        for (size_t k = 0; k < scale->n; k++) {
+            double re = w[2 * k], im = w[2 * k + 1];
+            if (re * re + im * im < passed)             /* most are, and need no hypot */
+                continue;
+            double level = hypot(re, im);
+            all = fmax(all, level);
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k)) {
+                outside = level;
+                passed = level > 1e-140 ? level * level * (1 - 1e-14) : 0;
+            }
+        }
+    }
+    return outside >= 0 ? outside : all;
+}
+
+/* --- transforming -------------------------------------------------------------------------- */
+
+static ss_status
+note_number(ss_header *head, const char *key, double value)
+{
+    char text[SS_NUMBER_MAX];
+    ss_number_format(text, value);
+    return ss_header_note(head, key, text);
+}
+
+static ss_status
+note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
+{
+    const ss_column *col = &head->column[0];
+    int failed = (n > 0 ? note_number(head, "samples", (double)n)
+                        : ss_header_note(head, "stream", "yes"))
+        || ss_header_note(head, "column", col->name)
+        || (col->unit[0] != '\0' && ss_header_note(head, "unit", col->unit))
+        || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
+        || (opts->dense ? ss_header_note(head, "dense", "yes")
+                        : note_number(head, "step", opts->step))
+        || ss_header_note(head, "norm", norm_name[opts->norm])
+        || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
+        || ss_header_note(head, "detrend", detrend_name[opts->detrend])
+        || note_number(head, "accuracy", opts->accuracy)
+        || ss_header_note(head, "method", engine_name[opts->engine])
+        || ss_header_note(head, "label", "f = center / (2 pi a)");
+    return failed ? SS_ENOMEM : SS_OK;
+}
+
+ss_status
+ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
+                       const ss_morlet_opts *opts)
+{
+    if (out == NULL || signal == NULL || opts == NULL
+        || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
+        return SS_EINVAL;
+    *out = NULL;
+    ss_status st = ss_header_select(out, signal, &column, 1, 0);
+    if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {
+        ss_header_free(*out);
+        *out = NULL;
+    }
+    return st;
+}
+
+static ss_status
+fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_morlet *plan,
+     const ss_morlet_opts *opts, ss_error *err)
+{
+    ss_status st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
+    if (st != SS_OK || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
+        return st;
+    coef->n = signal->n;
+    coef->center = opts->center;
+    coef->n_scales = plan->n_scales;
+    coef->scale = malloc(plan->n_scales * sizeof *coef->scale);
+    coef->w = malloc(2 * plan->total * sizeof *coef->w);
+    if (coef->scale == NULL || coef->w == NULL)
+        return SS_ENOMEM;
+    memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
+    return ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
+}
+
+ss_status
+ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
+             const ss_morlet_opts *opts, ss_error *err)
+{
+    ss_morlet *plan = NULL;
+    if (out == NULL || signal == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    if (column >= signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1,
+                       signal->head->n_columns);
+    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    ss_coefficients *coef = calloc(1, sizeof *coef);
+    st = coef == NULL ? SS_ENOMEM : fill(coef, signal, column, plan, opts, err);
+    ss_morlet_free(plan);
+    if (st == SS_OK)
+        *out = coef;
+    else
+        ss_coefficients_free(coef);
+    return st;
+}
+
+/* --- reading ------------------------------------------------------------------------------- */
+
+/* A scale of which rows have come. */
+typedef struct part {
+    ss_scale scale;             /* n is what the grid has, SIZE_MAX until that is known */
+    size_t n, room;             /* rows that have come, room for so many */
+    size_t tail;                /* n, or the first row with the edge of an end not known yet */
+    double *w;
+} part;
+
+typedef struct reader {
+    ss_reader in;
+    ss_error *err;
+    int au;
+    size_t row;                 /* the current line, or row of AU */
+    ss_coefficients *coef;      /* its n is 0 until the length is known */
+    ss_morlet_opts opts;        /* what the grid follows from */
+    part *part;
+    size_t n_parts, room, last; /* last: the part of the row before */
+    size_t *part_of;            /* of every j that there can be, its part from 1; 0: none yet */
+} reader;
+
+enum { LARGEST_M = 500 };       /* |log2 a| */
+
+/* SS_EDATA, and what is wrong with the current row. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static ss_status
+refuse(const reader *r, const char *format, ...)
+{
+    char why[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(why, sizeof why, format, args);
+    va_end(args);
+    return ss_fail(r->err, SS_EDATA, "%s:%s%zu: %s", r->in.in.name, r->au ? " row " : "", r->row,
+                   why);
+}
+
+/* The next line without its end, NULL if there is none. */
+static ss_status
+next_line(reader *r, char **line)
+{
+    size_t length;
+    ss_status st = ss_input_line(&r->in.in, line, &length, r->err);
+    r->row = r->in.in.line;
+    if (st == SS_OK && *line != NULL && strlen(*line) != length)
+        return refuse(r, "a NUL byte in text");
+    return st;
+}
+
+/* --- header lines */
+
+static ss_status
+read_note(reader *r, const char *key, const char *value)
+{
+    char *end;
+    ss_header *head = r->coef->head;
+    double *number = strcmp(key, "rate") == 0 ? &head->rate
+        : strcmp(key, "start") == 0 ? &head->start : NULL;
+    if (number == NULL) {
+        if (head->n_notes == MAX_NOTES)
+            return refuse(r, "more than 4096 notes");
+        ss_status st = ss_header_note(head, key, value);
+        return st != SS_EINVAL ? st : refuse(r, "'%s' cannot be the key of a note", key);
+    }
+    *number = ss_number_parse(value, &end);
+    if (end == value || *end != '\0' || !isfinite(*number))
+        return refuse(r, "%s '%s' is not a number", key, value);
+    return SS_OK;
+}
+
+static ss_status
+check_magic(const reader *r, const char *line)
+{
+    const char *name = r->in.in.name;
+    if (line == NULL)
+        return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", name);
+    if (strcmp(line, COEFFICIENTS_MAGIC) != 0
+        && ss_fail_kind(r->err, name, line, strlen(line), "wavelet coefficients") != SS_OK)
+        return SS_EDATA;
+    if (strcmp(line, COEFFICIENTS_MAGIC) != 0)
+        return ss_fail(r->err, SS_EDATA, "%s:1: not wavelet coefficients, which begin '%s'; "
+                       "ss-morlet makes them of a signal", name, COEFFICIENTS_MAGIC);
+    return SS_OK;
+}
+
+/* Everything up to and with the line of columns. */
+static ss_status
+read_text_header(reader *r)
+{
+    char *line;
+    ss_status st = next_line(r, &line);
+    if (st != SS_OK || (st = check_magic(r, line)) != SS_OK)
+        return st;
+    while ((st = next_line(r, &line)) == SS_OK && line != NULL && strcmp(line, columns) != 0) {
+        char *colon = strstr(line, ": ");
+        if (strncmp(line, "# ", 2) != 0 || strncmp(line, columns, 10) == 0)
+            return refuse(r, "expected '%s'", columns);
+        if (colon == NULL)
+            continue;                   /* a comment of someone's */
+        *colon = '\0';
+        if ((st = read_note(r, line + 2, colon + 2)) != SS_OK)
+            return st;
+    }
+    if (st == SS_OK && line == NULL)
+        return ss_fail(r->err, SS_EDATA, "%s: ends before '%s'", r->in.in.name, columns);
+    return st;
+}
+
+/* The header of AU holds the same lines. */
+static ss_status
+read_au_header(reader *r)
+{
+    static const ss_read_opts no_opts;
+    ss_header *head;
+    ss_status st = ss_au_open(&r->in, &no_opts, r->err);
+    if (st != SS_OK)
+        return st;
+    if (r->in.head->n_columns != COEFFICIENT_COLUMNS
+        || strcmp(r->in.head->column[0].name, "m") != 0)
+        return ss_fail(r->err, SS_EDATA, "%s: AU without coefficients; ss-morlet makes them",
+                       r->in.in.name);
+    if ((st = ss_header_select(&head, r->in.head, NULL, 0, 0)) != SS_OK)
+        return st;
+    head->has_time = 1;
+    ss_header_free(r->coef->head);
+    r->coef->head = head;
+    return SS_OK;
+}
+
+static ss_status
+read_header(reader *r)
+{
+    struct input *in = &r->in.in;
+    ss_status st = ss_input_need(in, 4, r->err);
+    if (st != SS_OK)
+        return st;
+    const char *bytes = in->buffer + in->lo;
+    size_t n = in->hi - in->lo;
+    r->au = n >= 4 && memcmp(bytes, ".snd", 4) == 0;
+    if (n >= 4 && memcmp(bytes, "\211HDF", 4) == 0)
+        return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
+                       in->name);
+    if (!r->au && ss_fail_kind(r->err, in->name, bytes, n, "wavelet coefficients") != SS_OK)
+        return SS_EDATA;
+    return r->au ? read_au_header(r) : read_text_header(r);
+}
+
+static ss_status
+required(const reader *r, const char *key, const char **value)
+{
+    *value = ss_header_find_note(r->coef->head, key);
+    if (*value == NULL)
+        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in.in.name, key);
+    return SS_OK;
+}
+
+static ss_status
+required_number(const reader *r, const char *key, double hi, double *x)
+{
+    const char *value;
+    char *end;
+    ss_status st = required(r, key, &value);
+    if (st != SS_OK)
+        return st;
+    *x = ss_number_parse(value, &end);
+    if (end == value || *end != '\0' || !(*x > 0 && *x <= hi))
+        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->in.in.name, key,
+                       value);
+    return SS_OK;
+}
+
+static int
+says_yes(const reader *r, const char *key)
+{
+    const char *value = ss_header_find_note(r->coef->head, key);
+    return value != NULL && strcmp(value, "yes") == 0;
+}
+
+/* The options that the grid follows from. */
+static ss_status
+read_options(reader *r)
+{
+    ss_coefficients *coef = r->coef;
+    const char *column, *unit, *name = r->in.in.name;
+    double samples = 0, voices;
+    ss_status st;
+    r->opts = ss_morlet_defaults;
+    r->opts.dense = says_yes(r, "dense");
+    if (!says_yes(r, "stream") && (st = required_number(r, "samples", 0x1p53, &samples)) != SS_OK)
+        return st;
+    if ((st = required_number(r, "center", 1000, &r->opts.center)) != SS_OK
+        || (st = required_number(r, "voices", 1024, &voices)) != SS_OK
+        || (st = required(r, "column", &column)) != SS_OK)
+        return st;
+    if (!r->opts.dense && (st = required_number(r, "step", 1e100, &r->opts.step)) != SS_OK)
+        return st;
+    if (samples != floor(samples) || voices != floor(voices))
+        return ss_fail(r->err, SS_EDATA, "%s: samples and voices are not whole numbers", name);
+    coef->n = (size_t)samples;
+    coef->center = r->opts.center;
+    r->opts.voices = (int)voices;
+    ss_error why = { "" };
+    if (ss_morlet_check(coef->n > 0 ? coef->n : 1, coef->head->rate, &r->opts, &why) != SS_OK)
+        return ss_fail(r->err, SS_EDATA, "%s: %s", name, why.text);
+    unit = ss_header_find_note(coef->head, "unit");
+    return ss_header_add_column(coef->head, column, unit != NULL ? unit : "");
+}
+
+/* --- rows */
+
+static ss_status
+read_numbers(const reader *r, const char *at, double number[COEFFICIENT_COLUMNS])
+{
+    for (int i = 0; i < COEFFICIENT_COLUMNS; i++) {
+        char *end;
+        number[i] = ss_number_parse(at, &end);
+        if (end == at || !isfinite(number[i]))
+            return refuse(r, "column %d is not a number", i + 1);
+        if (*end != (i + 1 < COEFFICIENT_COLUMNS ? '\t' : '\0'))
+            return refuse(r, "expected %d numbers separated by tabs", COEFFICIENT_COLUMNS);
+        at = end + 1;
+    }
+    return SS_OK;
+}
+
+static ss_status
+new_part(reader *r, int j, const double number[])
+{
+    ss_error why = { "" };
+    part *parts = ss_list_room(r->part, &r->room, r->n_parts, sizeof *parts);
+    if (parts == NULL)
+        return SS_ENOMEM;
+    r->part = parts;
+    part *p = &r->part[r->n_parts];
+    *p = (part){ .n = 0 };
+    if (ss_morlet_scale_at(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
+        != SS_OK)
+        return refuse(r, "%s", why.text);
+    if (r->coef->n == 0)
+        p->scale.n = SIZE_MAX;
+    r->n_parts++;
+    return SS_OK;
+}
+
+/* Make the part of this row the last one. */
+static ss_status
+find_part(reader *r, const double number[])
+{
+    double m = number[0], a = number[1], f = number[3], j = rint(m * r->opts.voices);
+    if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
+        || !(fabs(a / exp2(m) - 1) < 1e-12)
+        || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
+        return refuse(r, "m, a and f are not those of a scale with center %g and %d voices",
+                      r->opts.center, r->opts.voices);
+    size_t *known = &r->part_of[(int)j + LARGEST_M * r->opts.voices];
+    if (*known == 0) {
+        ss_status st = new_part(r, (int)j, number);
+        if (st != SS_OK)
+            return st;
+        *known = r->n_parts;
+    }
+    r->last = *known - 1;
+    return SS_OK;
+}
+
+static ss_status
+append(part *p, double re, double im)
+{
+    double *w = ss_list_room(p->w, &p->room, p->n, 2 * sizeof *w);
+    if (w == NULL)
+        return SS_ENOMEM;
+    p->w = w;
+    p->w[2 * p->n] = re;
+    p->w[2 * p->n++ + 1] = im;
+    return SS_OK;
+}
+
+/* The edge as far as it is known of a record of n samples. */
+static int
+known_edge(const reader *r, const part *p, size_t k, size_t n)
+{
+    return ss_scale_edge(&p->scale, k, n, r->coef->head->rate) || near_gap(r->coef, &p->scale, k);
+}
+
+/* Is that the edge?  Where the end is not known, this is looked at again by check_tail. */
+static int
+edge_fits(const reader *r, part *p, double edge)
+{
+    int fits = edge == known_edge(r, p, p->n, r->coef->n > 0 ? r->coef->n : SIZE_MAX);
+    int of_end = !fits && edge == 1 && r->coef->n == 0;
+    if (p->tail == p->n && !of_end)
+        p->tail++;
+    return of_end || (fits && (p->tail > p->n || edge == 1));
+}
+
+static ss_status
+take_row(reader *r, const double number[COEFFICIENT_COLUMNS])
+{
+    ss_status st = find_part(r, number);
+    if (st != SS_OK)
+        return st;
+    part *p = &r->part[r->last];
+    if (p->n == p->scale.n)
+        return refuse(r, "scale %g has %zu coefficients, this is one more", p->scale.m, p->n);
+    double b = ss_scale_b(&p->scale, p->n);
+    if (!(fabs(number[2] - b) <= 1e-12 * b))
+        return refuse(r, "b is %.9g s where the grid has %.9g s", number[2], b);
+    if (!edge_fits(r, p, number[6]))
+        return refuse(r, "edge is %g, not what the cone of influence gives", number[6]);
+    return append(p, number[4], number[5]);
+}
+
+/* What only the length of the record tells: the translations of each scale, and where the cone of
+ * influence of its end begins. */
+static ss_status
+check_tail(reader *r, part *p)
+{
+    ss_scale *sc = &p->scale;
+    double rate = r->coef->head->rate;
+    size_t n = r->coef->n;
+    ss_error why = { "" };
+    if (ss_morlet_scale_at(sc, sc->j, sc->a, n, rate, &r->opts, &why) != SS_OK)
+        return refuse(r, "%s", why.text);
+    if (p->n > sc->n)
+        return refuse(r, "scale %g has %zu coefficients, not %zu", sc->m, sc->n, p->n);
+    if ((p->tail < p->n && !known_edge(r, p, p->tail, n))
+        || (p->tail > 0 && known_edge(r, p, p->tail - 1, n)
+            != known_edge(r, p, p->tail - 1, SIZE_MAX)))
+        return refuse(r, "the edge of scale %g is not what the cone of influence of %zu samples "
+                      "gives", sc->m, n);
+    return SS_OK;
+}
+
+/* The length of the record, which ends a stream. */
+static ss_status
+take_length(reader *r, double samples)
+{
+    ss_status st = SS_OK;
+    if (r->coef->n > 0)
+        return refuse(r, "the number of samples is given twice");
+    if (!(samples >= 1 && samples <= 0x1p53 && samples == floor(samples)))
+        return refuse(r, "%g samples are not the length of a record", samples);
+    r->coef->n = (size_t)samples;
+    for (size_t i = 0; st == SS_OK && i < r->n_parts; i++)
+        st = check_tail(r, &r->part[i]);
+    return st;
+}
+
+static ss_status
+read_text_rows(reader *r)
+{
+    static const char length[] = "# samples: ";
+    double number[COEFFICIENT_COLUMNS];
+    char *line, *end;
+    ss_status st;
+    while ((st = next_line(r, &line)) == SS_OK && line != NULL) {
+        if (strncmp(line, length, sizeof length - 1) == 0)
+            st = take_length(r, ss_number_parse(line + sizeof length - 1, &end));
+        else if (line[0] != '#' && (st = read_numbers(r, line, number)) == SS_OK)
+            st = take_row(r, number);
+        if (st != SS_OK)
+            return st;
+    }
+    return st;
+}
+
+/* A row at scale 0 ends a stream: its b is the last sample's. */
+static ss_status
+read_au_rows(reader *r)
+{
+    enum { PIECE = 256 };
+    double rows[PIECE * COEFFICIENT_COLUMNS];
+    size_t n;
+    ss_status st;
+    while ((st = ss_reader_rows(&r->in, rows, PIECE, &n, r->err)) == SS_OK && n > 0)
+        for (size_t i = 0; i < n; i++) {
+            const double *number = rows + i * COEFFICIENT_COLUMNS;
+            r->row++;
+            st = number[1] == 0 ? take_length(r, rint(number[2] * r->coef->head->rate) + 1)
+                                : take_row(r, number);
+            if (st != SS_OK)
+                return st;
+        }
+    return st;
+}
+
+/* --- the whole */
+
+static int
+longer_first(const void *a, const void *b)
+{
+    const part *p = a, *q = b;
+    return (p->scale.j < q->scale.j) - (p->scale.j > q->scale.j);
+}
+
+static ss_status
+assemble(reader *r)
+{
+    ss_coefficients *coef = r->coef;
+    size_t total = 0;
+    if (r->n_parts == 0)
+        return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->in.in.name);
+    if (coef->n == 0)
+        return refuse(r, "cut short: a stream ends with its number of samples");
+    for (size_t i = 0; i < r->n_parts; i++) {
+        const part *p = &r->part[i];
+        if (p->n < p->scale.n)
+            return refuse(r, "ends with %zu of the %zu coefficients of scale %g", p->n, p->scale.n,
+                          p->scale.m);
+        total += p->n;
+    }
+    qsort(r->part, r->n_parts, sizeof *r->part, longer_first);
+    coef->scale = malloc(r->n_parts * sizeof *coef->scale);
+    coef->w = malloc(2 * total * sizeof *coef->w);
+    if (coef->scale == NULL || coef->w == NULL)
+        return SS_ENOMEM;
+    for (size_t offset = 0; coef->n_scales < r->n_parts; coef->n_scales++) {
+        part *p = &r->part[coef->n_scales];
+        p->scale.offset = offset;
+        coef->scale[coef->n_scales] = p->scale;
+        memcpy(coef->w + 2 * offset, p->w, 2 * p->n * sizeof *p->w);
+        offset += p->n;
+    }
+    return SS_OK;
+}
+
+static ss_status
+read_all(reader *r, FILE *in, const char *name)
+{
+    ss_status st = ss_input_open(&r->in.in, in, name, r->err);
+    if (st != SS_OK)
+        return st;
+    r->in.head = ss_header_new(0, 0);
+    r->coef = calloc(1, sizeof *r->coef);
+    if (r->in.head == NULL || r->coef == NULL || (r->coef->head = ss_header_new(0, 0)) == NULL)
+        return SS_ENOMEM;
+    if ((st = read_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
+        return st;
+    r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
+    if (r->part_of == NULL)
+        return SS_ENOMEM;
+    st = r->au ? read_au_rows(r) : read_text_rows(r);
+    return st == SS_OK ? assemble(r) : st;
+}
+
+ss_status
+ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
+{
+    reader r = { .in = { .magic = COEFFICIENTS_MAGIC }, .err = err };
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = read_all(&r, in, name);
+    for (size_t i = 0; i < r.n_parts; i++)
+        free(r.part[i].w);
+    free(r.part);
+    free(r.part_of);
+    ss_input_close(&r.in.in);
+    ss_header_free(r.in.head);
+    if (st == SS_OK)
+        *out = r.coef;
+    else
+        ss_coefficients_free(r.coef);
+    return st;
+}

@@ -1,0 +1,210 @@
+/* reader.c -- a stream of whichever kind, as rows or as a whole signal. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "stream/stream.h"
+
+ss_status
+ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
+{
+    char rate[SS_NUMBER_MAX];
+    ss_number_format(rate, own);
+    if (opts->time != NULL || (opts->rate > 0 && (opts->rate < own || opts->rate > own)))
+        return ss_fail(err, SS_EDATA, "%s: has a clock of its own, %s Hz: no column of time or rate "
+                       "can be chosen", name, rate);
+    return SS_OK;
+}
+
+/* The kind by its first bytes, and a word on files that are often tried. */
+static ss_status
+open_kind(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+{
+    struct input *in = &reader->in;
+    ss_status st = ss_input_need(in, 11, err);
+    const char *p = in->buffer + in->lo;
+    size_t n = in->hi - in->lo;
+    if (st != SS_OK)
+        return st;
+    if (n == 0)
+        return ss_fail(err, SS_EDATA, "%s: empty", in->name);
+    if (n >= 4 && memcmp(p, ".snd", 4) == 0)
+        return ss_au_open(reader, opts, err);
+    if (n >= 4 && memcmp(p, "\211HDF", 4) == 0)
+        return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
+    if (ss_fail_kind(err, in->name, p, n, "a signal") != SS_OK)
+        return SS_EDATA;
+    if (n >= 11 && memcmp(p, STREAM_MAGIC, 11) == 0)
+        return ss_text_open(reader, opts, err);
+    return ss_delimited_open(reader, opts, err);
+}
+
+ss_status
+ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
+{
+    static const ss_read_opts no_opts;
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    if (opts != NULL && ((unsigned)opts->gaps > SS_GAPS_INTERPOLATE || !(opts->rate >= 0)
+                         || !(opts->resample >= 0) || isinf(opts->rate + opts->resample)))
+        return ss_fail(err, SS_EINVAL, "gaps, rate or resample out of range");
+    ss_reader *reader = calloc(1, sizeof *reader);
+    if (reader == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
+    reader->head = ss_header_new(0, 0);
+    reader->magic = STREAM_MAGIC;
+    ss_status st = ss_input_open(&reader->in, in, name, err);
+    if (st == SS_OK && reader->head == NULL)
+        st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
+    if (st == SS_OK)
+        st = open_kind(reader, opts != NULL ? opts : &no_opts, err);
+    if (st != SS_OK) {
+        ss_reader_free(reader);
+        return st;
+    }
+    *out = reader;
+    return SS_OK;
+}
+
+const ss_header *
+ss_reader_header(const ss_reader *reader)
+{
+    if (reader == NULL)
+        return NULL;
+    return reader->head;
+}
+
+ss_status
+ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    if (reader == NULL || rows == NULL || n == NULL)
+        return SS_FAIL_NULL(err);
+    *n = 0;
+    return reader->rows(reader, rows, max, n, err);
+}
+
+int
+ss_reader_waits(const ss_reader *reader)
+{
+    if (reader == NULL)
+        return 0;
+    return reader->values == NULL && ss_input_waits(&reader->in);
+}
+
+void
+ss_reader_free(ss_reader *reader)
+{
+    if (reader == NULL)
+        return;
+    ss_input_close(&reader->in);
+    ss_header_free(reader->head);
+    free(reader->values);
+    free(reader);
+}
+
+/* --- whole signals ------------------------------------------------------------------------- */
+
+ss_status
+ss_signal_new(ss_signal **out, const ss_header *head, size_t n)
+{
+    if (out == NULL || head == NULL)
+        return SS_EINVAL;
+    ss_signal *signal = calloc(1, sizeof *signal);
+    size_t columns = head->n_columns > 0 ? head->n_columns : 1;
+    *out = NULL;
+    if (signal == NULL)
+        return SS_ENOMEM;
+    signal->n = n;
+    signal->head = ss_header_copy(head);
+    if (n < SIZE_MAX / sizeof *signal->values / columns)
+        signal->values = calloc(n * columns + 1, sizeof *signal->values);
+    if (signal->head == NULL || signal->values == NULL) {
+        ss_signal_free(signal);
+        return SS_ENOMEM;
+    }
+    *out = signal;
+    return SS_OK;
+}
+
+void
+ss_signal_free(ss_signal *signal)
+{
+    if (signal == NULL)
+        return;
+    ss_header_free(signal->head);
+    free(signal->values);
+    free(signal);
+}
+
+ss_status
+ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column, size_t n_columns,
+                 size_t first, size_t end)
+{
+    ss_header *head;
+    if (out == NULL || signal == NULL || (column == NULL && n_columns > 0))
+        return SS_EINVAL;
+    *out = NULL;
+    if (first > end || end > signal->n)
+        return SS_EINVAL;
+    ss_status st = ss_header_select(&head, signal->head, column, n_columns, first);
+    if (st != SS_OK)
+        return st;
+    size_t n = end - first;
+    st = ss_signal_new(out, head, n);
+    ss_header_free(head);
+    for (size_t c = 0; st == SS_OK && c < n_columns; c++)
+        memcpy((*out)->values + c * n, signal->values + column[c] * signal->n + first,
+               n * sizeof *signal->values);
+    return st;
+}
+
+/* All rows that are left, one after the other, in an array to be freed. */
+static ss_status
+read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
+{
+    size_t columns = reader->head->n_columns, piece = 1 + 16384 / columns, room = 0, got;
+    *rows = NULL;
+    *n = 0;
+    do {
+        if (room - *n < piece) {
+            room = room == 0 ? 4 * piece : 2 * room;
+            double *more = room < SIZE_MAX / sizeof *more / 2 / columns
+                         ? realloc(*rows, room * columns * sizeof *more) : NULL;
+            if (more == NULL)
+                return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long",
+                               reader->in.name);
+            *rows = more;
+        }
+        ss_status st = ss_reader_rows(reader, *rows + *n * columns, room - *n, &got, err);
+        if (st != SS_OK)
+            return st;
+        *n += got;
+    } while (got > 0);
+    return SS_OK;
+}
+
+ss_status
+ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
+               ss_error *err)
+{
+    ss_reader *reader;
+    double *rows = NULL;
+    size_t n = 0;
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    ss_status st = ss_reader_new(&reader, in, name, opts, err);
+    if (st != SS_OK)
+        return st;
+    st = read_all(reader, &rows, &n, err);
+    if (st == SS_OK && ss_signal_new(out, reader->head, n) != SS_OK)
+        st = ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", name);
+    size_t columns = reader->head->n_columns;
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        for (size_t c = 0; c < columns; c++)
+            (*out)->values[c * n + i] = rows[i * columns + c];
+    free(rows);
+    ss_reader_free(reader);
+    return st;
+}

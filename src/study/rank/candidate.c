@@ -1,0 +1,288 @@
+/* candidate.c -- adjust a scene to a mean cycle, within a range about its own parameters.
+ *
+ * A scene names one set of parameters and the rig that was measured has another, known to within
+ * some tenths; a model is judged by the best that it can do within these.  Size and phase are free
+ * and found in closed form (cycle.c): motion is proportional to f_k and Z_e together, if alpha
+ * goes down as they go up.  What is left to search is two to four numbers.  Events move, appear
+ * and vanish as these change, so the misfit has steps and creases; hence no slopes but points all
+ * over the range (Sobol's, always the same) and a simplex (Nelder and Mead 1965) from the best of
+ * them. */
+#include "study/rank/candidate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multimin.h>
+#include <gsl/gsl_qrng.h>
+#include "base/error.h"
+
+enum { STARTS_MOST = 256 };
+
+/* The scaled law of f_k = 1 N and gamma f_k in place of gamma is the literal one. */
+static ss_scene
+scaled_law(ss_scene scene)
+{
+    if (scene.model == SS_STATE_VARIABLE && scene.law == SS_LAW_LITERAL) {
+        scene.gamma *= scene.friction;
+        scene.friction = 1;
+        scene.law = SS_LAW_SCALED;
+    }
+    return scene;
+}
+
+static double
+drive_of(const ss_scene *scene)
+{
+    return scene->stiffness * scene->base_amplitude;
+}
+
+ss_status
+ss_candidate_check(const ss_scene *scene, ss_error *err)
+{
+    ss_status st = ss_scene_check(scene, err);
+    if (st == SS_OK && !(drive_of(scene) > 0))
+        return ss_fail(err, SS_EINVAL, "base_amplitude = 0: such a scene has no cycle to compare");
+    return st;
+}
+
+candidate
+ss_candidate_of(const ss_scene *scene, int pick, double factor)
+{
+    candidate c = { .scene = scaled_law(*scene), .pick = pick, .n = CANDIDATE_KEYS };
+    const ss_scene *s = &c.scene;
+    int compliant = s->model == SS_COMPLIANT;
+    double own[CANDIDATE_KEYS] = { s->stiffness, s->friction / drive_of(s),
+                                   compliant ? s->contact_stiffness : s->gamma,
+                                   compliant ? s->contact_damping : s->alpha };
+    if (s->model == SS_COULOMB)
+        c.n = CANDIDATE_FIRST;
+    for (size_t i = 0; i < c.n; i++) {
+        /* no friction or damping is as good as too little to see */
+        c.own[i] = log(fmax(own[i], 1e-300));
+        c.lo[i] = c.own[i] - log(factor);
+        c.hi[i] = c.own[i] + log(factor);
+        c.best[i] = c.own[i];
+    }
+    if (c.lo[CANDIDATE_RATIO] < 0)            /* f_k > k Z_e: nothing slips */
+        c.hi[CANDIDATE_RATIO] = fmin(c.hi[CANDIDATE_RATIO], 0);
+    if (s->model == SS_STATE_VARIABLE) {    /* alpha v is told, and v is as free as Z_e is */
+        c.lo[CANDIDATE_SECOND] -= log(factor) / 2;
+        c.hi[CANDIDATE_SECOND] += log(factor) / 2;
+    }
+    return c;
+}
+
+/* The scene of some keys with the drive of c->scene. */
+static ss_scene
+scene_of(const candidate *c, const double key[CANDIDATE_KEYS], double period)
+{
+    ss_scene s = c->scene;
+    double drive = drive_of(&s);
+    s.stiffness = exp(key[CANDIDATE_STIFFNESS]);
+    s.base_amplitude = drive / s.stiffness;
+    s.friction = drive * exp(key[CANDIDATE_RATIO]);
+    s.base_frequency = 1 / period;
+    if (s.model == SS_COMPLIANT) {
+        s.contact_stiffness = exp(key[CANDIDATE_FIRST]);
+        s.contact_damping = exp(key[CANDIDATE_SECOND]);
+    } else if (s.model == SS_STATE_VARIABLE) {
+        s.gamma = exp(key[CANDIDATE_FIRST]);
+        s.alpha = exp(key[CANDIDATE_SECOND]);
+    }
+    s.phase = s.x0 = s.v0 = 0;
+    s.settle = CANDIDATE_SETTLE * period;
+    return s;
+}
+
+/* --- misfit -------------------------------------------------------------------------------- */
+
+typedef struct taken {
+    int pick;
+    size_t n, room;
+    double *value;
+} taken;
+
+static int
+take(const ss_sample *s, size_t n, void *user)
+{
+    const ss_sim_columns all = { 0, SS_SIM_COLUMNS, { 0, 1, 2, 3, 4, 5, 6 } };
+    taken *t = user;
+    for (size_t i = 0; i < n && t->n < t->room; i++) {
+        double row[SS_SIM_COLUMNS];
+        ss_sim_row(&all, &s[i], row);
+        t->value[t->n++] = row[t->pick];
+    }
+    return 0;
+}
+
+/* The closed form where there is one.  Else rkck at 1e-5 keeps 1e-4 of the largest acceleration,
+ * -80 dB, at a hundredth of the cost of the default. */
+ss_status
+ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n)
+{
+    taken t = { pick, 0, n, value };
+    int smooth = scene->model == SS_STATE_VARIABLE;
+    ss_sim_opts opts = { .method = smooth ? "rkck" : "exact", .tol = 1e-5, .max_steps = 10000000,
+                         .samples = take, .user = &t };
+    ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
+    return st == SS_OK && t.n != n ? SS_EDATA : st;
+}
+
+typedef struct problem {
+    const candidate *c;
+    const cycle *goal;
+    const ss_stretch *progress;
+    double runs, expected;      /* so far, and about how many there will be */
+    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop; all
+                                   others are a bad fit */
+} problem;
+
+static double
+misfit(problem *p, const double key[], double *size, double *shift)
+{
+    const candidate *c = p->c;
+    const cycle *goal = p->goal;
+    double value[CYCLE_MOST];
+    ss_scene s = scene_of(c, key, goal->period);
+    s.duration = goal->period;
+    s.rate = (double)goal->n / goal->period;
+    *size = *shift = 0;
+    if (p->status == SS_OK)
+        p->status = ss_stretch_at(p->progress, fmin(p->runs++ / p->expected, 1));
+    if (p->status != SS_OK)
+        return goal->power;
+    ss_status st = ss_candidate_run(&s, c->pick, value, goal->n);
+    if (st == SS_ENOMEM)
+        p->status = SS_ENOMEM;
+    if (st != SS_OK)
+        return goal->power;
+    return ss_cycle_misfit(goal, value, size, shift);
+}
+
+/* Any u gives keys in range: what is fixed has no u. */
+static void
+keys_of(const candidate *c, const double *u, double key[CANDIDATE_KEYS])
+{
+    for (size_t i = 0, k = 0; i < c->n; i++) {
+        double width = c->hi[i] - c->lo[i];
+        key[i] = c->lo[i] + (width > 0 ? width * (0.5 + 0.5 * sin(u[k++])) : 0);
+    }
+}
+
+/* In proportion, so that a simplex walks valleys of 20 and of 60 dB alike. */
+static double
+height(const gsl_vector *u, void *user)
+{
+    problem *p = user;
+    double key[CANDIDATE_KEYS], size, shift;
+    keys_of(p->c, u->data, key);
+    return log(misfit(p, key, &size, &shift) / p->goal->power + 1e-12);
+}
+
+/* --- search -------------------------------------------------------------------------------- */
+
+typedef struct start {
+    double height, u[CANDIDATE_KEYS];
+} start;
+
+static int
+lower_first(const void *a, const void *b)
+{
+    double x = ((const start *)a)->height, y = ((const start *)b)->height;
+    return (x > y) - (x < y);
+}
+
+static ss_status
+scatter(start *s, size_t starts, size_t free, problem *p)
+{
+    gsl_qrng *sobol = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)free);
+    if (sobol == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < starts; i++) {
+        gsl_vector_view u = gsl_vector_view_array(s[i].u, free);
+        gsl_qrng_get(sobol, s[i].u);            /* the middle comes first */
+        for (size_t k = 0; k < free; k++)
+            s[i].u[k] = asin(2 * s[i].u[k] - 1);
+        s[i].height = height(&u.vector, p);
+    }
+    gsl_qrng_free(sobol);
+    qsort(s, starts, sizeof *s, lower_first);
+    return p->status;
+}
+
+static ss_status
+descend(start *s, size_t free, size_t steps, problem *p)
+{
+    double first[CANDIDATE_KEYS] = { 0.3, 0.3, 0.3, 0.3 };     /* of the range: about a seventh */
+    gsl_vector_view u = gsl_vector_view_array(s->u, free);
+    gsl_vector_view step = gsl_vector_view_array(first, free);
+    gsl_multimin_function f = { height, free, p };
+    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2,
+                                                               free);
+    if (m == NULL)
+        return SS_ENOMEM;
+    int failed = gsl_multimin_fminimizer_set(m, &f, &u.vector, &step.vector);
+    for (size_t i = 0; !failed && i < steps && gsl_multimin_fminimizer_size(m) > 1e-4; i++)
+        failed = gsl_multimin_fminimizer_iterate(m);
+    if (m->fval < s->height) {
+        s->height = m->fval;
+        memcpy(s->u, m->x->data, free * sizeof *s->u);
+    }
+    gsl_multimin_fminimizer_free(m);
+    return p->status;
+}
+
+ss_status
+ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep, size_t steps,
+                    const ss_stretch *progress)
+{
+    start s[STARTS_MOST];
+    /* a step of the simplex runs the scene once or twice */
+    problem p = { c, goal, progress, 0, (double)(starts + 3 * keep * steps / 2), SS_OK };
+    size_t free = 0;
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < c->n; i++)
+        free += c->hi[i] > c->lo[i];
+    memset(&s[0], 0, sizeof s[0]);
+    if (free > 0) {
+        st = scatter(s, starts, free, &p);
+        for (size_t i = 0; st == SS_OK && i < keep; i++)
+            st = descend(&s[i], free, steps, &p);
+        qsort(s, keep, sizeof *s, lower_first);
+    }
+    if (st != SS_OK)
+        return st;
+    keys_of(c, s[0].u, c->best);
+    c->misfit = misfit(&p, c->best, &c->size, &c->shift);
+    return p.status;
+}
+
+ss_scene
+ss_candidate_scene(const candidate *c, const cycle *goal)
+{
+    ss_scene s = scene_of(c, c->best, goal->period);
+    if (c->size > 0) {
+        s.friction *= c->size;
+        s.base_amplitude *= c->size;
+        s.alpha /= c->size;
+    }
+    s.phase = -2 * M_PI * c->shift;     /* the cycle begins so much before the settled one */
+    return s;
+}
+
+double
+ss_candidate_distance(const candidate *c)
+{
+    double sum = 0, of_mass = 0, squares = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        double d = c->best[i] - c->own[i];
+        int by_mass = i == CANDIDATE_STIFFNESS
+                      || (i > CANDIDATE_RATIO && c->scene.model == SS_COMPLIANT);
+        sum += by_mass ? d : 0;
+        of_mass += by_mass;
+        squares += d * d;
+    }
+    /* d + mu for those that go by mass, and mu: least at mu = -sum / (of_mass + 1) */
+    return sqrt(fmax(squares - sum * sum / (of_mass + 1), 0) / (double)(c->n + 1));
+}

@@ -1,0 +1,193 @@
+/* cycle.c -- fold a signal at its period, and compare two cycles whatever their phase and size.
+ *
+ * What repeats adds up over the cycles of a record and noise does not, so that a mean cycle is
+ * a better and much smaller thing to fit than the record: a model's settled motion is one cycle
+ * too.  Its phase and its size need no search: the correlation of two cycles, at all shifts at once
+ * by their spectra, gives the best of both in closed form. */
+#include "study/rank/cycle.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <gsl/gsl_fft_halfcomplex.h>
+#include <gsl/gsl_fft_real.h>
+#include "base/error.h"
+#include "features/period.h"
+
+enum { GRID = 64 };             /* steps to either side in the search of the period */
+
+static size_t
+bins_of(double samples)
+{
+    size_t n = CYCLE_LEAST;
+    while (2 * n <= CYCLE_MOST && 2 * (double)n <= samples)
+        n *= 2;
+    return n;
+}
+
+/* Sums and counts of each bin; what the squares add up to. */
+static double
+gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n,
+       double cycles)
+{
+    double squares = 0;
+    memset(sum, 0, bins * sizeof *sum);
+    memset(count, 0, bins * sizeof *count);
+    for (size_t i = 0; i < n; i++) {
+        if (missing != NULL && missing[i])
+            continue;
+        double turn = (double)i * cycles;
+        size_t b = (size_t)((turn - floor(turn)) * (double)bins);
+        sum[b] += x[i];
+        count[b]++;
+        squares += x[i] * x[i];
+    }
+    return squares;
+}
+
+ss_status
+ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double rate, double period,
+              ss_error *err)
+{
+    double count[CYCLE_MOST], samples = period * rate, mean = 0, within = 0, all = 0;
+    if (!(samples >= CYCLE_LEAST))
+        return ss_fail(err, SS_EDATA, "%.3g samples a cycle: %d are needed", samples, CYCLE_LEAST);
+    if (!(samples <= (double)n))
+        return ss_fail(err, SS_EDATA, "the record holds less than one cycle of %.3g s", period);
+    c->period = period;
+    c->n = bins_of(samples);
+    within = gather(c->y, count, c->n, x, missing, n, 1 / samples);
+    for (size_t i = 0; i < c->n; i++) {
+        all += count[i];
+        if (missing != NULL && count[i] == 0)
+            return ss_fail(err, SS_EDATA, "gaps leave out a part of every cycle of %.3g s", period);
+        within -= count[i] > 0 ? c->y[i] * c->y[i] / count[i] : 0;
+        c->y[i] /= fmax(count[i], 1);
+        mean += c->y[i] / (double)c->n;
+    }
+    c->power = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        c->y[i] -= mean;
+        c->power += c->y[i] * c->y[i] / (double)c->n;
+    }
+    double bins = (double)c->n;
+    c->noise = all > bins ? fmax(within, 0) / (all - bins) * bins / all : 0;
+    return SS_OK;
+}
+
+/* The power about the mean that repeats, in bins. */
+static double
+repeating(const double *x, const char *missing, size_t n, double samples)
+{
+    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0, all = 0, counted = 0;
+    size_t bins = bins_of(samples);
+    gather(sum, count, bins, x, missing, n, 1 / samples);
+    for (size_t i = 0; i < bins; i++) {
+        power += count[i] > 0 ? sum[i] * sum[i] / count[i] : 0;
+        all += sum[i];
+        counted += count[i];
+    }
+    return power - all * all / fmax(counted, 1);
+}
+
+double
+ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period,
+                double part)
+{
+    double best = period;
+    /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
+    for (double width = part; width > 1e-6; width /= GRID) {
+        double middle = best, most = -1;
+        for (int i = -GRID; i <= GRID; i++) {
+            double p = middle * (1 + width * i / GRID);
+            double power = repeating(x, missing, n, p * rate);
+            if (power > most)
+                most = power, best = p;
+        }
+    }
+    return best;
+}
+
+/* What repeats after a period does so after two and three of them: if nearly all of its power is
+ * left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
+static double
+shortest(const double *x, const char *missing, size_t n, double rate, double period)
+{
+    for (int part = 3; part >= 2; part--)
+        while (period / part * rate >= CYCLE_LEAST
+               && repeating(x, missing, n, period / part * rate)
+                  > 0.9 * repeating(x, missing, n, period * rate))
+            period /= part;
+    return period;
+}
+
+ss_status
+ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
+              double rate, double frequency, const ss_stretch *progress)
+{
+    ss_value samples = { rate / frequency, 0 };
+    ss_error err = { "" };
+    ss_status st = ss_stretch_at(progress, 0);
+    if (st == SS_OK && !(frequency > 0))
+        st = ss_period_find(x, n, &samples);
+    if (st == SS_OK)
+        st = ss_stretch_at(progress, 0.3);
+    if (st != SS_OK)
+        return st;
+    c->period = 0;
+    if (isnan(samples.value)) {
+        snprintf(why, size, "nothing repeats in the record");
+        return SS_OK;
+    }
+    double period = samples.value / rate;
+    if (!(frequency > 0))
+        period = shortest(x, missing, n, rate,
+                          ss_cycle_period(x, missing, n, rate, period, 0.01));
+    if (ss_cycle_fold(c, x, missing, n, rate, period, &err) != SS_OK) {
+        snprintf(why, size, "%s", err.text);
+        c->period = 0;
+    } else if (!(c->power > c->noise)) {
+        snprintf(why, size, "what repeats is no more than the noise");
+        c->period = 0;
+    }
+    return SS_OK;
+}
+
+double
+ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift)
+{
+    double y[CYCLE_MOST], s[CYCLE_MOST], power = 0, mean = 0;
+    size_t n = c->n, peak = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += m[i] / (double)n;
+    for (size_t i = 0; i < n; i++) {
+        s[i] = m[i] - mean;
+        power += s[i] * s[i] / (double)n;
+    }
+    *a = *shift = 0;
+    if (!(power > 0))
+        return c->power;
+    memcpy(y, c->y, n * sizeof *y);
+    gsl_fft_real_radix2_transform(y, 1, n);
+    gsl_fft_real_radix2_transform(s, 1, n);
+    /* y times the conjugate of s, in GSL's half-complex order */
+    y[0] *= s[0];
+    y[n / 2] *= s[n / 2];
+    for (size_t k = 1; k < n / 2; k++) {
+        double re = y[k] * s[k] + y[n - k] * s[n - k], im = y[n - k] * s[k] - y[k] * s[n - k];
+        y[k] = re;
+        y[n - k] = im;
+    }
+    gsl_fft_halfcomplex_radix2_inverse(y, 1, n);
+    for (size_t i = 1; i < n; i++)
+        if (y[i] > y[peak])
+            peak = i;
+    /* a parabola through the correlation's three highest values finds the shift between bins */
+    double left = y[(peak + n - 1) % n], right = y[(peak + 1) % n];
+    double bend = 2 * y[peak] - left - right;
+    double offset = bend > 0 ? 0.5 * (right - left) / bend : 0;
+    double top = fmax(y[peak] + 0.25 * (right - left) * offset, 0) / (double)n;
+    *shift = ((double)peak + offset) / (double)n;
+    *a = top / power;
+    return fmax(c->power - *a * top, 0);
+}

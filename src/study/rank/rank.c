@@ -1,0 +1,512 @@
+/* rank.c -- which scene explains a signal: its mean cycle, and what its contours show.
+ *
+ * A scene stands for all rigs within the spread of its parameters.  So each is first adjusted to
+ * the signal's mean cycle (candidate.c), then run for as long and with as much noise as the signal
+ * has, and from then on both are treated alike: the same features, the same transform, the same
+ * phase. The residual of the mean cycle tells most, as every sample of a signal of known period
+ * takes part in it; but a model of a real rig is wrong in details that this sees too, and the
+ * other criteria then say which model shows what the signal shows. */
+#include <stickslip/rank.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip/features.h>
+#include <stickslip/morlet.h>
+#include <stickslip/sim.h>
+#include <stickslip/spikes.h>
+#include "base/error.h"
+#include "base/progress.h"
+#include "study/rank/candidate.h"
+#include "signal/gaps.h"
+
+/* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the
+ * spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the
+ * damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
+ * contour. */
+const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
+    [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
+    [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
+    [SS_BY_MAXIMUM]    = { "maximum", "", 0.5, 1 },
+    [SS_BY_FREQUENCY]  = { "frequency", "Hz", 0.154, 1 },
+    [SS_BY_DAMPING]    = { "damping", "", 0.693, 1 },
+    [SS_BY_JUMP]       = { "jump", "dB", 6, 1 },
+    [SS_BY_SPIKES]     = { "spikes", "", 1, 1 },
+    [SS_BY_SLOPE]      = { "slope", "dB/octave", 6, 1 },
+    [SS_BY_STIFFNESS]  = { "stiffness", "N/m", 0.693, 1 },
+    [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
+};
+
+const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3 };
+
+enum { STARTS = 32, KEEP = 2, STEPS = 60 };     /* of the search: more find nothing better */
+enum { WINDOW = 4 };                    /* cycles of which features are compared */
+#define DOUBTFUL 0.5                    /* a lead by less than half a threshold is none */
+#define UNEXPLAINED 0.1                 /* of the cycle's power: a best that leaves more is none */
+#define SELDOM 0.5                      /* a half cycle: less is no transition */
+#define SPAN 80.0                       /* [dB] of a contour map */
+
+/* --- what a signal shows ------------------------------------------------------------------- */
+
+typedef struct look {
+    double value[SS_CRITERIA];
+    double noise;                       /* rms */
+    int countable;                      /* spikes can be counted */
+    int has_slope;                      /* there are columns for df/dx */
+    ss_coefficients *map;
+} look;
+
+static int
+by_size(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+static double
+median(double *x, size_t n)
+{
+    if (n == 0)
+        return NAN;
+    qsort(x, n, sizeof *x, by_size);
+    return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
+}
+
+static double
+level(const look *l, size_t c, double top)
+{
+    double size = hypot(l->map->w[2 * c], l->map->w[2 * c + 1]);
+    return fmax(size > 0 ? 20 * log10(size / top) : -SPAN, -SPAN);
+}
+
+/* The median over half cycles of the largest |W| in each along the shortest scale [dB re the
+ * map's]. */
+static ss_status
+look_at_jumps(look *l, double half)
+{
+    const ss_scale *s = &l->map->scale[l->map->n_scales - 1];
+    double top = ss_coefficients_max(l->map), rate = l->map->head->rate;
+    size_t halves = (size_t)((double)l->map->n / rate / half);
+    double *most = malloc((halves + 1) * sizeof *most);
+    if (most == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < halves; i++)
+        most[i] = -SPAN;
+    for (size_t k = 0; top > 0 && k < s->n; k++) {
+        size_t i = (size_t)(ss_scale_b(s, k) / half);
+        if (i < halves && !ss_coefficients_edge(l->map, l->map->n_scales - 1, k))
+            most[i] = fmax(most[i], level(l, s->offset + k, top));
+    }
+    l->value[SS_BY_JUMP] = median(most, halves);
+    free(most);
+    return SS_OK;
+}
+
+/* Spikes not more than 20 dB below the strongest: how many a half cycle, and how smooth. */
+static ss_status
+look_at_spikes(look *l, const double *x, const ss_header *head, size_t n, double half, ss_error *err)
+{
+    ss_spikes_found *found = NULL;
+    ss_span *gap = NULL;
+    ss_spike_opts opts = ss_spike_defaults;
+    size_t count = 0;
+    ss_status st = ss_gaps_of(&gap, &opts.n_gaps, head, n);
+    opts.gap = gap;
+    if (st == SS_OK)
+        st = ss_find_spikes(&found, x, n, head->rate, &opts, err);
+    free(gap);
+    if (st != SS_OK)
+        return st;
+    double *slope = malloc((found->n + 1) * sizeof *slope);
+    for (size_t i = 0; slope != NULL && i < found->n; i++)
+        if (found->spike[i].kind != SS_SPIKE_GLITCH && found->spike[i].level >= -20)
+            slope[count++] = found->spike[i].slope;
+    if (slope != NULL) {
+        l->countable = found->conclusive;
+        l->value[SS_BY_SPIKES] = (double)count * half / ((double)n / head->rate);
+        l->value[SS_BY_SLOPE] = median(slope, count);
+    }
+    ss_spikes_free(found);
+    free(slope);
+    return slope != NULL ? SS_OK : SS_ENOMEM;
+}
+
+static ss_status
+look_at_transitions(look *l, const ss_signal *signal, size_t column, double half, ss_error *err)
+{
+    ss_features *f = NULL;
+    ss_features_opts opts = ss_features_defaults;
+    opts.displacement = ss_header_column(signal->head, "x");
+    opts.force = ss_header_column(signal->head, "f");
+    ss_status st = ss_features_find(&f, signal, column, &opts, err);
+    if (st != SS_OK)
+        return st;
+    double halves = floor((double)signal->n / signal->head->rate / half);
+    l->noise = f->noise;
+    l->has_slope = opts.displacement >= 0 && opts.force >= 0;
+    l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / halves, 1);
+    l->value[SS_BY_FREQUENCY] = f->frequency.value;
+    l->value[SS_BY_DAMPING] = f->damping_ratio.value;
+    l->value[SS_BY_STIFFNESS] = f->contact_slope.value;
+    ss_features_free(f);
+    return SS_OK;
+}
+
+static void
+look_away(look *l)
+{
+    ss_coefficients_free(l->map);
+    l->map = NULL;
+}
+
+static ss_status
+look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error *err)
+{
+    const double *x = signal->values + column * signal->n;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_status st;
+    opts.voices = 4;
+    opts.accuracy = 1e-4;
+    opts.detrend = SS_DETREND_MEAN;
+    for (size_t i = 0; i < SS_CRITERIA; i++)
+        l->value[i] = NAN;
+    l->map = NULL;
+    st = look_at_transitions(l, signal, column, period / 2, err);
+    if (st == SS_OK)
+        st = look_at_spikes(l, x, signal->head, signal->n, period / 2, err);
+    if (st == SS_OK)
+        st = ss_transform(&l->map, signal, column, &opts, err);
+    if (st == SS_OK)
+        st = look_at_jumps(l, period / 2);
+    if (st != SS_OK)
+        look_away(l);
+    return st;
+}
+
+/* --- two of them compared ------------------------------------------------------------------ */
+
+/* The rms difference of the levels of two maps on one grid, every octave counting the same. */
+static double
+map_distance(const look *a, const look *b)
+{
+    double top_a = ss_coefficients_max(a->map), top_b = ss_coefficients_max(b->map), sum = 0;
+    if (!(top_a > 0 && top_b > 0))
+        return NAN;
+    for (size_t i = 0; i < a->map->n_scales; i++) {
+        const ss_scale *s = &a->map->scale[i];
+        double squares = 0, count = 0;
+        for (size_t k = 0; k < s->n; k++) {
+            double d = level(a, s->offset + k, top_a) - level(b, s->offset + k, top_b);
+            if (ss_coefficients_edge(a->map, i, k))
+                continue;
+            squares += d * d;
+            count++;
+        }
+        sum += count > 0 ? squares / count : 0;
+    }
+    return sqrt(sum / (double)a->map->n_scales);
+}
+
+static double
+distance(ss_criterion c, double a, double b)
+{
+    if (isnan(a) && isnan(b))
+        return 0;
+    if (c == SS_BY_FREQUENCY || c == SS_BY_DAMPING || c == SS_BY_STIFFNESS)
+        return fabs(log(a / b));
+    return fabs(a - b);
+}
+
+static void
+compare(ss_rank_row *row, const look *signal, const look *model)
+{
+    for (size_t i = SS_BY_MAXIMUM; i < SS_CRITERIA; i++) {
+        row->value[i] = model->value[i];
+        row->distance[i] = distance((ss_criterion)i, signal->value[i], model->value[i]);
+    }
+    /* where noise hides spikes, their number and kind tell of the noise */
+    if (!signal->countable)
+        row->distance[SS_BY_SPIKES] = row->distance[SS_BY_SLOPE] = 0;
+    if (!signal->has_slope) {
+        row->value[SS_BY_STIFFNESS] = NAN;
+        row->distance[SS_BY_STIFFNESS] = 0;
+    }
+    row->value[SS_BY_MAP] = row->distance[SS_BY_MAP] = map_distance(signal, model);
+}
+
+/* --- a scene ------------------------------------------------------------------------------- */
+
+typedef struct work {
+    const ss_signal *signal;            /* the window */
+    size_t column;
+    ss_quantity quantity;
+    double spread;
+    ss_span *gap;                       /* of the window [s] */
+    size_t n_gaps;
+    cycle goal;
+    double from;                        /* start of the window in the record [s] */
+    look look;                          /* of the signal */
+} work;
+
+/* The adjusted scene as the signal's window would show it, its gaps included. */
+static ss_status
+look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long seed, ss_error *err)
+{
+    ss_signal *run = NULL;
+    const char *gaps = ss_header_find_note(w->signal->head, "gaps");
+    ss_status st = ss_simulate(&run, adjusted, err);
+    if (st != SS_OK)
+        return st;
+    double *x = run->values + (size_t)w->quantity * run->n;
+    run->head->start = w->signal->head->start;
+    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
+    if (st == SS_OK)
+        st = ss_add_noise(x, run->n, w->look.noise, seed);
+    for (size_t c = 0; c < run->head->n_columns; c++)
+        ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
+    if (st == SS_OK)
+        st = look_at(l, run, (size_t)w->quantity, w->goal.period, err);
+    ss_signal_free(run);
+    return st;
+}
+
+static ss_status
+rank_scene(ss_rank_row *row, const work *w, const ss_scene *scene, const ss_stretch *progress,
+           ss_error *err)
+{
+    look l;
+    candidate c = ss_candidate_of(scene, (int)w->quantity, (1 + w->spread) / (1 - w->spread));
+    ss_status st = ss_candidate_search(&c, &w->goal, STARTS, KEEP, STEPS, progress);
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    row->adjusted = ss_candidate_scene(&c, &w->goal);
+    row->adjusted.phase = remainder(row->adjusted.phase + 2 * M_PI * w->from / w->goal.period,
+                                    2 * M_PI);
+    row->adjusted.duration = (double)w->signal->n / w->signal->head->rate;
+    row->adjusted.rate = w->signal->head->rate;
+    st = look_at_scene(&l, w, &row->adjusted, 1, err);
+    if (st != SS_OK)
+        return st;
+    compare(row, &w->look, &l);
+    look_away(&l);
+    /* what noise leaves is not the model's fault */
+    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(c.misfit, 1e-12 * w->goal.power) / w->goal.power);
+    row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&c);
+    row->distance[SS_BY_ADJUSTMENT] = w->spread > 0
+        ? row->value[SS_BY_ADJUSTMENT] / log(1 + w->spread) : 0;
+    return SS_OK;
+}
+
+/* --- the order ----------------------------------------------------------------------------- */
+
+double
+ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor)
+{
+    if (row == NULL || (unsigned)criterion >= SS_CRITERIA)
+        return NAN;
+    double d = row->distance[criterion];
+    double threshold = factor * ss_criterion_rules[criterion].threshold;
+    return isnan(d) ? 1 : fmin(d / threshold, SS_SCORE_MOST);
+}
+
+static double
+total(const ss_rank_row *row, ss_criterion moved, double factor)
+{
+    double sum = 0;
+    for (int i = 0; i < SS_CRITERIA; i++)
+        sum += ss_criterion_rules[i].weight
+               * ss_rank_score(row, (ss_criterion)i, (ss_criterion)i == moved ? factor : 1);
+    return sum;
+}
+
+static int
+less_first(const void *a, const void *b)
+{
+    const ss_rank_row *p = a, *q = b;
+    if (p->total != q->total)
+        return p->total > q->total ? 1 : -1;
+    return (p->scene > q->scene) - (p->scene < q->scene);
+}
+
+int
+ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor, size_t *order)
+{
+    if (ranking == NULL || order == NULL || (unsigned)criterion >= SS_CRITERIA)
+        return 0;
+    int changed = 0;
+    for (size_t i = 0; i < ranking->n; i++) {       /* insertion */
+        double t = total(&ranking->row[i], criterion, factor);
+        size_t k = i;
+        while (k > 0 && total(&ranking->row[order[k - 1]], criterion, factor) > t) {
+            order[k] = order[k - 1];
+            k--;
+        }
+        order[k] = i;
+    }
+    for (size_t i = 0; i < ranking->n; i++)
+        changed |= order[i] != i;
+    return changed;
+}
+
+/* Why the first row is no answer; nothing if it is. */
+static void
+doubt(ss_ranking *r)
+{
+    double lead = r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY;
+    double left = pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10), least = left;
+    for (size_t i = 1; i < r->n; i++)
+        least = fmin(least, pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10));
+    if (r->value[SS_BY_SPIKES] < SELDOM && r->value[SS_BY_MAXIMUM] < SELDOM)
+        snprintf(r->why, sizeof r->why, "no transitions: neither spikes nor local maxima in most "
+                 "half cycles");
+    else if (least > UNEXPLAINED)
+        snprintf(r->why, sizeof r->why, "no scene explains the signal: each leaves %.3g %% of "
+                 "its cycle's power%s", 100 * least, least < 0.9995 ? " or more" : "");
+    else if (left > UNEXPLAINED)
+        snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the cycle's "
+                 "power, and another, which leaves %.3g %%, shows other transitions", 100 * left,
+                 100 * least);
+    else if (lead < DOUBTFUL)
+        snprintf(r->why, sizeof r->why, "the best two scenes differ by %.2g, less than half a "
+                 "threshold", lead);
+    else if (r->row[0].adjusted.model == SS_COMPLIANT && isnan(r->value[SS_BY_DAMPING]))
+        snprintf(r->why, sizeof r->why, "no oscillation in the sticks, by which compliant contacts "
+                 "are known");
+}
+
+static void
+settle(ss_ranking *r, const work *w)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < r->n; i++)
+        least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
+    for (size_t i = 0; i < r->n; i++) {
+        r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
+        r->row[i].total = total(&r->row[i], SS_BY_RESIDUAL, 1);
+    }
+    qsort(r->row, r->n, sizeof *r->row, less_first);
+    for (size_t i = 0; i < SS_CRITERIA; i++)
+        r->value[i] = w->look.value[i];
+    doubt(r);
+    r->told = r->why[0] == '\0';
+}
+
+/* --- all ----------------------------------------------------------------------------------- */
+
+static ss_status
+check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts, ss_error *err)
+{
+    if (column >= signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
+    if (n == 0)
+        return ss_fail(err, SS_EINVAL, "no scene to rank");
+    if ((unsigned)opts->quantity > SS_FORCE)
+        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
+    if (!(opts->spread >= 0 && opts->spread < 1))
+        return ss_fail(err, SS_EINVAL, "spread %g is out of range 0 ... 1", opts->spread);
+    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
+        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
+                       opts->forcing_frequency);
+    for (size_t i = 0; i < signal->n; i++)
+        if (!isfinite(signal->values[column * signal->n + i]))
+            return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
+    return SS_OK;
+}
+
+static ss_status
+rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
+{
+    size_t n = signal->head->n_columns, *column = malloc(n * sizeof *column);
+    if (column == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        column[i] = i;
+    ss_status st = ss_signal_select(out, signal, column, n, first, end);
+    free(column);
+    return st;
+}
+
+static ss_status
+rank_all(ss_ranking *r, const ss_signal *signal, const ss_scene *scene, work *w,
+         const ss_stretch *progress, ss_error *err)
+{
+    double rate = signal->head->rate, most = WINDOW * w->goal.period * rate;
+    size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
+    ss_signal *window = NULL;
+    ss_status st = rows_of(&window, signal, first, first + n);
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    w->signal = window;
+    w->from = (double)first / rate;
+    st = ss_gaps_of(&w->gap, &w->n_gaps, window->head, n);
+    for (size_t c = 0; st == SS_OK && c < window->head->n_columns; c++)
+        ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
+    if (st == SS_OK)
+        st = look_at(&w->look, window, w->column, w->goal.period, err);
+    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
+        ss_stretch part = ss_stretch_part(progress, (double)(i + 1) / (double)(r->n + 1),
+                                          (double)(i + 2) / (double)(r->n + 1));
+        st = rank_scene(&r->row[i], w, &scene[i], &part, err);
+    }
+    if (st == SS_OK)
+        settle(r, w);
+    look_away(&w->look);
+    free(w->gap);
+    ss_signal_free(window);
+    return st;
+}
+
+ss_status
+ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
+        const ss_rank_opts *opts, ss_error *err)
+{
+    if (out == NULL || signal == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    ss_status st = check(signal, column, n, opts, err);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        st = ss_candidate_check(&scene[i], err);
+    if (st != SS_OK)
+        return st;
+    ss_ranking *r = calloc(1, sizeof *r);
+    work *w = calloc(1, sizeof *w);
+    if (r != NULL)
+        r->row = calloc(n, sizeof *r->row);
+    if (r == NULL || w == NULL || r->row == NULL) {
+        ss_ranking_free(r);
+        free(w);
+        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    }
+    r->n = n;
+    for (size_t i = 0; i < n; i++)
+        r->row[i].scene = i;
+    *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
+    const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(n + 1));
+    char *missing = NULL;
+    st = ss_gaps_missing(&missing, signal);
+    if (st == SS_OK)
+        st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
+                           missing, signal->n, signal->head->rate, opts->forcing_frequency,
+                           &reading);
+    free(missing);
+    r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
+    if (st == SS_OK && w->goal.period > 0)
+        st = rank_all(r, signal, scene, w, &whole, err);
+    free(w);
+    if (st == SS_OK)
+        *out = r;
+    else
+        ss_ranking_free(r);
+    return st;
+}
+
+void
+ss_ranking_free(ss_ranking *ranking)
+{
+    if (ranking == NULL)
+        return;
+    free(ranking->row);
+    free(ranking);
+}

@@ -1,0 +1,262 @@
+/* meter.c -- measures taken along a walk.
+ *
+ * Counts and times come from the events.  Extrema lie at the ends of legs or where a rate changes
+ * sign inside them; they are looked for in parts of 1/40 of the mode's fastest period, which hold
+ * one at most, and followed to 1e-9 of that, where their value is off by its square.  The work is
+ * f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10 in each part. */
+#include "study/sweep/meter.h"
+
+#include <math.h>
+
+enum { RANGE = 1u << SS_AMPLITUDE | 1u << SS_X_MAX };
+
+void
+ss_meter_begin(meter *r, unsigned wanted, const motion *m)
+{
+    unsigned inside = 1u << SS_V_MAX | 1u << SS_A_MAX | 1u << SS_TRANSITION;
+    if (m->scene->model != SS_COULOMB)
+        inside |= RANGE | 1u << SS_ENERGY;
+    *r = (meter){ .wanted = wanted, .needs_course = (wanted & inside) != 0,
+                  .x_lo = INFINITY, .x_hi = -INFINITY, .slip = m->mode, .in_first = 1 };
+}
+
+typedef struct point {
+    double s, x, v, a, jerk, f;
+} point;
+
+static point
+point_of(walk *w, double s, const double q[], const double dqdt[])
+{
+    const motion *m = &w->m;
+    double dfdq[MAX_DIM * MAX_DIM], dfdt[MAX_DIM];
+    ss_sample sample;
+    m->model->sample(m, ss_motion_drive(m, m->u + s), q, dqdt, &sample);
+    point p = { s, sample.x, sample.v, sample.a, 0, sample.f };
+    if (w->still)
+        return p;
+    m->model->jacobian(m, m->u + s, q, dfdq, dfdt);
+    p.jerk = dfdt[1];
+    for (size_t i = 0; i < m->model->dim; i++)
+        p.jerk += dfdq[m->model->dim + i] * dqdt[i];
+    return p;
+}
+
+static point
+point_at(walk *w, double s)
+{
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    ss_walk_at(w, s, q, dqdt);
+    return point_of(w, s, q, dqdt);
+}
+
+static point
+point_at_start(walk *w)
+{
+    static const double none[MAX_DIM] = { 0 };
+    return point_of(w, 0, w->m.q, w->still ? none : w->e->dq0);
+}
+
+static void
+look_at(meter *r, const point *p)
+{
+    r->x_lo = fmin(r->x_lo, p->x);
+    r->x_hi = fmax(r->x_hi, p->x);
+    r->v_max = fmax(r->v_max, fabs(p->v));
+    r->a_max = fmax(r->a_max, fabs(p->a));
+}
+
+/* The rate that is 0 at an extremum of x, v or a. */
+typedef enum rate { OF_X, OF_V, OF_A } rate;
+
+static double
+rate_of(const point *p, rate which)
+{
+    return which == OF_X ? p->v : which == OF_V ? p->a : p->jerk;
+}
+
+/* Where the rate is 0 between lo and hi, at which its signs differ: by false position with the
+ * Illinois rule (Dowell and Jarratt 1971). */
+static point
+extremum(walk *w, point lo, point hi, rate which)
+{
+    double f_lo = rate_of(&lo, which), f_hi = rate_of(&hi, which), width = 1e-9 * (hi.s - lo.s);
+    point mid = hi;
+    for (int i = 0, side = 0; i < 60 && hi.s - lo.s > width; i++) {
+        mid = point_at(w, lo.s + (hi.s - lo.s) * f_lo / (f_lo - f_hi));
+        double f = rate_of(&mid, which);
+        if (f == 0)
+            break;
+        if ((f < 0) == (f_hi < 0)) {
+            width = fabs(mid.s - hi.s) <= width ? INFINITY : width;
+            hi = mid;
+            f_hi = f;
+            f_lo /= side == 1 ? 2 : 1;
+            side = 1;
+        } else {
+            width = fabs(mid.s - lo.s) <= width ? INFINITY : width;
+            lo = mid;
+            f_lo = f;
+            f_hi /= side == -1 ? 2 : 1;
+            side = -1;
+        }
+    }
+    return mid;
+}
+
+/* In a microstick, or where the state variable's friction law is steep. */
+static int
+in_transition(const motion *m, const point *p)
+{
+    return m->scene->model == SS_STATE_VARIABLE ? fabs(m->scene->alpha * p->v) < 1 : m->mode == 0;
+}
+
+static void
+take_extremum_of_a(meter *r, const motion *m, const point *p)
+{
+    double t = r->time + p->s;
+    if (!in_transition(m, p))
+        return;
+    if (r->now.n++ == 0)
+        r->now.first = t;
+    r->now.last = t;
+}
+
+/* Fewer than three extrema are no oscillation: the base alone makes two. */
+static void
+count_ring(meter *r, const ring *of)
+{
+    if (of->n < 3)
+        return;
+    r->spacing += of->last - of->first;
+    r->spacings += of->n - 1;
+}
+
+static void
+leave_transition(meter *r)
+{
+    if (r->in_first)
+        r->begun_in = r->now;
+    else
+        count_ring(r, &r->now);
+    r->in_first = 0;
+    r->now.n = 0;
+}
+
+/* The transition at the end goes on in that at the start if the cycles close. */
+static void
+end_transition(meter *r, int closes)
+{
+    ring joined = r->now;
+    if (r->in_first || r->begun_in.n == 0 || !closes) {
+        count_ring(r, &r->now);
+        count_ring(r, &r->begun_in);
+        return;
+    }
+    joined.first = r->now.n > 0 ? r->now.first : r->begun_in.first + r->time;
+    joined.last = r->begun_in.last + r->time;
+    joined.n += r->begun_in.n;
+    count_ring(r, &joined);
+}
+
+static double
+work_between(walk *w, double lo, double hi)
+{
+    static const double node[] = { 0, 0.53846931010568309104, 0.90617984593866399280 };
+    static const double weight[] = { 0.56888888888888888889, 0.47862867049936646804,
+                                     0.23692688505618908751 };
+    double sum = 0, half = (hi - lo) / 2;
+    for (int i = -2; i <= 2; i++) {
+        point p = point_at(w, lo + half + (i < 0 ? -1 : 1) * node[i < 0 ? -i : i] * half);
+        sum += weight[i < 0 ? -i : i] * p.f * p.v;
+    }
+    return half * sum;
+}
+
+/* The part of a leg between two points near to each other. */
+static void
+take_part(meter *r, walk *w, const point *lo, const point *hi)
+{
+    static const unsigned by_rate[] = { RANGE, 1u << SS_V_MAX,
+                                        1u << SS_A_MAX | 1u << SS_TRANSITION };
+    for (rate which = OF_X; which <= OF_A; which++)
+        if ((r->wanted & by_rate[which]) && rate_of(lo, which) * rate_of(hi, which) < 0) {
+            point p = extremum(w, *lo, *hi, which);
+            look_at(r, &p);
+            if (which == OF_A)
+                take_extremum_of_a(r, &w->m, &p);
+        }
+    if (!in_transition(&w->m, hi))
+        leave_transition(r);
+}
+
+/* Does the friction force vary within the mode? */
+static int
+force_varies(const motion *m)
+{
+    return m->scene->model == SS_STATE_VARIABLE
+        || (m->scene->model == SS_COMPLIANT && m->mode == 0);
+}
+
+void
+ss_meter_leg(meter *r, walk *w)
+{
+    int still = w->still || !r->needs_course;
+    size_t parts = still ? 1 : (size_t)ceil(w->h / ss_motion_step_cap(&w->m));
+    if (w->m.scene->model == SS_STATE_VARIABLE && !still)
+        parts *= 2;
+    point lo = point_at_start(w), first = lo;
+    look_at(r, &lo);
+    for (size_t i = 1; i <= parts; i++) {
+        point hi = point_at(w, i < parts ? w->h * (double)i / (double)parts : w->h);
+        look_at(r, &hi);
+        if (!still) {
+            take_part(r, w, &lo, &hi);
+            if (force_varies(&w->m) && (r->wanted & 1u << SS_ENERGY))
+                r->energy += work_between(w, lo.s, hi.s);
+        }
+        lo = hi;
+    }
+    if (!force_varies(&w->m))
+        r->energy += w->m.f0 * (lo.x - first.x);
+    r->time += w->h;
+    if (w->m.mode == 0)
+        r->stick += w->h;
+}
+
+void
+ss_meter_event(meter *r, const ss_event *event)
+{
+    if (event->kind == SS_STICK) {
+        r->stops++;
+        return;
+    }
+    leave_transition(r);
+    if (event->kind == SS_SLIP && r->slip == 0)
+        r->first_slip = event->direction;
+    else if (event->kind == SS_SLIP && r->slip == event->direction)
+        r->microslips++;
+    r->slip = event->direction;
+}
+
+void
+ss_meter_end(meter *r, int cycles, int closes, double value[])
+{
+    if (closes && r->first_slip != 0 && r->first_slip == r->slip)
+        r->microslips++;
+    end_transition(r, closes);
+    const double of[SS_MEASURES] = {
+        [SS_STOPS] = (double)r->stops / cycles,
+        [SS_STICK_FRACTION] = r->stick / r->time,
+        [SS_AMPLITUDE] = (r->x_hi - r->x_lo) / 2,
+        [SS_X_MAX] = fmax(fabs(r->x_hi), fabs(r->x_lo)),
+        [SS_V_MAX] = r->v_max,
+        [SS_A_MAX] = r->a_max,
+        [SS_ENERGY] = r->energy / cycles,
+        [SS_MICROSLIPS] = (double)r->microslips / (2 * cycles),
+        [SS_TRANSITION] = r->spacings > 0 ? (double)r->spacings / (2 * r->spacing) : NAN };
+    const unsigned mine = RANGE | 1u << SS_STOPS | 1u << SS_STICK_FRACTION | 1u << SS_V_MAX
+        | 1u << SS_A_MAX | 1u << SS_ENERGY | 1u << SS_MICROSLIPS | 1u << SS_TRANSITION;
+    for (int i = 0; i < SS_MEASURES; i++)
+        if (r->wanted & mine & 1u << i)
+            value[i] = of[i];
+}

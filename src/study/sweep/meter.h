@@ -1,0 +1,50 @@
+/* meter.h -- what is measured along a walk, and the walk's derivative by its initial state. */
+#ifndef METER_H
+#define METER_H
+
+#include <stickslip/sweep.h>
+#include "motion/walk.h"
+
+/* Extrema of a within one transition. */
+typedef struct ring {
+    size_t n;
+    double first, last;             /* times */
+} ring;
+
+typedef struct meter {
+    unsigned wanted;
+    int needs_course;               /* more than the ends of the legs is looked at */
+    double time, stick, x_lo, x_hi, v_max, a_max, energy;
+    size_t stops, microslips;
+    int slip, first_slip;           /* directions; first_slip: if that before it is unknown */
+    ring now, begun_in;             /* begun_in: of the transition that the meter began in */
+    int in_first;
+    double spacing;
+    size_t spacings;
+} meter;
+
+void ss_meter_begin(meter *r, unsigned wanted, const motion *m);
+void ss_meter_leg(meter *r, walk *w);
+void ss_meter_event(meter *r, const ss_event *event);
+/* The measures of so many forcing cycles, which close to a period or do not.  What cannot be told
+ * stays as it is. */
+void ss_meter_end(meter *r, int cycles, int closes, double value[]);
+
+/* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an exact engine. */
+typedef struct tangent {
+    double d[3][3];
+} tangent;
+
+void ss_tangent_begin(tangent *t, const motion *m);
+/* Along the leg that w stands on; then, if it ends in an event, across it: rates are those before,
+ * and mode, whether that was an event. */
+void ss_tangent_leg(tangent *t, const walk *w);
+void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[],
+                      int is_event);
+/* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
+ * is. */
+void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);
+/* Modulus of the largest and of the next multiplier, argument of the largest. */
+void ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);
+
+#endif

@@ -1,0 +1,445 @@
+/* steady.c -- the periodic state that a scene settles to, by simulation or by shooting.
+ *
+ * The state at the start of each forcing cycle is a map iterated.  It has come to a period p when
+ * it repeats after p cycles; as it approaches geometrically, what is left to go follows from how
+ * the last differences shrink, so that a slow approach is not taken for its end.  Shooting is
+ * Newton's method on that map, with its derivative from tangent.c. */
+#include <stickslip/sweep.h>
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include "base/error.h"
+#include "study/sweep/meter.h"
+
+const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
+                                            .max_steps = 10000000 };
+
+enum { EVERY = 1 << SS_COULOMB | 1 << SS_STATE_VARIABLE | 1 << SS_COMPLIANT,
+       STICKS = 1 << SS_COULOMB | 1 << SS_COMPLIANT, RINGS = 1 << SS_STATE_VARIABLE
+       | 1 << SS_COMPLIANT };
+
+static const struct { const char *name, *unit; unsigned models; } measure[SS_MEASURES] = {
+    [SS_STOPS] = { "stops", "", STICKS },
+    [SS_STICK_FRACTION] = { "stick", "", STICKS },
+    [SS_AMPLITUDE] = { "amplitude", "m", EVERY },
+    [SS_X_MAX] = { "x_max", "m", EVERY },
+    [SS_V_MAX] = { "v_max", "m/s", EVERY },
+    [SS_A_MAX] = { "a_max", "m/s^2", EVERY },
+    [SS_ENERGY] = { "energy", "J", EVERY },
+    [SS_PERIOD] = { "period", "", EVERY },
+    [SS_CYCLES] = { "cycles", "", EVERY },
+    [SS_MICROSLIPS] = { "microslips", "", STICKS },
+    [SS_TRANSITION] = { "transition", "Hz", RINGS },
+    [SS_X_PHASE] = { "x_phase", "m", EVERY },
+    [SS_V_PHASE] = { "v_phase", "m/s", EVERY },
+    [SS_FLOQUET] = { "floquet", "", STICKS },
+    [SS_FLOQUET_2] = { "floquet2", "", STICKS },
+    [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", STICKS },
+};
+
+#define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
+
+const char *
+ss_measure_name(ss_measure m)
+{
+    return (unsigned)m < SS_MEASURES ? measure[m].name : NULL;
+}
+
+const char *
+ss_measure_unit(ss_measure m)
+{
+    return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
+}
+
+/* For the state variable without a method one that does: what is used depends on the point. */
+static const char *
+method_of(const ss_steady_opts *opts, ss_model model)
+{
+    return opts->method != NULL ? opts->method : model == SS_STATE_VARIABLE ? "rk8pd" : EXACT;
+}
+
+ss_status
+ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
+{
+    if (opts == NULL)
+        return SS_FAIL_NULL(err);
+    if ((unsigned)model > SS_COMPLIANT)
+        return ss_fail(err, SS_EINVAL, "model is no known choice");
+    int exact = strcmp(method_of(opts, model), EXACT) == 0, known = 0;
+    for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
+        known |= strcmp(method_of(opts, model), ss_sim_method_name(i)) == 0;
+    for (int i = 0; i < SS_MEASURES; i++)
+        if ((opts->measures & 1u << i) && !(measure[i].models & 1u << model))
+            return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", ss_model_name(model),
+                           measure[i].name);
+    if (!(opts->tol >= 1e-13 && opts->tol <= 1e-1))
+        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-13 ... 0.1", opts->tol);
+    if (opts->max_period < 1 || opts->max_period > SS_PERIOD_MAX)
+        return ss_fail(err, SS_EINVAL, "the longest period is 1 ... %d cycles", SS_PERIOD_MAX);
+    if (opts->max_cycles < 1)
+        return ss_fail(err, SS_EINVAL, "no cycles to look for a period in");
+    if (!known || (exact && model == SS_STATE_VARIABLE))
+        return ss_fail(err, SS_EINVAL, "no method '%s' for model %s", method_of(opts, model),
+                       ss_model_name(model));
+    if ((opts->shoot || (opts->measures & FLOQUET)) && !exact)
+        return ss_fail(err, SS_EINVAL, "shooting and multipliers need a closed form, method exact");
+    if (opts->shoot && (opts->settle > 0 || (opts->measures & 1u << SS_CYCLES)))
+        return ss_fail(err, SS_EINVAL, "shooting does not wait for the motion to settle: it leaves "
+                       "no cycles to count");
+    return SS_OK;
+}
+
+/* --- states -------------------------------------------------------------------------------- */
+
+typedef struct state {
+    double x, v, y;                     /* y: contact deflection, or theta */
+} state;
+
+typedef struct finder {
+    const ss_scene *scene;
+    const ss_steady_opts *opts;
+    ss_error *err;
+    walk w;
+    double n;                           /* forcing cycles walked, from the walk's t = 0 */
+    state unit;                         /* of a difference */
+    state last[2 * SS_PERIOD_MAX + 1];  /* the latest, cycle after cycle, in a ring */
+    unsigned long taken;                /* of them */
+    unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
+} finder;
+
+static state
+state_of(const motion *m)
+{
+    const ss_scene *s = m->scene;
+    state at = { m->x_ref + m->q[0], m->q[1], 0 };
+    if (s->model == SS_STATE_VARIABLE)
+        at.y = m->q[2];
+    else if (s->model == SS_COMPLIANT)
+        at.y = m->mode == 0 ? m->q[0] : m->mode * s->friction / s->contact_stiffness;
+    return at;
+}
+
+static double
+part(double difference, double unit)
+{
+    return difference == 0 ? 0 : fabs(difference) / unit;
+}
+
+static double
+distance(const finder *f, state a, state b)
+{
+    return fmax(fmax(part(a.x - b.x, f->unit.x), part(a.v - b.v, f->unit.v)),
+                part(a.y - b.y, f->unit.y));
+}
+
+static state
+state_units(const motion *m)
+{
+    const ss_scene *s = m->scene;
+    double faster = fmax(m->omega, sqrt(s->stiffness / s->mass));
+    return (state){ m->x_scale, m->x_scale * faster,
+                    s->model == SS_COMPLIANT ? s->friction / s->contact_stiffness : s->friction };
+}
+
+/* --- walking ------------------------------------------------------------------------------- */
+
+/* Walk so many forcing cycles, with a meter and a tangent unless they are NULL. */
+static ss_status
+go(finder *f, int cycles, meter *r, tangent *t)
+{
+    walk *w = &f->w;
+    double period = 1 / f->scene->base_frequency, none = 4 * DBL_EPSILON * period;
+    instant end = instant_sample(f->n + cycles, f->scene->base_frequency);
+    for (double left; (left = instant_diff(end, w->m.origin) - w->m.u) > none;) {
+        ss_event event;
+        double q[MAX_DIM], rates[MAX_DIM];
+        int is_event, mode = w->m.mode;
+        ss_status st = ss_walk_leg(w, fmin(left, period), f->err);
+        if (st != SS_OK)
+            return st;
+        if (r != NULL)
+            ss_meter_leg(r, w);
+        if (t != NULL) {
+            ss_tangent_leg(t, w);
+            ss_walk_at(w, w->h, q, rates);
+        }
+        int ends = w->ends;
+        st = ss_walk_on(w, &is_event, &event, f->err);
+        if (st != SS_OK)
+            return st;
+        if (t != NULL && ends)
+            ss_tangent_event(t, w, mode, q, rates, is_event);
+        if (r != NULL && is_event)
+            ss_meter_event(r, &event);
+    }
+    f->n += cycles;
+    return SS_OK;
+}
+
+/* Measure so many cycles from here on; period 0 if they do not close. */
+static ss_status
+measure_cycles(finder *f, int cycles, int period, ss_steady *out)
+{
+    meter r;
+    tangent t;
+    state at = state_of(&f->w.m);
+    int derive = period > 0 && (f->opts->measures & FLOQUET);
+    ss_meter_begin(&r, f->opts->measures, &f->w.m);
+    ss_tangent_begin(&t, &f->w.m);
+    unsigned long before = f->w.m.unresolved;
+    ss_status st = go(f, cycles, &r, derive ? &t : NULL);
+    if (st != SS_OK)
+        return st;
+    f->unresolved = f->w.m.unresolved - before;
+    ss_meter_end(&r, cycles, period > 0, out->value);
+    out->value[SS_PERIOD] = period;
+    out->value[SS_X_PHASE] = at.x;
+    out->value[SS_V_PHASE] = at.v;
+    if (derive)
+        ss_tangent_multipliers(&t, &out->value[SS_FLOQUET], &out->value[SS_FLOQUET_2],
+                               &out->value[SS_FLOQUET_ANGLE]);
+    return SS_OK;
+}
+
+/* --- by simulation ------------------------------------------------------------------------- */
+
+static void
+take_state(finder *f)
+{
+    f->last[f->taken++ % (2 * SS_PERIOD_MAX + 1)] = state_of(&f->w.m);
+}
+
+/* The state so many cycles before the latest. */
+static state
+state_before(const finder *f, int cycles)
+{
+    return f->last[(f->taken - 1 - (unsigned long)cycles) % (2 * SS_PERIOD_MAX + 1)];
+}
+
+/* A difference within rounding says nothing of how it shrinks. */
+#define ROUNDING (64 * DBL_EPSILON)
+
+static int
+has_period(const finder *f, int p)
+{
+    if (f->taken <= (unsigned long)p)
+        return 0;
+    double now = distance(f, state_before(f, 0), state_before(f, p));
+    if (now <= ROUNDING || !(now <= f->opts->tol))
+        return now <= ROUNDING;
+    if (f->taken <= 2 * (unsigned long)p)
+        return 0;
+    double before = distance(f, state_before(f, p), state_before(f, 2 * p)), ratio = now / before;
+    return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
+}
+
+/* The state within tol of its limit is within 2 tol of itself after any multiple of its period, so
+ * what is that near for fewer cycles has only not come to the shorter period yet. */
+static int
+find_period(const finder *f)
+{
+    for (int p = 1; p <= f->opts->max_period; p++) {
+        if (has_period(f, p))
+            return p;
+        if (f->taken > (unsigned long)p
+            && distance(f, state_before(f, 0), state_before(f, p)) <= 10 * f->opts->tol)
+            return 0;
+    }
+    return 0;
+}
+
+/* Settle as long as asked for; then the first cycle that comes back to where this began. */
+static ss_status
+settle_and_look(finder *f, int *period)
+{
+    ss_status st = SS_OK;
+    for (unsigned long i = 0; st == SS_OK && i < f->opts->settle; i++)
+        st = go(f, 1, NULL, NULL);
+    const motion here = f->w.m;
+    for (int p = 1; st == SS_OK && *period == 0 && p <= f->opts->max_period; p++) {
+        st = go(f, 1, NULL, NULL);
+        if (distance(f, state_of(&f->w.m), state_of(&here)) <= f->opts->tol)
+            *period = p;
+    }
+    if (st != SS_OK)
+        return st;
+    f->n = 0;
+    return ss_walk_begin_at(&f->w, &here);
+}
+
+static ss_status
+settle(finder *f, int *period)
+{
+    ss_status st = SS_OK;
+    take_state(f);
+    for (unsigned long i = 0; st == SS_OK && *period == 0 && i < f->opts->max_cycles; i++) {
+        st = go(f, 1, NULL, NULL);
+        take_state(f);
+        *period = find_period(f);
+    }
+    return st;
+}
+
+static ss_status
+simulate(finder *f, ss_steady *out)
+{
+    int period = 0, asked = f->opts->settle > 0;
+    ss_status st = asked ? settle_and_look(f, &period) : settle(f, &period);
+    double cycles = asked ? (double)f->opts->settle : f->n;
+    if (st == SS_OK)
+        st = measure_cycles(f, period > 0 ? period : f->opts->max_period, period, out);
+    if (st != SS_OK)
+        return st;
+    if (period > 0 || asked)
+        out->value[SS_CYCLES] = cycles;
+    return SS_OK;
+}
+
+/* --- by shooting --------------------------------------------------------------------------- */
+
+/* Cycles simulated before the first of Newton's steps, and how many of those there are. */
+enum { APPROACH = 4, NEWTON_STEPS = 20 };
+
+/* Move a state by d(x_ref, q, v); 0 if its mode does not allow that. */
+static int
+move(motion *m, const double d[3])
+{
+    const ss_scene *s = m->scene;
+    double rates[MAX_DIM], drive, slope;
+    m->x_ref += d[0];
+    m->q[0] += d[1];
+    m->q[1] += d[2];
+    ss_motion_rebase(m);
+    drive = ss_motion_drive(m, 0);
+    if (s->model == SS_COULOMB && m->mode == 0)
+        return fabs(drive - s->stiffness * m->q[0]) <= s->friction;
+    if (m->mode == 0)
+        m->f0 = s->stiffness * m->x_ref;
+    m->model->rates(m, drive, m->q, rates);
+    return m->model->guard(m, m->q, rates, &slope) > 0;
+}
+
+/* One of Newton's steps from *at, which it moves; what it moved by and missed goes into *off. */
+static ss_status
+newton_step(finder *f, motion *at, tangent *t, double *off)
+{
+    const double unit[3] = { f->unit.x, f->unit.x, f->unit.v };
+    ss_status st = ss_walk_begin_at(&f->w, at);
+    f->n = 0;
+    ss_tangent_begin(t, at);
+    if (st == SS_OK)
+        st = go(f, 1, NULL, t);
+    if (st != SS_OK)
+        return st;
+    const motion *end = &f->w.m;
+    motion moved = *at;
+    double d[3], r[3] = { end->x_ref - at->x_ref, end->q[0] - at->q[0], end->q[1] - at->q[1] };
+    double missed = distance(f, state_of(end), state_of(at));
+    int allowed = 0, halvings = 0;
+    ss_tangent_solve(t, unit, r, d);
+    if (end->mode == at->mode && isfinite(d[0] + d[1] + d[2]))
+        for (; !(allowed = move(&moved, d)) && halvings < 8; halvings++) {
+            moved = *at;
+            for (int i = 0; i < 3; i++)
+                d[i] /= 2;
+        }
+    *off = missed <= ROUNDING ? missed : INFINITY;
+    if (allowed && halvings == 0)
+        *off = fmax(missed, distance(f, state_of(&moved), state_of(at)));
+    *at = allowed ? moved : *end;       /* no step to be had: simulate on */
+    at->origin = (instant){ 0, 0 };
+    at->u = 0;
+    return SS_OK;
+}
+
+/* Measure the period found; 0 in *found if there is none, or none that is stable. */
+static ss_status
+shoot(finder *f, ss_steady *out, int *found)
+{
+    tangent t;
+    double off = INFINITY, first, second, angle;
+    ss_status st = go(f, APPROACH, NULL, NULL);
+    motion at = f->w.m;
+    for (int i = 0; st == SS_OK && off > f->opts->tol && i < NEWTON_STEPS; i++)
+        st = newton_step(f, &at, &t, &off);
+    *found = 0;
+    if (st != SS_OK || off > f->opts->tol)
+        return st;
+    ss_tangent_multipliers(&t, &first, &second, &angle);
+    if (!(first <= 1 + 1e-9))
+        return SS_OK;
+    *found = 1;
+    f->n = 0;
+    st = ss_walk_begin_at(&f->w, &at);
+    return st == SS_OK ? measure_cycles(f, 1, 1, out) : st;
+}
+
+/* --- either -------------------------------------------------------------------------------- */
+
+static ss_status
+begin(finder *f)
+{
+    int is_free = f->opts->method == NULL && f->scene->model == SS_STATE_VARIABLE;
+    const ss_sim_opts sim = { .method = is_free ? NULL : method_of(f->opts, f->scene->model),
+                              .tol = fmax(1e-14, f->opts->tol / 1000),
+                              .max_steps = f->opts->max_steps };
+    ss_walk_end(&f->w);
+    f->n = 0;
+    f->taken = 0;
+    return ss_walk_begin(&f->w, f->scene, &sim, f->err);
+}
+
+/* Why something asked for is missing, if it is. */
+static ss_status
+complete(const finder *f, const ss_steady *out)
+{
+    const ss_steady_opts *o = f->opts;
+    if (out->value[SS_PERIOD] == 0 && o->settle > 0)
+        return ss_fail(f->err, SS_EDATA, "no period up to %d after %lu cycles", o->max_period,
+                       o->settle);
+    if (out->value[SS_PERIOD] == 0)
+        return ss_fail(f->err, SS_EDATA, "no period up to %d within %lu cycles", o->max_period,
+                       o->max_cycles);
+    if (f->unresolved > 0)
+        return ss_fail(f->err, SS_EDATA, "%lu events a period within what rounding or tolerance "
+                       "makes of them: not resolved", f->unresolved);
+    for (int i = 0; i < SS_MEASURES; i++)
+        if ((o->measures & 1u << i) && isnan(out->value[i]))
+            return ss_fail(f->err, SS_EDATA, i == SS_TRANSITION
+                           ? "%s: no oscillation, a has no three extrema in one"
+                           : "%s: not a number",
+                           measure[i].name);
+    return SS_OK;
+}
+
+ss_status
+ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
+{
+    if (out == NULL || scene == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    finder f = { .scene = scene, .opts = opts, .err = err };
+    int found = 0;
+    for (int i = 0; i < SS_MEASURES; i++)
+        out->value[i] = NAN;
+    ss_status st = ss_scene_check(scene, err);
+    if (st == SS_OK)
+        st = ss_steady_check(opts, scene->model, err);
+    if (st != SS_OK)
+        return st;
+    if (scene->base_frequency == 0)
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
+    st = begin(&f);
+    f.unit = state_units(&f.w.m);
+    if (st == SS_OK && opts->shoot)
+        st = shoot(&f, out, &found);
+    if (st == SS_OK && opts->shoot && !found)
+        st = begin(&f);
+    if (st == SS_OK && !found)
+        st = simulate(&f, out);
+    ss_walk_end(&f.w);
+    for (int i = 0; i < SS_MEASURES; i++)
+        if (st != SS_OK || !(opts->measures & 1u << i))
+            out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
+    return st == SS_OK ? complete(&f, out) : st;
+}

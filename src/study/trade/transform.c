@@ -1,0 +1,232 @@
+/* transform.c -- what accuracy costs in the transform of a signal, measured.
+ *
+ * The reference is the definition with nothing left out but what rounding hides, at translations
+ * drawn at random and where |W| is largest, which is where a signal's own features are.  What it
+ * took also tells what the definition would take on the whole grid, so that this is not begun if it
+ * is too much. */
+#include "study/trade/common.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "morlet/plan.h"
+
+enum { EACH = 40, ENGINES = 3, LOOSEST = 2, TIGHTEST = 13 };
+
+static const char *const method[ENGINES] = { "quadrature", "fft", "auto" };
+static const ss_engine engine[ENGINES] = { SS_ENGINE_QUADRATURE, SS_ENGINE_FFT, SS_ENGINE_AUTO };
+
+typedef struct scale_reference {
+    size_t k[EACH];                 /* translations */
+    double w[2 * EACH], most;       /* the largest |W| of the scale */
+} scale_reference;
+
+typedef struct trial {
+    const double *x;
+    size_t n;
+    double rate;
+    ss_morlet_opts opts;
+    const ss_trade_opts *how;
+    double x_max, by_sum;           /* seconds that the definition takes at its best, about */
+    double *w;
+    size_t n_scales;
+    scale_reference *reference;
+    ss_trade *trade;
+} trial;
+
+/* 1e-p, as it is written. */
+static double
+accuracy_of(int p)
+{
+    const char text[] = { '1', 'e', '-', (char)('0' + p / 10), (char)('0' + p % 10), '\0' };
+    return strtod(text, NULL);
+}
+
+static ss_status
+stopped(const trial *t, double done)
+{
+    return t->how->progress != NULL && t->how->progress(done, t->how->user) ? SS_STOP : SS_OK;
+}
+
+/* --- the reference ---------------------------------------------------------------------------- */
+
+/* Translations of a scale spread over it at random places (Knuth's multiplicative hash), the last
+ * being where |W| is largest. */
+static void
+choose_places(scale_reference *ref, const ss_scale *scale, const double *w)
+{
+    double most = -1;
+    for (uint32_t c = 0; c < EACH; c++) {
+        double part = (double)(uint32_t)(c * 2654435769u) / 4294967296.;
+        ref->k[c] = (size_t)(part * (double)scale->n);
+    }
+    for (size_t k = 0; k < scale->n; k++) {
+        double size = hypot(w[2 * k], w[2 * k + 1]);
+        if (size > most) {
+            most = size;
+            ref->k[EACH - 1] = k;
+        }
+    }
+    ref->most = most;
+}
+
+static ss_status
+refer_scale(trial *t, const ss_morlet *plan, const record *rec, size_t i, ss_error *err)
+{
+    const ss_scale *scale = &plan->scale[i];
+    scale_reference *ref = &t->reference[i];
+    double b[EACH], began = ss_trade_cpu_time();
+    choose_places(ref, scale, t->w + 2 * scale->offset);
+    for (size_t c = 0; c < EACH; c++)
+        b[c] = ss_scale_b(scale, ref->k[c]);
+    ss_status st = ss_quadrature_points(plan, scale, rec, b, EACH, ref->w);
+    t->by_sum += (ss_trade_cpu_time() - began) * (double)scale->n / EACH;
+    if (st == SS_OK)
+        st = ss_morlet_finish(ref->w, EACH, scale->a, plan->opts.norm, rec->exponent, err);
+    return st;
+}
+
+/* The grid is that of the tightest accuracy, for all. */
+static ss_status
+refer(trial *t, ss_error *err)
+{
+    ss_morlet *plan = NULL;
+    record rec = { 0 };
+    t->opts.accuracy = accuracy_of(TIGHTEST);
+    ss_status st = ss_morlet_new(&plan, t->n, t->rate, &t->opts, err);
+    if (st != SS_OK)
+        return st;
+    t->n_scales = plan->n_scales;
+    t->w = malloc(2 * plan->total * sizeof *t->w);
+    t->reference = calloc(plan->n_scales, sizeof *t->reference);
+    st = t->w != NULL && t->reference != NULL ? ss_morlet_execute(plan, t->x, t->w, err) : SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_morlet_record(&rec, t->x, t->n, t->opts.detrend, err);
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
+        st = refer_scale(t, plan, &rec, i, err);
+        if (st == SS_OK)
+            st = stopped(t, 0.1 * (double)i / (double)plan->n_scales);
+    }
+    t->x_max = ldexp(rec.x_max, rec.exponent);
+    if (!t->opts.octaves) {
+        t->opts.fmin = plan->scale[0].f;
+        t->opts.fmax = plan->scale[plan->n_scales - 1].f;
+    }
+    free(rec.x);
+    ss_morlet_free(plan);
+    return st;
+}
+
+/* --- rows ------------------------------------------------------------------------------------- */
+
+static double
+worst_error(const trial *t, const ss_morlet *plan)
+{
+    double worst = 0;
+    for (size_t i = 0; i < t->n_scales; i++) {
+        const scale_reference *ref = &t->reference[i];
+        const ss_scale *scale = &plan->scale[i];
+        double unit = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
+        for (size_t c = 0; c < EACH && ref->most > 0; c++) {
+            const double *got = t->w + 2 * (scale->offset + ref->k[c]), *want = ref->w + 2 * c;
+            double error = hypot(got[0] - want[0], got[1] - want[1]);
+            worst = fmax(worst, (error - 16 * DBL_EPSILON * unit * t->x_max) / ref->most);
+        }
+    }
+    return worst;
+}
+
+/* One transform as a row says; its error into *error, unless that is NULL. */
+static ss_status
+transform(trial *t, const ss_trade_row *row, double *seconds, double *error, ss_error *err)
+{
+    ss_morlet *plan = NULL;
+    ss_morlet_opts opts = t->opts;
+    for (int i = 0; i < ENGINES; i++)
+        if (strcmp(row->method, method[i]) == 0)
+            opts.engine = engine[i];
+    opts.accuracy = row->tol;
+    ss_status st = ss_morlet_new(&plan, t->n, t->rate, &opts, err);
+    if (st != SS_OK)
+        return st;
+    *seconds = ss_trade_cpu_time();
+    st = ss_morlet_execute(plan, t->x, t->w, err);
+    *seconds = ss_trade_cpu_time() - *seconds;
+    if (st == SS_OK && error != NULL)
+        *error = fmax(t->trade->known_x, worst_error(t, plan));
+    ss_morlet_free(plan);
+    return st;
+}
+
+static ss_status
+transform_again(void *user, const ss_trade_row *row, double done, double *seconds)
+{
+    ss_status st = stopped(user, done);
+    return st == SS_OK ? transform(user, row, seconds, NULL, NULL) : st;
+}
+
+static ss_status
+measure_row(trial *t, ss_trade_row *row, ss_error *err)
+{
+    double reach = sqrt(log(row->tol) / log(DBL_EPSILON));  /* of the whole window */
+    if (strcmp(row->method, method[0]) == 0 && t->by_sum * reach > t->how->budget) {
+        row->status = SS_EBUDGET;
+        row->seconds = t->by_sum * reach;
+        return SS_OK;
+    }
+    return transform(t, row, &row->seconds, &row->error_x, err);
+}
+
+static ss_status
+fill_rows(trial *t, ss_error *err)
+{
+    ss_trade *trade = t->trade;
+    ss_status st = refer(t, err);
+    trade->row = calloc(ENGINES * (TIGHTEST - LOOSEST + 1), sizeof *trade->row);
+    if (st == SS_OK && trade->row == NULL)
+        st = SS_ENOMEM;
+    trade->samples = EACH * t->n_scales;
+    trade->known_x = DBL_EPSILON;
+    trade->transform = 1;
+    strcpy(trade->reference, "quadrature in full");
+    for (int e = 0; st == SS_OK && e < ENGINES; e++)
+        for (int p = LOOSEST; st == SS_OK && p <= TIGHTEST; p++) {
+            ss_trade_row *row = &trade->row[trade->n++];
+            *row = (ss_trade_row){ .method = method[e], .tol = accuracy_of(p) };
+            st = measure_row(t, row, err);
+            if (st == SS_OK)
+                st = stopped(t, 0.1 + 0.6 * (double)trade->n / (ENGINES * (TIGHTEST - LOOSEST + 1)));
+        }
+    if (st == SS_OK)
+        st = ss_trade_repeat(trade, transform_again, t);
+    if (st == SS_OK)
+        ss_trade_mark_frontier(trade);
+    return st;
+}
+
+ss_status
+ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
+                   const ss_morlet_opts *grid, const ss_trade_opts *opts, ss_error *err)
+{
+    if (out == NULL || x == NULL || grid == NULL)
+        return SS_FAIL_NULL(err);
+    trial t = { .x = x, .n = n, .rate = rate, .opts = *grid,
+                .how = opts != NULL ? opts : &ss_trade_defaults };
+    t.opts.engine = SS_ENGINE_AUTO;
+    t.opts.threads = 1;
+    if (!(t.how->budget > 0))
+        return ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
+    t.trade = calloc(1, sizeof *t.trade);
+    ss_status st = t.trade != NULL ? fill_rows(&t, err) : SS_ENOMEM;
+    free(t.w);
+    free(t.reference);
+    if (st == SS_OK) {
+        *out = t.trade;
+        return SS_OK;
+    }
+    ss_trade_free(t.trade);
+    return st == SS_ENOMEM ? ss_fail(err, st, "%s", ss_strerror(st)) : st;
+}
