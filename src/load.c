@@ -44,7 +44,7 @@ load_stream(ss_signal **out, const char *path, const ss_read_opts *opts, ss_erro
 }
 
 ss_status
-ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
+ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
 {
     struct stat st;
     if (out == NULL || path == NULL)

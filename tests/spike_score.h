@@ -55,7 +55,7 @@ score_scene_make(score_scene *s, const char *name, double rate, double duration,
     opts.events = score_keep;
     opts.user = s;
     if (ss_sim_run(&s->scene, &opts, NULL, NULL) != SS_OK
-        || ss_simulate(&s->signal, &s->scene, NULL) != SS_OK)
+        || ss_sim_signal(&s->signal, &s->scene, NULL) != SS_OK)
         exit(2);
     s->n = s->signal->n;
     s->a = s->signal->values + (size_t)ss_header_column(s->signal->head, "a") * s->n;
@@ -85,17 +85,17 @@ score_distance(const score_scene *s, double t, double a)
 }
 
 /* The noise comes from the seed; snr infinite: none. */
-static inline ss_spikes_found *
+static inline ss_spikes *
 score_find(const score_scene *s, double snr, unsigned long seed)
 {
-    ss_spikes_found *found = NULL;
+    ss_spikes *found = NULL;
     double *x = malloc(s->n * sizeof *x);
     if (x == NULL)
         exit(2);
     memcpy(x, s->a, s->n * sizeof *x);
-    if (isfinite(snr) && ss_add_noise(x, s->n, ss_noise_rms(x, s->n, snr), seed) != SS_OK)
+    if (isfinite(snr) && ss_noise_add_once(x, s->n, ss_noise_rms(x, s->n, snr), seed) != SS_OK)
         exit(2);
-    if (ss_find_spikes(&found, x, s->n, s->scene.rate, &ss_spike_defaults, NULL) != SS_OK)
+    if (ss_spikes_find(&found, x, s->n, s->scene.rate, &ss_spike_defaults, NULL) != SS_OK)
         exit(2);
     free(x);
     return found;
@@ -103,7 +103,7 @@ score_find(const score_scene *s, double snr, unsigned long seed)
 
 /* What was found is added to the score; seen is of this record alone. */
 static inline void
-score_add(score *sc, const score_scene *s, const ss_spikes_found *found)
+score_add(score *sc, const score_scene *s, const ss_spikes *found)
 {
     double onset = NAN;
     memset(sc->seen, 0, sizeof sc->seen);

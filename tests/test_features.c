@@ -24,7 +24,7 @@ map_of(height *h, double step)
     opts.dense = step == 0, opts.force = 1;
     ss_header_add_column(head, "a", "");
     assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
-    assert_int_equal(ss_transform(&coef, signal, 0, &opts, NULL), SS_OK);
+    assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
     for (size_t i = 0; i < coef->n_scales; i++) {
         const ss_scale *sc = &coef->scale[i];
         for (size_t k = 0; k < sc->n; k++) {
@@ -66,7 +66,7 @@ prominence_is_the_fall_to_the_highest_saddle(void **state)
         size_t n = 0;
         double grid = step[i] == 0 ? 0.001 : step[i] * 0x1p-4;      /* in time, at m = -4 */
         double blur = 80 * 2 * grid;        /* a slope of 80 dB/s, a peak or saddle off the grid */
-        assert_int_equal(ss_maxima(&peak, &n, coef, 20), SS_OK);
+        assert_int_equal(ss_maxima_find(&peak, &n, coef, 20), SS_OK);
         assert_int_equal(n, 3);
         assert_true(fabs(peak[0].t - 1) <= grid && fabs(peak[1].t - 2) <= grid
                     && fabs(peak[2].t - 3.2) <= grid);
@@ -77,7 +77,7 @@ prominence_is_the_fall_to_the_highest_saddle(void **state)
         assert_true(fabs(peak[1].prominence - 35) <= 2 * blur);
         assert_true(fabs(peak[2].prominence - 51.5) <= 2 * blur);
         free(peak);
-        assert_int_equal(ss_maxima(&peak, &n, coef, 45), SS_OK);
+        assert_int_equal(ss_maxima_find(&peak, &n, coef, 45), SS_OK);
         assert_int_equal(n, 2);
         free(peak);
         ss_coefficients_free(coef);
@@ -112,7 +112,7 @@ slopes_plateaus_and_borders_are_no_maxima(void **state)
         ss_coefficients *coef = map_of(h[i], 0.25);
         ss_maximum *peak = NULL;
         size_t n = 9;
-        assert_int_equal(ss_maxima(&peak, &n, coef, 0), SS_OK);
+        assert_int_equal(ss_maxima_find(&peak, &n, coef, 0), SS_OK);
         assert_int_equal(n, 0);
         free(peak);
         ss_coefficients_free(coef);
@@ -127,7 +127,7 @@ the_border_is_higher_ground(void **state)
     ss_maximum *peak = NULL;
     size_t n = 0;
     (void)state;
-    assert_int_equal(ss_maxima(&peak, &n, coef, 3), SS_OK);
+    assert_int_equal(ss_maxima_find(&peak, &n, coef, 3), SS_OK);
     assert_int_equal(n, 1);
     assert_true(fabs(peak[0].t - 3) < 0.01 && isfinite(peak[0].prominence));
     free(peak);
@@ -142,10 +142,10 @@ silence_has_no_maxima(void **state)
     size_t n = 9, last = coef->n_scales - 1;
     (void)state;
     memset(coef->w, 0, 2 * (coef->scale[last].offset + coef->scale[last].n) * sizeof *coef->w);
-    assert_int_equal(ss_maxima(&peak, &n, coef, 0), SS_OK);
+    assert_int_equal(ss_maxima_find(&peak, &n, coef, 0), SS_OK);
     assert_int_equal(n, 0);
     free(peak);
-    assert_int_equal(ss_spikes(&peak, &n, coef, last, 40, 0), SS_OK);
+    assert_int_equal(ss_maxima_along(&peak, &n, coef, last, 40, 0), SS_OK);
     assert_int_equal(n, 0);
     free(peak);
     ss_coefficients_free(coef);
@@ -161,14 +161,14 @@ spikes_are_the_maxima_of_one_scale(void **state)
     (void)state;
     while (coef->scale[row].m > -4)
         row++;
-    assert_int_equal(ss_spikes(&peak, &n, coef, row, 40, 5), SS_OK);
+    assert_int_equal(ss_maxima_along(&peak, &n, coef, row, 40, 5), SS_OK);
     assert_int_equal(n, 3);
     assert_true(fabs(peak[1].prominence - 35) < 0.4 && fabs(peak[2].prominence - 51.5) < 0.4);
     free(peak);
-    assert_int_equal(ss_spikes(&peak, &n, coef, row, 5, 5), SS_OK);
+    assert_int_equal(ss_maxima_along(&peak, &n, coef, row, 5, 5), SS_OK);
     assert_int_equal(n, 2);
     free(peak);
-    assert_int_equal(ss_spikes(&peak, &n, coef, coef->n_scales, 5, 5), SS_EINVAL);
+    assert_int_equal(ss_maxima_along(&peak, &n, coef, coef->n_scales, 5, 5), SS_EINVAL);
     ss_coefficients_free(coef);
 }
 
@@ -191,8 +191,8 @@ finds_two_tone_bursts(void **state)
         signal->values[i] = exp(-u * u / 2) * cos(2 * M_PI * 45 * t)
             + 0.2 * exp(-v * v / 2) * cos(2 * M_PI * 100 * t);
     }
-    assert_int_equal(ss_transform(&coef, signal, 0, &ss_morlet_defaults, NULL), SS_OK);
-    assert_int_equal(ss_maxima(&peak, &all, coef, 80. / 18), SS_OK);
+    assert_int_equal(ss_morlet_transform(&coef, signal, 0, &ss_morlet_defaults, NULL), SS_OK);
+    assert_int_equal(ss_maxima_find(&peak, &all, coef, 80. / 18), SS_OK);
     for (size_t i = 0; i < all; i++)
         if (peak[i].level > -80)        /* below is what accuracy leaves of silence */
             peak[n++] = peak[i];

@@ -34,7 +34,7 @@ coefficients_of(const ss_signal *signal, ss_morlet_opts opts)
 {
     ss_coefficients *coef;
     opts.fmin = 10, opts.fmax = 280, opts.accuracy = 1e-12;
-    assert_int_equal(ss_transform(&coef, signal, 0, &opts, NULL), SS_OK);
+    assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
     return coef;
 }
 

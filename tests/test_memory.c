@@ -254,7 +254,7 @@ static ss_status
 simulations(int variant)
 {
     ss_signal *made = NULL;
-    ss_status st = ss_simulate(&made, &scene[variant], &err);
+    ss_status st = ss_sim_signal(&made, &scene[variant], &err);
     ss_signal_free(made);
     return st;
 }
@@ -294,7 +294,7 @@ transforms(int variant)
     opts.dense = variant >= 4;
     opts.detrend = variant == 5 ? SS_DETREND_LINEAR : SS_DETREND_NONE;
     opts.force = 1;
-    ss_status st = ss_transform(&made, signal, 2, &opts, &err);
+    ss_status st = ss_morlet_transform(&made, signal, 2, &opts, &err);
     ss_coefficients_free(made);
     return st;
 }
@@ -407,8 +407,8 @@ features(int variant)
 {
     ss_maximum *maxima = NULL;
     size_t n;
-    ss_status st = variant == 0 ? ss_maxima(&maxima, &n, coefficients, 1)
-                   : ss_spikes(&maxima, &n, coefficients, 1, 60, 1);
+    ss_status st = variant == 0 ? ss_maxima_find(&maxima, &n, coefficients, 1)
+                   : ss_maxima_along(&maxima, &n, coefficients, 1, 60, 1);
     free(maxima);
     return st;
 }
@@ -416,16 +416,16 @@ features(int variant)
 static ss_status
 searches(int variant)
 {
-    ss_spikes_found *spikes = NULL;
+    ss_spikes *spikes = NULL;
     ss_bursts *bursts = NULL;
     ss_drop *drops = NULL;
     size_t n;
     const double *a = cycles->values + 2 * cycles->n, *f = cycles->values + 3 * cycles->n;
     double rate = cycles->head->rate;
-    ss_status st = variant == 0 ? ss_find_spikes(&spikes, a, cycles->n, rate, &ss_spike_defaults,
+    ss_status st = variant == 0 ? ss_spikes_find(&spikes, a, cycles->n, rate, &ss_spike_defaults,
                                                  &err)
-        : variant == 1 ? ss_find_bursts(&bursts, a, cycles->n, rate, 20, NULL, 0, &err)
-        : ss_find_drops(&drops, &n, f, cycles->n, rate, 1, NULL, 0, &err);
+        : variant == 1 ? ss_bursts_find(&bursts, a, cycles->n, rate, 20, NULL, 0, &err)
+        : ss_drops_find(&drops, &n, f, cycles->n, rate, 1, NULL, 0, &err);
     ss_spikes_free(spikes);
     ss_bursts_free(bursts);
     free(drops);
@@ -452,7 +452,7 @@ rankings(int variant)
 {
     ss_ranking *made = NULL;
     (void)variant;
-    ss_status st = ss_rank(&made, cycles, 2, &scene[SS_COULOMB], 1, NULL, &err);
+    ss_status st = ss_ranking_new(&made, cycles, 2, &scene[SS_COULOMB], 1, NULL, &err);
     ss_ranking_free(made);
     return st;
 }
@@ -462,7 +462,7 @@ fits(int variant)
 {
     ss_fit fit;
     (void)variant;
-    return ss_fit_scene(&fit, cycles, 2, &scene[SS_COMPLIANT], NULL, &err);
+    return ss_scene_fit(&fit, cycles, 2, &scene[SS_COMPLIANT], NULL, &err);
 }
 
 static int
@@ -561,8 +561,8 @@ loads(int variant)
     char member[80];
     snprintf(member, sizeof member, "%s:/signal/a", path);
     ss_store_reader *reader = NULL;
-    ss_status st = variant == 0 ? ss_load_signal(&back, path, NULL, &err)
-                   : variant == 1 ? ss_load_signal(&back, member, NULL, &err)
+    ss_status st = variant == 0 ? ss_signal_load(&back, path, NULL, &err)
+                   : variant == 1 ? ss_signal_load(&back, member, NULL, &err)
                    : variant == 2 ? ss_store_read_coefficients(&c, path, &err)
                    : ss_store_reader_new(&reader, path, &err);
     if (st == SS_OK && reader != NULL) {
@@ -620,11 +620,11 @@ set_up(void **state)
     opts.voices = 2;
     opts.force = 1;
     if (fd < 0 || close(fd) != 0 || (scrap = tmpfile()) == NULL
-        || ss_simulate(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
-        || ss_simulate(&cycles, &slips, NULL) != SS_OK
-        || ss_add_noise(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1) != SS_OK
+        || ss_sim_signal(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
+        || ss_sim_signal(&cycles, &slips, NULL) != SS_OK
+        || ss_noise_add_once(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1) != SS_OK
         || ss_header_note(signal->head, "key", "value") != SS_OK
-        || ss_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
+        || ss_morlet_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
         || ss_trade_measure(&trade, &scene[SS_COULOMB], &brief, NULL) != SS_OK)
         return -1;
     for (int i = 0; i < 2; i++) {

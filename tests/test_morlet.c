@@ -968,7 +968,7 @@ some_coefficients(const ss_morlet_opts *opts)
     ss_header_note(head, "scene", "compliant-light");
     assert_int_equal(ss_signal_new(&signal, head, 300), SS_OK);
     make(WEAK_BURST, signal->values + 300, 300);
-    assert_int_equal(ss_transform(&coef, signal, 1, opts, NULL), SS_OK);
+    assert_int_equal(ss_morlet_transform(&coef, signal, 1, opts, NULL), SS_OK);
     ss_header_free(head);
     ss_signal_free(signal);
     return coef;

@@ -27,11 +27,11 @@ record_of(const ss_scene *scene, double snr)
 {
     const size_t a = SS_ACCELERATION;
     ss_signal *all = NULL, *one = NULL;
-    assert_int_equal(ss_simulate(&all, scene, NULL), SS_OK);
+    assert_int_equal(ss_sim_signal(&all, scene, NULL), SS_OK);
     assert_int_equal(ss_signal_select(&one, all, &a, 1, 0, all->n), SS_OK);
     ss_signal_free(all);
     if (snr < 200)
-        ss_add_noise(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5);
+        ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5);
     return one;
 }
 
@@ -43,7 +43,7 @@ rank(const ss_signal *signal)
     ss_error err = { "" };
     for (int i = 0; i < MODELS; i++)
         scene[i] = shipped(i);
-    if (ss_rank(&r, signal, 0, scene, MODELS, NULL, &err) != SS_OK)
+    if (ss_ranking_new(&r, signal, 0, scene, MODELS, NULL, &err) != SS_OK)
         fail_msg("%s", err.text);
     return r;
 }
@@ -100,7 +100,7 @@ folds_at_the_period_that_repeats(void **state)
     (void)state;
     for (size_t i = 0; i < N; i++)
         x[i] = 500 + wave((double)i / 100.37);      /* the mean repeats after any time */
-    ss_add_noise(x, N, 0.1, 3);
+    ss_noise_add_once(x, N, 0.1, 3);
     double period = ss_cycle_period(x, NULL, N, 1000, 0.1, 0.01);
     assert_true(fabs(period / 0.10037 - 1) <= 1. / 64 / (N / 100.37));
     assert_int_equal(ss_cycle_fold(&c, x, NULL, N, 1000, period, NULL), SS_OK);
@@ -202,7 +202,7 @@ what_has_no_transitions_is_not_told(void **state)
         for (size_t i = 0; i < signal->n; i++)
             signal->values[i] = row[k].constant + row[k].ramp * (double)i
                                 + row[k].sine * sin(2 * M_PI * 2.5 * (double)i / 2000);
-        ss_add_noise(signal->values, signal->n, row[k].rms, 11);
+        ss_noise_add_once(signal->values, signal->n, row[k].rms, 11);
         ss_ranking *r = rank(signal);
         if (r->told || r->why[0] == '\0')
             fail_msg("%s: told", row[k].what);
@@ -251,22 +251,22 @@ refuses_what_is_out_of_range(void **state)
     ss_rank_opts opts = ss_rank_defaults;
     (void)state;
     still.base_amplitude = 0;
-    assert_int_equal(ss_rank(&r, signal, 1, &scene, 1, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_rank(&r, signal, 0, &scene, 0, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_rank(&r, signal, 0, &still, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_ranking_new(&r, signal, 1, &scene, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 0, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_ranking_new(&r, signal, 0, &still, 1, NULL, NULL), SS_EINVAL);
     static const double spread[] = { -0.1, 1, INFINITY, NAN };
     for (size_t i = 0; i < 4; i++) {
         opts.spread = spread[i];
-        assert_int_equal(ss_rank(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
+        assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
     }
     opts = ss_rank_defaults;
     opts.forcing_frequency = NAN;
-    assert_int_equal(ss_rank(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
+    assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
     signal->values[17] = NAN;
-    assert_int_equal(ss_rank(&r, signal, 0, &scene, 1, NULL, NULL), SS_EDATA);
-    assert_int_equal(ss_fit_scene(&fit, signal, 0, &scene, NULL, NULL), SS_EDATA);
+    assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 1, NULL, NULL), SS_EDATA);
+    assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, NULL, NULL), SS_EDATA);
     scene = shipped(STATE);
-    assert_int_equal(ss_fit_scene(&fit, signal, 0, &scene, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, NULL, NULL), SS_EINVAL);
     assert_null(r);
     ss_signal_free(signal);
 }
@@ -324,7 +324,7 @@ finds_the_parameters_of_a_compliant_signal(void **state)
         ss_fit fit;
         start.contact_stiffness *= 2, start.contact_damping *= 3, start.friction = 1;
         start.base_amplitude = 0.001;
-        assert_int_equal(ss_fit_scene(&fit, signal, 0, &start, NULL, NULL), SS_OK);
+        assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(fit.told);
         assert_true(fabs(fit.friction.value / truth.friction - 1) <= row[k].force);
         assert_true(fabs(fit.base_amplitude.value / truth.base_amplitude - 1) <= row[k].force);
@@ -358,7 +358,7 @@ gaps_do_not_matter(void **state)
         assert_true(r->told && r->row[0].scene == LIGHT);
         assert_true(r->row[0].value[SS_BY_RESIDUAL] <= -20);
         ss_ranking_free(r);
-        assert_int_equal(ss_fit_scene(&fit, signal, 0, &truth, NULL, NULL), SS_OK);
+        assert_int_equal(ss_scene_fit(&fit, signal, 0, &truth, NULL, NULL), SS_OK);
         assert_true(fit.told && fit.residual_started <= 1e-8);
         assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1) <= 1e-8);
         assert_true(fabs(fit.friction.value / truth.friction - 1) <= 1e-8);
@@ -394,8 +394,8 @@ progress_goes_on_to_the_end_or_stops(void **state)
             ss_fit fit;
             opts.progress = watch;
             opts.user = &w;
-            ss_status st = fits ? ss_fit_scene(&fit, signal, 0, &scene, &opts, NULL)
-                : ss_rank(&r, signal, 0, &scene, 1, &opts, NULL);
+            ss_status st = fits ? ss_scene_fit(&fit, signal, 0, &scene, &opts, NULL)
+                : ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL);
             assert_int_equal(st, stops ? SS_STOP : SS_OK);
             assert_true(w.back == 0 && (stops ? w.last < 0.7 : w.last > 0.7));
             ss_ranking_free(r);
@@ -415,9 +415,9 @@ does_not_fit_what_is_not_compliant(void **state)
         ss_fit fit;
         if (other[k] == LIGHT) {            /* noise and nothing else */
             memset(signal->values, 0, signal->n * sizeof *signal->values);
-            ss_add_noise(signal->values, signal->n, 1, 2);
+            ss_noise_add_once(signal->values, signal->n, 1, 2);
         }
-        assert_int_equal(ss_fit_scene(&fit, signal, 0, &start, NULL, NULL), SS_OK);
+        assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(!fit.told && fit.why[0] != '\0');
         ss_signal_free(signal);
     }

@@ -822,7 +822,7 @@ noise_has_the_ratio_asked_for(void **state)
         clean->values[i] = noisy->values[i] += 1e3;             /* a mean must not count */
     double rms = ss_noise_rms(clean->values, N, 20);
     assert_true(fabs(rms - 0.1 * 3 / sqrt(2)) <= 1e-12);
-    assert_int_equal(ss_add_noise(noisy->values, N, rms, 1), SS_OK);
+    assert_int_equal(ss_noise_add_once(noisy->values, N, rms, 1), SS_OK);
     for (size_t i = 0; i < N; i++)
         noisy->values[i] -= clean->values[i];
     double ratio = variance(noisy->values, N) / (rms * rms);
@@ -848,10 +848,10 @@ noise_is_the_same_in_pieces(void **state)
     ss_noise_free(noise);
     for (size_t i = 0; i < N; i++)
         assert_true(whole[i] == piece[2 * i] && whole[N + i] == piece[2 * i + 1]);
-    assert_int_equal(ss_add_noise(other, N, 2, 4), SS_OK);
+    assert_int_equal(ss_noise_add_once(other, N, 2, 4), SS_OK);
     assert_true(other[0] != whole[0]);
-    assert_int_equal(ss_add_noise(other, N, -1, 4), SS_EINVAL);
-    assert_int_equal(ss_add_noise(other, N, NAN, 4), SS_EINVAL);
+    assert_int_equal(ss_noise_add_once(other, N, -1, 4), SS_EINVAL);
+    assert_int_equal(ss_noise_add_once(other, N, NAN, 4), SS_EINVAL);
 }
 
 /* The power of x at the frequencies of the record in [lo, hi], by the definition: every k-th one. */
@@ -940,7 +940,7 @@ a_converter_rounds_and_clips(void **state)
         size_t inside = 0, clipped = 7, outside = 7;
         for (size_t i = 0; i < N; i++)
             x[i] = 3 * (2. * (double)i / (N - 1) - 1);
-        assert_int_equal(ss_quantise(x, N, bits, range, &clipped), SS_OK);
+        assert_int_equal(ss_samples_quantise(x, N, bits, range, &clipped), SS_OK);
         for (size_t i = 0; i < N; i++) {
             double was = 3 * (2. * (double)i / (N - 1) - 1), off = x[i] - was;
             outside += was < -range - step / 2 || was > range - step / 2;
@@ -961,11 +961,11 @@ a_converter_rounds_and_clips(void **state)
             assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
                         <= (bits > 11 ? 0.05 : 1e-2));
     }
-    assert_int_equal(ss_quantise(x, N, 0, 1, NULL), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 53, 1, NULL), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 8, 0, NULL), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 8, INFINITY, NULL), SS_EINVAL);
-    assert_int_equal(ss_quantise(x, N, 52, 1e-310, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 0, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 53, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 8, 0, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 8, INFINITY, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 52, 1e-310, NULL), SS_EINVAL);
 }
 
 /* --- gaps and other clocks ----------------------------------------------------------------- */
@@ -1057,8 +1057,8 @@ knows_what_is_near_a_gap(void **state)
         { 0, 0.5, 0 }, { 0.6, 0.5, 1 }, { 1, 0, 1 }, { 1.5, 0, 1 }, { 2, 0, 0 }, { 2.4, 0.5, 1 },
         { 3.5, 1, 0 }, { 3.5, 2, 1 }, { 6.2, 0.1, 0 }, { 6.2, 0.25, 1 }, { 100, 10, 0 }, { 100, 1e3, 1 } };
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
-        assert_int_equal(ss_near_gap(gap, 3, row[i].t, row[i].margin), row[i].near_it);
-    assert_int_equal(ss_near_gap(NULL, 0, 1, 1e9), 0);
+        assert_int_equal(ss_gaps_near(gap, 3, row[i].t, row[i].margin), row[i].near_it);
+    assert_int_equal(ss_gaps_near(NULL, 0, 1, 1e9), 0);
 }
 
 static void

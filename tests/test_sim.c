@@ -724,7 +724,7 @@ simulates_into_a_signal(void **state)
     ss_scene s = scene_named("compliant-light", 1, 1000);
     ss_signal *signal = NULL;
     (void)state;
-    assert_int_equal(ss_simulate(&signal, &s, NULL), SS_OK);
+    assert_int_equal(ss_sim_signal(&signal, &s, NULL), SS_OK);
     run r = run_of(&s);
     assert_int_equal(signal->n, 1000);
     assert_int_equal(signal->head->n_columns, 4);
@@ -738,7 +738,7 @@ simulates_into_a_signal(void **state)
     run_free(&r);
     ss_signal_free(signal);
     s.mass = -1;
-    assert_int_equal(ss_simulate(&signal, &s, NULL), SS_EINVAL);
+    assert_int_equal(ss_sim_signal(&signal, &s, NULL), SS_EINVAL);
 }
 
 static void

@@ -13,12 +13,12 @@
 
 #define RATE 2000.
 
-static ss_spikes_found *
+static ss_spikes *
 find(const double *x, size_t n, double rate)
 {
-    ss_spikes_found *found = NULL;
+    ss_spikes *found = NULL;
     ss_error err = { "" };
-    if (ss_find_spikes(&found, x, n, rate, &ss_spike_defaults, &err) != SS_OK)
+    if (ss_spikes_find(&found, x, n, rate, &ss_spike_defaults, &err) != SS_OK)
         fail_msg("%s", err.text);
     return found;
 }
@@ -53,7 +53,7 @@ tells_jumps_from_kinks_bends_and_glitches(void **state)
             double x[N], t0 = (1000 + (which == 0 ? 0 : part / 4.)) / RATE;
             for (size_t i = 0; i < N; i++)
                 x[i] = 7 + shape(which, (double)i / RATE - t0);
-            ss_spikes_found *found = find(x, N, RATE);
+            ss_spikes *found = find(x, N, RATE);
             assert_true(found->n >= 1 && found->conclusive == (which < 3));
             const ss_spike *s = &found->spike[0];
             for (size_t i = 1; i < found->n; i++)       /* a bend has shoulders too */
@@ -77,12 +77,12 @@ units_and_clocks_do_not_matter(void **state)
     (void)state;
     score_scene_make(&s, "compliant-light", RATE, 1, 0);
     double *x = malloc(s.n * sizeof *x);
-    ss_spikes_found *want = score_find(&s, 40, 1), *found;
+    ss_spikes *want = score_find(&s, 40, 1), *found;
     static const struct { double gain, offset, rate; } change[] = {
         { 1e-9, 0, RATE }, { -1e150, 0, RATE }, { 1, 100, RATE }, { 1, 0, 1e-3 }, { 1, 0, 1e9 } };
     for (size_t k = 0; k < sizeof change / sizeof *change; k++) {
         memcpy(x, s.a, s.n * sizeof *x);
-        ss_add_noise(x, s.n, ss_noise_rms(x, s.n, 40), 1);
+        ss_noise_add_once(x, s.n, ss_noise_rms(x, s.n, 40), 1);
         for (size_t i = 0; i < s.n; i++)
             x[i] = change[k].gain * x[i] + change[k].offset;
         found = find(x, s.n, change[k].rate);
@@ -119,7 +119,7 @@ finds_every_event_of_clean_scenes(void **state)
         score sc = { 0 };
         size_t slips = 0, seen = 0;
         score_scene_make(&s, scene[k].name, scene[k].rate, 3.2, 0);
-        ss_spikes_found *found = score_find(&s, INFINITY, 1);
+        ss_spikes *found = score_find(&s, INFINITY, 1);
         score_add(&sc, &s, found);
         assert_true(found->conclusive);
         if (sc.wrong > 0 || sc.near != sc.right)
@@ -149,7 +149,7 @@ coulomb_friction_makes_one_spike_a_transition(void **state)
     size_t strong = 0;
     (void)state;
     score_scene_make(&s, "coulomb", RATE, 3.2, 0);
-    ss_spikes_found *found = score_find(&s, INFINITY, 1);
+    ss_spikes *found = score_find(&s, INFINITY, 1);
     for (size_t i = 0; i < found->n; i++) {
         strong += found->spike[i].level >= -30;
         assert_int_equal(found->spike[i].kind,
@@ -169,7 +169,7 @@ a_smooth_law_bends_and_never_breaks(void **state)
     score sc = { 0 };
     (void)state;
     score_scene_make(&s, "state-variable", RATE, 3.2, 0);
-    ss_spikes_found *found = score_find(&s, INFINITY, 1);
+    ss_spikes *found = score_find(&s, INFINITY, 1);
     score_add(&sc, &s, found);
     assert_true(sc.bends >= 32 && found->conclusive);
     assert_int_equal(sc.jumps + sc.kinks + sc.glitches, 0);
@@ -189,7 +189,7 @@ finds_micro_slips_40_dB_above_the_noise(void **state)
         size_t slips = 0, seen = 0;
         score_scene_make(&s, name[k], RATE, 3.2, 0);
         for (unsigned long seed = 1; seed <= 20; seed++) {
-            ss_spikes_found *found = score_find(&s, 40, seed);
+            ss_spikes *found = score_find(&s, 40, seed);
             score_add(&sc, &s, found);
             score_slips(&s, &sc, 1.3e-3, 1, &slips, &seen);
             assert_true(found->conclusive);
@@ -214,7 +214,7 @@ claims_nothing_20_dB_above_the_noise(void **state)
         score_scene s;
         score_scene_make(&s, name[k], RATE, 3, 0);
         for (unsigned long seed = 1; seed <= 20; seed++) {
-            ss_spikes_found *found = score_find(&s, 20, seed);
+            ss_spikes *found = score_find(&s, 20, seed);
             assert_false(found->conclusive);
             ss_spikes_free(found);
         }
@@ -233,10 +233,10 @@ noise_alone_has_no_spikes(void **state)
     (void)state;
     for (unsigned long seed = 1; seed <= 2 * RECORDS; seed++) {
         memset(x, 0, sizeof x);
-        ss_add_noise(x, N, 1, seed);
+        ss_noise_add_once(x, N, 1, seed);
         for (size_t i = 1; i < N && seed > RECORDS; i++)
             x[i] += 0.9 * x[i - 1];             /* red */
-        ss_spikes_found *found = find(x, N, RATE);
+        ss_spikes *found = find(x, N, RATE);
         wrong += found->n;
         ss_spikes_free(found);
     }
@@ -251,12 +251,12 @@ a_converter_makes_no_spikes(void **state)
 {
     enum { N = 4000 };
     double x[N];
-    ss_spikes_found *found;
+    ss_spikes *found;
     (void)state;
     for (double f = 0.01; f < 10; f *= 27) {
         for (size_t i = 0; i < N; i++)
             x[i] = sin(2 * M_PI * f * (double)i / RATE);
-        assert_int_equal(ss_quantise(x, N, 10, 1, NULL), SS_OK);
+        assert_int_equal(ss_samples_quantise(x, N, 10, 1, NULL), SS_OK);
         found = find(x, N, RATE);
         assert_int_equal(found->n, 0);
         ss_spikes_free(found);
@@ -273,7 +273,7 @@ static void
 short_constant_and_improper_records_are_answered(void **state)
 {
     double x[64] = { 0 };
-    ss_spikes_found *found = NULL;
+    ss_spikes *found = NULL;
     ss_spike_opts bad[] = { ss_spike_defaults, ss_spike_defaults, ss_spike_defaults,
                             ss_spike_defaults };
     ss_bursts *bursts = NULL;
@@ -285,22 +285,22 @@ short_constant_and_improper_records_are_answered(void **state)
             found = find(x, n, RATE);
             assert_true(last == 1 || found->n == 0);
             ss_spikes_free(found);
-            assert_int_equal(ss_find_bursts(&bursts, x, n, RATE, 15, NULL, 0, NULL), SS_OK);
+            assert_int_equal(ss_bursts_find(&bursts, x, n, RATE, 15, NULL, 0, NULL), SS_OK);
             ss_bursts_free(bursts);
         }
         x[n - 1] = 0;
     }
     bad[0].fmax = 700, bad[1].false_alarms = 0, bad[2].precision = NAN, bad[3].fmax = -1;
     for (size_t i = 0; i < 4; i++)
-        assert_int_equal(ss_find_spikes(&found, x, 64, RATE, &bad[i], &err), SS_EINVAL);
-    assert_int_equal(ss_find_spikes(&found, x, 0, RATE, &ss_spike_defaults, &err), SS_EINVAL);
-    assert_int_equal(ss_find_spikes(&found, x, 64, NAN, &ss_spike_defaults, &err), SS_EINVAL);
-    assert_int_equal(ss_find_bursts(&bursts, x, 64, RATE, -1, NULL, 0, &err), SS_EINVAL);
+        assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &bad[i], &err), SS_EINVAL);
+    assert_int_equal(ss_spikes_find(&found, x, 0, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_spikes_find(&found, x, 64, NAN, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_bursts_find(&bursts, x, 64, RATE, -1, NULL, 0, &err), SS_EINVAL);
     x[3] = NAN;
-    assert_int_equal(ss_find_spikes(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
     assert_string_equal(err.text, "sample 4 is not a finite number");
     x[3] = -DBL_MAX, x[4] = DBL_MAX;
-    assert_int_equal(ss_find_spikes(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
     ss_spikes_free(NULL);
     ss_bursts_free(NULL);
 }
@@ -316,18 +316,18 @@ finds_the_one_event(void **state)
     static double x[N];
     ss_bursts *found = NULL;
     (void)state;
-    ss_add_noise(x, N, 0.001, 5);
+    ss_noise_add_once(x, N, 0.001, 5);
     for (size_t i = 1; i < N; i++)
         x[i] += 0.8 * x[i - 1];
     for (size_t i = 0; i < N; i++)
         x[i] += 1e-4 * (double)i + 1 / cosh(((double)i - 3000) / 20)
             + 0.1 / cosh(((double)i - 7000) / 20);
-    assert_int_equal(ss_find_bursts(&found, x, N, 50000, 15, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_bursts_find(&found, x, N, 50000, 15, NULL, 0, NULL), SS_OK);
     assert_int_equal(found->n, 1);
     assert_true(fabs(found->burst[0].t * 50000 - 3000) <= 20 && found->burst[0].level == 0);
     assert_true(fabs(found->next + 20) <= 0.5);
     ss_bursts_free(found);
-    assert_int_equal(ss_find_bursts(&found, x, N, 50000, 25, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_bursts_find(&found, x, N, 50000, 25, NULL, 0, NULL), SS_OK);
     assert_int_equal(found->n, 2);
     assert_true(fabs(found->burst[1].level + 20) <= 0.5 && found->next < -25);
     ss_bursts_free(found);
@@ -343,21 +343,21 @@ a_gap_is_no_event(void **state)
     static double x[N];
     ss_bursts *found = NULL;
     (void)state;
-    ss_add_noise(x, N, 0.001, 5);
+    ss_noise_add_once(x, N, 0.001, 5);
     for (size_t i = 0; i < N; i++) {
         double t = (double)i / 50000;
         x[i] += 5 + 1 / cosh(((double)i - 7000) / 20);
-        x[i] = ss_near_gap(gap, 2, t + 0.5 / 50000, 0) ? 0 : x[i];
+        x[i] = ss_gaps_near(gap, 2, t + 0.5 / 50000, 0) ? 0 : x[i];
     }
-    assert_int_equal(ss_find_bursts(&found, x, N, 50000, 15, gap, 2, NULL), SS_OK);
+    assert_int_equal(ss_bursts_find(&found, x, N, 50000, 15, gap, 2, NULL), SS_OK);
     assert_int_equal(found->n, 1);
     assert_true(fabs(found->burst[0].t * 50000 - 7000) <= 20);
     ss_bursts_free(found);
     ss_spike_opts opts = ss_spike_defaults;
-    ss_spikes_found *spikes = NULL;
+    ss_spikes *spikes = NULL;
     opts.gap = gap, opts.n_gaps = 2;
     x[6000] += 1;
-    assert_int_equal(ss_find_spikes(&spikes, x, N, 50000, &opts, NULL), SS_OK);
+    assert_int_equal(ss_spikes_find(&spikes, x, N, 50000, &opts, NULL), SS_OK);
     assert_true(spikes->n == 1 && spikes->spike[0].kind == SS_SPIKE_GLITCH);
     assert_true(fabs(spikes->spike[0].t * 50000 - 6000) <= 1);
     ss_spikes_free(spikes);
@@ -387,7 +387,7 @@ counts_drops_by_their_height(void **state)
     for (int kind = 0; kind < 5; kind++) {
         memcpy(y, x, sizeof y);
         if (kind > 0)
-            ss_add_noise(y, N, 0.1, 1);
+            ss_noise_add_once(y, N, 0.1, 1);
         for (size_t i = 0; i < N; i++) {
             y[i] += kind == 2 ? -0.3 * (double)i / RATE : 0;            /* drift */
             y[i] += kind == 3 && i % 97 == 0 ? (i % 2 ? 50 : -50) : 0;  /* wrong samples */
@@ -397,7 +397,7 @@ counts_drops_by_their_height(void **state)
             ss_drop *drop = NULL;
             size_t n = 0;
             double unit = kind == 4 ? 1e-6 : 1;
-            assert_int_equal(ss_find_drops(&drop, &n, y, N, RATE, (above + 0.5) * unit, NULL, 0, NULL),
+            assert_int_equal(ss_drops_find(&drop, &n, y, N, RATE, (above + 0.5) * unit, NULL, 0, NULL),
                              SS_OK);
             if (n != 10 - (size_t)above)
                 fail_msg("kind %d: %zu drops above %d.5", kind, n, above);
@@ -432,7 +432,7 @@ falls_over_gaps_are_left_out(void **state)
             for (size_t i = first; i < end; i++)
                 x[i] = line ? left + (right - left) * (double)(i - first) / (double)(end - first) : 0;
         }
-        assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 0.4, gap, 3, NULL), SS_OK);
+        assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 0.4, gap, 3, NULL), SS_OK);
         assert_int_equal(n, 8);
         assert_true(fabs(drop[0].t - 1.9) < 0.05 && fabs(drop[1].t - 3.9) < 0.05);
         free(drop);
@@ -451,13 +451,13 @@ a_slow_drift_is_no_drop(void **state)
     saw(x, N, height, 1);
     for (size_t i = 0; i < N; i++)
         x[i] -= 0.5 * (double)i / RATE;
-    assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 1.5, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 1.5, NULL, 0, NULL), SS_OK);
     assert_int_equal(n, 0);
     free(drop);
-    assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 0, NULL, 0, NULL), SS_EINVAL);
+    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 0, NULL, 0, NULL), SS_EINVAL);
     x[7] = NAN;
-    assert_int_equal(ss_find_drops(&drop, &n, x, N, RATE, 1, NULL, 0, NULL), SS_EINVAL);
-    assert_int_equal(ss_find_drops(&drop, &n, x, 1, RATE, 1, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 1, NULL, 0, NULL), SS_EINVAL);
+    assert_int_equal(ss_drops_find(&drop, &n, x, 1, RATE, 1, NULL, 0, NULL), SS_OK);
     assert_int_equal(n, 0);
     free(drop);
 }

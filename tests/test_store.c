@@ -71,7 +71,7 @@ transform(const ss_signal *signal, int dense)
     opts.dense = dense;
     opts.voices = 5;
     opts.engine = SS_ENGINE_QUADRATURE;
-    if (ss_transform(&c, signal, 1, &opts, &err) != SS_OK)
+    if (ss_morlet_transform(&c, signal, 1, &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     return c;
 }
@@ -234,7 +234,7 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
             ss_error err = { "" };
             ss_morlet_opts opts = ss_morlet_defaults;
             opts.voices = 2, opts.dense = row % 2;
-            assert_int_equal(ss_transform(&c, signal, 1, &opts, NULL), SS_OK);
+            assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
             if (write_pieces(signal, c, row / 2, &err) != SS_OK)
                 fail_msg("%s", err.text);
             assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
@@ -296,7 +296,7 @@ edges_and_times_are_those_of_the_whole(void **state)
         ss_morlet_opts opts = ss_morlet_defaults;
         hid_t file, id;
         opts.voices = 2, opts.dense = dense;
-        assert_int_equal(ss_transform(&c, signal, 1, &opts, NULL), SS_OK);
+        assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
         size_t last = c->n_scales - 1;
         char times[40], edges[40];
         snprintf(times, sizeof times, dense ? "/wavelet/time" : "/wavelet/scale%03zu/time", last);
@@ -492,7 +492,7 @@ a_disk_full_at_any_byte_leaves_no_file(void **state)
     struct rlimit old, small;
     struct stat st;
     opts.voices = 1;
-    assert_int_equal(ss_transform(&c, signal, 1, &opts, NULL), SS_OK);
+    assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
     for (int known = 0; known < 2; known++) {
         assert_int_equal(write_pieces(signal, c, known, NULL), SS_OK);
@@ -631,7 +631,7 @@ arrays_of_others_are_read_by_their_path(void **state)
             ss_error err = { "" };
             char where[128];
             snprintf(where, sizeof where, "%s:%s", path, row[i].path);
-            if (ss_load_signal(&signal, where, &opts, &err) != SS_OK)
+            if (ss_signal_load(&signal, where, &opts, &err) != SS_OK)
                 fail_msg("%s", err.text);
             assert_int_equal(signal->n, row[i].rows);
             assert_int_equal(signal->head->n_columns, row[i].columns);

@@ -470,7 +470,7 @@ file_of_stream(size_t n, ss_format format, int dense, ss_coefficients **whole)
     assert_int_equal(ss_coefficient_writer_end(f.writer, n), SS_OK);
     opts.force = 1;
     opts.fmax = highest(2000, &opts);
-    assert_int_equal(ss_transform(whole, signal, 0, &opts, NULL), SS_OK);
+    assert_int_equal(ss_morlet_transform(whole, signal, 0, &opts, NULL), SS_OK);
     ss_coefficient_writer_free(f.writer);
     ss_stream_free(stream);
     ss_signal_free(signal);

@@ -56,11 +56,11 @@ make_own(void *user)
         ss_coefficients *c = NULL;
         opts.voices = 3;
         opts.engine = SS_ENGINE_FFT;    /* FFTW's planner, too */
-        j->status = ss_simulate(&signal, &scene, NULL);
+        j->status = ss_sim_signal(&signal, &scene, NULL);
         if (j->status == SS_OK)
-            j->status = ss_add_noise(signal->values, signal->n, 1e-3, 7);
+            j->status = ss_noise_add_once(signal->values, signal->n, 1e-3, 7);
         if (j->status == SS_OK)
-            j->status = ss_transform(&c, signal, 0, &opts, NULL);
+            j->status = ss_morlet_transform(&c, signal, 0, &opts, NULL);
         free(j->text);
         j->text = NULL;
         if (j->status == SS_OK)

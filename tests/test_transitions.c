@@ -28,11 +28,11 @@ features_in(const ss_scene *scene, double snr, unsigned long seed, double unit, 
     ss_features_opts opts = ss_features_defaults;
     ss_features *f = NULL;
     ss_signal *signal = NULL;
-    assert_int_equal(ss_simulate(&signal, scene, NULL), SS_OK);
+    assert_int_equal(ss_sim_signal(&signal, scene, NULL), SS_OK);
     size_t column = (size_t)ss_header_column(signal->head, "a");
     double *a = signal->values + column * signal->n;
     if (isfinite(snr))
-        ss_add_noise(a, signal->n, ss_noise_rms(a, signal->n, snr), seed);
+        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, snr), seed);
     for (size_t i = 0; i < signal->n; i++)
         a[i] *= unit;
     signal->head->rate /= seconds;
@@ -236,7 +236,7 @@ plain(size_t n, double rms)
     ss_header_add_column(head, "a", "");
     assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
     ss_header_free(head);
-    ss_add_noise(signal->values, n, rms, 1);
+    ss_noise_add_once(signal->values, n, rms, 1);
     return signal;
 }
 
@@ -379,7 +379,7 @@ reads_the_slope_of_force_over_displacement(void **state)
         ss_features_opts opts = ss_features_defaults;
         ss_features *f = NULL;
         ss_signal *signal = NULL;
-        assert_int_equal(ss_simulate(&signal, &scene, NULL), SS_OK);
+        assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
         opts.displacement = ss_header_column(signal->head, "x");
         opts.force = ss_header_column(signal->head, "f");
         assert_int_equal(ss_features_find(&f, signal, (size_t)ss_header_column(signal->head, "a"),
@@ -471,11 +471,11 @@ gaps_leave_out_what_they_reach_and_nothing_else(void **state)
             ss_signal *signal = NULL;
             ss_features *whole = NULL, *f = NULL;
             scene.settle = 20;
-            assert_int_equal(ss_simulate(&signal, &scene, NULL), SS_OK);
+            assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
             size_t column = (size_t)ss_header_column(signal->head, "a");
             double *a = signal->values + column * signal->n;
             if (k > 0)
-                ss_add_noise(a, signal->n, ss_noise_rms(a, signal->n, 40), 3);
+                ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, 40), 3);
             signal->head->start = 7;
             assert_int_equal(ss_features_find(&whole, signal, column, NULL, NULL), SS_OK);
             assert_true(whole->n >= 15);

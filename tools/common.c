@@ -326,7 +326,7 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
     if (strcmp(path, "-") == 0)
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
-        tool_check(ss_load_signal(&signal, path, opts, &err), &err);
+        tool_check(ss_signal_load(&signal, path, opts, &err), &err);
     return signal;
 }
 

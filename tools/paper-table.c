@@ -88,7 +88,7 @@ print_maxima(const ss_coefficients *c)
 {
     ss_maximum *maximum = NULL;
     size_t n = 0;
-    tool_check(ss_maxima(&maximum, &n, c, PROMINENCE), NULL);
+    tool_check(ss_maxima_find(&maximum, &n, c, PROMINENCE), NULL);
     n = keep(maximum, n, LOWEST);
     printf("  local maxima: %zu", n);
     print_ranges(maximum, n);
@@ -118,7 +118,7 @@ print_spikes(const ss_coefficients *c)
     size_t n, shortest = c->n_scales - 1;
     ss_maximum *spike;
     double half = half_cycle(c->head);
-    tool_check(ss_spikes(&spike, &n, c, shortest, RANGE, PROMINENCE), NULL);
+    tool_check(ss_maxima_along(&spike, &n, c, shortest, RANGE, PROMINENCE), NULL);
     printf("  spikes at %.0f Hz: %zu", c->scale[shortest].f, n);
     if (half > 0)
         print_counts(spike, n, half, (double)c->n / c->head->rate);
@@ -174,7 +174,7 @@ print_contact(const char *path, const char *name, const char *column_name)
     ss_error err = { "" };
     ss_features_opts opts = ss_features_defaults;
     int said = strncmp(name, "figure2", 7) != 0 && strncmp(name, "figure3", 7) != 0;
-    tool_check(ss_load_signal(&signal, path, NULL, &err), &err);
+    tool_check(ss_signal_load(&signal, path, NULL, &err), &err);
     const ss_header *head = signal->head;
     int column = ss_header_column(head, column_name);
     double m = note_number(head, "mass"), k = note_number(head, "stiffness");

@@ -130,7 +130,7 @@ put_value(FILE *out, const char *key, ss_value v)
 }
 
 static void
-put_spikes(FILE *out, const ss_spikes_found *found, double start)
+put_spikes(FILE *out, const ss_spikes *found, double start)
 {
     for (size_t i = 0; i < found->n; i++) {
         fputs("# spike: ", out);
@@ -141,7 +141,7 @@ put_spikes(FILE *out, const ss_spikes_found *found, double start)
 }
 
 static int
-is_smooth(const ss_spikes_found *found)
+is_smooth(const ss_spikes *found)
 {
     for (size_t i = 0; i < found->n; i++)
         if (found->spike[i].kind != SS_SPIKE_BEND)
@@ -151,7 +151,7 @@ is_smooth(const ss_spikes_found *found)
 
 /* Where none is sharp, but some are there, it is not for noise. */
 static const char *
-say_spikes(const ss_spikes_found *found)
+say_spikes(const ss_spikes *found)
 {
     if (found->conclusive)
         return "counted";

@@ -54,7 +54,7 @@ static size_t n_converted, n_clipped;
 static void
 convert(double *x, size_t n)
 {
-    tool_check(ss_quantise(x, n, (int)bits, range, &n_clipped), NULL);
+    tool_check(ss_samples_quantise(x, n, (int)bits, range, &n_clipped), NULL);
     n_converted += n;
 }
 

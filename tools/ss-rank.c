@@ -250,7 +250,7 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
             tool_die("%s", ss_strerror(SS_ENOMEM));
         tool_name_scene(name[i], NAME_SIZE, j->scenes[i], j->settings, j->n_settings);
     }
-    tool_check(ss_rank(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
+    tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
     note_work(r, name, opts);
     FILE *out = tool_output(j->output);
     fprintf(out, "# stickslip ranking 1\n# signal_name: %s\n", signal_name(j->signal_path));
@@ -273,7 +273,7 @@ fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *op
     ss_scene start = tool_read_scene(j->scenes[0], j->settings, j->n_settings);
     ss_fit f;
     ss_error err = { "" };
-    tool_check(ss_fit_scene(&f, signal, column, &start, opts, &err), &err);
+    tool_check(ss_scene_fit(&f, signal, column, &start, opts, &err), &err);
     if (!f.told)
         tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);
     const struct { const char *key; ss_value v; } told[] = {

@@ -20,20 +20,20 @@ typedef struct ss_maximum {
 } ss_maximum;
 
 /* Coefficients must have n > 0, n_scales > 0 and translations at every scale, as all have that
- * ss_transform makes or that are read.
+ * ss_morlet_transform makes or that are read.
  *
  * All local maxima outside the cone of influence with at least the given prominence, in time order;
  * *out is to be freed with free().  Translations of neighbouring scales differ: a coefficient's
  * neighbours are those of its row and, in the two rows beside, those nearest to it in time.  What is
  * highest on the border of the map (its first and last scale, or beside the cone) is no maximum, nor
  * is what lies in the reach of a gap (ss_coefficients_edge), though saddles may. */
-ss_status ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
+ss_status ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                     double min_prominence);
 
 /* The maxima over time of |W| along one scale, outside the cone of influence, with at least the
  * given prominence along it and not more than range dB below the highest of them: the spikes that
  * reach this high.  f is the same for all. */
-ss_status ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
+ss_status ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
                     double range, double min_prominence);
 
 /* --- transitions --------------------------------------------------------------------------- */
@@ -60,7 +60,7 @@ typedef struct ss_features {
     ss_transition *transition;  /* in time order */
     size_t n_maxima;
     ss_maximum *maximum;        /* all local maxima above the threshold, in time order */
-    ss_spikes_found *spikes;    /* of the whole record; none of it is claimed unless conclusive */
+    ss_spikes *spikes;    /* of the whole record; none of it is claimed unless conclusive */
     double noise;               /* rms of white noise of the level at the shortest scales */
     size_t recurring;           /* transitions that have a local maximum */
 
@@ -80,7 +80,7 @@ typedef struct ss_features_opts {
     double threshold;           /* [dB] > 0: prominence that makes a local maximum */
     ss_norm norm;               /* in which it is taken */
     double mass, stiffness;     /* m [kg], k [N/m]; 0: not known */
-    double drop;                /* > 0: transitions are the falls by more than this (ss_find_drops) */
+    double drop;                /* > 0: transitions are the falls by more than this (ss_drops_find) */
     double fmin;                /* [Hz] lowest frequency of the map; 0: the lowest usable one */
     int displacement, force;    /* columns for contact_slope; -1: not there */
     int threads;                /* 1 ... SS_THREADS_MAX */
@@ -93,9 +93,9 @@ extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no colu
  * Where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
  * onset of the oscillation to the last spike within a period of its end. Else, if the signal repeats
  * itself, strong spikes begin transitions, and weaker ones end them; else there are the single events
- * of ss_find_bursts, from the first to the last sample off lines through what is quiet beside.  What
+ * of ss_bursts_find, from the first to the last sample off lines through what is quiet beside.  What
  * gaps (ss_header_gaps of the signal) reach is left out: local maxima nearer than sqrt(2) a, spikes
- * and events as ss_find_spikes, ss_find_bursts and ss_find_drops say; what is fitted ends there.  A
+ * and events as ss_spikes_find, ss_bursts_find and ss_drops_find say; what is fitted ends there.  A
  * record too short for any scale, or with nothing in it, has none: SS_OK. opts may be NULL. To be
  * freed with ss_features_free. */
 ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t column,

@@ -182,7 +182,7 @@ typedef struct ss_coefficients {
 } ss_coefficients;
 
 /* The simple case: transform one column of a signal. */
-ss_status ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
+ss_status ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
                        const ss_morlet_opts *opts, ss_error *err);
 ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format);
 /* Text or AU, told apart by its first bytes, of a record or a stream that has come to its end.  Reads

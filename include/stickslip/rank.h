@@ -10,7 +10,7 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* What a signal is of; the order of the columns of ss_simulate. */
+/* What a signal is of; the order of the columns of ss_sim_signal. */
 typedef enum ss_quantity { SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE } ss_quantity;
 
 /* What models are judged by: a number of the signal and of each scene, and their distance. */
@@ -69,7 +69,7 @@ typedef struct ss_ranking {
  * noise of the signal's own level and its gaps, and compared; what lies within the reach of a gap
  * is left out of both, as ss_features_find does.  That nothing can be told is an answer: SS_OK.
  * opts may be NULL. To be freed with ss_ranking_free. */
-ss_status ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
+ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
 /* Score of a row by one criterion with its threshold multiplied by factor. */
@@ -98,7 +98,7 @@ typedef struct ss_fit {
  * Samples in gaps are left out.
  * Errors are those of white noise of the residual's size.  That nothing can be told is an answer:
  * SS_OK. opts may be NULL; its spread is not used.  SS_EINVAL for another model. */
-ss_status ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
+ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS

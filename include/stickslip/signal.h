@@ -83,7 +83,7 @@ typedef struct ss_span {
  * sample missing to the first that is there again.  *out is to be freed with free(). */
 ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
 /* 1 if t lies in one of the n gaps, in time order, or nearer than margin to one, else 0. */
-int ss_near_gap(const ss_span *gap, size_t n, double t, double margin);
+int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
 
 typedef struct ss_reader ss_reader;
 
@@ -171,7 +171,7 @@ ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, s
 
 /* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the
  * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
-ss_status ss_add_noise(double *x, size_t n, double rms, unsigned long seed);
+ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed);
 /* The same piece by piece, for several columns: to n rows, of which value c of row i stands at
  * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (where it is 0 none is drawn). */
 typedef struct ss_noise ss_noise;
@@ -190,7 +190,7 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
  * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
  * below range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
-ss_status ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped);
+ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped);
 
 /* --- numbers ------------------------------------------------------------------------------- */
 

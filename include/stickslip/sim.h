@@ -83,7 +83,7 @@ void ss_sim_row(const ss_sim_columns *columns, const ss_sample *sample, double *
 
 /* The simple case: the whole record as a signal with the columns x, v, a, f, to be freed with
  * ss_signal_free. */
-ss_status ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err);
+ss_status ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err);
 
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */

@@ -42,7 +42,7 @@ typedef struct ss_spike_opts {
 } ss_spike_opts;
 extern const ss_spike_opts ss_spike_defaults;   /* 0, 0.01, 1e-7, no gaps */
 
-typedef struct ss_spikes_found {
+typedef struct ss_spikes {
     size_t n;
     ss_spike *spike;            /* in time order */
     double threshold;           /* |W| over the rms of the noise, from false_alarms */
@@ -52,14 +52,14 @@ typedef struct ss_spikes_found {
                                    not be seen; 0 where there is none */
     int conclusive;             /* 1: floor <= -6, spikes half as strong as the strongest would be
                                    seen; 0: there is too much noise to count or to group them */
-} ss_spikes_found;
+} ss_spikes;
 
 /* All spikes of the n samples of x, which must be finite.  Two that |W| does not show apart, nearer
  * to each other than some two of the scale at which they are seen, are one.  n = 0 where nothing
  * stands out of the noise. */
-ss_status ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
+ss_status ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
                          const ss_spike_opts *opts, ss_error *err);
-void ss_spikes_free(ss_spikes_found *found);    /* NULL is allowed */
+void ss_spikes_free(ss_spikes *found);    /* NULL is allowed */
 
 /* The spikes of a transition that begins at onset and ends, with its last release, at end, both in
  * seconds from the first sample; jumps and kinks not more than range dB below the strongest.  One
@@ -68,7 +68,7 @@ typedef struct ss_spike_group {
     size_t n;                   /* spikes from onset to end, theirs included */
     size_t inside;              /* between them: more than none and the transition is grouped */
 } ss_spike_group;
-ss_spike_group ss_spikes_within(const ss_spikes_found *found, double onset, double end,
+ss_spike_group ss_spikes_within(const ss_spikes *found, double onset, double end,
                                 double range);
 
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
@@ -92,7 +92,7 @@ typedef struct ss_bursts {
 /* The events of a record that is quiet for most of the time, of whatever length and shape: maxima
  * of |W| at the scale where they stand out most, not more than range dB below the strongest.  Gaps
  * reach 6 scales, the support of its wavelet. */
-ss_status ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
+ss_status ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, double range,
                          const ss_span *gap, size_t n_gaps, ss_error *err);
 void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
 
@@ -108,7 +108,7 @@ typedef struct ss_drop {
  * where x has risen again by a quarter of height, so a slow drift is none.  Single wrong samples
  * are left out of account; white noise moves heights by some 3 % of that.  A fall that a gap cuts is
  * left out. */
-ss_status ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
+ss_status ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
                         double height, const ss_span *gap, size_t n_gaps, ss_error *err);
 
 SS_END_DECLARATIONS

@@ -72,7 +72,7 @@ void ss_store_reader_free(ss_store_reader *reader);     /* NULL is allowed */
 
 /* Open path whatever it holds: a stream, delimited text, HDF5, or HDF5 with ":/path/to/dataset"
  * behind it. */
-ss_status ss_load_signal(ss_signal **out, const char *path, const ss_read_opts *opts,
+ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts,
                          ss_error *err);
 
 SS_END_DECLARATIONS

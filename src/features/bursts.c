@@ -69,7 +69,7 @@ take(ss_bursts *found, row *r, double threshold, double range)
 }
 
 ss_status
-ss_find_bursts(ss_bursts **out, const double *x, size_t n, double rate, double range,
+ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, double range,
                const ss_span *gap, size_t n_gaps, ss_error *err)
 {
     if (out == NULL || x == NULL)

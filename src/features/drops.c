@@ -149,14 +149,14 @@ leave_out(drop_list *list, const ss_span *gap, size_t n_gaps)
     size_t kept = 0;
     for (size_t i = 0; i < list->n; i++) {
         ss_drop d = list->drop[i];
-        if (!ss_near_gap(gap, n_gaps, 0.5 * (d.t + d.end), 0.5 * (d.end - d.t)))
+        if (!ss_gaps_near(gap, n_gaps, 0.5 * (d.t + d.end), 0.5 * (d.end - d.t)))
             list->drop[kept++] = d;
     }
     list->n = kept;
 }
 
 ss_status
-ss_find_drops(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
+ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
               double height, const ss_span *gap, size_t n_gaps, ss_error *err)
 {
     if (out == NULL || n_drops == NULL || x == NULL)

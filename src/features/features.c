@@ -33,7 +33,7 @@ find_noise(search *s)
         return SS_ENOMEM;
     for (size_t k = 0; k < last->n; k++) {
         const double *w = s->coef->w + 2 * (last->offset + k);
-        if (!ss_near_gap(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
+        if (!ss_gaps_near(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
             level[n++] = hypot(w[0], w[1]);
     }
     double scale = s->opts->norm == SS_NORM_L1 ? last->a : 1;
@@ -98,7 +98,7 @@ find_slip_rate(search *s)
         duration -= s->gap[i].to - s->gap[i].from;
     for (size_t i = 1; i < n; i++) {
         double from = out->transition[i - 1].onset, interval = out->transition[i].onset - from;
-        if (ss_near_gap(s->gap, s->n_gaps, from + interval / 2, interval / 2))
+        if (ss_gaps_near(s->gap, s->n_gaps, from + interval / 2, interval / 2))
             continue;
         sum += interval;
         squares += interval * interval;
@@ -192,13 +192,13 @@ transform(search *s, size_t column, ss_error *err)
     opts.progress = transformed;
     opts.user = s;
     if (s->n_gaps == 0)
-        return ss_transform(&s->coef, s->signal, column, &opts, err);
+        return ss_morlet_transform(&s->coef, s->signal, column, &opts, err);
     ss_signal *bridged = NULL;          /* zeros in a gap are steep */
     ss_status st = ss_signal_select(&bridged, s->signal, &column, 1, 0, s->n);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     ss_gaps_bridge(bridged->values, s->n, s->rate, s->gap, s->n_gaps);
-    st = ss_transform(&s->coef, bridged, 0, &opts, err);
+    st = ss_morlet_transform(&s->coef, bridged, 0, &opts, err);
     ss_signal_free(bridged);
     return st;
 }
@@ -229,7 +229,7 @@ find_all(search *s)
     ss_spike_opts sharp = ss_spike_defaults;
     sharp.gap = s->gap;
     sharp.n_gaps = s->n_gaps;
-    if ((st = ss_find_spikes(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL)) != SS_OK
+    if ((st = ss_spikes_find(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL)) != SS_OK
         || (st = find_maxima(s)) != SS_OK || (st = come_to(s, FLOODED)) != SS_OK)
         return st;
     if ((st = ss_transitions_find(s)) != SS_OK || (st = come_to(s, FITTED)) != SS_OK)

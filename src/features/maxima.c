@@ -391,7 +391,7 @@ ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *coefficients
 }
 
 ss_status
-ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence)
+ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence)
 {
     if (out == NULL || n == NULL || coefficients == NULL)
         return SS_EINVAL;
@@ -399,7 +399,7 @@ ss_maxima(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, doub
 }
 
 ss_status
-ss_spikes(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
+ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
           double range, double min_prominence)
 {
     if (out == NULL || n == NULL || coefficients == NULL || scale >= coefficients->n_scales)

@@ -29,7 +29,7 @@
 static int
 missing(const row_source *source, size_t i)
 {
-    return ss_near_gap(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
+    return ss_gaps_near(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
 }
 
 /* The step of the converter that the samples came through, 0 if none is seen: the smallest change,
@@ -118,7 +118,7 @@ summit(const double *level, double t, double step)
  * those that are farther than QUIET scales from all spikes found so far and out of the reach of
  * gaps: all that there are, if these are less than LEAST of them. */
 static double
-noise_of(const row_source *source, const ss_spikes_found *loud, double *level, size_t n, double t,
+noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t n, double t,
          double step, double a)
 {
     double quiet = QUIET * a;
@@ -128,7 +128,7 @@ noise_of(const row_source *source, const ss_spikes_found *loud, double *level, s
         while (loud != NULL && i < loud->n && loud->spike[i].t + quiet < at)
             i++;
         if ((loud != NULL && i < loud->n && loud->spike[i].t - quiet <= at)
-            || ss_near_gap(source->gap, source->n_gaps, at, ROW_REACH * a))
+            || ss_gaps_near(source->gap, source->n_gaps, at, ROW_REACH * a))
             continue;
         double swap = level[left];
         level[left++] = level[k];
@@ -141,7 +141,7 @@ noise_of(const row_source *source, const ss_spikes_found *loud, double *level, s
 
 /* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
 static ss_status
-fill_row(row *r, const row_source *source, const ss_spikes_found *loud, const ss_scale *scale,
+fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale *scale,
          double *level, double margin)
 {
     double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
@@ -153,7 +153,7 @@ fill_row(row *r, const row_source *source, const ss_spikes_found *loud, const ss
         return SS_ENOMEM;
     for (size_t k = first; k <= last; k++)
         if (level[k] > level[k - 1] && level[k] >= level[k + 1]
-            && !ss_near_gap(source->gap, source->n_gaps, ss_scale_b(scale, k) - margin,
+            && !ss_gaps_near(source->gap, source->n_gaps, ss_scale_b(scale, k) - margin,
                             ROW_REACH * r->a))
             r->peak[r->n++] = summit(level + k - 1, ss_scale_b(scale, k) - margin, step);
     for (size_t i = 0; i < r->n; i++)
@@ -164,7 +164,7 @@ fill_row(row *r, const row_source *source, const ss_spikes_found *loud, const ss
 }
 
 ss_status
-ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *loud, ss_error *err)
+ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_morlet *plan = NULL;

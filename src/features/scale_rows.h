@@ -39,7 +39,7 @@ typedef struct row {
 
 /* The row whose scale is nearest to the label f, of 2^(j / ROW_VOICES); its noise is read where no
  * spike of loud is near, NULL for everywhere.  free(row->peak) when done. */
-ss_status ss_row_new(row *r, const row_source *source, double f, const ss_spikes_found *loud,
+ss_status ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
 
 /* The level, in units of the noise's rms, that Gaussian noise is expected to reach false_alarms

@@ -31,7 +31,7 @@ typedef struct search {
     row *row;
     double threshold;
     size_t room;
-    ss_spikes_found *found;
+    ss_spikes *found;
 } search;
 
 const char *
@@ -102,7 +102,7 @@ kind_of(double slope, size_t i)
 static ss_status
 add_spike(search *s, size_t i, const peak *p)
 {
-    ss_spikes_found *found = s->found;
+    ss_spikes *found = s->found;
     const row *r = &s->row[i];
     ss_spike *spike = ss_list_room(found->spike, &s->room, found->n, sizeof *spike);
     if (spike == NULL)
@@ -121,7 +121,7 @@ earlier_first(const void *a, const void *b)
 }
 
 static void
-sort(ss_spikes_found *found)
+sort(ss_spikes *found)
 {
     if (found->n > 1)
         qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
@@ -129,7 +129,7 @@ sort(ss_spikes_found *found)
 
 /* Is t clear of the n spikes found at shorter scales, which are in time order? */
 static int
-is_clear(const ss_spikes_found *found, size_t n, double t, double distance)
+is_clear(const ss_spikes *found, size_t n, double t, double distance)
 {
     size_t lo = ss_list_from(found->spike, n, sizeof *found->spike, t);
     return !(lo < n && found->spike[lo].t - t < distance)
@@ -141,7 +141,7 @@ static int
 sees_gap(const search *s, const row *r, double t)
 {
     const row_source *source = &s->source;
-    return ss_near_gap(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
+    return ss_gaps_near(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
 }
 
 /* The spikes that row i is the shortest to show. */
@@ -197,7 +197,7 @@ search_rows(search *s, double f, ss_error *err)
 static double
 refined(const search *s, size_t i)
 {
-    const ss_spikes_found *found = s->found;
+    const ss_spikes *found = s->found;
     const ss_spike *spike = &found->spike[i];
     double rate = s->source.rate;
     double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
@@ -227,7 +227,7 @@ classify(search *s, ss_spike *spike)
 static void
 finish(search *s)
 {
-    ss_spikes_found *found = s->found;
+    ss_spikes *found = s->found;
     found->threshold = s->threshold;
     for (size_t i = 0; i < found->n; i++)
         classify(s, &found->spike[i]);
@@ -253,7 +253,7 @@ check(double rate, const ss_spike_opts *opts, ss_error *err)
 }
 
 ss_status
-ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
+ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
                const ss_spike_opts *opts, ss_error *err)
 {
     if (out == NULL || x == NULL || opts == NULL)
@@ -284,7 +284,7 @@ ss_find_spikes(ss_spikes_found **out, const double *x, size_t n, double rate,
 }
 
 ss_spike_group
-ss_spikes_within(const ss_spikes_found *found, double onset, double end, double range)
+ss_spikes_within(const ss_spikes *found, double onset, double end, double range)
 {
     ss_spike_group group = { 0, 0 };
     if (found == NULL || found->n == 0)
@@ -305,7 +305,7 @@ ss_spikes_within(const ss_spikes_found *found, double onset, double end, double 
 }
 
 void
-ss_spikes_free(ss_spikes_found *found)
+ss_spikes_free(ss_spikes *found)
 {
     if (found == NULL)
         return;

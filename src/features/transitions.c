@@ -163,7 +163,7 @@ set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_valu
 static void
 snap_to_spikes(const search *s, ss_transition *tr, double period)
 {
-    const ss_spikes_found *found = s->out->spikes;
+    const ss_spikes *found = s->out->spikes;
     double nearest = 0.5 * period;
     double from = tr->onset;
     size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from - nearest);
@@ -192,7 +192,7 @@ earlier_window(const void *a, const void *b)
 static ss_status
 find_bars(const search *s, int jumps, ss_window **bar, size_t *n)
 {
-    const ss_spikes_found *found = s->out->spikes;
+    const ss_spikes *found = s->out->spikes;
     *bar = malloc((s->n_gaps + found->n + 1) * sizeof **bar);
     if (*bar == NULL)
         return SS_ENOMEM;
@@ -270,7 +270,7 @@ find_ringing(search *s, double label)
     ss_features *out = s->out;
     ss_maximum *swell = NULL;
     size_t n = 0;
-    ss_status st = ss_spikes(&swell, &n, s->coef, row_of(s->coef, label), RANGE,
+    ss_status st = ss_maxima_along(&swell, &n, s->coef, row_of(s->coef, label), RANGE,
                              s->opts->threshold);
     if (st == SS_OK)
         st = new_transitions(out, n);
@@ -291,7 +291,7 @@ find_ringing(search *s, double label)
 }
 
 static int
-has_strong_event(const ss_spikes_found *found)
+has_strong_event(const ss_spikes *found)
 {
     for (size_t i = 0; i < found->n; i++)
         if (is_event(&found->spike[i]) && found->spike[i].level >= -STRONG)
@@ -305,7 +305,7 @@ static ss_status
 find_spiked(search *s)
 {
     ss_features *out = s->out;
-    const ss_spikes_found *found = out->spikes;
+    const ss_spikes *found = out->spikes;
     double apart = isnan(out->forcing_frequency.value) ? 0 : 0.125 / out->forcing_frequency.value;
     ss_status st = new_transitions(out, found->n);
     if (st != SS_OK)
@@ -351,7 +351,7 @@ static ss_status
 find_single(search *s)
 {
     ss_bursts *found = NULL;
-    ss_status st = ss_find_bursts(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
+    ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
     if (st == SS_OK && (st = new_transitions(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];
@@ -375,7 +375,7 @@ find_dropped(search *s)
 {
     ss_drop *drop = NULL;
     size_t n = 0;
-    ss_status st = ss_find_drops(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest,
+    ss_status st = ss_drops_find(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest,
                                  s->gap, s->n_gaps, NULL);
     if (st == SS_OK && (st = new_transitions(s->out, n)) == SS_OK)
         for (size_t i = 0; i < n; i++) {
@@ -388,7 +388,7 @@ find_dropped(search *s)
 
 /* How far gaps reach for spikes as blunt as those found. */
 static double
-spike_reach(const ss_spikes_found *found)
+spike_reach(const ss_spikes *found)
 {
     double f = INFINITY;
     for (size_t i = 0; i < found->n; i++)
@@ -409,7 +409,7 @@ count_spikes(const search *s)
         double next = i + 1 < out->n ? tr[1].onset : (double)s->n / s->rate;
         double from = tr->onset - period / 2, to = s->spiked ? next : tr->end + period;
         tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES).n;
-        tr->gap = ss_near_gap(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach);
+        tr->gap = ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach);
     }
 }
 

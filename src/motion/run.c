@@ -566,7 +566,7 @@ collect(const ss_sample *s, size_t n, void *user)
 }
 
 ss_status
-ss_simulate(ss_signal **out, const ss_scene *scene, ss_error *err)
+ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err)
 {
     if (out == NULL)
         return SS_FAIL_NULL(err);

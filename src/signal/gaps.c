@@ -106,7 +106,7 @@ ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
 }
 
 int
-ss_near_gap(const ss_span *gap, size_t n, double t, double margin)
+ss_gaps_near(const ss_span *gap, size_t n, double t, double margin)
 {
     if (gap == NULL)
         return 0;

@@ -105,7 +105,7 @@ ss_noise_free(ss_noise *noise)
 }
 
 ss_status
-ss_add_noise(double *x, size_t n, double rms, unsigned long seed)
+ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed)
 {
     ss_noise *noise;
     if ((x == NULL && n > 0) || !(rms >= 0 && isfinite(rms)))
@@ -132,7 +132,7 @@ ss_noise_rms(const double *x, size_t n, double snr_db)
 }
 
 ss_status
-ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped)
+ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped)
 {
     if ((x == NULL && n > 0) || bits < 1 || bits > SS_BITS_MAX || !(range > 0 && isfinite(range)))
         return SS_EINVAL;

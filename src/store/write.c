@@ -579,7 +579,7 @@ write_rows(ss_store_writer *w, size_t i, size_t n, const double *x, size_t sampl
         w->value[0][k] = x[2 * k];
         w->value[1][k] = x[2 * k + 1];
         w->edge[k] = (unsigned char)(ss_scale_edge(scale, first + k, samples, w->rate)
-            || ss_near_gap(w->gap, w->n_gaps, w->start + ss_scale_b(scale, first + k),
+            || ss_gaps_near(w->gap, w->n_gaps, w->start + ss_scale_b(scale, first + k),
                            sqrt(2) * scale->a));
     }
     return write_piece(rows->re, rank, at, n, H5T_NATIVE_DOUBLE, w->value[0])

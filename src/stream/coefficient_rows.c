@@ -116,7 +116,7 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
     for (size_t i = 0; i < n; i++, w += 2) {
         double b = ss_scale_b(scale, first + i);
         int edge = ss_scale_edge(scale, first + i, samples, writer->rate)
-            || ss_near_gap(writer->gap, writer->n_gaps, writer->start + b, sqrt(2) * scale->a);
+            || ss_gaps_near(writer->gap, writer->n_gaps, writer->start + b, sqrt(2) * scale->a);
         char *to = writer->out.buffer + writer->out.used;
         if (writer->format == SS_AU) {
             au_row(au, b, w, edge);

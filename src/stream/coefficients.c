@@ -37,7 +37,7 @@ ss_coefficients_free(ss_coefficients *coefficients)
 static int
 near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
 {
-    return ss_near_gap(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
+    return ss_gaps_near(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
 }
 
 int
@@ -138,7 +138,7 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
 }
 
 ss_status
-ss_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
+ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
              const ss_morlet_opts *opts, ss_error *err)
 {
     ss_morlet *plan = NULL;

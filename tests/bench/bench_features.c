@@ -34,7 +34,7 @@ features_of(const ss_signal *clean, double snr, unsigned long seed, const ss_sce
     if (ss_signal_select(&signal, clean, &column, 1, 0, clean->n) != SS_OK)
         exit(1);
     if (isfinite(snr))
-        ss_add_noise(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, snr), seed);
+        ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, snr), seed);
     if (ss_features_find(&out, signal, 0, &opts, NULL) != SS_OK)
         exit(1);
     ss_signal_free(signal);
@@ -101,7 +101,7 @@ probe(const ss_scene *scene)
     int errors = 0;
     opts.events = watch;
     opts.user = &sticks;
-    if (ss_simulate(&signal, scene, NULL) != SS_OK || ss_sim_run(scene, &opts, NULL, NULL) != SS_OK)
+    if (ss_sim_signal(&signal, scene, NULL) != SS_OK || ss_sim_run(scene, &opts, NULL, NULL) != SS_OK)
         exit(1);
     double longest = sticks.longest * sqrt(total / scene->mass) / (2 * M_PI);
     for (int k = 0; k < 2; k++) {
@@ -168,7 +168,7 @@ shipped_scenes(unsigned long seeds)
         char name[64];
         scene.release = (ss_release)(i % 2);
         snprintf(name, sizeof name, "%s\t%s", scenes[i / 2], i % 2 ? "total" : "spring");
-        if (ss_simulate(&signal, &scene, NULL) != SS_OK)
+        if (ss_sim_signal(&signal, &scene, NULL) != SS_OK)
             exit(1);
         for (int k = 0; k < 3; k++) {
             tally t = { 0 };

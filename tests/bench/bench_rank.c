@@ -94,14 +94,14 @@ acceleration(const ss_scene *scene, double snr, unsigned long seed)
     const size_t a = SS_ACCELERATION;
     ss_signal *all = NULL, *one = NULL;
     ss_error err;
-    if (ss_simulate(&all, scene, &err) != SS_OK
+    if (ss_sim_signal(&all, scene, &err) != SS_OK
         || ss_signal_select(&one, all, &a, 1, 0, all->n) != SS_OK) {
         printf("# %s\n", err.text);
         exit(1);
     }
     ss_signal_free(all);
     if (snr < 200)
-        ss_add_noise(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
+        ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
     return one;
 }
 
@@ -113,7 +113,7 @@ one_signal(tally *t, const ss_scene *scene, const ss_scene shipped[MODELS], int 
     ss_ranking *r = NULL;
     ss_error err;
     double began = bench_seconds();
-    if (ss_rank(&r, g, 0, shipped, MODELS, NULL, &err) != SS_OK) {
+    if (ss_ranking_new(&r, g, 0, shipped, MODELS, NULL, &err) != SS_OK) {
         printf("# %s\n", err.text);
         exit(1);
     }
@@ -168,7 +168,7 @@ print(const tally *t, const char *what, double snr, unsigned long seed)
 
 enum { FITTED = 4 };
 
-/* Errors of ss_fit_scene for one scene, its noise drawn anew each time; the start has half its K_y
+/* Errors of ss_scene_fit for one scene, its noise drawn anew each time; the start has half its K_y
  * and twice its c.  1 if an rms is over its bound. */
 static int
 fits(const char *name, const ss_scene *scene, double snr, int each, gsl_rng *rng)
@@ -186,7 +186,7 @@ fits(const char *name, const ss_scene *scene, double snr, int each, gsl_rng *rng
         ss_fit fit;
         start.contact_stiffness /= 2;
         start.contact_damping *= 2;
-        if (ss_fit_scene(&fit, g, 0, &start, NULL, NULL) != SS_OK)
+        if (ss_scene_fit(&fit, g, 0, &start, NULL, NULL) != SS_OK)
             exit(1);
         const ss_value found[FITTED] = { fit.friction, fit.base_amplitude, fit.contact_stiffness,
                                          fit.contact_damping };

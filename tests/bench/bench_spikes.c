@@ -32,7 +32,7 @@ run(const score_scene *s, const char *name, double snr)
     size_t slips = 0, seen = 0, conclusive = 0;
     int seeds = isfinite(snr) ? SEEDS : 1;
     for (int seed = 1; seed <= seeds; seed++) {
-        ss_spikes_found *found = score_find(s, snr, (unsigned long)seed);
+        ss_spikes *found = score_find(s, snr, (unsigned long)seed);
         score_add(&sc, s, found);
         score_slips(s, &sc, 1.3e-3, 1, &slips, &seen);
         conclusive += (size_t)found->conclusive;
@@ -59,7 +59,7 @@ print_slips(void)
             score sc = { 0 };
             score_scene_make(&s, "compliant-light", RATE, DURATION, damping[c]);
             for (unsigned long seed = 1; seed <= SLIP_SEEDS; seed++) {
-                ss_spikes_found *found = score_find(&s, snr[i], seed);
+                ss_spikes *found = score_find(&s, snr[i], seed);
                 score_add(&sc, &s, found);
                 for (int b = 0; b < BINS; b++)
                     score_slips(&s, &sc, b * BIN, (b + 1) * BIN, &all[b], &seen[b]);

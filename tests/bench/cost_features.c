@@ -15,7 +15,7 @@ transform_seconds(const ss_signal *signal)
     double lowest = opts.center * sqrt(2) * signal->head->rate / (M_PI * (double)signal->n);
     double start = bench_seconds();
     opts.fmin = lowest * (1 + 1e-9);
-    if (ss_transform(&coef, signal, 0, &opts, NULL) != SS_OK)
+    if (ss_morlet_transform(&coef, signal, 0, &opts, NULL) != SS_OK)
         exit(1);
     double seconds = bench_seconds() - start;
     ss_coefficients_free(coef);
@@ -40,14 +40,14 @@ acceleration(const char *name, double snr)
     ss_scene scene = read_shipped_named(name);
     ss_signal *all = NULL, *a = NULL;
     scene.duration = 500;
-    if (ss_simulate(&all, &scene, NULL) != SS_OK)
+    if (ss_sim_signal(&all, &scene, NULL) != SS_OK)
         exit(1);
     size_t column = (size_t)ss_header_column(all->head, "a");
     if (ss_signal_select(&a, all, &column, 1, 0, all->n) != SS_OK)
         exit(1);
     ss_signal_free(all);
     if (isfinite(snr))
-        ss_add_noise(a->values, a->n, ss_noise_rms(a->values, a->n, snr), 1);
+        ss_noise_add_once(a->values, a->n, ss_noise_rms(a->values, a->n, snr), 1);
     return a;
 }
 

@@ -208,7 +208,7 @@ cost_of_form(const char *h5)
     ss_scene s = scene_named("compliant-light");
     ss_signal *signal = NULL;
     s.duration = 100;
-    if (ss_simulate(&signal, &s, NULL) != SS_OK)
+    if (ss_sim_signal(&signal, &s, NULL) != SS_OK)
         exit(1);
     double numbers = (double)(signal->n * (signal->head->n_columns + 1));
     printf("\nOutput, 100 s of compliant-light at 2 kHz, t,x,v,a,f: millions of numbers a second\n");

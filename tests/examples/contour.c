@@ -46,10 +46,10 @@ main(int argc, char *argv[])
     const char *path = argc > 1 ? argv[1] : "compliant-light";
     ss_status status = ss_scene_load(&scene, path, NULL, 0, &err);
     if (status == SS_OK)
-        status = ss_simulate(&signal, &scene, &err);
+        status = ss_sim_signal(&signal, &scene, &err);
     if (status == SS_OK) {
         column = (size_t)ss_header_column(signal->head, "a");
-        status = ss_transform(&coefficients, signal, column, &ss_morlet_defaults, &err);
+        status = ss_morlet_transform(&coefficients, signal, column, &ss_morlet_defaults, &err);
     }
     if (status == SS_OK)
         status = ss_store_write("contour.h5", &(ss_record){ .signal = signal,

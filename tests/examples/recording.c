@@ -46,14 +46,14 @@ main(int argc, char *argv[])
     opts.detrend = SS_DETREND_MEAN;
     opts.norm = SS_NORM_L1;             /* a sine then reads at its own frequency */
 
-    ss_status status = ss_load_signal(&signal, argv[1], &read, &err);
+    ss_status status = ss_signal_load(&signal, argv[1], &read, &err);
     int column = status == SS_OK ? ss_header_column(signal->head, argv[2]) : -1;
     if (status == SS_OK && column < 0) {
         snprintf(err.text, sizeof err.text, "%s: no column '%.40s'", argv[1], argv[2]);
         status = SS_EINVAL;
     }
     if (status == SS_OK)
-        status = ss_transform(&coefficients, signal, (size_t)column, &opts, &err);
+        status = ss_morlet_transform(&coefficients, signal, (size_t)column, &opts, &err);
     if (status == SS_OK)
         print_largest(coefficients);
     else

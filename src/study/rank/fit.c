@@ -473,7 +473,7 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_ra
 }
 
 ss_status
-ss_fit_scene(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
+ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
              const ss_rank_opts *opts, ss_error *err)
 {
     if (fit == NULL || signal == NULL || start == NULL)

@@ -106,14 +106,14 @@ look_at_jumps(look *l, double half)
 static ss_status
 look_at_spikes(look *l, const double *x, const ss_header *head, size_t n, double half, ss_error *err)
 {
-    ss_spikes_found *found = NULL;
+    ss_spikes *found = NULL;
     ss_span *gap = NULL;
     ss_spike_opts opts = ss_spike_defaults;
     size_t count = 0;
     ss_status st = ss_gaps_of(&gap, &opts.n_gaps, head, n);
     opts.gap = gap;
     if (st == SS_OK)
-        st = ss_find_spikes(&found, x, n, head->rate, &opts, err);
+        st = ss_spikes_find(&found, x, n, head->rate, &opts, err);
     free(gap);
     if (st != SS_OK)
         return st;
@@ -175,7 +175,7 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
     if (st == SS_OK)
         st = look_at_spikes(l, x, signal->head, signal->n, period / 2, err);
     if (st == SS_OK)
-        st = ss_transform(&l->map, signal, column, &opts, err);
+        st = ss_morlet_transform(&l->map, signal, column, &opts, err);
     if (st == SS_OK)
         st = look_at_jumps(l, period / 2);
     if (st != SS_OK)
@@ -254,14 +254,14 @@ look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long se
 {
     ss_signal *run = NULL;
     const char *gaps = ss_header_find_note(w->signal->head, "gaps");
-    ss_status st = ss_simulate(&run, adjusted, err);
+    ss_status st = ss_sim_signal(&run, adjusted, err);
     if (st != SS_OK)
         return st;
     double *x = run->values + (size_t)w->quantity * run->n;
     run->head->start = w->signal->head->start;
     st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
     if (st == SS_OK)
-        st = ss_add_noise(x, run->n, w->look.noise, seed);
+        st = ss_noise_add_once(x, run->n, w->look.noise, seed);
     for (size_t c = 0; c < run->head->n_columns; c++)
         ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)
@@ -457,7 +457,7 @@ rank_all(ss_ranking *r, const ss_signal *signal, const ss_scene *scene, work *w,
 }
 
 ss_status
-ss_rank(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
+ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
         const ss_rank_opts *opts, ss_error *err)
 {
     if (out == NULL || signal == NULL || scene == NULL)
