@@ -22,6 +22,7 @@
 #include <stickslip/spikes.h>
 #include <stickslip/rank.h>
 #include <stickslip/store.h>
+#include <stickslip/overlay.h>
 #include <stickslip/plot.h>
 
 #endif

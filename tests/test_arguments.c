@@ -383,6 +383,26 @@ sweeps_refuse_null(void **state)
 }
 
 static void
+overlays_refuse_null(void **state)
+{
+    FILE *in = tmpfile();
+    ss_overlay *overlay = NULL;
+    double *time = NULL;
+    size_t n;
+    ss_error e;
+    (void)state;
+    assert_refused(ss_overlay_read(NULL, in, "in", &e), &e);
+    assert_refused(ss_overlay_read(&overlay, NULL, "in", &e), &e);
+    assert_refused(ss_overlay_read(&overlay, in, NULL, &e), &e);
+    assert_refused(ss_event_times_read(NULL, &n, in, "in", &e), &e);
+    assert_refused(ss_event_times_read(&time, NULL, in, "in", &e), &e);
+    assert_refused(ss_event_times_read(&time, &n, NULL, "in", &e), &e);
+    assert_refused(ss_event_times_read(&time, &n, in, NULL, &e), &e);
+    ss_overlay_free(NULL);
+    fclose(in);
+}
+
+static void
 plots_refuse_null(void **state)
 {
     static const ss_signal signal;
@@ -530,6 +550,8 @@ main(void)
         cmocka_unit_test(transforms_refuse_null),
         cmocka_unit_test(conclusions_refuse_null),
         cmocka_unit_test(sweeps_refuse_null),
+        cmocka_unit_test(overlays_refuse_null),
+        cmocka_unit_test(overlays_refuse_null),
         cmocka_unit_test(plots_refuse_null),
         cmocka_unit_test(refuses_what_is_no_known_choice),
         cmocka_unit_test(every_status_has_words_of_its_own),

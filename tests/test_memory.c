@@ -499,6 +499,24 @@ read_sweeps(int variant)
 }
 
 static ss_status
+read_overlays(int variant)
+{
+    static char features[] = "# stickslip features 1\n# spike: 1 jump 0 0\n0\t1\t2\t0.5\t40\n",
+        events[] = "# stickslip events 1\n0.5\tslip\n";
+    ss_overlay *overlay = NULL;
+    double *time = NULL;
+    size_t n;
+    FILE *in = variant == 0 ? fmemopen(features, sizeof features - 1, "r")
+                            : fmemopen(events, sizeof events - 1, "r");
+    ss_status st = variant == 0 ? ss_overlay_read(&overlay, in, "in", &err)
+                                : ss_event_times_read(&time, &n, in, "in", &err);
+    fclose(in);
+    ss_overlay_free(overlay);
+    free(time);
+    return st;
+}
+
+static ss_status
 plots(int variant)
 {
     ss_contour_opts contour = ss_contour_defaults;
@@ -593,7 +611,8 @@ static const struct row {
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
-    { "reading sweeps", read_sweeps, 1, 100 }, { "plots", plots, 5, 30 },
+    { "reading sweeps", read_sweeps, 1, 100 },
+    { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 5, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
     { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },
 };

@@ -1,7 +1,6 @@
 /* ss-contour.c -- contours of wavelet coefficients over time and frequency. */
 #include "common.h"
 
-#include <errno.h>
 #include <float.h>
 #include <getopt.h>
 #include <math.h>
@@ -40,7 +39,7 @@ typedef struct drawing {
     const ss_coefficients *coefficients;
     ss_contour_opts opts;
     double *event;
-    ss_overlay overlay;
+    ss_overlay *overlay;
 } drawing;
 
 static ss_status
@@ -110,128 +109,26 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
 
 /* --- times in files ------------------------------------------------------------------------ */
 
-typedef struct lines {          /* of a file that begins with a line that says what it is */
-    FILE *in;
-    const char *path;
-    char text[4096];
-    size_t number;
-} lines;
-
-static void
-open_lines(lines *l, const char *path, const char *magic, const char *what)
-{
-    *l = (lines){ .in = tool_open(path), .path = path, .number = 1 };
-    if (fgets(l->text, sizeof l->text, l->in) != NULL)
-        l->text[strcspn(l->text, "\r\n")] = '\0';
-    if (strcmp(l->text, magic) != 0 && !ferror(l->in))
-        tool_die("%s:1: not what %s writes, which begins '%s'", tool_input_name(path), what, magic);
-}
-
-/* The next line that is not empty, or 0 at the end, when the file is closed.  Of a long comment its
- * beginning is enough. */
-static int
-next_line(lines *l)
-{
-    while (fgets(l->text, sizeof l->text, l->in) != NULL) {
-        l->number++;
-        int c = strchr(l->text, '\n') != NULL ? '\n' : getc(l->in);
-        if (c != '\n' && c != EOF && l->text[0] != '#')
-            tool_die("%s:%zu: line too long", tool_input_name(l->path), l->number);
-        while (c != '\n' && c != EOF)
-            c = getc(l->in);
-        if (l->text[strspn(l->text, " \t\r\n")] != '\0')
-            return 1;
-    }
-    if (ferror(l->in))
-        tool_die("%s: %s", tool_input_name(l->path), strerror(errno));
-    if (l->in != stdin)
-        fclose(l->in);
-    return 0;
-}
-
-/* The number that *text begins with, which is moved behind the blanks after it; a hyphen is NaN. */
-static double
-take_number(const lines *l, const char **text, const char *what)
-{
-    char *end;
-    double x = NAN;
-    if (**text == '-' && strchr(" \t\r\n", (*text)[1]) != NULL)
-        end = (char *)*text + 1;
-    else
-        x = ss_number_parse(*text, &end);
-    if (end == *text || strchr(" \t\r\n,", *end) == NULL)
-        tool_die("%s:%zu: expected %s", tool_input_name(l->path), l->number, what);
-    *text = end + strspn(end, " \t,");
-    return x;
-}
-
-/* Room for one more after n of that size, by doubling. */
-static void *
-make_room(void *list, size_t n, size_t size)
-{
-    if ((n & (n - 1)) != 0 && n > 0)
-        return list;
-    void *more = realloc(list, (n > 0 ? 2 * n : 1) * size);
-    if (more == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    return more;
-}
-
-/* Times: the first field of every line that is no comment. */
 static void
 read_events(drawing *d, const char *path)
 {
-    lines l;
-    open_lines(&l, path, "# stickslip events 1", "ss-sim --events");
-    while (next_line(&l)) {
-        const char *text = l.text;
-        if (*text == '#')
-            continue;
-        d->event = make_room(d->event, d->opts.n_events, sizeof *d->event);
-        d->event[d->opts.n_events++] = take_number(&l, &text, "a time in seconds");
-    }
+    ss_error err = { "" };
+    FILE *in = tool_open(path);
+    tool_check(ss_event_times_read(&d->event, &d->opts.n_events, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
     d->opts.event = d->event;
 }
 
-/* A transition: onset, end, spikes, and time and frequency of its maximum. */
-static void
-read_transition(ss_overlay *o, const lines *l)
-{
-    const char *text = l->text;
-    double field[5];
-    for (size_t i = 0; i < 5; i++)
-        field[i] = take_number(l, &text, "onset, end, spikes, time and frequency");
-    if (!isnan(field[0]) && !isnan(field[1])) {
-        o->span = make_room(o->span, o->n_spans, sizeof *o->span);
-        memcpy(o->span[o->n_spans++], field, sizeof *o->span);
-    }
-    if (!isnan(field[3]) && !isnan(field[4])) {
-        o->maximum = make_room(o->maximum, o->n_maxima, sizeof *o->maximum);
-        memcpy(o->maximum[o->n_maxima++], field + 3, sizeof *o->maximum);
-    }
-}
-
-/* Rows are transitions; a note "spike" has its time and its kind: jumps and kinks are drawn. */
 static void
 read_features(drawing *d, const char *path)
 {
-    static const char note[] = "# spike: ";
-    ss_overlay *o = &d->overlay;
-    lines l;
-    open_lines(&l, path, "# stickslip features 1", "ss-features");
-    while (next_line(&l)) {
-        const char *text = l.text + sizeof note - 1;
-        if (l.text[0] != '#')
-            read_transition(o, &l);
-        else if (strncmp(l.text, note, sizeof note - 1) == 0) {
-            double t = take_number(&l, &text, "the time of a spike");
-            if (strncmp(text, "jump", 4) != 0 && strncmp(text, "kink", 4) != 0)
-                continue;
-            o->spike = make_room(o->spike, o->n_spikes, sizeof *o->spike);
-            o->spike[o->n_spikes++] = t;
-        }
-    }
-    d->opts.overlay = o;
+    ss_error err = { "" };
+    FILE *in = tool_open(path);
+    tool_check(ss_overlay_read(&d->overlay, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
+    d->opts.overlay = d->overlay;
 }
 
 static int
@@ -292,12 +189,11 @@ main(int argc, char *argv[])
         read_features(&d, features);
     tool_note("%s: %zu scales of %zu samples, %zu events; %zu transitions, %zu maxima, "
               "%zu spikes", tool_input_name(path), d.coefficients->n_scales, d.coefficients->n,
-              d.opts.n_events, d.overlay.n_spans, d.overlay.n_maxima, d.overlay.n_spikes);
+              d.opts.n_events, d.overlay != NULL ? d.overlay->n_spans : 0,
+              d.overlay != NULL ? d.overlay->n_maxima : 0, d.overlay != NULL ? d.overlay->n_spikes : 0);
     tool_draw(output, &opts, write_script, &d);
     free(d.event);
-    free(d.overlay.span);
-    free(d.overlay.maximum);
-    free(d.overlay.spike);
+    ss_overlay_free(d.overlay);
     ss_signal_free(signal);
     ss_coefficients_free(d.own);
     ss_store_reader_free(d.reader);

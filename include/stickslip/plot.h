@@ -8,6 +8,7 @@
 #include <stickslip/status.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
+#include <stickslip/overlay.h>
 #include <stickslip/sweep.h>
 #include <stickslip/trade.h>
 
@@ -34,14 +35,6 @@ ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column
 /* One column over another: a phase plane or a friction loop. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
-
-/* What was read from a signal, to be drawn over its contours; times on the source's clock [s]. */
-typedef struct ss_overlay {
-    size_t n_spans, n_maxima, n_spikes;
-    double (*span)[2];          /* onset and end of a transition: a bar along the bottom */
-    double (*maximum)[2];       /* time and label [Hz] of a local maximum: a ring */
-    double *spike;              /* a mark along the top */
-} ss_overlay;
 
 typedef struct ss_contour_opts {
     int levels;                 /* contour lines  1 ... 100 */

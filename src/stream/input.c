@@ -3,6 +3,7 @@
  * A FILE cannot say whether a line can be had without waiting, so its descriptor is read instead;
  * one without a descriptor (fmemopen) is read as such. */
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,6 +131,43 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
     *end = '\0';
     *length = (size_t)(end - *line);
     in->line++;
+    return SS_OK;
+}
+
+ss_status
+ss_input_begin(struct input *in, const char *magic, const char *what, ss_error *err)
+{
+    char *line;
+    size_t length;
+    ss_status st = ss_input_line(in, &line, &length, err);
+    if (st != SS_OK || (line != NULL && strcmp(line, magic) == 0))
+        return st;
+    return ss_fail(err, SS_EDATA, "%s:1: not %s, which begin '%s'", in->name, what, magic);
+}
+
+ss_status
+ss_input_row(struct input *in, char **line, ss_error *err)
+{
+    size_t length;
+    do {
+        ss_status st = ss_input_line(in, line, &length, err);
+        if (st != SS_OK || *line == NULL)
+            return st;
+        if (strlen(*line) != length)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte", in->name, in->line);
+    } while ((*line)[strspn(*line, " \t\r")] == '\0');
+    return SS_OK;
+}
+
+ss_status
+ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
+                ss_error *err)
+{
+    char *end;
+    *x = ss_number_parse(*text, &end);
+    if (end == *text || !isfinite(*x) || strchr(" \t,", *end) == NULL)  /* or the NUL at its end */
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %s", in->name, in->line, expected);
+    *text = end + strspn(end, " \t,");
     return SS_OK;
 }
 

@@ -3,7 +3,7 @@
 # Seeds are small, so that a fuzzer gets through them fast: few samples, few scales.
 set -eu
 cd "$(dirname "$0")/corpus"
-mkdir -p scene text delimited au coefficients hdf5 sweep wisdom
+mkdir -p scene text delimited au coefficients hdf5 sweep wisdom features events
 short='--set settle=0 --set rate=1000'
 
 for name in coulomb state-variable compliant-light; do
@@ -62,6 +62,16 @@ for shard in 1 2; do
     ss-sweep --shard $shard/2 -m stops,amplitude --vary friction=0.1:1.5:3 --vary contact_stiffness=1e5:1e6:3:log \
         compliant-light
 done > sweep/shards
+
+# Lists that are drawn over contours: as the tools write them, and with less in them.
+ss-sim --events --set settle=0 --set duration=0.4 coulomb > events/simulated
+printf '# stickslip events 1\n0.5\n-1e-3, slip\n\n 7 x\r\n' > events/others
+ss-sim -s duration=1 compliant-light | ss-features -c a | cut -c 1-90 > features/found
+{
+    echo '# stickslip features 1'
+    printf '0.1\t0.2\t3\t0.15\t45.3\n0.3\t0.4\t1\t-\t-\n-\t-\t0\t0.5\t20\n'
+    printf '# spike: %s\n' '0.125 kink -3' '7 jump' '0.2 bend -9 40'
+} > features/others
 
 # Wisdom without its first line, which the harness knows for its machine.
 ss-signal sine --duration 0.02 > run
