@@ -278,8 +278,8 @@ transforms_refuse_null(void **state)
     assert_refused(ss_stream_end(NULL, &e), &e);
     ss_stream_free(stream);
 
-    assert_refused(ss_morlet_inverse(NULL, &none, 1e-6, NULL, NULL, NULL, &e), &e);
-    assert_refused(ss_morlet_inverse(&signal, NULL, 1e-6, NULL, NULL, NULL, &e), &e);
+    assert_refused(ss_morlet_inverse(NULL, &none, 1e-6, NULL, (ss_progress){ NULL, NULL }, &e), &e);
+    assert_refused(ss_morlet_inverse(&signal, NULL, 1e-6, NULL, (ss_progress){ NULL, NULL }, &e), &e);
     assert_refused(ss_coefficients_header(NULL, head, 0, 1, opts), NULL);
     assert_refused(ss_coefficients_header(&made, NULL, 0, 1, opts), NULL);
     assert_refused(ss_coefficients_header(&made, head, 0, 1, NULL), NULL);

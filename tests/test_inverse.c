@@ -76,7 +76,7 @@ transform_is_inverted_as_well_as_is_said(void **state)
             opts.threads = 1;
             ss_signal *signal = some_signal(i == 0 ? size[k] : 1), *back;
             ss_coefficients *coef = coefficients_of(signal, opts);
-            if (ss_morlet_inverse(&back, coef, tol[k], &said, NULL, NULL, &err) != SS_OK)
+            if (ss_morlet_inverse(&back, coef, tol[k], &said, (ss_progress){ NULL, NULL }, &err) != SS_OK)
                 fail_msg("row %zu: %s", i, err.text);
             double error = difference(back, signal);
             /* said is about right; 1e-9 is for what of the tones lies beyond the labels */
@@ -95,7 +95,7 @@ assert_refused(const ss_coefficients *coef, double tol, ss_status status, const 
 {
     ss_signal *back = NULL;
     ss_error err = { "" };
-    ss_status st = ss_morlet_inverse(&back, coef, tol, NULL, NULL, NULL, &err);
+    ss_status st = ss_morlet_inverse(&back, coef, tol, NULL, (ss_progress){ NULL, NULL }, &err);
     if (st != status || back != NULL || strstr(err.text, says) == NULL)
         fail_msg("'%s' expected, not %d, '%s'", says, st, err.text);
 }
@@ -137,7 +137,7 @@ nothing_gives_nothing(void **state)
     double said = NAN;
     (void)state;
     ss_coefficients *coef = coefficients_of(signal, ss_morlet_defaults);
-    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-6, &said, NULL, NULL, NULL), SS_OK);
+    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-6, &said, (ss_progress){ NULL, NULL }, NULL), SS_OK);
     assert_true(said == 0);
     for (size_t i = 0; i < back->n; i++)
         assert_true(back->values[i] == 0);
@@ -169,10 +169,12 @@ progress_rises_and_may_stop(void **state)
     for (size_t i = 0; i < signal->n; i++)
         signal->values[i] = sin(0.3 * (double)i) + sin(1e-4 * (double)i * (double)i);
     ss_coefficients *coef = coefficients_of(signal, ss_morlet_defaults);
-    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-2, NULL, watch, &whole, NULL), SS_OK);
+    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-2, NULL, (ss_progress){ watch, &whole },
+                                       NULL), SS_OK);
     assert_true(whole.last > 0.5 && whole.back == 0);
     ss_signal_free(back);
-    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-2, NULL, watch, &half, NULL), SS_STOP);
+    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-2, NULL, (ss_progress){ watch, &half },
+                                       NULL), SS_STOP);
     assert_true(back == NULL && half.last >= 0.5);
     ss_signal_free(signal);
     ss_coefficients_free(coef);

@@ -372,7 +372,7 @@ inverses(int variant)
 {
     ss_signal *made = NULL;
     (void)variant;
-    ss_status st = ss_morlet_inverse(&made, coefficients, 1e-2, NULL, NULL, NULL, &err);
+    ss_status st = ss_morlet_inverse(&made, coefficients, 1e-2, NULL, (ss_progress){ NULL, NULL }, &err);
     ss_signal_free(made);
     return st;
 }

@@ -273,18 +273,18 @@ scales_come_one_by_one_to_the_last_bit(void **state)
         free(w);
     }
     ss_morlet_opts opts = ss_morlet_defaults;
-    opts.progress = stop_half_way, opts.user = &done;
+    opts.progress = (ss_progress){ stop_half_way, &done };
     ss_morlet *plan = plan_of(N, 2000, &opts);
     sequence s = { .plan = plan, .thread = pthread_self() };
     double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
     s.w = w;
     assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_STOP);
     ss_morlet_free(plan);
-    opts.progress = NULL;
+    opts.progress.function = NULL;
     plan = plan_of(N, 2000, &opts);
     assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_OK);
     ss_morlet_free(plan);
-    opts.progress = stop_half_way;
+    opts.progress.function = stop_half_way;
     s.plan = plan = plan_of(N, 2000, &opts);
     done = 0;
     assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_STOP);

@@ -379,7 +379,7 @@ coefficients_may_come_scale_by_scale(void **state)
         c->w[i] = sin((double)i * (double)i / 4e6) * (double)(i % 2000);
     char *all = contour_script(c, &opts), *pieces;
     opts.source = give_scale, opts.source_user = &o;
-    opts.progress = note_progress, opts.user = &o;
+    opts.progress = (ss_progress){ note_progress, &o };
     grid.w = NULL;
     pieces = contour_script(&grid, &opts);
     assert_string_equal(pieces, all);

@@ -392,8 +392,7 @@ progress_goes_on_to_the_end_or_stops(void **state)
             ss_rank_opts opts = ss_rank_defaults;
             ss_ranking *r = NULL;
             ss_fit fit;
-            opts.progress = watch;
-            opts.user = &w;
+            opts.progress = (ss_progress){ watch, &w };
             ss_status st = fits ? ss_scene_fit(&fit, signal, 0, &scene, &opts, NULL)
                 : ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL);
             assert_int_equal(st, stops ? SS_STOP : SS_OK);

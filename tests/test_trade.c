@@ -380,14 +380,14 @@ static void
 stops_when_asked(void **state)
 {
     ss_scene s = shipped(0, 0, 10, 2000);
-    ss_trade_opts opts = { .budget = 1, .progress = stop };
+    ss_trade_opts opts = { .budget = 1, .progress = { stop, NULL } };
     ss_trade *trade = NULL;
     (void)state;
     assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_STOP);
     assert_null(trade);
     opts.budget = 0;
     assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_EINVAL);
-    const ss_sim_opts run_opts = { .method = "rk8pd", .tol = 1e-9, .progress = stop };
+    const ss_sim_opts run_opts = { .method = "rk8pd", .tol = 1e-9, .progress = { stop, NULL } };
     assert_int_equal(ss_sim_run(&s, &run_opts, NULL, NULL), SS_STOP);
 }
 
@@ -430,7 +430,7 @@ measures_every_engine_on_a_signal(void **state)
     opts.budget = 0;
     assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_EINVAL);
     assert_int_equal(ss_trade_transform(&trade, x, 10, 2000, &grid, NULL, NULL), SS_ESCALE);
-    opts = (ss_trade_opts){ .budget = 1, .progress = stop };
+    opts = (ss_trade_opts){ .budget = 1, .progress = { stop, NULL } };
     assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_STOP);
 }
 

@@ -119,7 +119,7 @@ void tool_end_at_rows(const char *path);
 int tool_stopping(void);
 /* How far the work is, 0 to 1: after a second, on a terminal that the data do not go to, a line on
  * standard error shows it with the time left.  user is not NULL where data only come later.  1 if the
- * user has asked to stop; an ss_progress. */
+ * user has asked to stop; the function of an ss_progress. */
 int tool_progress(double done, void *user);
 
 #endif

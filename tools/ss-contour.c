@@ -60,8 +60,7 @@ static void
 open_coefficients(drawing *d, const char *path)
 {
     ss_error err = { "" };
-    d->opts.progress = tool_progress;
-    d->opts.user = d;
+    d->opts.progress = (ss_progress){ tool_progress, d };
     if (!tool_is_hdf5(path)) {
         d->coefficients = d->own = tool_read_coefficients(path);
         return;

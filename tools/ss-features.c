@@ -246,8 +246,7 @@ main(int argc, char *argv[])
     size_t column = tool_column(signal->head, path, req.column);
     req.opts.displacement = find_column(signal->head, path, req.displacement, "x");
     req.opts.force = find_column(signal->head, path, req.force, "f");
-    req.opts.progress = tool_progress;
-    req.opts.user = &req;
+    req.opts.progress = (ss_progress){ tool_progress, &req };
     ss_status st = ss_features_find(&features, signal, column, &req.opts, &err);
     if (st != SS_OK)
         tool_die("%s: %s", tool_input_name(path), err.text);

@@ -358,7 +358,7 @@ transform_whole(const request *req, const char *path)
     size_t column = tool_column(signal->head, path, req->column);
     const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = req->opts;
-    opts.progress = tool_progress;
+    opts.progress.function = tool_progress;
     double begin = now();
     check(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
     if (req->check && (f.w = malloc(2 * ss_morlet_total(plan) * sizeof *f.w)) == NULL)
@@ -384,8 +384,9 @@ invert(const request *req, const char *path)
     ss_signal *signal;
     ss_error err = { "" };
     double error, accuracy = req->accurate ? req->opts.accuracy : 1e-3;
-    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, tool_progress, NULL, &err),
-          &err, path);
+    const ss_progress progress = { tool_progress, NULL };
+    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
+          path);
     tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
               coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
     tool_write_signal(signal, req->output, req->kind);

@@ -337,8 +337,7 @@ main(int argc, char *argv[])
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
               signal->n, signal->head->column[column].name, quantities[j.opts.quantity],
               j.known_by);
-    j.opts.progress = tool_progress;
-    j.opts.user = &j;
+    j.opts.progress = (ss_progress){ tool_progress, &j };
     (fits ? fit : rank)(&j, signal, column, &j.opts);
     ss_signal_free(signal);
     free(j.settings);

@@ -270,7 +270,7 @@ finish(output *o, int has_events)
 int
 main(int argc, char *argv[])
 {
-    request req = { .kind = TOOL_TSV, .opts.progress = tool_progress };
+    request req = { .kind = TOOL_TSV, .opts.progress.function = tool_progress };
     output o = { .req = &req };
     ss_sim_stats stats = { 0 };
     ss_error err = { "" };
@@ -297,7 +297,7 @@ main(int argc, char *argv[])
     if (req.events && scene.model == SS_STATE_VARIABLE)
         tool_warn("the state-variable model has no events");
 
-    req.opts.user = &o;
+    req.opts.user = req.opts.progress.user = &o;
     if (req.kind == TOOL_H5)
         tool_check(ss_signal_new(&o.signal, o.head, ss_scene_samples(&scene)), NULL);
     if (req.events || req.kind == TOOL_H5)

@@ -150,7 +150,7 @@ parse(request *req, int argc, char *argv[])
         case OPT_SETTLE: steady->settle = count("--settle-cycles", optarg); break;
         case OPT_METHOD: steady->method = tool_method(optarg); break;
         case 'j':
-            req->opts.threads = (int)tool_integer("--threads", optarg, 1, SS_SWEEP_THREADS_MAX);
+            req->opts.threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
             break;
         case OPT_SHARD: parse_shard(&req->opts, optarg); break;
         case 'r': req->resume = optarg; break;
@@ -362,7 +362,7 @@ int
 main(int argc, char *argv[])
 {
     request req = { .opts = { .steady = ss_steady_defaults, .shards = 1, .threads = 1,
-                              .sink = write_row, .progress = report } };
+                              .sink = write_row, .progress.function = report } };
     ss_error err = { "" };
 
     tool_begin(argv, "ss-sweep", usage);
@@ -376,7 +376,7 @@ main(int argc, char *argv[])
     if (req.n_picks == 0)
         pick_usual(&req, scene.model);
     req.opts.axis = req.axis;
-    req.opts.user = &req;
+    req.opts.user = req.opts.progress.user = &req;
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)
         tool_usage("%s", err.text);
 

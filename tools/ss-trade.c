@@ -247,7 +247,7 @@ main(int argc, char *argv[])
         tool_usage("--target writes options, not a picture");
 
     req.path = argv[optind];
-    req.opts.progress = tool_progress;
+    req.opts.progress.function = tool_progress;
     ss_trade *trade = is_scene(req.path) ? measure_scene(&req) : measure_signal(&req);
     plot.title = strcmp(req.name, tool_input_name("-")) == 0 ? NULL : req.name;
     if (kind != TOOL_TSV)

@@ -84,8 +84,7 @@ typedef struct ss_features_opts {
     double fmin;                /* [Hz] lowest frequency of the map; 0: the lowest usable one */
     int displacement, force;    /* columns for contact_slope; -1: not there */
     int threads;                /* 1 ... SS_THREADS_MAX */
-    ss_progress *progress;      /* may be NULL */
-    void *user;                 /* handed to it */
+    ss_progress progress;
 } ss_features_opts;
 extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no columns, one thread */
 

@@ -35,8 +35,6 @@ typedef enum ss_engine {
                                    or longer than some ten records */
 } ss_engine;
 
-enum { SS_THREADS_MAX = 256 };
-
 /* How long FFTW looks for a fast way to do an FFT.  Measured ways are up to twice as fast, but may
  * take seconds to find for each of the lengths that a plan needs, and may differ from run to run, so
  * that results do in their last bits; but see ss_wisdom_read. */
@@ -61,9 +59,7 @@ typedef struct ss_morlet_opts {
     int force;                  /* 1: also scales that sampling or record do not resolve */
     int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
     ss_planner planner;
-    ss_progress *progress;      /* or NULL: called after every scale of a whole record, by one thread
-                                   at a time */
-    void *user;                 /* handed to it */
+    ss_progress progress;       /* called after every scale of a whole record, by one thread at a time */
 } ss_morlet_opts;
 /* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
  * the lowest usable frequency, if that is higher), fmax the highest usable one. */
@@ -201,10 +197,9 @@ int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k
  * frame bounds there.  With steps above 0.5 more than that may be wrong beyond the labels.
  * SS_ESCALE: the ratio exceeds 100, the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ... 0.1, of
  * the coefficients stays unexplained, so that they are those of no signal, or is left after 500 passes.
- * SS_EDATA: notes lack options, or scales are missing.  SS_STOP if progress asks for it, which may be
- * NULL.  Costs three to 500 transforms and as many adjoints by the sum. */
+ * SS_EDATA: notes lack options, or scales are missing.  SS_STOP if progress asks for it.  Costs three to 500 transforms and as many adjoints by the sum. */
 ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
-                            double *error, ss_progress *progress, void *user, ss_error *err);
+                            double *error, ss_progress progress, ss_error *err);
 
 /* Write coefficients as they come.  The header says the column's signal and the options, and with
  * n = 0 that the samples are not counted yet: then end writes their number. */

@@ -46,8 +46,7 @@ typedef struct ss_contour_opts {
     const ss_overlay *overlay;  /* or NULL */
     ss_coefficient_source *source;  /* called once for every scale if the coefficients' w is NULL */
     void *source_user;          /* handed to it */
-    ss_progress *progress;      /* or NULL: called after every scale */
-    void *user;                 /* handed to it */
+    ss_progress progress;       /* called after every scale */
 } ss_contour_opts;
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
 

@@ -42,8 +42,7 @@ typedef struct ss_rank_opts {
     double spread;              /* the parameters of the rig are within a factor 1 -+ spread
                                    of those of the scene  0 <= spread < 1 */
     double forcing_frequency;   /* [Hz]; 0: found from what repeats */
-    ss_progress *progress;      /* may be NULL */
-    void *user;                 /* handed to it */
+    ss_progress progress;
 } ss_rank_opts;
 extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found */
 

@@ -44,8 +44,8 @@ typedef struct ss_sim_opts {
     unsigned long max_steps;    /* 0: as many as it takes */
     ss_sample_sink *samples;
     ss_event_sink *events;
-    ss_progress *progress;      /* called every few hundred steps or samples */
-    void *user;                 /* handed to all three, any of which may be NULL */
+    void *user;                 /* handed to both, either of which may be NULL */
+    ss_progress progress;       /* called every few hundred steps or samples */
 } ss_sim_opts;
 extern const ss_sim_opts ss_sim_defaults;       /* the scene's method at 1e-12, no sinks */
 

@@ -42,8 +42,14 @@ typedef struct ss_error {
     char text[512];
 } ss_error;
 
-/* Receives how far long work has come, from 0 to 1.  A non-zero return ends it with SS_STOP. */
-typedef int ss_progress(double done, void *user);
+enum { SS_THREADS_MAX = 256 };  /* that one call may be given */
+
+/* A function that long work calls with how far it is, from 0 to 1; a non-zero return ends the work
+ * with SS_STOP.  { NULL, NULL }: there is none. */
+typedef struct ss_progress {
+    int (*function)(double done, void *user);
+    void *user;                 /* handed to it */
+} ss_progress;
 
 const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
 const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */

@@ -103,12 +103,11 @@ typedef struct ss_sweep_opts {
     size_t n_axes;
     size_t shard, shards;       /* the points of which the index is shard modulo shards >= 1 */
     size_t first;               /* the first of these that is wanted, counted from 0 */
-    int threads;                /* 1 ... SS_SWEEP_THREADS_MAX */
+    int threads;                /* 1 ... SS_THREADS_MAX */
     ss_sweep_sink *sink;
-    ss_progress *progress;      /* as the sink; may be NULL */
-    void *user;                 /* handed to both */
+    void *user;                 /* handed to the sink */
+    ss_progress progress;       /* called as the sink is */
 } ss_sweep_opts;
-enum { SS_SWEEP_THREADS_MAX = 256 };
 
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);

@@ -39,8 +39,7 @@ typedef struct ss_trade {
 typedef struct ss_trade_opts {
     double budget;              /* [s] > 0 of CPU time a row */
     double target;              /* > 0: give up rows slower than twice the fastest that reaches it */
-    ss_progress *progress;      /* may be NULL */
-    void *user;
+    ss_progress progress;
 } ss_trade_opts;
 extern const ss_trade_opts ss_trade_defaults;       /* 10 s, no target */
 

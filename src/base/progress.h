@@ -5,18 +5,23 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 
+/* SS_STOP if the caller wants no more. */
+static inline ss_status
+ss_progress_at(const ss_progress *p, double done)
+{
+    return p->function != NULL && p->function(done, p->user) != 0 ? SS_STOP : SS_OK;
+}
+
+/* The part of the work from ... to of the whole, 0 ... 1. */
 typedef struct ss_stretch {
-    ss_progress *call;          /* the caller's; may be NULL */
-    void *user;
-    double from, to;            /* of the whole  0 ... 1 */
+    ss_progress progress;
+    double from, to;
 } ss_stretch;
 
-/* SS_STOP if the caller wants no more. */
 static inline ss_status
 ss_stretch_at(const ss_stretch *s, double part)
 {
-    return s->call != NULL && s->call(s->from + (s->to - s->from) * part, s->user) != 0 ? SS_STOP
-        : SS_OK;
+    return ss_progress_at(&s->progress, s->from + (s->to - s->from) * part);
 }
 
 /* The part [from, to] of a stretch. */
@@ -24,7 +29,7 @@ static inline ss_stretch
 ss_stretch_part(const ss_stretch *s, double from, double to)
 {
     double length = s->to - s->from;
-    return (ss_stretch){ s->call, s->user, s->from + length * from, s->from + length * to };
+    return (ss_stretch){ s->progress, s->from + length * from, s->from + length * to };
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/progress.h"
 #include "features/maxima.h"
 #include "features/period.h"
 #include "features/scale_rows.h"
@@ -170,7 +171,7 @@ find_slope(search *s)
 static ss_status
 come_to(const search *s, double part)
 {
-    return s->opts->progress != NULL && s->opts->progress(part, s->opts->user) != 0 ? SS_STOP : SS_OK;
+    return ss_progress_at(&s->opts->progress, part);
 }
 
 static int
@@ -189,8 +190,7 @@ transform(search *s, size_t column, ss_error *err)
     opts.norm = s->opts->norm;
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
-    opts.progress = transformed;
-    opts.user = s;
+    opts.progress = (ss_progress){ transformed, s };
     if (s->n_gaps == 0)
         return ss_morlet_transform(&s->coef, s->signal, column, &opts, err);
     ss_signal *bridged = NULL;          /* zeros in a gap are steep */

@@ -3,10 +3,11 @@
  * As many scales as there are threads are computed together and then handed on, so that memory is
  * that of theirs; each is the same to the last bit as in execute.c. */
 #include <math.h>
-#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "morlet/plan.h"
 
 typedef struct job {
@@ -24,7 +25,7 @@ typedef struct lane {
     ss_error error;
 } lane;
 
-static void *
+static void
 compute(void *user)
 {
     lane *l = user;
@@ -33,30 +34,12 @@ compute(void *user)
     l->error.text[0] = '\0';
     l->status = ss_morlet_part(j->plan, l->scale, &j->rec, &j->spectra, l->scratch, NULL,
                                (span){ 0, j->plan->scale[l->scale].n }, &most, l->w, &l->error);
-    return NULL;
-}
-
-/* n lanes at once, of which one is the caller's. */
-static void
-compute_together(lane *l, size_t n)
-{
-    pthread_t thread[SS_THREADS_MAX];
-    int started[SS_THREADS_MAX] = { 0 };
-    for (size_t t = 1; t < n; t++)
-        started[t] = pthread_create(&thread[t], NULL, compute, &l[t]) == 0;
-    for (size_t t = 0; t < n; t++)
-        if (!started[t])
-            compute(&l[t]);
-    for (size_t t = 1; t < n; t++)
-        if (started[t])
-            pthread_join(thread[t], NULL);
 }
 
 static ss_status
 give(const lane *l, ss_coefficient_sink *sink, void *user, size_t *done, ss_error *err)
 {
     const ss_morlet *plan = l->job->plan;
-    const ss_morlet_opts *opts = &plan->opts;
     const ss_scale *scale = &plan->scale[l->scale];
     if (l->status != SS_OK) {
         if (err != NULL)
@@ -66,8 +49,7 @@ give(const lane *l, ss_coefficient_sink *sink, void *user, size_t *done, ss_erro
     if (sink(scale, 0, scale->n, l->w, plan->n, user) != 0)
         return SS_STOP;
     *done += scale->n;
-    return opts->progress != NULL
-        && opts->progress((double)*done / (double)plan->total, opts->user) != 0 ? SS_STOP : SS_OK;
+    return ss_progress_at(&plan->opts.progress, (double)*done / (double)plan->total);
 }
 
 static ss_status
@@ -80,7 +62,7 @@ all_scales(lane *l, size_t lanes, ss_coefficient_sink *sink, void *user, ss_erro
         size_t left = plan->n_scales - first, n = left < lanes ? left : lanes;
         for (size_t t = 0; t < n; t++)
             l[t].scale = first + t;
-        compute_together(l, n);
+        ss_pool_run(compute, l, sizeof *l, n);
         for (size_t t = 0; st == SS_OK && t < n; t++)
             st = give(&l[t], sink, user, &done, err);
     }

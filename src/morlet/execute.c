@@ -6,6 +6,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "morlet/plan.h"
 
 ss_status
@@ -69,7 +71,7 @@ one_scale(const work *job, size_t i, double *scratch, ss_error *err)
 }
 
 /* A thread: scales until none is left, the expensive short ones first. */
-static void *
+static void
 work_on(void *user)
 {
     work *job = user;
@@ -92,32 +94,15 @@ work_on(void *user)
             job->error = err;
         }
         job->done += job->plan->scale[i].n;
-        if (opts->progress != NULL && job->status == SS_OK
-            && opts->progress((double)job->done / (double)job->plan->total, opts->user) != 0) {
+        if (job->status == SS_OK)
+            job->status = ss_progress_at(&opts->progress,
+                                         (double)job->done / (double)job->plan->total);
+        if (job->status == SS_STOP)
             job->next = 0;
-            job->status = SS_STOP;
-        }
     }
     pthread_mutex_unlock(&job->lock);
     if (scratch != NULL)
         ss_fft_scratch_free(scratch);
-    return NULL;
-}
-
-/* The caller is one of the threads; fewer than asked for will do. */
-static void
-work_together(work *job, size_t threads)
-{
-    pthread_t thread[SS_THREADS_MAX];
-    size_t started = 0;
-    pthread_mutex_init(&job->lock, NULL);
-    while (started + 1 < threads && started + 1 < job->plan->n_scales
-           && pthread_create(&thread[started], NULL, work_on, job) == 0)
-        started++;
-    work_on(job);
-    while (started > 0)
-        pthread_join(thread[--started], NULL);
-    pthread_mutex_destroy(&job->lock);
 }
 
 ss_status
@@ -130,7 +115,10 @@ ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *e
     if (st != SS_OK)
         return st;
     if (plan->fft == NULL || (st = ss_fft_forward(plan->fft, &job.rec, &job.spectra)) == SS_OK) {
-        work_together(&job, (size_t)plan->opts.threads);
+        size_t threads = (size_t)plan->opts.threads;
+        pthread_mutex_init(&job.lock, NULL);
+        ss_pool_run(work_on, &job, 0, threads < plan->n_scales ? threads : plan->n_scales);
+        pthread_mutex_destroy(&job.lock);
         if ((st = job.status) != SS_OK && err != NULL)
             *err = job.error;
     }

@@ -269,12 +269,12 @@ release(solver *s)
 
 ss_status
 ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
-                  double *error, ss_progress *progress, void *user, ss_error *err)
+                  double *error, ss_progress progress, ss_error *err)
 {
     if (out == NULL || coefficients == NULL)
         return SS_FAIL_NULL(err);
     enum { BOUNDS_MAX = 100 };
-    solver s = { .coef = coefficients, .progress = { progress, user, 0, 1 } };
+    solver s = { .coef = coefficients, .progress = { progress, 0, 1 } };
     double residual = 0;
     *out = NULL;
     if (!(tol >= 1e-12 && tol <= 0.1))

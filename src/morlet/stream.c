@@ -14,11 +14,11 @@
  * cheaper for the few coefficients it gives. */
 #include <limits.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/pool.h"
 #include "morlet/plan.h"
 #include "morlet/versions.h"
 
@@ -188,11 +188,11 @@ release(window *win)
     }
 }
 
-/* A thread: one part of one scale. */
-static void *
+/* One part of one scale: user points at the lane. */
+static void
 compute(void *user)
 {
-    lane *l = user;
+    lane *l = *(lane **)user;
     window *win = l->window;
     row *r = &win->stream->row[l->scale];
     int exponent = win->rec.exponent;
@@ -202,7 +202,6 @@ compute(void *user)
                                &most, l->w, &l->error);
     r->most = most;
     r->exponent = exponent;
-    return NULL;
 }
 
 /* What a lane has to compute next of its scale; 0 if there is nothing left. */
@@ -240,8 +239,6 @@ compute_scales(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limi
 {
     ss_status st = SS_OK;
     for (size_t busy = 1; st == SS_OK && busy > 0;) {
-        pthread_t thread[SS_THREADS_MAX];
-        int started[SS_THREADS_MAX] = { 0 };
         lane *work[SS_THREADS_MAX];
         busy = 0;
         for (size_t t = 0; t < n; t++) {
@@ -250,14 +247,7 @@ compute_scales(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limi
             if (next_part(&s->lane[t], limit))
                 work[busy++] = &s->lane[t];
         }
-        for (size_t t = 1; t < busy; t++)
-            started[t] = pthread_create(&thread[t], NULL, compute, work[t]) == 0;
-        for (size_t t = 0; t < busy; t++)
-            if (!started[t])
-                compute(work[t]);
-        for (size_t t = 1; t < busy; t++)
-            if (started[t])
-                pthread_join(thread[t], NULL);
+        ss_pool_run(compute, work, sizeof *work, busy);
         for (size_t t = 0; st == SS_OK && t < busy; t++)
             st = give(s, work[t], err);
     }

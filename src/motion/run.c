@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/progress.h"
 #include "motion/engine.h"
 #include "motion/event.h"
 
@@ -161,7 +162,7 @@ report(const record *r, double t)
 {
     const ss_sim_opts *o = r->opts;
     double all = r->scene->settle + r->scene->duration;
-    return o->progress != NULL && o->progress(fmin(t / all, 1), o->user) != 0 ? SS_STOP : SS_OK;
+    return ss_progress_at(&o->progress, fmin(t / all, 1));
 }
 
 static instant

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/progress.h"
 
 #define COLUMNS 700             /* pixels that panel (b) is wide, about */
 #define ROWS 580                /* and high */
@@ -72,8 +73,7 @@ fill_map(double *map, const ss_coefficients *c, const ss_contour_opts *contour,
             double t = span->from - c->head->start + (double)i * width;
             map[s * (COLUMNS + 1) + i] = in_column(&c->scale[s], w, t - width / 2, t + width / 2);
         }
-        if (contour->progress != NULL
-            && contour->progress((double)(s + 1) / (double)c->n_scales, contour->user) != 0)
+        if (ss_progress_at(&contour->progress, (double)(s + 1) / (double)c->n_scales) != SS_OK)
             return SS_STOP;
     }
     return SS_OK;

@@ -433,7 +433,7 @@ static ss_status
 fit_signal(ss_fit *fit, const ss_signal *signal, size_t column, const cycle *goal,
            const char *missing, const ss_rank_opts *opts, ss_error *err)
 {
-    const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    const ss_stretch whole = { opts->progress, 0, 1 };
     const ss_stretch search = ss_stretch_part(&whole, READ, SEARCHED);
     const double *x = signal->values + column * signal->n;
     double noise;
@@ -483,7 +483,7 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     ss_status st = check(signal, column, start, opts, err);
     const double *x = signal->values + column * signal->n;
     double rate = signal->head->rate;
-    const ss_stretch at_once = { opts->progress, opts->user, 0, 0 };    /* the fit takes longer */
+    const ss_stretch at_once = { opts->progress, 0, 0 };    /* the fit takes longer */
     char *missing = NULL;
     cycle goal;
     if (st != SS_OK)

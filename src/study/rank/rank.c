@@ -482,7 +482,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     for (size_t i = 0; i < n; i++)
         r->row[i].scene = i;
     *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
-    const ss_stretch whole = { opts->progress, opts->user, 0, 1 };
+    const ss_stretch whole = { opts->progress, 0, 1 };
     const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(n + 1));
     char *missing = NULL;
     st = ss_gaps_missing(&missing, signal);

@@ -12,6 +12,8 @@
 #include <string.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
 
 /* --- the grid ------------------------------------------------------------------------------ */
 
@@ -107,8 +109,8 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
             if (strcmp(key, opts->axis[k].key) == 0)
                 return ss_fail(err, SS_EINVAL, "%s is varied twice", key);
     }
-    if (st == SS_OK && (opts->threads < 1 || opts->threads > SS_SWEEP_THREADS_MAX))
-        return ss_fail(err, SS_EINVAL, "threads: 1 ... %d", SS_SWEEP_THREADS_MAX);
+    if (st == SS_OK && (opts->threads < 1 || opts->threads > SS_THREADS_MAX))
+        return ss_fail(err, SS_EINVAL, "threads: 1 ... %d", SS_THREADS_MAX);
     if (st == SS_OK && (opts->shards < 1 || opts->shard >= opts->shards))
         return ss_fail(err, SS_EINVAL, "no shard %zu of %zu", opts->shard, opts->shards);
     return st;
@@ -190,12 +192,11 @@ give(sweep *w, batch *b)
     }
     w->given += b->n;
     b->done = 0;
-    if (w->opts->progress != NULL && w->status == SS_OK
-        && w->opts->progress((double)w->given / (double)w->n, w->opts->user) != 0)
-        w->status = SS_STOP;
+    if (w->status == SS_OK)
+        w->status = ss_progress_at(&w->opts->progress, (double)w->given / (double)w->n);
 }
 
-static void *
+static void
 work_on(void *user)
 {
     sweep *w = user;
@@ -226,23 +227,14 @@ work_on(void *user)
     pthread_cond_broadcast(&w->moved);
     pthread_mutex_unlock(&w->lock);
     free(vary);
-    return NULL;
 }
 
-/* The caller is one of the threads; fewer than asked for will do. */
 static void
 work_together(sweep *w)
 {
-    pthread_t thread[SS_SWEEP_THREADS_MAX];
-    int started = 0;
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->moved, NULL);
-    while (started + 1 < w->opts->threads
-           && pthread_create(&thread[started], NULL, work_on, w) == 0)
-        started++;
-    work_on(w);
-    while (started > 0)
-        pthread_join(thread[--started], NULL);
+    ss_pool_run(work_on, w, 0, (size_t)w->opts->threads);
     pthread_cond_destroy(&w->moved);
     pthread_mutex_destroy(&w->lock);
 }

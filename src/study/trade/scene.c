@@ -17,6 +17,7 @@
 #include <string.h>
 #include <time.h>
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/list.h"
 #include "motion/engine.h"
 #include "study/trade/common.h"
@@ -75,8 +76,7 @@ typedef struct taken {              /* what a run gave */
 
     double began, budget;           /* [s] of CPU time; budget <= 0: none */
     int over;
-    ss_progress *progress;          /* the caller's, told how far the whole is */
-    void *user;
+    ss_progress progress;           /* the caller's, of the whole */
     double done, share;
 } taken;
 
@@ -130,7 +130,7 @@ watch(double done, void *user)
         k->over = 1;
         return 1;
     }
-    return k->progress != NULL && k->progress(k->done + k->share * done, k->user) != 0;
+    return ss_progress_at(&k->progress, k->done + k->share * done) != SS_OK;
 }
 
 static ss_status
@@ -138,7 +138,7 @@ take(taken *k, const probe *p, const char *method, double tol, unsigned long max
      ss_error *err)
 {
     const ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
-                               .samples = keep_samples, .progress = watch, .user = k,
+                               .samples = keep_samples, .progress = { watch, k }, .user = k,
                                .events = k->wants_events ? keep_event : NULL };
     k->p = p;
     k->seen = k->n_events = 0;
@@ -500,7 +500,7 @@ ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opt
         opts = &ss_trade_defaults;
     if (!(opts->budget > 0))
         return ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
-    taken empty = { .wants_events = 1, .progress = opts->progress, .user = opts->user };
+    taken empty = { .wants_events = 1, .progress = opts->progress };
     table t = { calloc(1, sizeof *t.trade), opts, probe_of(scene), empty, empty };
     st = t.trade != NULL ? fill_table(&t, err) : SS_ENOMEM;
     taken_free(&t.ref);
@@ -657,7 +657,7 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     if (opts->method != NULL && strcmp(opts->method, EXACT) == 0
         && scene->model == SS_STATE_VARIABLE)
         return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");
-    const taken empty = { .progress = opts->progress, .user = opts->user };
+    const taken empty = { .progress = opts->progress };
     search s = { .p = probe_of(scene), .ref = empty, .run = empty, .accuracy = accuracy,
                  .user_steps = opts->max_steps };
     st = choose(&s, opts, err);

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/progress.h"
 #include "morlet/plan.h"
 
 enum { EACH = 40, ENGINES = 3, LOOSEST = 2, TIGHTEST = 13 };
@@ -48,7 +49,7 @@ accuracy_of(int p)
 static ss_status
 stopped(const trial *t, double done)
 {
-    return t->how->progress != NULL && t->how->progress(done, t->how->user) ? SS_STOP : SS_OK;
+    return ss_progress_at(&t->how->progress, done);
 }
 
 /* --- the reference ---------------------------------------------------------------------------- */
