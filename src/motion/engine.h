@@ -2,7 +2,17 @@
 #ifndef ENGINE_H
 #define ENGINE_H
 
+#include "motion/instant.h"
 #include "scene/model.h"
+
+typedef struct motion {
+    state now;                      /* at the start of the present step */
+    instant origin;                 /* now.u, the time within a mode, counts from here */
+    double phase;                   /* of the base at t = 0, in [-pi, pi] */
+    double doubt;                   /* what tolerance or rounding leaves of x in a step [m] */
+    double x_begin;                 /* where the mode began */
+    unsigned long unresolved;       /* slips over no more than the doubt */
+} motion;
 
 typedef struct engine engine;
 
@@ -15,13 +25,13 @@ typedef enum place {
 struct engine_type {
     /* The motion has entered a mode: forget what belonged to the last one. */
     ss_status (*begin)(engine *e);
-    /* Take one step from m->u: fills h, q1, dq1.  It is at most h_max long, or longer where the guard
+    /* Take one step from now: fills h, q1, dq1.  It is at most h_max long, or longer where the guard
      * cannot reach 0 within it. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
-    /* Look for the end of the mode without steps, up to s_max after m->u: 1 and *s_event, or 0 if it
+    /* Look for the end of the mode without steps, up to s_max from now: 1 and *s_event, or 0 if it
      * is later; then h, q1 and dq1 are those of s_max.  -1: only steps can tell.  May be NULL. */
     int (*ahead)(engine *e, double s_max, double *s_event);
-    /* The state at m->u + s, 0 <= s <= h, within the step just taken, and its rate of change; base
+    /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change; base
      * is the phase there. */
     void (*at)(engine *e, place where, double s, turn base, double q[], double dqdt[]);
     /* The motion has come to the end of the step: count u from a new origin if it is time to. */
@@ -51,9 +61,13 @@ void ss_exact_response(const engine *e, double s, double *C, double *S, double *
 /* run.c: SS_OK if the scene is one and its record can be counted. */
 ss_status ss_record_check(const ss_scene *scene, ss_error *err);
 /* run.c: what a walk shares with a record. */
+double ss_step_cap(const state *m);                 /* the longest step in the mode */
+void ss_motion_rebase(motion *m);                   /* let u count from the present step */
+int ss_motion_start(motion *m);                     /* 1 if it starts in slip */
+unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
 motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 int ss_engine_ends_within(engine *e, double *s_event);     /* the mode ends in the step just taken */
-int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s after m->u */
+int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s from now */
 void ss_engine_accept(engine *e);                           /* it does not */
 ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
 

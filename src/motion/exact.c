@@ -89,7 +89,7 @@ expm1_over(double complex z)
 static void
 driven_from_rest(const exact *x, double u, double *q, double *v)
 {
-    const motion *m = x->base.m;
+    const state *m = &x->base.m->now;
     double complex io = I * m->omega, r[2] = { -x->s + I * x->w, -x->s - I * x->w }, part[2];
     double complex D = m->drive / m->scene->mass * cexp(I * m->theta);
     for (int i = 0; i < 2; i++)             /* integral of exp(r (u - t)) exp(i Omega t) */
@@ -101,7 +101,7 @@ driven_from_rest(const exact *x, double u, double *q, double *v)
 static void
 evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqdt[])
 {
-    const motion *m = x->base.m;
+    const state *m = &x->base.m->now;
     double C, S, G, p, dp;
     free_motion(x, u, swing, &C, &S, &G);
     if (x->resonant) {
@@ -118,7 +118,7 @@ evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqd
 static void
 evaluate_at(const exact *x, double u, double q[], double dqdt[])
 {
-    evaluate(x, u, ss_motion_base(x->base.m, u), swing_at(x, u), q, dqdt);
+    evaluate(x, u, base_turn(&x->base.m->now, u), swing_at(x, u), q, dqdt);
 }
 
 /* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is that of
@@ -128,7 +128,7 @@ evaluate_at(const exact *x, double u, double q[], double dqdt[])
 static void
 bound_guard(exact *x, double omega0)
 {
-    const motion *m = x->base.m;
+    const state *m = &x->base.m->now;
     double offset = x->q + m->f0 / m->k, P = hypot(x->p_cos, x->p_sin);
     double K = hypot(offset, (x->v + x->s * offset) / x->w), omega = m->omega;
     const double positive[MAX_DIM] = { 1, 1 };
@@ -147,12 +147,12 @@ static ss_status
 exact_begin(engine *e)
 {
     exact *x = (exact *)e;
-    motion *m = e->m;
+    const state *m = &e->m->now;
     double mass = m->scene->mass, omega0 = sqrt(m->k / mass);
     double stiffness = m->k - mass * m->omega * m->omega, damping = m->c * m->omega;
     double impedance = hypot(stiffness, damping);
 
-    ss_motion_rebase(m);
+    ss_motion_rebase(e->m);
     x->k_m = m->k / mass;
     x->c_m = m->c / mass;
     x->f_m = m->f0 / mass;
@@ -187,7 +187,7 @@ static ss_status
 exact_step(engine *e, double h_max, ss_error *err)
 {
     const exact *x = (exact *)e;
-    const motion *m = e->m;
+    const state *m = &e->m->now;
     double slope, g = m->model->guard(m, m->q, e->dq0, &slope);
     double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);   /* B h^2 / 8 is g / 2 at most */
     (void)err;
@@ -225,14 +225,14 @@ exact_ahead(engine *e, double s_max, double *s_event)
 {
     enum { PASSES = 60 };
     exact *x = (exact *)e;
-    const motion *m = e->m;
+    const state *m = &e->m->now;
     const double origin[MAX_DIM] = { 0 };
     double s = 0, unused, limit = m->model->guard(m, origin, origin, &unused);
     if (!isfinite(x->third))
         return -1;
     memcpy(e->q1, m->q, sizeof e->q1);
     memcpy(e->dq1, e->dq0, sizeof e->dq1);
-    turn base = ss_motion_base(m, m->u);
+    turn base = base_turn(m, m->u);
     e->steps++;
     for (int i = 0; i < PASSES; i++) {
         double jerk = (-m->drive * m->omega * base.si - m->k * e->q1[1] - m->c * e->dq1[1])
@@ -253,7 +253,7 @@ exact_ahead(engine *e, double s_max, double *s_event)
         if (!(step > width))
             return -1;
         s = fmin(s + step, s_max);
-        base = ss_motion_base(m, m->u + s);
+        base = base_turn(m, m->u + s);
         e->rhs++;
         evaluate(x, m->u + s, base, swing_at(x, m->u + s), e->q1, e->dq1);
         if (s == s_max) {
@@ -275,7 +275,7 @@ static void
 exact_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 {
     exact *x = (exact *)e;
-    double u = e->m->u + s;
+    double u = e->m->now.u + s;
     turn swing = where == NEXT_SAMPLE && x->in_samples ? turn_further(x->swing, x->swing_further)
         : swing_at(x, u);
     if (where != ANYWHERE) {
@@ -289,7 +289,7 @@ exact_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 static void
 exact_go_on(engine *e)
 {
-    if (e->m->u * e->m->omega > CYCLES * 2 * M_PI)
+    if (e->m->now.u * e->m->now.omega > CYCLES * 2 * M_PI)
         exact_begin(e);
 }
 
@@ -307,7 +307,7 @@ static const struct engine_type exact_type = {
 ss_status
 ss_exact_new(engine **out, motion *m, ss_error *err)
 {
-    if (m->scene->model == SS_STATE_VARIABLE)
+    if (m->now.scene->model == SS_STATE_VARIABLE)
         return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");
     exact *x = calloc(1, sizeof *x);
     if (x == NULL)

@@ -37,9 +37,9 @@ typedef struct ode {
 static void
 rates(ode *o, double u, const double q[], double dqdt[])
 {
-    const motion *m = o->base.m;
+    const state *m = &o->base.m->now;
     o->base.rhs++;
-    m->model->rates(m, ss_motion_drive(m, u), q, dqdt);
+    m->model->rates(m, base_force(m, u), q, dqdt);
 }
 
 /* To and from GSL's units, which are powers of two: nothing is rounded.  Implicit methods solve
@@ -77,7 +77,7 @@ jacobian(double u, const double y[], double *dfdy, double dfdt[], void *params)
     size_t n = o->system.dimension;
     double q[MAX_DIM] = { 0 };
     from_units(o, y, q);
-    o->base.m->model->jacobian(o->base.m, u, q, dfdy, dfdt);
+    o->base.m->now.model->jacobian(&o->base.m->now, u, q, dfdy, dfdt);
     to_units(o, dfdt, dfdt);
     for (size_t i = 0; i < n * n; i++)
         dfdy[i] *= o->unit[i % n] / o->unit[i / n];
@@ -91,10 +91,11 @@ ode_begin(engine *e)
     gsl_odeiv2_step_reset(o->driver->s);
     if (o->side != NULL)
         gsl_odeiv2_step_reset(o->side);
-    rates(o, e->m->u, e->m->q, e->dq0);
-    o->shortest = STEP_FLOOR * ss_motion_step_cap(e->m);
-    if (e->m->model->quickest != NULL)
-        o->shortest = fmin(o->shortest, STEP_FLOOR / e->m->model->quickest(e->m->scene));
+    const state *m = &e->m->now;
+    rates(o, m->u, m->q, e->dq0);
+    o->shortest = STEP_FLOOR * ss_step_cap(m);
+    if (m->model->quickest != NULL)
+        o->shortest = fmin(o->shortest, STEP_FLOOR / m->model->quickest(m->scene));
     return SS_OK;
 }
 
@@ -122,13 +123,14 @@ static int
 apply(ode *o, gsl_odeiv2_step *step, double h, double y[], double error[], double dydt[])
 {
     const engine *e = &o->base;
-    double dydt_in[MAX_DIM], v = e->m->q[1] != 0 ? e->m->q[1] : e->dq0[1];
-    to_units(o, e->m->q, y);
+    const state *m = &e->m->now;
+    double dydt_in[MAX_DIM], v = m->q[1] != 0 ? m->q[1] : e->dq0[1];
+    to_units(o, m->q, y);
     to_units(o, e->dq0, dydt_in);
     for (size_t i = 0; i < o->system.dimension; i++)
         if (y[i] == 0)
             y[i] = copysign(o->zero[i], v);
-    return gsl_odeiv2_step_apply(step, e->m->u, h, y, error,
+    return gsl_odeiv2_step_apply(step, m->u, h, y, error,
                                  step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
 }
 
@@ -137,7 +139,7 @@ static ss_status
 ode_step(engine *e, double h_max, ss_error *err)
 {
     ode *o = (ode *)e;
-    const motion *m = e->m;
+    const state *m = &e->m->now;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
     double h = fmin(o->h_next, h_max), y[MAX_DIM], dydt[MAX_DIM], error[MAX_DIM];
@@ -157,7 +159,7 @@ ode_step(engine *e, double h_max, ss_error *err)
         }
         if (!(h_adjusted >= o->shortest))
             return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
-                           "step fell below %.3g s", step->type->name, o->tol, m->origin.hi + m->u,
+                           "step fell below %.3g s", step->type->name, o->tol, e->m->origin.hi + m->u,
                            o->shortest);
         o->h_next = h = h_adjusted;
     }
@@ -177,12 +179,13 @@ static void
 taylor(const engine *e, double u, const double q[], const double dqdt[],
        double c[ORDERS + 1][MAX_DIM])
 {
+    const state *m = &e->m->now;
     double scale = e->h;
     memcpy(c[0], q, sizeof c[0]);
     memcpy(c[1], dqdt, sizeof c[1]);
-    e->m->model->derivatives(e->m, u, q, dqdt, c + 2);
+    m->model->derivatives(m, u, q, dqdt, c + 2);
     for (int k = 1; k <= ORDERS; scale *= e->h / ++k)
-        for (size_t i = 0; i < e->m->model->dim; i++)
+        for (size_t i = 0; i < m->model->dim; i++)
             c[k][i] *= scale;
 }
 
@@ -194,9 +197,10 @@ draw_curve(ode *o)
 {
     static const double over_x5[ORDERS + 1] = { 1, -5, 15, -35, 70 };
     const engine *e = &o->base;
+    const state *m = &e->m->now;
     double end[ORDERS + 1][MAX_DIM];
-    taylor(e, e->m->u, e->m->q, e->dq0, o->curve);
-    taylor(e, e->m->u + e->h, e->q1, e->dq1, end);
+    taylor(e, m->u, m->q, e->dq0, o->curve);
+    taylor(e, m->u + e->h, e->q1, e->dq1, end);
     for (size_t i = 0; i < o->system.dimension; i++) {
         double T[ORDERS + 1];
         for (int k = 0; k <= ORDERS; k++)
@@ -232,7 +236,7 @@ static void
 ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
 {
     ode *o = (ode *)e;
-    const motion *m = e->m;
+    const state *m = &e->m->now;
     double y[MAX_DIM], error[MAX_DIM];
     (void)where;
     int inside = s > 0 && s < e->h && !e->lands_on_samples;
@@ -298,7 +302,7 @@ ss_ode_method_name(size_t i)
 /* Absolute tolerances in the scene's own measure, since x is about 1e-4 m: x by its scale, v by that
  * times the larger of Omega and omega_n, theta by f_k. */
 static void
-absolute_scales(const motion *m, double scale[MAX_DIM])
+absolute_scales(const state *m, double scale[MAX_DIM])
 {
     const ss_scene *s = m->scene;
     scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
@@ -309,7 +313,7 @@ absolute_scales(const motion *m, double scale[MAX_DIM])
 static void
 set_zeros(ode *o)
 {
-    const motion *m = o->base.m;
+    const state *m = &o->base.m->now;
     double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
     o->zero[0] = BSIMP_ZERO * (m->x_scale / o->unit[0]);
     o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->unit[1]);
@@ -317,8 +321,9 @@ set_zeros(ode *o)
 }
 
 ss_status
-ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
+ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err)
 {
+    const state *m = &of->now;
     size_t i = 0;
     double scale[MAX_DIM];
     while (i < METHODS && strcmp(name, method[i].name) != 0)
@@ -328,12 +333,12 @@ ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
     ode *o = calloc(1, sizeof *o);
     if (o == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
-    o->base = (engine){ .type = &ode_type, .m = m,
+    o->base = (engine){ .type = &ode_type, .m = of,
                         .lands_on_samples = method[i].multistep && m->model->guard == NULL };
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
     o->tol = tol;
-    o->h_next = ss_motion_step_cap(m);
+    o->h_next = ss_step_cap(m);
     absolute_scales(m, scale);
     for (size_t k = 0; k < m->model->dim; k++) {
         if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {

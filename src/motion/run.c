@@ -20,7 +20,7 @@
 enum { STEPS_PER_PERIOD = 40 };
 
 double
-ss_motion_step_cap(const motion *m)
+ss_step_cap(const state *m)
 {
     return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
 }
@@ -47,25 +47,13 @@ ss_event_kind_name(ss_event_kind kind)
     return (unsigned)kind <= SS_REVERSE ? name[kind] : "?";
 }
 
-static const struct model *
-model_of(const ss_scene *scene)
-{
-    static const struct model *const model[] = { &ss_coulomb_model, &ss_state_variable_model,
-                                                 &ss_compliant_model };
-    return model[scene->model];
-}
-
-static const char *
-method_for(const ss_scene *scene)
-{
-    const struct model *model = model_of(scene);
-    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
-}
-
 const char *
 ss_sim_method_for(const ss_scene *scene)
 {
-    return scene != NULL && (unsigned)scene->model <= SS_COMPLIANT ? method_for(scene) : NULL;
+    const struct model *model = scene != NULL ? ss_model_of(scene) : NULL;
+    if (model == NULL)
+        return NULL;
+    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
 }
 
 /* --- the motion ---------------------------------------------------------------------------- */
@@ -74,52 +62,44 @@ ss_sim_method_for(const ss_scene *scene)
 void
 ss_motion_rebase(motion *m)
 {
-    m->origin = instant_add(m->origin, m->u);
-    m->u = 0;
-    m->theta = 2 * M_PI * instant_cycles(m->origin, m->scene->base_frequency) + m->phase;
+    state *now = &m->now;
+    m->origin = instant_add(m->origin, now->u);
+    now->u = 0;
+    now->theta = 2 * M_PI * instant_cycles(m->origin, now->scene->base_frequency) + m->phase;
 }
-
-/* What counts as touching the contact's limit: ten times the absolute tolerance of x, which is what
- * an integrator's error makes of the limit in the course of a stick; in units of the limit no less
- * than 1e-10, and no more than 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4
- * for one of 0.1 ms in the light scene). */
-#define GRAZE_TOL 10
-#define GRAZE_LEAST 1e-10
-#define GRAZE_MOST 1e-6
 
 /* What the closed form rounds off of x: an ulp for each of its four terms. */
 #define EXACT_DOUBT (4 * DBL_EPSILON)
 
-/* x is measured by the largest of Z_e, |x0|, |v0| / omega_n and f_k / k. */
-static void
-set_scales(motion *m, int exact, double tol)
-{
-    const ss_scene *s = m->scene;
-    double omega_n = sqrt(s->stiffness / s->mass), limit = s->friction / s->contact_stiffness;
-    m->x_scale = fmax(fmax(s->base_amplitude, fabs(s->x0)),
-                      fmax(fabs(s->v0) / omega_n, s->friction / s->stiffness));
-    m->doubt = m->x_scale * (exact ? EXACT_DOUBT : tol);
-    if (s->model == SS_COMPLIANT)
-        m->graze = fmin(fmax(GRAZE_TOL * tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
-}
-
 motion
 ss_motion_of(const ss_scene *scene, int exact, double tol)
 {
-    motion m = { .scene = scene, .model = model_of(scene),
-                 .omega = 2 * M_PI * scene->base_frequency,
-                 .drive = scene->stiffness * scene->base_amplitude,
-                 .phase = atan2(sin(scene->phase), cos(scene->phase)) };
-    set_scales(&m, exact, tol);
-    ss_motion_rebase(&m);
+    motion m = { .now = ss_state_of(scene, tol) };
+    m.phase = m.now.theta;
+    m.doubt = m.now.x_scale * (exact ? EXACT_DOUBT : tol);
     return m;
+}
+
+/* Enter the first mode; 1 if it starts in slip. */
+int
+ss_motion_start(motion *m)
+{
+    int slips = m->now.model->start(&m->now);
+    m->x_begin = m->now.x_ref + m->now.q[0];
+    return slips;
+}
+
+unsigned long
+ss_motion_unresolved(const motion *m)
+{
+    return m->unresolved + m->now.touches;
 }
 
 /* The phase of the base at t. */
 static turn
 base_at(const motion *m, instant t)
 {
-    return turn_of(2 * M_PI * instant_cycles(t, m->scene->base_frequency) + m->phase);
+    return turn_of(2 * M_PI * instant_cycles(t, m->now.scene->base_frequency) + m->phase);
 }
 
 /* --- the record ---------------------------------------------------------------------------- */
@@ -171,14 +151,14 @@ instant_of_sample(const record *r, size_t i)
     return instant_add(instant_sample((double)i, r->scene->rate), r->scene->settle);
 }
 
-/* The time from m->u to the i-th sample of the record. */
+/* The time from now to the i-th sample of the record. */
 static double
 until_sample(const record *r, const motion *m, size_t i)
 {
-    return instant_diff(instant_of_sample(r, i), m->origin) - m->u;
+    return instant_diff(instant_of_sample(r, i), m->origin) - m->now.u;
 }
 
-/* The i-th sample, s after m->u. */
+/* The i-th sample, s from now. */
 static void
 fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
 {
@@ -188,15 +168,15 @@ fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
     r->base = renew ? base_at(m, instant_of_sample(r, r->i))
         : turn_further(r->base, r->base_further);
     if (still)
-        memcpy(q, m->q, sizeof q);
+        memcpy(q, m->now.q, sizeof q);
     else
         e->type->at(e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, fmax(s, 0), r->base, q, dqdt);
-    m->model->sample(m, m->drive * r->base.co, q, dqdt, sample);
+    m->now.model->sample(&m->now, m->now.drive * r->base.co, q, dqdt, sample);
     sample->t = (double)r->i / r->scene->rate;
     sample->z = r->scene->base_amplitude * r->base.co;
 }
 
-/* All samples up to, not including, h after m->u. */
+/* All samples up to, not including, h from now. */
 static ss_status
 write_samples(record *r, engine *e, int still, double h)
 {
@@ -219,10 +199,10 @@ write_samples(record *r, engine *e, int still, double h)
 static ss_status
 write_event(record *r, const motion *m, ss_event *e)
 {
-    instant t = instant_add(m->origin, m->u);
+    instant t = instant_add(m->origin, m->now.u);
     e->t = (t.hi - r->scene->settle) + t.lo;
-    e->x = m->x_ref + m->q[0];
-    e->v = m->q[1];
+    e->x = m->now.x_ref + m->now.q[0];
+    e->v = m->now.q[1];
     if (!(e->t >= 0 && instant_diff(t, r->end) < 0) || r->opts->events == NULL)
         return SS_OK;
     ss_status st = flush(r);
@@ -237,10 +217,10 @@ static guard_value
 guard_at(double s, void *user)
 {
     engine *e = user;
-    const motion *m = e->m;
+    const state *m = &e->m->now;
     double q[MAX_DIM], dqdt[MAX_DIM];
     guard_value at;
-    e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
+    e->type->at(e, ANYWHERE, s, base_turn(m, m->u + s), q, dqdt);
     at.g = m->model->guard(m, q, dqdt, &at.slope);
     return at;
 }
@@ -249,7 +229,7 @@ guard_at(double s, void *user)
 int
 ss_engine_ends_within(engine *e, double *s_event)
 {
-    const motion *m = e->m;
+    const state *m = &e->m->now;
     guard_value at_0, at_h;
     if (m->model->guard == NULL)
         return 0;
@@ -258,23 +238,24 @@ ss_engine_ends_within(engine *e, double *s_event)
     return ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
 }
 
-/* The mode has ended s after m->u: enter the next one.  1 if that is an event. */
+/* The mode has ended s from now: enter the next one.  1 if that is an event. */
 int
 ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 {
     motion *m = e->m;
+    state *now = &m->now;
     if (!still) {
         double q[MAX_DIM], dqdt[MAX_DIM];
-        e->type->at(e, ANYWHERE, s, ss_motion_base(m, m->u + s), q, dqdt);
-        memcpy(m->q, q, sizeof q);
+        e->type->at(e, ANYWHERE, s, base_turn(now, now->u + s), q, dqdt);
+        memcpy(now->q, q, sizeof q);
     }
-    m->u += s;
+    now->u += s;
     ss_motion_rebase(m);
-    if (m->mode != 0 && fabs(m->x_ref + m->q[0] - m->x_begin) <= m->doubt)
+    if (now->mode != 0 && fabs(now->x_ref + now->q[0] - m->x_begin) <= m->doubt)
         m->unresolved++;
-    if (!m->model->next(m, event))
+    if (!now->model->next(now, event))
         return 0;
-    m->x_begin = m->x_ref + m->q[0];
+    m->x_begin = now->x_ref + now->q[0];
     e->events++;
     return 1;
 }
@@ -293,7 +274,7 @@ change_mode(record *r, engine *e, int still, double s)
 void
 ss_engine_accept(engine *e)
 {
-    motion *m = e->m;
+    state *m = &e->m->now;
     memcpy(m->q, e->q1, sizeof m->q);
     memcpy(e->dq0, e->dq1, sizeof e->dq0);
     m->u += e->h;
@@ -303,7 +284,7 @@ ss_engine_accept(engine *e)
 ss_status
 ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
 {
-    double period = 2 * M_PI / m->model->fastest(m, NULL);
+    double period = 2 * M_PI / m->now.model->fastest(&m->now, NULL);
     *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
     if (*in_a_row <= CHATTER_EVENTS)
         return SS_OK;
@@ -318,9 +299,9 @@ over_budget(const record *r, const engine *e, double cap, ss_error *err)
 {
     const motion *m = e->m;
     const char *what;
-    double t = m->origin.hi + m->u, all = r->scene->settle + r->scene->duration;
+    double t = m->origin.hi + m->now.u, all = r->scene->settle + r->scene->duration;
     double estimate = (double)e->steps * all / t;
-    m->model->fastest(m, &what);
+    m->now.model->fastest(&m->now, &what);
     if (e->h < cap / 2)
         return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about "
                        "%.2g steps would do; the tolerance forces steps of %.3g s, where the "
@@ -335,10 +316,10 @@ over_budget(const record *r, const engine *e, double cap, ss_error *err)
 #define TOO_MANY_STEPS 1e12
 
 static ss_status
-check_length(const motion *m, double length, ss_error *err)
+check_length(const state *m, double length, ss_error *err)
 {
     const char *what;
-    double steps = length / ss_motion_step_cap(m), end;
+    double steps = length / ss_step_cap(m), end;
     m->model->fastest(m, &what);
     if (steps <= TOO_MANY_STEPS || (m->model->still != NULL && m->model->still(m, &end)))
         return SS_OK;
@@ -350,16 +331,17 @@ static ss_status
 run(record *r, engine *e, ss_error *err)
 {
     motion *m = e->m;
-    const struct model *model = m->model;
+    const state *now = &m->now;
+    const struct model *model = now->model;
     double lasted = 0;                      /* of the present mode */
     int in_a_row = 0;
 
     for (;;) {
-        double h, cap = ss_motion_step_cap(m);
-        int still = model->still != NULL && model->still(m, &h), ends = still && isfinite(h);
+        double h, cap = ss_step_cap(now);
+        int still = model->still != NULL && model->still(now, &h), ends = still && isfinite(h);
         ss_status st = SS_OK;
         if (still) {
-            h -= m->u;
+            h -= now->u;
         } else {
             if (r->opts->max_steps > 0 && e->steps >= r->opts->max_steps)
                 return over_budget(r, e, cap, err);
@@ -368,10 +350,10 @@ run(record *r, engine *e, ss_error *err)
                 cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
             }
             if (model->sight != NULL)
-                cap = fmin(cap, model->sight(m, e->dq0));
+                cap = fmin(cap, model->sight(now, e->dq0));
             st = e->type->step(e, cap, err);
             if (st == SS_OK && e->steps % REPORT_STEPS == 0)
-                st = report(r, m->origin.hi + m->u);
+                st = report(r, m->origin.hi + now->u);
             if (st != SS_OK)
                 return st;
             h = e->h;
@@ -380,7 +362,7 @@ run(record *r, engine *e, ss_error *err)
         st = write_samples(r, e, still, h);
         if (st != SS_OK)
             return st;
-        if (instant_diff(r->end, m->origin) - m->u <= h)
+        if (instant_diff(r->end, m->origin) - now->u <= h)
             return flush(r);
         lasted += h;
         if (ends) {
@@ -400,7 +382,7 @@ run(record *r, engine *e, ss_error *err)
 static ss_status
 begin(record *r, engine *e, int slips)
 {
-    ss_event event = { .kind = SS_SLIP, .direction = e->m->mode };
+    ss_event event = { .kind = SS_SLIP, .direction = e->m->now.mode };
     ss_status st = SS_OK;
     if (slips) {
         e->events++;
@@ -431,16 +413,15 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate,
                  .base_further = base_turns(scene) };
-    const char *method = opts->method != NULL ? opts->method : method_for(scene);
+    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
     int exact = strcmp(method, EXACT) == 0;
     motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
-    int slips = m.model->start(&m);
-    m.x_begin = m.x_ref + m.q[0];
-    st = check_length(&m, scene->settle + scene->duration, err);
+    int slips = ss_motion_start(&m);
+    st = check_length(&m.now, scene->settle + scene->duration, err);
     if (st != SS_OK)
         return st;
     st = exact ? ss_exact_new(&e, &m, err) : ss_ode_new(&e, &m, method, opts->tol, err);
@@ -449,7 +430,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (st == SS_OK)
         st = run(&r, e, err);
     if (stats != NULL && e != NULL)
-        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, m.unresolved };
+        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, ss_motion_unresolved(&m) };
     if (e != NULL)
         e->type->free(e);
     return st;

@@ -10,8 +10,7 @@ ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error 
     const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
     int exact = strcmp(method, EXACT) == 0;
     *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
-    w->m.model->start(&w->m);
-    w->m.x_begin = w->m.x_ref + w->m.q[0];
+    ss_motion_start(&w->m);
     ss_status st = exact ? ss_exact_new(&w->e, &w->m, err)
                          : ss_ode_new(&w->e, &w->m, method, opts->tol, err);
     return st == SS_OK ? w->e->type->begin(w->e) : st;
@@ -22,7 +21,7 @@ ss_walk_begin_at(walk *w, const motion *from)
 {
     w->m = *from;
     w->m.origin = (instant){ 0, 0 };
-    w->m.u = 0;
+    w->m.now.u = 0;
     ss_motion_rebase(&w->m);
     w->lasted = 0;
     w->in_a_row = 0;
@@ -32,8 +31,8 @@ ss_walk_begin_at(walk *w, const motion *from)
 void
 ss_walk_at(walk *w, double s, double q[], double dqdt[])
 {
-    const motion *m = &w->m;
-    turn base = ss_motion_base(m, m->u + s);
+    const state *m = &w->m.now;
+    turn base = base_turn(m, m->u + s);
     if (!w->still) {
         w->e->type->at(w->e, ANYWHERE, s, base, q, dqdt);
         return;
@@ -46,7 +45,7 @@ ss_walk_at(walk *w, double s, double q[], double dqdt[])
 static ss_status
 take_step(walk *w, double longest, ss_error *err)
 {
-    double cap = ss_motion_step_cap(&w->m);
+    double cap = ss_step_cap(&w->m.now);
     ss_status st = w->e->type->step(w->e, fmin(cap, longest), err);
     if (st != SS_OK)
         return st;
@@ -62,12 +61,12 @@ take_step(walk *w, double longest, ss_error *err)
 ss_status
 ss_walk_leg(walk *w, double longest, ss_error *err)
 {
-    motion *m = &w->m;
+    const state *m = &w->m.now;
     engine *e = w->e;
     double u_end;
     if (w->max_steps > 0 && e->steps >= w->max_steps)
         return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s", w->max_steps,
-                       m->origin.hi + m->u);
+                       w->m.origin.hi + m->u);
     w->still = m->model->still != NULL && m->model->still(m, &u_end);
     if (w->still) {
         w->h = u_end - m->u;

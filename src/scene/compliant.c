@@ -6,13 +6,13 @@
 #include "scene/model.h"
 
 static double
-deflection_limit(const motion *m)
+deflection_limit(const state *m)
 {
     return m->scene->friction / m->scene->contact_stiffness;
 }
 
 static void
-microstick(motion *m, double x, double y)
+microstick(state *m, double x, double y)
 {
     const ss_scene *s = m->scene;
     m->mode = 0;
@@ -27,18 +27,28 @@ microstick(motion *m, double x, double y)
 
 /* Without friction there is nothing to stick to: the mass goes where it is pulled, or will be. */
 static int
-start_free(motion *m)
+start_free(state *m)
 {
-    double x = m->scene->x0, force = ss_motion_drive(m, m->u) - m->scene->stiffness * x;
-    int way = force != 0 ? sign(force) : -sign(m->drive * m->omega * sin(m->theta));
+    double x = m->scene->x0, force = base_force(m, m->u) - m->scene->stiffness * x;
+    int way = force != 0 ? sign(force) : sign(base_force_rate(m, m->u));
     ss_linear_slip(m, x, 0, way != 0 ? way : 1);
     return 1;
 }
 
+/* What counts as touching the contact's limit: ten times the absolute tolerance of x, which is what
+ * an integrator's error makes of the limit in the course of a stick; in units of the limit no less
+ * than 1e-10, and no more than 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4
+ * for one of 0.1 ms in the light scene). */
+#define GRAZE_TOL 10
+#define GRAZE_LEAST 1e-10
+#define GRAZE_MOST 1e-6
+
 static int
-start(motion *m)
+start(state *m)
 {
     const ss_scene *s = m->scene;
+    double limit = deflection_limit(m);
+    m->graze = fmin(fmax(GRAZE_TOL * m->tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
     if (s->v0 == 0 && s->friction == 0)
         return start_free(m);
     if (s->v0 == 0) {
@@ -51,7 +61,7 @@ start(motion *m)
 
 /* Microstick lasts while the spring's force, or that of spring and damper, is within f_k. */
 static double
-guard(const motion *m, const double q[], const double dqdt[], double *slope)
+guard(const state *m, const double q[], const double dqdt[], double *slope)
 {
     if (m->mode != 0)
         return ss_linear_slip_guard(m, q, dqdt, slope);
@@ -66,22 +76,22 @@ guard(const motion *m, const double q[], const double dqdt[], double *slope)
 
 /* How far beyond its limit a contact would go, v' as it is, before it turns round. */
 static double
-excess(const motion *m)
+excess(const state *m)
 {
     double rate[MAX_DIM], v = m->q[1];
-    ss_linear_rates(m, ss_motion_drive(m, m->u), m->q, rate);
+    ss_linear_rates(m, base_force(m, m->u), m->q, rate);
     if (!(rate[1] * sign(m->q[0]) < 0))
         return INFINITY;
     double rest = v / (2 * fabs(rate[1])) * v;      /* v^2 may underflow */
     return fabs(m->q[0]) - deflection_limit(m) + rest;
 }
 
-/* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most (run.c says
- * how much that is).  An undamped contact comes back to its limit exactly, each period, and whether
- * it is then released would be the rounding's decision.  What it is beyond is taken as such and
- * subtracted; stopping it at the limit would turn an error of d into one of sqrt(d). */
+/* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most.  An
+ * undamped contact comes back to its limit exactly, each period, and whether it is then released
+ * would be the rounding's decision.  What it is beyond is taken as such and subtracted; stopping it
+ * at the limit would turn an error of d into one of sqrt(d). */
 static int
-only_touches(motion *m)
+only_touches(state *m)
 {
     const ss_scene *s = m->scene;
     if (s->release == SS_RELEASE_TOTAL && s->contact_damping > 0)
@@ -91,12 +101,12 @@ only_touches(motion *m)
         return 0;
     m->q[0] -= sign(m->q[0]) * beyond;
     m->slack = m->graze;                /* it passes its peak without being asked again */
-    m->unresolved++;
+    m->touches++;
     return 1;
 }
 
 static int
-next(motion *m, ss_event *e)
+next(state *m, ss_event *e)
 {
     double x = m->x_ref + m->q[0], v = m->q[1];
     if (m->mode == 0 && only_touches(m))
@@ -118,7 +128,7 @@ next(motion *m, ss_event *e)
 }
 
 static void
-sample(const motion *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     (void)drive;
     s->x = m->x_ref + q[0];

@@ -5,29 +5,22 @@
 #include <float.h>
 
 static double
-spring_force(const motion *m, double drive, double x)
+spring_force(const state *m, double drive, double x)
 {
     return drive - m->scene->stiffness * x;
 }
 
-/* The force's rate of change, over Omega: its sign tells which limit is being crossed. */
-static double
-force_trend(const motion *m)
-{
-    return -m->drive * sin(m->theta + m->omega * m->u);
-}
-
 /* Enter stick if friction can hold the mass, else slip where the spring pulls it. */
 static int
-stop_or_go(motion *m, double x)
+stop_or_go(state *m, double x)
 {
-    double force = spring_force(m, ss_motion_drive(m, m->u), x);
+    double force = spring_force(m, base_force(m, m->u), x);
     ss_linear_slip(m, x, 0, fabs(force) > m->scene->friction ? sign(force) : 0);
     return m->mode;
 }
 
 static int
-start(motion *m)
+start(state *m)
 {
     const ss_scene *s = m->scene;
     if (s->v0 == 0)
@@ -50,7 +43,7 @@ next_turn(double angle, double from)
  * begins at its limit, within rounding, with the force on its way out, ends at once; without this
  * the crossing would lie behind it and a whole turn be waited for. */
 static int
-still(const motion *m, double *u_end)
+still(const state *m, double *u_end)
 {
     const ss_scene *s = m->scene;
     double x = m->q[0], z = s->base_amplitude, limit = s->friction;
@@ -60,8 +53,8 @@ still(const motion *m, double *u_end)
     *u_end = INFINITY;
     if (m->omega == 0 || z == 0)
         return 1;
-    double theta = m->theta + m->omega * m->u, force = spring_force(m, ss_motion_drive(m, m->u), x);
-    if (force * force_trend(m) > 0
+    double theta = m->theta + m->omega * m->u, force = spring_force(m, base_force(m, m->u), x);
+    if (force * base_force_rate(m, m->u) > 0
         && limit - fabs(force) <= 8 * DBL_EPSILON * (m->drive + s->stiffness * fabs(x) + limit)) {
         *u_end = m->u;
         return 1;
@@ -75,12 +68,12 @@ still(const motion *m, double *u_end)
 }
 
 static int
-next(motion *m, ss_event *e)
+next(state *m, ss_event *e)
 {
     double x = m->q[0];
     int before = m->mode;
     if (before == 0) {                  /* the force has reached its limit and grows */
-        ss_linear_slip(m, x, 0, sign(force_trend(m)));
+        ss_linear_slip(m, x, 0, sign(base_force_rate(m, m->u)));
         e->kind = SS_SLIP;
         e->direction = m->mode;
         return 1;
@@ -92,7 +85,7 @@ next(motion *m, ss_event *e)
 }
 
 static void
-sample(const motion *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     int still = m->mode == 0;
     s->x = q[0];

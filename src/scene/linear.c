@@ -1,27 +1,15 @@
 /* linear.c -- the equation that Coulomb friction and compliant contact share within a mode. */
 #include "scene/model.h"
 
-turn
-ss_motion_base(const motion *m, double u)
-{
-    return turn_of(m->theta + m->omega * u);
-}
-
-double
-ss_motion_drive(const motion *m, double u)
-{
-    return m->drive * cos(m->theta + m->omega * u);
-}
-
 void
-ss_linear_rates(const motion *m, double drive, const double q[], double dqdt[])
+ss_linear_rates(const state *m, double drive, const double q[], double dqdt[])
 {
     dqdt[0] = q[1];
     dqdt[1] = (drive - m->f0 - m->k * q[0] - m->c * q[1]) / m->scene->mass;
 }
 
 void
-ss_linear_jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[])
+ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
 {
     double mass = m->scene->mass;
     (void)q;
@@ -30,15 +18,15 @@ ss_linear_jacobian(const motion *m, double u, const double q[], double *dfdq, do
     dfdq[2] = -m->k / mass;
     dfdq[3] = -m->c / mass;
     dfdt[0] = 0;
-    dfdt[1] = -m->drive * m->omega * sin(m->theta + m->omega * u) / mass;
+    dfdt[1] = base_force_rate(m, u) / mass;
 }
 
 /* By differentiating the equation of motion. */
 void
-ss_linear_derivatives(const motion *m, double u, const double q[], const double dqdt[],
+ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
                       double higher[][MAX_DIM])
 {
-    turn base = ss_motion_base(m, u);
+    turn base = base_turn(m, u);
     const double wave[] = { -base.si, -base.co, base.si };
     double mass = m->scene->mass, D = m->drive * m->omega;
     double d[ORDERS + 2] = { q[0], q[1], dqdt[1] };
@@ -51,7 +39,7 @@ ss_linear_derivatives(const motion *m, double u, const double q[], const double 
 
 /* The larger root of m s^2 + c s + k = 0 in modulus, or Omega. */
 double
-ss_linear_fastest(const motion *m, const char **what)
+ss_linear_fastest(const state *m, const char **what)
 {
     double half = m->c / (2 * m->scene->mass), omega0 = sqrt(m->k / m->scene->mass);
     double root = half <= omega0 ? omega0 : half + sqrt((half - omega0) * (half + omega0));
@@ -62,7 +50,7 @@ ss_linear_fastest(const motion *m, const char **what)
 }
 
 void
-ss_linear_slip(motion *m, double x, double v, int direction)
+ss_linear_slip(state *m, double x, double v, int direction)
 {
     m->mode = direction;
     m->k = m->scene->stiffness;
@@ -75,7 +63,7 @@ ss_linear_slip(motion *m, double x, double v, int direction)
 
 /* Slip lasts while the mass moves in its direction. */
 double
-ss_linear_slip_guard(const motion *m, const double q[], const double dqdt[], double *slope)
+ss_linear_slip_guard(const state *m, const double q[], const double dqdt[], double *slope)
 {
     *slope = m->mode * dqdt[1];
     return m->mode * q[1];

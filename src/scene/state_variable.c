@@ -3,7 +3,7 @@
 #include "scene/model.h"
 
 static int
-start(motion *m)
+start(state *m)
 {
     m->mode = 0;
     m->q[0] = m->scene->x0;
@@ -23,7 +23,7 @@ law(const ss_scene *s, double *rate, double *goal)
 
 /* The steps follow the tolerance; only base and spring cap them. */
 static double
-fastest(const motion *m, const char **what)
+fastest(const state *m, const char **what)
 {
     double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
     if (what != NULL)
@@ -66,7 +66,7 @@ stiff(const ss_scene *s)
 }
 
 static void
-rates(const motion *m, double drive, const double q[], double dqdt[])
+rates(const state *m, double drive, const double q[], double dqdt[])
 {
     const ss_scene *s = m->scene;
     double rate, goal;
@@ -80,17 +80,16 @@ rates(const motion *m, double drive, const double q[], double dqdt[])
  * finds tanh the same at all the points where it looks, and its error estimate, too, sees nothing:
  * so v may move by half its size and one width at most, as far as v' and v'' tell. */
 static double
-sight(const motion *m, const double dqdt[])
+sight(const state *m, const double dqdt[])
 {
     const ss_scene *s = m->scene;
     double far = fabs(m->q[1]) / 2 + 1 / s->alpha, a = fabs(dqdt[1]);
-    double wave = m->drive * m->omega * sin(m->theta + m->omega * m->u);
-    double jerk = fabs(wave + s->stiffness * dqdt[0] + dqdt[2]) / s->mass;
+    double jerk = fabs(base_force_rate(m, m->u) - s->stiffness * dqdt[0] - dqdt[2]) / s->mass;
     return 2 * far / (a + sqrt(a * a + 2 * jerk * far));
 }
 
 static void
-jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[])
+jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
 {
     const ss_scene *s = m->scene;
     double rate, goal, sech = 1 / cosh(s->alpha * q[1]);
@@ -103,11 +102,11 @@ jacobian(const motion *m, double u, const double q[], double *dfdq, double dfdt[
     for (int i = 0; i < 9; i++)
         dfdq[i] = row[i];
     dfdt[0] = dfdt[2] = 0;
-    dfdt[1] = -m->drive * m->omega * sin(m->theta + m->omega * u) / s->mass;
+    dfdt[1] = base_force_rate(m, u) / s->mass;
 }
 
 static void
-sample(const motion *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     (void)m, (void)drive;
     s->x = q[0];

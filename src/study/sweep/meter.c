@@ -11,7 +11,7 @@
 enum { RANGE = 1u << SS_AMPLITUDE | 1u << SS_X_MAX };
 
 void
-ss_meter_begin(meter *r, unsigned wanted, const motion *m)
+ss_meter_begin(meter *r, unsigned wanted, const state *m)
 {
     unsigned inside = 1u << SS_V_MAX | 1u << SS_A_MAX | 1u << SS_TRANSITION;
     if (m->scene->model != SS_COULOMB)
@@ -27,10 +27,10 @@ typedef struct point {
 static point
 point_of(walk *w, double s, const double q[], const double dqdt[])
 {
-    const motion *m = &w->m;
+    const state *m = &w->m.now;
     double dfdq[MAX_DIM * MAX_DIM], dfdt[MAX_DIM];
     ss_sample sample;
-    m->model->sample(m, ss_motion_drive(m, m->u + s), q, dqdt, &sample);
+    m->model->sample(m, base_force(m, m->u + s), q, dqdt, &sample);
     point p = { s, sample.x, sample.v, sample.a, 0, sample.f };
     if (w->still)
         return p;
@@ -53,7 +53,7 @@ static point
 point_at_start(walk *w)
 {
     static const double none[MAX_DIM] = { 0 };
-    return point_of(w, 0, w->m.q, w->still ? none : w->e->dq0);
+    return point_of(w, 0, w->m.now.q, w->still ? none : w->e->dq0);
 }
 
 static void
@@ -105,13 +105,13 @@ extremum(walk *w, point lo, point hi, rate which)
 
 /* In a microstick, or where the state variable's friction law is steep. */
 static int
-in_transition(const motion *m, const point *p)
+in_transition(const state *m, const point *p)
 {
     return m->scene->model == SS_STATE_VARIABLE ? fabs(m->scene->alpha * p->v) < 1 : m->mode == 0;
 }
 
 static void
-take_extremum_of_a(meter *r, const motion *m, const point *p)
+take_extremum_of_a(meter *r, const state *m, const point *p)
 {
     double t = r->time + p->s;
     if (!in_transition(m, p))
@@ -183,15 +183,15 @@ take_part(meter *r, walk *w, const point *lo, const point *hi)
             point p = extremum(w, *lo, *hi, which);
             look_at(r, &p);
             if (which == OF_A)
-                take_extremum_of_a(r, &w->m, &p);
+                take_extremum_of_a(r, &w->m.now, &p);
         }
-    if (!in_transition(&w->m, hi))
+    if (!in_transition(&w->m.now, hi))
         leave_transition(r);
 }
 
 /* Does the friction force vary within the mode? */
 static int
-force_varies(const motion *m)
+force_varies(const state *m)
 {
     return m->scene->model == SS_STATE_VARIABLE
         || (m->scene->model == SS_COMPLIANT && m->mode == 0);
@@ -201,8 +201,8 @@ void
 ss_meter_leg(meter *r, walk *w)
 {
     int still = w->still || !r->needs_course;
-    size_t parts = still ? 1 : (size_t)ceil(w->h / ss_motion_step_cap(&w->m));
-    if (w->m.scene->model == SS_STATE_VARIABLE && !still)
+    size_t parts = still ? 1 : (size_t)ceil(w->h / ss_step_cap(&w->m.now));
+    if (w->m.now.scene->model == SS_STATE_VARIABLE && !still)
         parts *= 2;
     point lo = point_at_start(w), first = lo;
     look_at(r, &lo);
@@ -211,15 +211,15 @@ ss_meter_leg(meter *r, walk *w)
         look_at(r, &hi);
         if (!still) {
             take_part(r, w, &lo, &hi);
-            if (force_varies(&w->m) && (r->wanted & 1u << SS_ENERGY))
+            if (force_varies(&w->m.now) && (r->wanted & 1u << SS_ENERGY))
                 r->energy += work_between(w, lo.s, hi.s);
         }
         lo = hi;
     }
-    if (!force_varies(&w->m))
-        r->energy += w->m.f0 * (lo.x - first.x);
+    if (!force_varies(&w->m.now))
+        r->energy += w->m.now.f0 * (lo.x - first.x);
     r->time += w->h;
-    if (w->m.mode == 0)
+    if (w->m.now.mode == 0)
         r->stick += w->h;
 }
 

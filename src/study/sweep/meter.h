@@ -23,7 +23,7 @@ typedef struct meter {
     size_t spacings;
 } meter;
 
-void ss_meter_begin(meter *r, unsigned wanted, const motion *m);
+void ss_meter_begin(meter *r, unsigned wanted, const state *m);
 void ss_meter_leg(meter *r, walk *w);
 void ss_meter_event(meter *r, const ss_event *event);
 /* The measures of so many forcing cycles, which close to a period or do not.  What cannot be told
@@ -35,7 +35,7 @@ typedef struct tangent {
     double d[3][3];
 } tangent;
 
-void ss_tangent_begin(tangent *t, const motion *m);
+void ss_tangent_begin(tangent *t, const state *m);
 /* Along the leg that w stands on; then, if it ends in an event, across it: rates are those before,
  * and mode, whether that was an event. */
 void ss_tangent_leg(tangent *t, const walk *w);

@@ -92,9 +92,10 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
 
 /* --- states -------------------------------------------------------------------------------- */
 
-typedef struct state {
+/* At the start of a forcing cycle. */
+typedef struct section {
     double x, v, y;                     /* y: contact deflection, or theta */
-} state;
+} section;
 
 typedef struct finder {
     const ss_scene *scene;
@@ -102,17 +103,17 @@ typedef struct finder {
     ss_error *err;
     walk w;
     double n;                           /* forcing cycles walked, from the walk's t = 0 */
-    state unit;                         /* of a difference */
-    state last[2 * SS_PERIOD_MAX + 1];  /* the latest, cycle after cycle, in a ring */
+    section unit;                         /* of a difference */
+    section last[2 * SS_PERIOD_MAX + 1];  /* the latest, cycle after cycle, in a ring */
     unsigned long taken;                /* of them */
     unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
 } finder;
 
-static state
-state_of(const motion *m)
+static section
+section_of(const state *m)
 {
     const ss_scene *s = m->scene;
-    state at = { m->x_ref + m->q[0], m->q[1], 0 };
+    section at = { m->x_ref + m->q[0], m->q[1], 0 };
     if (s->model == SS_STATE_VARIABLE)
         at.y = m->q[2];
     else if (s->model == SS_COMPLIANT)
@@ -127,18 +128,18 @@ part(double difference, double unit)
 }
 
 static double
-distance(const finder *f, state a, state b)
+distance(const finder *f, section a, section b)
 {
     return fmax(fmax(part(a.x - b.x, f->unit.x), part(a.v - b.v, f->unit.v)),
                 part(a.y - b.y, f->unit.y));
 }
 
-static state
-state_units(const motion *m)
+static section
+section_units(const state *m)
 {
     const ss_scene *s = m->scene;
     double faster = fmax(m->omega, sqrt(s->stiffness / s->mass));
-    return (state){ m->x_scale, m->x_scale * faster,
+    return (section){ m->x_scale, m->x_scale * faster,
                     s->model == SS_COMPLIANT ? s->friction / s->contact_stiffness : s->friction };
 }
 
@@ -151,10 +152,10 @@ go(finder *f, int cycles, meter *r, tangent *t)
     walk *w = &f->w;
     double period = 1 / f->scene->base_frequency, none = 4 * DBL_EPSILON * period;
     instant end = instant_sample(f->n + cycles, f->scene->base_frequency);
-    for (double left; (left = instant_diff(end, w->m.origin) - w->m.u) > none;) {
+    for (double left; (left = instant_diff(end, w->m.origin) - w->m.now.u) > none;) {
         ss_event event;
         double q[MAX_DIM], rates[MAX_DIM];
-        int is_event, mode = w->m.mode;
+        int is_event, mode = w->m.now.mode;
         ss_status st = ss_walk_leg(w, fmin(left, period), f->err);
         if (st != SS_OK)
             return st;
@@ -183,15 +184,15 @@ measure_cycles(finder *f, int cycles, int period, ss_steady *out)
 {
     meter r;
     tangent t;
-    state at = state_of(&f->w.m);
+    section at = section_of(&f->w.m.now);
     int derive = period > 0 && (f->opts->measures & FLOQUET);
-    ss_meter_begin(&r, f->opts->measures, &f->w.m);
-    ss_tangent_begin(&t, &f->w.m);
-    unsigned long before = f->w.m.unresolved;
+    ss_meter_begin(&r, f->opts->measures, &f->w.m.now);
+    ss_tangent_begin(&t, &f->w.m.now);
+    unsigned long before = ss_motion_unresolved(&f->w.m);
     ss_status st = go(f, cycles, &r, derive ? &t : NULL);
     if (st != SS_OK)
         return st;
-    f->unresolved = f->w.m.unresolved - before;
+    f->unresolved = ss_motion_unresolved(&f->w.m) - before;
     ss_meter_end(&r, cycles, period > 0, out->value);
     out->value[SS_PERIOD] = period;
     out->value[SS_X_PHASE] = at.x;
@@ -207,12 +208,12 @@ measure_cycles(finder *f, int cycles, int period, ss_steady *out)
 static void
 take_state(finder *f)
 {
-    f->last[f->taken++ % (2 * SS_PERIOD_MAX + 1)] = state_of(&f->w.m);
+    f->last[f->taken++ % (2 * SS_PERIOD_MAX + 1)] = section_of(&f->w.m.now);
 }
 
 /* The state so many cycles before the latest. */
-static state
-state_before(const finder *f, int cycles)
+static section
+section_before(const finder *f, int cycles)
 {
     return f->last[(f->taken - 1 - (unsigned long)cycles) % (2 * SS_PERIOD_MAX + 1)];
 }
@@ -225,12 +226,12 @@ has_period(const finder *f, int p)
 {
     if (f->taken <= (unsigned long)p)
         return 0;
-    double now = distance(f, state_before(f, 0), state_before(f, p));
+    double now = distance(f, section_before(f, 0), section_before(f, p));
     if (now <= ROUNDING || !(now <= f->opts->tol))
         return now <= ROUNDING;
     if (f->taken <= 2 * (unsigned long)p)
         return 0;
-    double before = distance(f, state_before(f, p), state_before(f, 2 * p)), ratio = now / before;
+    double before = distance(f, section_before(f, p), section_before(f, 2 * p)), ratio = now / before;
     return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
 }
 
@@ -243,7 +244,7 @@ find_period(const finder *f)
         if (has_period(f, p))
             return p;
         if (f->taken > (unsigned long)p
-            && distance(f, state_before(f, 0), state_before(f, p)) <= 10 * f->opts->tol)
+            && distance(f, section_before(f, 0), section_before(f, p)) <= 10 * f->opts->tol)
             return 0;
     }
     return 0;
@@ -259,7 +260,7 @@ settle_and_look(finder *f, int *period)
     const motion here = f->w.m;
     for (int p = 1; st == SS_OK && *period == 0 && p <= f->opts->max_period; p++) {
         st = go(f, 1, NULL, NULL);
-        if (distance(f, state_of(&f->w.m), state_of(&here)) <= f->opts->tol)
+        if (distance(f, section_of(&f->w.m.now), section_of(&here.now)) <= f->opts->tol)
             *period = p;
     }
     if (st != SS_OK)
@@ -303,15 +304,16 @@ enum { APPROACH = 4, NEWTON_STEPS = 20 };
 
 /* Move a state by d(x_ref, q, v); 0 if its mode does not allow that. */
 static int
-move(motion *m, const double d[3])
+move(motion *of, const double d[3])
 {
+    state *m = &of->now;
     const ss_scene *s = m->scene;
     double rates[MAX_DIM], drive, slope;
     m->x_ref += d[0];
     m->q[0] += d[1];
     m->q[1] += d[2];
-    ss_motion_rebase(m);
-    drive = ss_motion_drive(m, 0);
+    ss_motion_rebase(of);
+    drive = base_force(m, 0);
     if (s->model == SS_COULOMB && m->mode == 0)
         return fabs(drive - s->stiffness * m->q[0]) <= s->friction;
     if (m->mode == 0)
@@ -327,18 +329,19 @@ newton_step(finder *f, motion *at, tangent *t, double *off)
     const double unit[3] = { f->unit.x, f->unit.x, f->unit.v };
     ss_status st = ss_walk_begin_at(&f->w, at);
     f->n = 0;
-    ss_tangent_begin(t, at);
+    ss_tangent_begin(t, &at->now);
     if (st == SS_OK)
         st = go(f, 1, NULL, t);
     if (st != SS_OK)
         return st;
     const motion *end = &f->w.m;
+    const state *a = &at->now, *b = &end->now;
     motion moved = *at;
-    double d[3], r[3] = { end->x_ref - at->x_ref, end->q[0] - at->q[0], end->q[1] - at->q[1] };
-    double missed = distance(f, state_of(end), state_of(at));
+    double d[3], r[3] = { b->x_ref - a->x_ref, b->q[0] - a->q[0], b->q[1] - a->q[1] };
+    double missed = distance(f, section_of(b), section_of(a));
     int allowed = 0, halvings = 0;
     ss_tangent_solve(t, unit, r, d);
-    if (end->mode == at->mode && isfinite(d[0] + d[1] + d[2]))
+    if (b->mode == a->mode && isfinite(d[0] + d[1] + d[2]))
         for (; !(allowed = move(&moved, d)) && halvings < 8; halvings++) {
             moved = *at;
             for (int i = 0; i < 3; i++)
@@ -346,10 +349,10 @@ newton_step(finder *f, motion *at, tangent *t, double *off)
         }
     *off = missed <= ROUNDING ? missed : INFINITY;
     if (allowed && halvings == 0)
-        *off = fmax(missed, distance(f, state_of(&moved), state_of(at)));
+        *off = fmax(missed, distance(f, section_of(&moved.now), section_of(a)));
     *at = allowed ? moved : *end;       /* no step to be had: simulate on */
     at->origin = (instant){ 0, 0 };
-    at->u = 0;
+    at->now.u = 0;
     return SS_OK;
 }
 
@@ -430,7 +433,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
     if (scene->base_frequency == 0)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
     st = begin(&f);
-    f.unit = state_units(&f.w.m);
+    f.unit = section_units(&f.w.m.now);
     if (st == SS_OK && opts->shoot)
         st = shoot(&f, out, &found);
     if (st == SS_OK && opts->shoot && !found)

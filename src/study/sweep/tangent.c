@@ -12,7 +12,7 @@
 enum { REF, Q, V };
 
 void
-ss_tangent_begin(tangent *t, const motion *m)
+ss_tangent_begin(tangent *t, const state *m)
 {
     int stuck = m->mode == 0, compliant = m->scene->model == SS_COMPLIANT;
     *t = (tangent){ .d = { [Q][Q] = 1 } };
@@ -23,7 +23,7 @@ ss_tangent_begin(tangent *t, const motion *m)
 void
 ss_tangent_leg(tangent *t, const walk *w)
 {
-    const motion *m = &w->m;
+    const state *m = &w->m.now;
     double C, S, G, mass = m->scene->mass;
     if (w->still)
         return;
@@ -39,7 +39,7 @@ ss_tangent_leg(tangent *t, const walk *w)
 static void
 release(tangent *t, const walk *w, const double q[], const double rates[])
 {
-    const ss_scene *s = w->m.scene;
+    const ss_scene *s = w->m.now.scene;
     double ratio = s->release == SS_RELEASE_TOTAL ? s->contact_damping / s->contact_stiffness : 0;
     double jump = rates[1] - w->e->dq0[1];
     for (int i = 0; i < 3; i++) {
@@ -54,7 +54,7 @@ release(tangent *t, const walk *w, const double q[], const double rates[])
 static void
 stop(tangent *t, const walk *w, const double rates[])
 {
-    const motion *m = &w->m;
+    const state *m = &w->m.now;
     int microstick = m->mode == 0 && m->scene->model == SS_COMPLIANT;
     double factor = m->mode == 0 && !microstick ? 0 : w->e->dq0[1] / rates[1];
     for (int i = 0; i < 3; i++) {
@@ -72,7 +72,7 @@ ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const do
 {
     if (mode != 0 && is_event)
         stop(t, w, rates);
-    else if (mode == 0 && is_event && w->m.scene->model == SS_COMPLIANT)
+    else if (mode == 0 && is_event && w->m.now.scene->model == SS_COMPLIANT)
         release(t, w, q, rates);
 }
 
