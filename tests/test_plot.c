@@ -153,8 +153,9 @@ text_of_files_stands_between_quotes(void **state)
     (void)state;
     opts.title = "\"; system 'touch x'\n`touch y`";
     char *script = signal_script(signal, &opts);
-    assert_non_null(strstr(script, "\ntitle = '\"; system '.\"'\".'touch x'.\"'\".' `touch y`'\n"));
-    assert_non_null(strstr(script, "\nlabel1 = 'a'.\"'\".'`@b / m'.\"'\".'s'\n"));
+    assert_non_null(strstr(script, "\nset title \"\\042\\073 system \\047touch x\\047 "
+                                   "\\140touch y\\140\" noenhanced "));
+    assert_non_null(strstr(script, "set label 1 \"a\\047\\140\\100b / m\\047s\" at "));
     free(script);
     ss_signal_free(signal);
 }
@@ -164,10 +165,10 @@ static void
 long_labels_have_two_lines_and_smaller_letters(void **state)
 {
     static const struct { const char *name, *unit, *label; int smaller; } row[] = {
-        { "velocity", "m/s", "'velocity '.\"\\n\".'/ (m/s)'", 1 },
-        { "friction_force_kip", "", "'friction_'.\"\\n\".'force_kip'", 1 },
-        { "a", "m/s", "'a / (m/s)'", 0 },
-        { "displacementofthemass", "", "'displacementofthemass'", 1 },
+        { "velocity", "m/s", "velocity \\n/ (m/s)", 1 },
+        { "friction_force_kip", "", "friction_\\nforce_kip", 1 },
+        { "a", "m/s", "a / (m/s)", 0 },
+        { "displacementofthemass", "", "displacementofthemass", 1 },
     };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
@@ -175,7 +176,7 @@ long_labels_have_two_lines_and_smaller_letters(void **state)
         ss_signal *signal = new_signal(2, 1, 0, row[i].name, row[i].unit);
         signal->values[1] = 1;
         char *script = signal_script(signal, &ss_plot_defaults);
-        snprintf(line, sizeof line, "\nlabel1 = %s\n", row[i].label);
+        snprintf(line, sizeof line, "; set label 1 \"%s\" at ", row[i].label);
         if (strstr(script, line) == NULL)
             fail_msg("no %s", row[i].label);
         if ((strstr(script, "noenhanced font ','.(") != NULL) != row[i].smaller)
@@ -189,17 +190,21 @@ static void
 labels_carry_powers_of_ten_and_raised_digits(void **state)
 {
     static const struct { double value; const char *unit, *label; } row[] = {
-        { 3e-4, "m", "'a / (10⁻³ m)'" },    { 0.3, "m/s^2", "'a / (m/s²)'" },
-        { 2e7, "", "'a / 10⁶'" },           { 0, "N", "'a / N'" },
-        { 5, "s^2.5", "'a / s^2.5'" },      { 9999, "kip", "'a / kip'" },
+        { 3e-4, "m", "a / (10⁻³ m)" },      { 0.3, "m/s^2", "a / (m/s²)" },
+        { 2e7, "", "a / 10⁶" },             { 0, "N", "a / N" },
+        { 5, "s^2.5", "a / s^2.5" },        { 9999, "kip", "a / kip" },
     };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
-        char line[64];
+        char line[96];
         ss_signal *signal = new_signal(2, 1, 0, "a", row[i].unit);
         signal->values[1] = row[i].value;
         char *script = signal_script(signal, &ss_plot_defaults);
-        snprintf(line, sizeof line, "\nlabel1 = %s\n", row[i].label);
+        int n = snprintf(line, sizeof line, "set label 1 \"");
+        for (const char *c = row[i].label; *c != '\0'; c++)
+            n += snprintf(line + n, sizeof line - (size_t)n,
+                          (*c & 0x80) != 0 || *c == '^' ? "\\%03o" : "%c", (unsigned char)*c);
+        snprintf(line + n, sizeof line - (size_t)n, "\" at ");
         if (strstr(script, line) == NULL)
             fail_msg("no %s", row[i].label);
         free(script);

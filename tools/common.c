@@ -602,7 +602,26 @@ last_line(FILE *words, char *line, int size)
     }
 }
 
-/* Start gnuplot on a script; its words go to a file, its picture comes through *picture. */
+/* gnuplot runs the commands in GNUTERM and takes folders, fonts and programs from other variables: it
+ * gets only those that it needs to start and to find the fonts of the machine. */
+static void
+clear_environment(void)
+{
+    extern char **environ;
+    static const char *const kept[] = { "PATH", "HOME", "TMPDIR", "LD_LIBRARY_PATH", "FONTCONFIG_PATH",
+        "FONTCONFIG_FILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME" };
+    size_t n = 0;
+    for (char **entry = environ; *entry != NULL; entry++)
+        for (size_t i = 0, length; i < sizeof kept / sizeof *kept; i++)
+            if (strncmp(*entry, kept[i], length = strlen(kept[i])) == 0 && (*entry)[length] == '=') {
+                environ[n++] = *entry;
+                break;
+            }
+    environ[n] = NULL;
+    setenv("TZ", "UTC0", 1);            /* of the date in a PDF */
+}
+
+/* Start gnuplot on a script, without the settings of a user; its words go to a file, its picture comes through *picture. */
 static pid_t
 start_gnuplot(FILE *script, FILE *words, FILE **picture)
 {
@@ -616,7 +635,8 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
         dup2(fileno(words), STDERR_FILENO);
         close(fd[0]);
         close(fd[1]);
-        execlp("gnuplot", "gnuplot", "-", (char *)NULL);
+        clear_environment();
+        execlp("gnuplot", "gnuplot", "-d", "-", (char *)NULL);
         _exit(127);
     }
     close(fd[1]);
@@ -626,31 +646,59 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
     return child;
 }
 
+/* The time at which Cairo wrote a PDF would make two of one script differ: it is replaced. */
+static void
+fix_date(char *picture, size_t n)
+{
+    static const char key[] = "/CreationDate (D:", date[] = "20000101000000";
+    size_t key_length = sizeof key - 1, length = sizeof date - 1;
+    for (size_t i = 0; i + key_length + length <= n; i++)
+        if (memcmp(picture + i, key, key_length) == 0
+            && strspn(picture + i + key_length, "0123456789") == length)
+            memcpy(picture + i + key_length, date, length);
+}
+
+/* All bytes of a pipe, to be freed. */
+static char *
+read_all(FILE *in, size_t *n)
+{
+    char *bytes = NULL, piece[BUFSIZ];
+    FILE *out = open_memstream(&bytes, n);
+    size_t got;
+    if (out == NULL)
+        tool_die("%s", strerror(errno));
+    while ((got = fread(piece, 1, sizeof piece, in)) > 0)
+        fwrite(piece, 1, got, out);
+    if (fclose(out) != 0)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    return bytes;
+}
+
 /* gnuplot says nothing of a full disk, so it is we who write what it draws. */
 static void
 run_gnuplot(FILE *script, FILE *out)
 {
-    char piece[BUFSIZ], reason[256] = "gnuplot failed";
+    char reason[256] = "gnuplot failed";
     FILE *words = tmpfile(), *picture;
-    size_t n, drawn = 0;
+    size_t n;
     int status;
     if (words == NULL)
         tool_die("%s", strerror(errno));
     pid_t child = start_gnuplot(script, words, &picture);
-    while ((n = fread(piece, 1, sizeof piece, picture)) > 0) {
-        drawn += n;
-        fwrite(piece, 1, n, out);       /* tool_end looks for errors */
-    }
+    char *drawn = read_all(picture, &n);
     fclose(picture);
     if (waitpid(child, &status, 0) != child)
         tool_die("%s", strerror(errno));
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         tool_die("gnuplot not found; install it, or write a script with -o FILE.gp");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || drawn == 0) {
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || n == 0) {
         last_line(words, reason, sizeof reason);
         tool_die("%s", reason);
     }
     fclose(words);
+    fix_date(drawn, n);
+    fwrite(drawn, 1, n, out);       /* tool_end looks for errors */
+    free(drawn);
 }
 
 ss_plot_style

@@ -17,7 +17,7 @@
 #define ROWS 580                /* and high */
 #define LEVELS 100              /* at most */
 #define BLUR 0.2                /* pixels that a line may be off by leaving points out */
-#define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0 */
+#define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0; nothing is as far above */
 
 const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80 };
 
@@ -45,16 +45,20 @@ in_column(const ss_scale *scale, const double *w, double lo, double hi)
     return level;
 }
 
-/* The largest |W| of scale i, of those outside the cone of influence and of all. */
-static void
+/* The largest |W| of scale i, of those outside the cone of influence and of all; 0 if one of them is
+ * not finite. */
+static int
 find_largest(const ss_coefficients *c, size_t i, const double *w, double most[2])
 {
     for (size_t k = 0; k < c->scale[i].n; k++) {
         double level = magnitude(w, k);
+        if (!isfinite(level))
+            return 0;
         most[1] = fmax(most[1], level);
         if (level > most[0] && !ss_coefficients_edge(c, i, k))
             most[0] = level;
     }
+    return 1;
 }
 
 /* |W|, COLUMNS + 1 of them a scale, and what find_largest finds. */
@@ -68,7 +72,9 @@ fill_map(double *map, const ss_coefficients *c, const ss_contour_opts *contour,
         ss_status st = own != NULL ? contour->source(s, own, contour->source_user, err) : SS_OK;
         if (st != SS_OK)
             return st;
-        find_largest(c, s, w, most);
+        if (!find_largest(c, s, w, most))
+            return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
+                           c->scale[s].f);
         for (size_t i = 0; i <= COLUMNS; i++) {
             double t = span->from - c->head->start + (double)i * width;
             map[s * (COLUMNS + 1) + i] = in_column(&c->scale[s], w, t - width / 2, t + width / 2);
@@ -98,7 +104,8 @@ make_map(double **out, const ss_coefficients *c, const ss_contour_opts *contour,
         return ss_fail(err, st, "%s", ss_strerror(st));
     double max = most[0] >= 0 ? most[0] : most[1];
     for (size_t i = 0; st == SS_OK && i < cells; i++)
-        map[i] = max > 0 && map[i] > 0 ? fmax(20 * log10(map[i] / max), -FLOOR) : -FLOOR;
+        map[i] = max > 0 && map[i] > 0
+            ? fmin(fmax(20 * log10(map[i] / max), -FLOOR), FLOOR) : -FLOOR;
     return st;
 }
 
@@ -184,6 +191,13 @@ put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
 
 /* --- what stands around it ----------------------------------------------------------------- */
 
+/* Decimals of a frequency: six digits at least. */
+static int
+decimals_of(double f)
+{
+    return (int)fmax(6, 5 - floor(log10(f)));
+}
+
 /* One side of a shaded area: from lo to hi Hz the times that are sqrt(2) a after t, or before it where
  * the sign is -1, but not beyond stop. */
 static void
@@ -198,7 +212,7 @@ put_side(FILE *out, const script_span *span, double t, int sign, double stop, do
         double edge = t + sign * sqrt(2) * center / (2 * M_PI * f);
         edge = sign > 0 ? fmin(edge, stop) : fmax(edge, stop);
         ss_script_put(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
-        ss_script_put(out, f, 6, "\n");
+        ss_script_put(out, f, decimals_of(f), "\n");
     }
 }
 
@@ -297,7 +311,7 @@ put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
     for (size_t i = 0; i < overlay->n_maxima; i++)
         if (is_inside(span, overlay->maximum[i][0])) {
             ss_script_put(out, overlay->maximum[i][0], decimals, " ");
-            ss_script_put(out, overlay->maximum[i][1], 6, "\n");
+            ss_script_put(out, overlay->maximum[i][1], decimals_of(overlay->maximum[i][1]), "\n");
             seen.maxima++;
         }
     fputs("EOD\n", out);
@@ -307,23 +321,21 @@ put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
 /* --- the script ---------------------------------------------------------------------------- */
 
 static const char around[] =
-    "set encoding utf8\n"
     "set multiplot\n"
     "left = 0.175; right = 0.835\n"
     "set lmargin at screen left; set rmargin at screen right\n"
     "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3\n"
-    SCRIPT_TIME_TICS
-    "set title title noenhanced offset 0,-0.5\n";
+    SCRIPT_TIME_TICS;
 
 #define ROOM 6.0                /* [ems] for the name of the signal, between "(a)" and "(b)" */
 
 static const char panel_a[] =
     "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
     "set label 1 '(a)' at screen 0.01, screen 0.96\n"
-    "set xtics format ''; set label 2 signal_label " SCRIPT_AT("signal_label");
+    "set xtics format ''; ";
 
 static const char panel_a_plot[] =
-    "\nset offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
+    "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
     "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"
     "unset title; set offsets 0,0,0,0\nunset label 2\n";
 
@@ -356,7 +368,7 @@ put_features(FILE *out, const visible *seen)
 /* What the script is told of panel (a). */
 typedef struct panel {
     double range;               /* of the signal, as drawn */
-    double font;                /* size of its label's letters, part of the usual */
+    script_label label;
 } panel;
 
 /* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
@@ -369,7 +381,7 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
     if (contour->signal != NULL) {
         ss_script_put_tics(out, "ytics", a->range, 5);
         fputs(panel_a, out);
-        ss_script_put_font(out, a->font);
+        ss_script_put_side_label(out, 2, &a->label);
         fputs(panel_a_plot, out);
     }
     fputs(contour->signal != NULL ? "bottom = 0.12; top_b = 0.68\n"
@@ -391,6 +403,49 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
 }
 
 static ss_status
+check_scales(const ss_coefficients *c, ss_error *err)
+{
+    for (size_t i = 0; i < c->n_scales; i++) {
+        const ss_scale *s = &c->scale[i];
+        if (!(s->f >= 1e-300 && s->f <= 1e300 && (i == 0 || s->f > s[-1].f)))
+            return ss_fail(err, SS_EINVAL, "scale %zu of %g Hz cannot be drawn", i + 1, s->f);
+        if (s->n == 0 || !(s->b_num / s->b_den > 0))
+            return ss_fail(err, SS_EINVAL, "scale %zu has no translations", i + 1);
+    }
+    return SS_OK;
+}
+
+/* NULL if all of an overlay has its place, else the part that has not. */
+static const char *
+find_unplaced(const ss_overlay *overlay)
+{
+    for (size_t i = 0; i < overlay->n_spans; i++)
+        if (!isfinite(overlay->span[i][0]) || !isfinite(overlay->span[i][1]))
+            return "transition";
+    for (size_t i = 0; i < overlay->n_maxima; i++)
+        if (!isfinite(overlay->maximum[i][0]) || !(overlay->maximum[i][1] > 0)
+            || isinf(overlay->maximum[i][1]))
+            return "maximum";
+    for (size_t i = 0; i < overlay->n_spikes; i++)
+        if (!isfinite(overlay->spike[i]))
+            return "spike";
+    return NULL;
+}
+
+static ss_status
+check_overlays(const ss_contour_opts *contour, ss_error *err)
+{
+    const char *what = contour->overlay != NULL ? find_unplaced(contour->overlay) : NULL;
+    for (size_t i = 0; i < contour->n_events; i++)
+        if (!isfinite(contour->event[i]))
+            what = "event";
+    if (what != NULL)
+        return ss_fail(err, SS_EINVAL, "a time or frequency of a%s %s is not finite",
+                       what[0] == 'e' ? "n" : "", what);
+    return SS_OK;
+}
+
+static ss_status
 check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 {
     if (contour->levels < 1 || contour->levels > LEVELS)
@@ -406,7 +461,14 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     if (c->n_scales < 2)
         return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu",
                        c->n_scales);
-    return SS_OK;
+    if (contour->signal != NULL) {
+        const ss_signal *s = contour->signal;
+        ss_status status = ss_script_check(s->head->column[contour->column].name,
+                                           s->values + contour->column * s->n, s->n, err);
+        if (status != SS_OK)
+            return status;
+    }
+    return check_scales(c, err);
 }
 
 static ss_status
@@ -420,9 +482,7 @@ put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, 
     if (status != SS_OK)
         return status;
     int exponent = ss_script_exponent(x + span.first, span.n);
-    fputs("signal_label = ", out);
-    a->font = ss_script_put_label(out, &signal->head->column[contour->column], exponent, ROOM);
-    putc('\n', out);
+    ss_script_make_label(&a->label, &signal->head->column[contour->column], exponent, ROOM);
     a->range = ss_script_put_trace(out, "$signal", x, signal->head, &span, exponent);
     return SS_OK;
 }
@@ -431,12 +491,12 @@ static ss_status
 write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
              const ss_plot_opts *opts, script_span span, const double *level, ss_error *err)
 {
-    ss_status status = ss_script_begin(out, opts, c->head,
-                                       contour->signal != NULL ? 8.5 : 6.5, err);
+    ss_status status = ss_script_begin(out, opts, contour->signal != NULL ? 8.5 : 6.5, err);
     if (status != SS_OK)
         return status;
+    ss_script_put_title(out, opts, c->head, NULL);
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
-    panel a = { 0, 1 };
+    panel a = { .range = 0 };
     int lines = 0;
     visible seen = { 0, 0, 0 };
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
@@ -447,8 +507,8 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     ss_script_put(out, contour->span, 6,
                   "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
     fputs("fmin = ", out);
-    ss_script_put(out, fmin, 6, "    # Hz\nfmax = ");
-    ss_script_put(out, fmax, 6, "  # Hz\n");
+    ss_script_put(out, fmin, decimals_of(fmin), "    # Hz\nfmax = ");
+    ss_script_put(out, fmax, decimals_of(fmax), "  # Hz\n");
     fputs("colours = \"0 '#7ad151', 0.3 '#22a884', 0.55 '#2a788e', 0.8 '#414487', 1 '#440154'\"\n"
           "cone_colour = '#e4e4e4'; event_colour = '#d55e00'\n", out);
     if (contour->signal != NULL)
@@ -478,6 +538,8 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
     script_span span;
     double *level = NULL;
     ss_status status = check(c, contour, err);
+    if (status == SS_OK)
+        status = check_overlays(contour, err);
     if (status == SS_OK)
         status = ss_script_find_span(&span, c->head, c->n, opts, err);
     if (status == SS_OK)

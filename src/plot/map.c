@@ -28,6 +28,7 @@ typedef struct axis {
     double *value;
     size_t n;
     int log;                        /* their ratios are equal, not their differences */
+    int digits;                     /* that tell apart a hundred-thousandth of their range */
 } axis;
 
 typedef struct grid {
@@ -55,7 +56,7 @@ is_log(const axis *a)
         r[0] = fmin(r[0], ratio);
         r[1] = fmax(r[1], ratio);
     }
-    return a->n > 2 && a->value[0] > 0 && d[1] > d[0] * (1 + 1e-6) && r[1] / r[0] < d[1] / d[0];
+    return a->n > 2 && a->value[0] > 0 && isfinite(a->value[a->n - 1] / a->value[0]) && d[1] > d[0] * (1 + 1e-6) && r[1] / r[0] < d[1] / d[0];
 }
 
 static ss_status
@@ -75,7 +76,9 @@ make_axis(axis *a, const ss_sweep_table *t, size_t column, ss_error *err)
             a->value[a->n++] = a->value[i];
     if (a->n < 2)
         return ss_fail(err, SS_EINVAL, "a map needs two values of %s at least", t->name[column]);
+    double lo = a->value[0], hi = a->value[a->n - 1];
     a->log = is_log(a);
+    a->digits = 6 + (int)fmax(0, floor(log10(fmax(fabs(lo), fabs(hi)) / (hi - lo))));
     return SS_OK;
 }
 
@@ -138,11 +141,15 @@ border(const axis *a, double i)
 }
 
 static void
-put(FILE *out, double x, char behind)
+put_level(FILE *out, double level)
 {
-    char text[32];
-    snprintf(text, sizeof text, "%.6g", x);
-    fprintf(out, "%s%c", text, behind);
+    fprintf(out, "%.6g\n", level);
+}
+
+static void
+put(FILE *out, const axis *a, double x, char behind)
+{
+    fprintf(out, "%.*g%c", a->digits, x, behind);
 }
 
 /* --- regions ------------------------------------------------------------------------------- */
@@ -193,10 +200,10 @@ put_boxes(FILE *out, const grid *g, const double *column, double value)
                 end++;
                 continue;
             }
-            put(out, border(&g->x, (double)i), ' ');
-            put(out, border(&g->x, (double)end), ' ');
-            put(out, border(&g->y, (double)j), ' ');
-            put(out, border(&g->y, (double)(j + 1) + (j + 1 < g->y.n ? 0.25 : 0)), '\n');
+            put(out, &g->x, border(&g->x, (double)i), ' ');
+            put(out, &g->x, border(&g->x, (double)end), ' ');
+            put(out, &g->y, border(&g->y, (double)j), ' ');
+            put(out, &g->y, border(&g->y, (double)(j + 1) + (j + 1 < g->y.n ? 0.25 : 0)), '\n');
         }
 }
 
@@ -242,9 +249,9 @@ place_on(const axis *a, double at)
 static void
 put_point(FILE *out, const grid *g, const double point[2], double level)
 {
-    put(out, along(&g->x, point[0]), ' ');
-    put(out, along(&g->y, point[1]), ' ');
-    put(out, level, '\n');
+    put(out, &g->x, along(&g->x, point[0]), ' ');
+    put(out, &g->y, along(&g->y, point[1]), ' ');
+    put_level(out, level);
 }
 
 /* Are all corners of the cell around a point known? */
@@ -464,13 +471,13 @@ put_lines(FILE *out, const grid *g, const double *column, ss_error *err)
 /* --- the script ---------------------------------------------------------------------------- */
 
 static void
-put_curve(FILE *out, const ss_map_opts *map)
+put_curve(FILE *out, const ss_map_opts *map, const grid *g)
 {
     fputs("$curve << EOD\n", out);
     for (size_t i = 0; i < map->n_curve; i++)
         if (isfinite(map->curve[2 * i]) && isfinite(map->curve[2 * i + 1])) {
-            put(out, map->curve[2 * i], ' ');
-            put(out, map->curve[2 * i + 1], '\n');
+            put(out, &g->x, map->curve[2 * i], ' ');
+            put(out, &g->y, map->curve[2 * i + 1], '\n');
         } else {
             putc('\n', out);
         }
@@ -481,24 +488,19 @@ static void
 put_axis(FILE *out, const char *name, const axis *a)
 {
     fprintf(out, "set %srange [", name);
-    put(out, a->value[0], ':');
-    put(out, a->value[a->n - 1], ']');
+    put(out, a, a->value[0], ':');
+    put(out, a, a->value[a->n - 1], ']');
     fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
 }
 
 /* "base frequency / Hz" */
 static void
-put_label(FILE *out, const char *name, const ss_sweep_table *t, size_t column)
+make_label(script_label *label, const ss_sweep_table *t, size_t column)
 {
-    const char *unit = t->unit[column], *brackets = strpbrk(unit, "/ ") != NULL ? "()" : "";
-    char text[256];
-    snprintf(text, sizeof text, "%s%s%.1s%s%s", t->name[column], *unit != '\0' ? " / " : "",
-             brackets, unit, *brackets != '\0' ? ")" : "");
-    for (char *p = text; p < text + strlen(t->name[column]); p++)
-        *p = *p == '_' ? ' ' : *p;
-    fprintf(out, "%s = ", name);
-    ss_script_quote(out, text);
-    putc('\n', out);
+    const ss_column of_table = { t->name[column], t->unit[column] };
+    ss_script_make_label(label, &of_table, 0, INFINITY);
+    for (size_t i = 0; i < strlen(t->name[column]) && i < label->n; i++)
+        label->text[i] = label->text[i] == '_' ? ' ' : label->text[i];
 }
 
 static void
@@ -535,15 +537,21 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
 {
     ss_plot_opts titled = *opts;
     int has_region = r->n > 0, has_lines = line != SIZE_MAX;
+    script_label x_label, y_label, line_label;
     if (titled.title == NULL)
         titled.title = t->scene != NULL ? t->scene : "";
-    ss_status st = ss_script_begin(out, &titled, NULL, 7, err);
+    ss_status st = ss_script_begin(out, &titled, 7, err);
     if (st != SS_OK)
         return st;
-    put_label(out, "x_label", t, map->x);
-    put_label(out, "y_label", t, map->y);
+    make_label(&x_label, t, map->x);
+    make_label(&y_label, t, map->y);
     if (has_lines)
-        put_label(out, "line_label", t, line);
+        make_label(&line_label, t, line);
+    ss_script_put_title(out, &titled, NULL, has_lines ? &line_label : NULL);
+    fputs("set xlabel ", out);
+    ss_script_put_label(out, &x_label);
+    fputs(" noenhanced offset 0,0.4\n", out);
+    ss_script_put_side_label(out, 1, &y_label);
     fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
           "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "
           "'8')\n", out);
@@ -555,21 +563,17 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
         fputs("EOD\n", out);
     }
     if (map->n_curve > 0)
-        put_curve(out, map);
+        put_curve(out, map, g);
     if (has_lines)
         st = put_lines(out, g, t->value + line * t->n, err);
     if (st != SS_OK)
         return st;
-    fprintf(out, "set encoding utf8\nset title %s noenhanced offset 0,-0.5\n"
-            "set lmargin at screen 0.14; set tmargin at screen %s; set bmargin at screen 0.14\n",
-            has_lines ? "title.(title eq '' ? '' : \"\\n\").'lines: '.line_label" : "title",
-            has_lines ? "title eq '' ? 0.92 : 0.88" : "0.92");
+    fprintf(out, "set lmargin at screen 0.14; set tmargin at screen %s; "
+            "set bmargin at screen 0.14\n", has_lines && titled.title[0] != '\0' ? "0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", has_region || r->missing ? "0.835" : "0.965");
     put_axis(out, "x", &g->x);
     put_axis(out, "y", &g->y);
-    fputs("set xlabel x_label noenhanced offset 0,0.4; set label 1 y_label at screen 0.03,graph "
-          "0.5 center rotate noenhanced\n"
-          "set tics nomirror out scale 0.6; set border lw 0.8 front\n"
+    fputs("set tics nomirror out scale 0.6; set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     if (has_region || r->missing)
         fputs("set key at screen 0.995,graph 1 right top Left reverse samplen 0.6 spacing 1.3 "
@@ -579,10 +583,25 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
     if (has_region) {
         fputs("set key title ", out);
         ss_script_quote(out, t->name[region]);
-        fputs(" font fine\n", out);
+        fputs(" noenhanced font fine\n", out);
     }
     put_plot(out, map, r, has_lines);
     return ss_script_end(out);
+}
+
+/* A sweep may lack values, which are NaN; the others have the bounds of what is drawn elsewhere. */
+static ss_status
+check_column(const ss_sweep_table *t, size_t column, ss_error *err)
+{
+    for (size_t i = 0; i < t->n; i++) {
+        const double *x = &t->value[column * t->n + i];
+        if (isnan(*x) || fabs(*x) < 1)
+            continue;
+        ss_status st = ss_script_check(t->name[column], x, 1, err);
+        if (st != SS_OK)
+            return st;
+    }
+    return SS_OK;
 }
 
 static ss_status
@@ -595,7 +614,10 @@ check(const ss_sweep_table *t, const ss_map_opts *map, ss_error *err)
         if (column[i] >= t->n_columns)
             return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1,
                            t->n_columns);
-    return SS_OK;
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < sizeof column / sizeof *column; i++)
+        st = check_column(t, column[i], err);
+    return st;
 }
 
 ss_status

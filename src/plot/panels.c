@@ -14,15 +14,19 @@
 /* Margins in the script's own terms: panel i of n stands in its share of the height between rims,
  * its left edge where that of all others is. */
 static const char layout[] =
-    "set encoding utf8\n"
     "set multiplot\n"
-    "set title title noenhanced offset 0,-0.5\n"
     SCRIPT_TIME_TICS
     "set lmargin at screen 0.175; set rmargin at screen letters < 5 ? 0.965 : 1 - 0.0095*letters\n"
     "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
     "set autoscale yfix; set tics nomirror out scale 0.6; set xtics format ''\n"
     "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
     "unset key\n";
+
+/* What is known of a panel when its trace is written. */
+typedef struct panel {
+    double range;
+    int exponent;
+} panel;
 
 ss_status
 ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
@@ -41,25 +45,28 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     if (panels == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
     ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
+    for (size_t i = 0; status == SS_OK && i < panels; i++) {
+        size_t c = n > 0 ? column[i] : i;
+        status = ss_script_check(head->column[c].name, signal->values + c * signal->n + span.first,
+                                 span.n, err);
+    }
     if (status == SS_OK)
-        status = ss_script_begin(out, opts, head, height, err);
+        status = ss_script_begin(out, opts, height, err);
     if (status != SS_OK)
         return status;
-    double (*ranges)[2] = malloc(panels * sizeof *ranges);     /* and size of the letters */
-    if (ranges == NULL)
+    panel *panel_of = malloc(panels * sizeof *panel_of);
+    if (panel_of == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    ss_script_put_title(out, opts, head, NULL);
     ss_script_put_span(out, &span);
     fputs("colour = '#0072b2'\n", out);
     for (size_t i = 0; i < panels; i++) {
         size_t c = n > 0 ? column[i] : i;
         const double *x = signal->values + c * signal->n;
-        int exponent = ss_script_exponent(x + span.first, span.n);
         char name[32];
         snprintf(name, sizeof name, "$panel%zu", i + 1);
-        ranges[i][0] = ss_script_put_trace(out, name, x, head, &span, exponent);
-        fprintf(out, "label%zu = ", i + 1);
-        ranges[i][1] = ss_script_put_label(out, &head->column[c], exponent, ROOM);
-        putc('\n', out);
+        panel_of[i].exponent = ss_script_exponent(x + span.first, span.n);
+        panel_of[i].range = ss_script_put_trace(out, name, x, head, &span, panel_of[i].exponent);
     }
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
             1 - TITLE / height, panels);
@@ -69,15 +76,17 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
             fputs(SCRIPT_TIME_LABELS, out);
         fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
                 "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
-        fprintf(out, "unset label 1; set label 1 label%zu " SCRIPT_AT("label%zu"), i, i);
-        ss_script_put_font(out, ranges[i - 1][1]);
-        putc('\n', out);
-        ss_script_put_tics(out, "ytics", ranges[i - 1][0], 5);
+        script_label label;
+        ss_script_make_label(&label, &head->column[n > 0 ? column[i - 1] : i - 1],
+                             panel_of[i - 1].exponent, ROOM);
+        fputs("unset label 1; ", out);
+        ss_script_put_side_label(out, 1, &label);
+        ss_script_put_tics(out, "ytics", panel_of[i - 1].range, 5);
         fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
         if (i == 1)
             fputs("unset title\n", out);
     }
-    free(ranges);
+    free(panel_of);
     fputs("unset multiplot\n", out);
     return ss_script_end(out);
 }
@@ -128,25 +137,31 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1,
                        head->n_columns);
     ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
-    if (status == SS_OK)
-        status = ss_script_begin(out, opts, head, 6.5, err);
     if (status != SS_OK)
         return status;
     const double *of_x = signal->values + x * signal->n + span.first;
     const double *of_y = signal->values + y * signal->n + span.first;
+    status = ss_script_check(head->column[x].name, of_x, span.n, err);
+    if (status == SS_OK)
+        status = ss_script_check(head->column[y].name, of_y, span.n, err);
+    if (status == SS_OK)
+        status = ss_script_begin(out, opts, 6.5, err);
+    if (status != SS_OK)
+        return status;
     int exponent[2] = { ss_script_exponent(of_x, span.n), ss_script_exponent(of_y, span.n) };
-    fputs("colour = '#0072b2'\nx_label = ", out);
-    double x_font = ss_script_put_label(out, &head->column[x], exponent[0], XY_ROOM);
-    fputs("\ny_label = ", out);
-    double y_font = ss_script_put_label(out, &head->column[y], exponent[1], XY_ROOM);
+    script_label x_label, y_label;
+    ss_script_make_label(&x_label, &head->column[x], exponent[0], XY_ROOM);
+    ss_script_make_label(&y_label, &head->column[y], exponent[1], XY_ROOM);
+    ss_script_put_title(out, opts, head, NULL);
+    fputs("set xlabel ", out);
+    ss_script_put_label(out, &x_label);
+    fputs(" noenhanced offset 0,0.3", out);
+    ss_script_put_font(out, &x_label);
     putc('\n', out);
+    ss_script_put_side_label(out, 1, &y_label);
+    fputs("colour = '#0072b2'\n", out);
     put_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
-    fputs("set encoding utf8\n"
-          "set title title noenhanced offset 0,-0.5; set xlabel x_label noenhanced offset 0,0.3", out);
-    ss_script_put_font(out, x_font);
-    fputs("\nset label 1 y_label " SCRIPT_AT("y_label"), out);
-    ss_script_put_font(out, y_font);
-    fputs("\nunset key\n"
+    fputs("unset key\n"
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
           "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"

@@ -9,10 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/utf8.h"
 
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
 #define SCREEN 1.5              /* how much wider and higher on a screen */
+#define LARGEST 1e300           /* of what is drawn: differences and powers of ten stay finite */
 
 const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN, SS_PAPER };
 
@@ -37,21 +39,71 @@ ss_script_decimals(double range)
 {
     if (!(range > 0))
         return 6;
-    return (int)fmax(0, fmin(15, ceil(-log10(range / SCRIPT_COLUMNS)) + 1));
+    return (int)fmax(0, fmin(305, ceil(-log10(range / SCRIPT_COLUMNS)) + 1));
 }
 
-/* Between single quotes gnuplot replaces nothing; a quote itself stands between double ones.  (Two
- * quotes for one are legal, but three in a row are read as an empty text and a new quote.) */
+/* Bytes in a string constant between double quotes.  gnuplot replaces @name and `command` in a line
+ * before it looks for strings, so that nothing that it knows may stand in the line at all: letters,
+ * digits and signs without a meaning are written as they are, all others as \ooo, which gnuplot
+ * makes a byte again when it has found the end of the string. */
+static void
+put_bytes(FILE *out, const char *bytes, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (isalnum((unsigned char)bytes[i]) && (unsigned char)bytes[i] < 0x80)
+            putc(bytes[i], out);
+        else if (strchr(" ()+,-./:=_", bytes[i]) != NULL)
+            putc(bytes[i], out);
+        else
+            fprintf(out, "\\%03o", (unsigned char)bytes[i]);
+}
+
+/* XML, and so SVG, has no control characters and no U+FFFE and U+FFFF (XML 1.0, production Char). */
+static int
+is_drawable(const char *character, size_t n)
+{
+    const unsigned char *p = (const unsigned char *)character;
+    return n == 1 ? p[0] >= 0x20 && p[0] != 0x7f
+        : n == 2 ? p[0] != 0xc2 || p[1] >= 0xa0
+        : n == 3 ? p[0] != 0xef || p[1] != 0xbf || p[2] < 0xbe : 1;
+}
+
+/* Text between double quotes: a control character is a blank, what is no character is U+FFFD. */
+static void
+put_text(FILE *out, const char *text, size_t n)
+{
+    for (size_t i = 0, length; i < n; i += length > 0 ? length : 1) {
+        length = ss_utf8_length(text + i);
+        if (length == 0)
+            put_bytes(out, "\xef\xbf\xbd", 3);
+        else if (is_drawable(text + i, length))
+            put_bytes(out, text + i, length);
+        else
+            putc(' ', out);
+    }
+}
+
 void
 ss_script_quote(FILE *out, const char *text)
 {
-    putc('\'', out);
-    for (; *text != '\0'; text++)
-        if (*text == '\'')
-            fputs("'.\"'\".'", out);
-        else
-            putc(iscntrl((unsigned char)*text) ? ' ' : *text, out);
-    putc('\'', out);
+    putc('"', out);
+    put_text(out, text, strlen(text));
+    putc('"', out);
+}
+
+ss_status
+ss_script_check(const char *column, const double *x, size_t n, ss_error *err)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EINVAL, "%s cannot be drawn: a value is not finite", column);
+        largest = fmax(largest, fabs(x[i]));
+    }
+    if (largest > LARGEST || (largest > 0 && largest < 1 / LARGEST))
+        return ss_fail(err, SS_EINVAL, "%s cannot be drawn: its largest value is %.3g", column,
+                       largest);
+    return SS_OK;
 }
 
 int
@@ -78,24 +130,30 @@ ss_script_put_tics(FILE *out, const char *axis, double range, int intervals)
         fprintf(out, "set %s autofreq\n", axis);
 }
 
-/* Text under construction; what does not fit is left out. */
-typedef struct label {
-    char text[256];
-    size_t n;
-} label;
+enum { LABEL_MAX = sizeof ((script_label *)0)->text - sizeof "…" };
 
 static void
-add(label *l, const char *text)
+add(script_label *l, const char *text)
 {
-    size_t length = strlen(text);
-    if (l->n + length >= sizeof l->text)
+    while (*text != '\0' && l->n < LABEL_MAX)
+        l->text[l->n++] = *text++;
+    l->text[l->n] = '\0';
+}
+
+/* A label that is full ends with a whole character and an ellipsis. */
+static void
+mark_cut(script_label *l)
+{
+    if (l->n < LABEL_MAX)
         return;
-    memcpy(l->text + l->n, text, length + 1);
-    l->n += length;
+    while (l->n > 1 && (l->text[l->n - 1] & 0xc0) == 0x80)
+        l->n--;
+    memcpy(l->text + l->n - 1, "…", sizeof "…");
+    l->n += sizeof "…" - 2;
 }
 
 static void
-add_superscript(label *l, int exponent)
+add_superscript(script_label *l, int exponent)
 {
     static const char *const digit[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
     char text[16];
@@ -106,7 +164,7 @@ add_superscript(label *l, int exponent)
 
 /* A unit, its ^2 and ^3 raised. */
 static void
-add_unit(label *l, const char *unit)
+add_unit(script_label *l, const char *unit)
 {
     for (; *unit != '\0'; unit++) {
         const char part[2] = { *unit, '\0' };
@@ -137,7 +195,7 @@ text_width(const char *text, size_t n)
 /* Where a label wider than the room goes on in a second line, so that the wider of them is least:
  * behind a blank, underscore or slash; 0 if it need or can not.  *width is then what it takes. */
 static size_t
-line_break(const label *l, double room, double *width)
+line_break(const script_label *l, double room, double *width)
 {
     size_t best = 0;
     *width = text_width(l->text, l->n);
@@ -152,43 +210,54 @@ line_break(const label *l, double room, double *width)
     return best;
 }
 
-double
-ss_script_put_label(FILE *out, const ss_column *column, int exponent, double room)
+void
+ss_script_make_label(script_label *l, const ss_column *column, int exponent, double room)
 {
     const char *unit = column->unit;
     int brackets = unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL);
-    label l = { "", 0 };
-    add(&l, column->name);
-    if (unit[0] != '\0' || exponent != 0)
-        add(&l, brackets ? " / (" : " / ");
-    if (exponent != 0) {
-        add(&l, "10");
-        add_superscript(&l, exponent);
-        add(&l, unit[0] != '\0' ? " " : "");
-    }
-    add_unit(&l, unit);
-    add(&l, brackets ? ")" : "");
     double width;
-    size_t split = line_break(&l, room, &width);
-    if (split > 0) {
-        char second[sizeof l.text];
-        memcpy(second, l.text + split, l.n - split + 1);
-        l.text[split] = '\0';
-        ss_script_quote(out, l.text);
-        fputs(".\"\\n\".", out);
-        ss_script_quote(out, second);
-    } else {
-        ss_script_quote(out, l.text);
+    *l = (script_label){ .n = 0 };
+    add(l, column->name);
+    if (unit[0] != '\0' || exponent != 0)
+        add(l, brackets ? " / (" : " / ");
+    if (exponent != 0) {
+        add(l, "10");
+        add_superscript(l, exponent);
+        add(l, unit[0] != '\0' ? " " : "");
     }
-    return fmin(room / width, split > 0 ? 0.85 : 1);     /* two lines leave tics their room */
+    add_unit(l, unit);
+    add(l, brackets ? ")" : "");
+    mark_cut(l);
+    l->second = line_break(l, room, &width);
+    l->font = fmin(room / width, l->second > 0 ? 0.85 : 1);     /* two lines leave tics their room */
 }
 
 void
-ss_script_put_font(FILE *out, double part)
+ss_script_put_label(FILE *out, const script_label *l)
 {
-    if (part < 1)
+    putc('"', out);
+    put_text(out, l->text, l->second);
+    fputs(l->second > 0 ? "\\n" : "", out);
+    put_text(out, l->text + l->second, l->n - l->second);
+    putc('"', out);
+}
+
+void
+ss_script_put_font(FILE *out, const script_label *l)
+{
+    if (l->font < 1)
         fprintf(out, " font ','.(exists('font') ? sprintf('%%.1f', %.2f*word(substr(font, 6, 9), 1)) "
-                ": '%.1f')", part, 10 * part);
+                ": '%.1f')", l->font, 10 * l->font);
+}
+
+void
+ss_script_put_side_label(FILE *out, int n, const script_label *l)
+{
+    fprintf(out, "set label %d ", n);
+    ss_script_put_label(out, l);
+    fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.018" : "0.03");
+    ss_script_put_font(out, l);
+    putc('\n', out);
 }
 
 /* --- top and end --------------------------------------------------------------------------- */
@@ -220,26 +289,15 @@ put_terminal(FILE *out, const char *format, const char *output, double width, do
             terminal(format), unit, unit, pdf ? "0.6" : "2",
             pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
-        fputs("set output ", out);
-        ss_script_quote(out, output);
-        putc('\n', out);
+        /* gnuplot starts a program for '|' and has a meaning for '~' at the beginning of a name. */
+        fprintf(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
+        put_bytes(out, output, strlen(output));
+        fputs("\"\n", out);
     }
 }
 
-static const char *
-find_title(const ss_plot_opts *opts, const ss_header *head)
-{
-    const char *title = opts->title;
-    if (title == NULL)
-        title = ss_header_find_note(head, "scene");
-    if (title == NULL)
-        title = ss_header_find_note(head, "model");
-    return title != NULL ? title : "";
-}
-
 ss_status
-ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
-                ss_error *err)
+ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err)
 {
     const char *format = opts->format, *dot;
     if (format == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
@@ -254,10 +312,28 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, doub
     else
         fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
-    fputs("title = ", out);
-    ss_script_quote(out, find_title(opts, head));
-    putc('\n', out);
+    fputs("set encoding utf8\n", out);
     return SS_OK;
+}
+
+void
+ss_script_put_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
+                    const script_label *lines)
+{
+    const char *title = opts->title;
+    if (title == NULL && head != NULL)
+        title = ss_header_find_note(head, "scene");
+    if (title == NULL && head != NULL)
+        title = ss_header_find_note(head, "model");
+    if (title == NULL)
+        title = "";
+    fputs("set title \"", out);
+    put_text(out, title, strlen(title));
+    if (lines != NULL) {
+        fputs(title[0] != '\0' ? "\\nlines: " : "lines: ", out);
+        put_text(out, lines->text, lines->n);
+    }
+    fputs("\" noenhanced offset 0,-0.5\n", out);
 }
 
 void
@@ -287,6 +363,8 @@ ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss
     span->from = isnan(opts->from) ? head->start : opts->from;
     span->to = isnan(opts->to) ? end : opts->to;
     double lo = floor((span->from - head->start) * rate), hi = ceil((span->to - head->start) * rate);
+    if (!(fmax(fabs(span->from), fabs(span->to)) <= LARGEST))
+        return ss_fail(err, SS_EINVAL, "time from %g s to %g s cannot be drawn", span->from, span->to);
     if (!(span->from < span->to) || !(hi >= 0 && lo < (double)n)) {
         char text[4][SS_NUMBER_MAX];
         const double t[4] = { span->from, span->to, head->start, end };

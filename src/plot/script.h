@@ -18,9 +18,12 @@ typedef struct script_span {
 ss_status ss_script_find_span(script_span *span, const ss_header *head, size_t n,
                               const ss_plot_opts *opts, ss_error *err);
 
-/* Top of the script: terminal, size, title and what the caller's own variables follow. */
-ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
-                          ss_error *err);
+/* SS_EINVAL unless gnuplot can draw these n values of the column: they are finite, at most 1e300, and
+ * not all nearer to 0 than 1e-300. */
+ss_status ss_script_check(const char *column, const double *x, size_t n, ss_error *err);
+
+/* Top of the script: terminal and size; the title and the caller's own variables follow. */
+ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err);
 /* The named variables from and to, in the lines at the top. */
 void ss_script_put_span(FILE *out, const script_span *span);
 /* Lines of script: tics of time at 1, 2 or 5 times a power of ten, with labels that tell them apart,
@@ -36,7 +39,7 @@ void ss_script_put_span(FILE *out, const script_span *span);
 #define SCRIPT_TIME_LABELS \
     "set xtics format '%.12g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
 
-/* Text from outside as a gnuplot string constant that does nothing but stand there. */
+/* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
 void ss_script_quote(FILE *out, const char *text);
 /* A number rounded to so many decimals, whatever the locale, and what stands behind it. */
 void ss_script_put(FILE *out, double x, int decimals, const char *behind);
@@ -45,15 +48,26 @@ int ss_script_decimals(double range);
 
 /* The power of ten, a multiple of 3, that brings the n values to numbers short to read. */
 int ss_script_exponent(const double *x, size_t n);
-/* "name / (10^-3 unit)" as a string constant, in two lines if it is wider than the room [ems]; what
- * part of the usual size its letters may then have. */
-double ss_script_put_label(FILE *out, const ss_column *column, int exponent, double room);
-/* Where the label of a vertical axis stands in the script, its name from the caller: further out
- * in two lines, that tics have their room. */
-#define SCRIPT_AT(label) "at screen strstrt(" label ", \"\\n\") ? 0.018 : 0.03,graph 0.5 center " \
-    "rotate noenhanced"
-/* The font of a text, behind it: letters of part <= 1 of the usual size; nothing for 1. */
-void ss_script_put_font(FILE *out, double part);
+/* "name / (10^-3 unit)", in two lines if it is wider than its room; cut where it is longer than any
+ * picture. */
+typedef struct script_label {
+    char text[256];
+    size_t n;                   /* bytes of it */
+    size_t second;              /* where its second line begins; 0: one line */
+    double font;                /* the part <= 1 of the usual size that its letters have */
+} script_label;
+void ss_script_make_label(script_label *label, const ss_column *column, int exponent,
+                          double room);     /* [ems] */
+/* The label as a string constant. */
+void ss_script_put_label(FILE *out, const script_label *label);
+/* The font of the label, behind it; nothing for the usual size. */
+void ss_script_put_font(FILE *out, const script_label *label);
+/* Set the title: that of opts, or else scene or model of the header, unless it is NULL; and under it
+ * "lines: " and the label, unless it is NULL. */
+void ss_script_put_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
+                         const script_label *lines);
+/* Set label number n beside the vertical axis: further out in two lines, that tics have their room. */
+void ss_script_put_side_label(FILE *out, int n, const script_label *label);
 
 /* set AXIS STEP: so many intervals at most over the range, of 1, 2 or 5 times a power of ten. */
 void ss_script_put_tics(FILE *out, const char *axis, double range, int intervals);

@@ -18,12 +18,12 @@ put_point(FILE *out, const ss_trade_row *row, double fastest)
     fprintf(out, "%.4g %.3g\n", row->seconds / fastest, row->error_x);
 }
 
-/* The points of one method as a datablock, from row i on; what follows the last of them. */
+/* The points of one method as datablock number k, from row i on; what follows the last of them. */
 static size_t
-put_method(FILE *out, const ss_trade *trade, size_t i, double fastest)
+put_method(FILE *out, const ss_trade *trade, size_t i, size_t k, double fastest)
 {
     const char *method = trade->row[i].method;
-    fprintf(out, "$%s << EOD\n", method);
+    fprintf(out, "$method%zu << EOD\n", k);
     for (; i < trade->n && strcmp(trade->row[i].method, method) == 0; i++)
         if (trade->row[i].status == SS_OK)
             put_point(out, &trade->row[i], fastest);
@@ -45,10 +45,12 @@ put_plot(FILE *out, const ss_trade *trade)
 {
     fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '#000000' title 'frontier'", out);
     for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
-        if (trade->row[i].status == SS_OK)
-            fprintf(out, ", \\\n     $%s using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
-                    "lc rgb '%s' title '%s'", trade->row[i].method, method < COLOURS ? 1 : 2,
-                    point[method % POINTS], colour[method % COLOURS], trade->row[i].method);
+        if (trade->row[i].status == SS_OK) {
+            fprintf(out, ", \\\n     $method%zu using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
+                    "lc rgb '%s' title ", method, method < COLOURS ? 1 : 2, point[method % POINTS],
+                    colour[method % COLOURS]);
+            ss_script_quote(out, trade->row[i].method);
+        }
     putc('\n', out);
 }
 
@@ -58,28 +60,29 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     if (out == NULL || trade == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     double fastest = INFINITY;
-    ss_plot_opts titled = *opts;
-    for (size_t i = 0; i < trade->n; i++)
-        if (trade->row[i].status == SS_OK)
-            fastest = fmin(fastest, trade->row[i].seconds);
+    for (size_t i = 0; i < trade->n; i++) {
+        const ss_trade_row *row = &trade->row[i];
+        if (row->status != SS_OK)
+            continue;
+        if (!(row->seconds > 0 && isfinite(row->seconds) && isfinite(row->error_x)))
+            return ss_fail(err, SS_EINVAL, "row %zu has no finite time and error", i + 1);
+        fastest = fmin(fastest, row->seconds);
+    }
     if (isinf(fastest))
         return ss_fail(err, SS_EINVAL, "nothing to draw: no row was measured");
-    if (titled.title == NULL)
-        titled.title = "";
-    ss_status st = ss_script_begin(out, &titled, NULL, 9, err);
+    ss_status st = ss_script_begin(out, opts, 9, err);
     if (st != SS_OK)
         return st;
+    ss_script_put_title(out, opts, NULL, NULL);
     fprintf(out, "fastest = %.3g        # s of CPU time\n", fastest);
-    for (size_t i = 0; i < trade->n;)
-        i = trade->row[i].status == SS_OK ? put_method(out, trade, i, fastest)
+    for (size_t i = 0, k = 0; i < trade->n; k++)
+        i = trade->row[i].status == SS_OK ? put_method(out, trade, i, k, fastest)
             : next_method(trade, i);
     fputs("$frontier << EOD\n", out);
     for (size_t i = 0; i < trade->n; i++)
         if (trade->row[i].frontier)
             put_point(out, &trade->row[i], fastest);
     fputs("EOD\n"
-          "set encoding utf8\n"
-          "set title title noenhanced offset 0,-0.5\n"
           "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
           "set logscale xy; set format x '%g'; set format y '%.0e'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"

@@ -80,9 +80,6 @@ ss_status ss_output_drain(struct output *out);     /* SS_EIO if the file refuses
 void ss_au_put(char to[8], double x);
 /* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
 ss_status ss_header_take(ss_header *head, char *line, const char **reason);
-/* A copy to be freed, or NULL if there is no memory: text that is no valid UTF-8 is taken as Latin-1,
- * in which older systems export, and converted. */
-char *ss_utf8_text(const char *text);
 /* "name", "name/unit", "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);
 

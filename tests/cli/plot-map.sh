@@ -4,10 +4,10 @@ draw() { ss-plot "$@" || echo "exit $?"; }
 draw --map base_frequency,friction,stops,amplitude a.tsv -o a.gp
 grep -c -e '^\$region' -e '^\$line' -e '^\$label' a.gp
 # the lines are named, and each level that is drawn has a label
-grep '^line_label\|^set title' a.gp
+grep '^set title' a.gp
 awk '/^[$]/ { block = $1 } NF == 3 && $3 + 0 > 0 { on[block, $3] = 1; if (block == "$line") level[$3] = 1 }
      END { for (l in level) { n++; labelled += on["$label", l] }; print (n > 7), n - labelled }' a.gp
-draw --map base_frequency,friction,stops a.tsv | grep '^[xy]_label\|key title'
+draw --map base_frequency,friction,stops a.tsv | grep 'xlabel\|label 1\|key title'
 draw --map friction,base_frequency,amplitude a.tsv | grep -c 'region' || true
 printf '2\t0.1\n4\t0.5\n\n5\t1\n' | draw --map base_frequency,friction,stops --line - a.tsv | sed -n '/^\$curve/,/^EOD/p'
 ss-sweep -m stops,amplitude --vary mass=-1:1:3 --vary stiffness=1000:4000:4:log coulomb -o b.tsv
