@@ -2,7 +2,7 @@
 #
 #   make                    libraries and tools, under build/
 #   make check              all tests; installs first what is missing for them
-#                           (ONLY='test_store cli/features': these alone)
+#                           (ONLY='test_store cli/features/rows': these alone)
 #   make check-all          these, the long ones, with sanitizers, with gcc and clang, and bench-errors
 #   make bench              error and cost, measured here, simulation against CVODE and SciPy too;
 #                           fails if an error exceeds its bound

@@ -1,12 +1,12 @@
 #!/bin/sh
 # run.sh TEST_PROGRAM ...: run all tests, several at a time, and close with their sum.
 #
-# Tests are the CMocka programs named, from $BUILD/tests, and the scripts tests/cli/*.sh and
-# tests/build/*.sh, with LONG=1 also tests/long/*.sh.  A script is run by sh -eu in an empty
+# Tests are the CMocka programs named, from $BUILD/tests, and the scripts below tests/cli and
+# tests/build, with LONG=1 also tests/long.  A script is run by sh -eu in an empty
 # directory, with the tools in PATH and $SRC, $BUILD, $CC, $CCLD (compiler with flags for linking),
 # $LIBS, $INCLUDES, $MAKE and $SAN set.  It must give what NAME.out, NAME.err and NAME.exit beside it
 # hold (nothing, nothing and 0 if they are absent).  Exit 77 skips it, its first line saying why.
-# ONLY='test_store cli/features' runs these alone.
+# ONLY='test_store cli/features/rows' runs these alone.
 set -u
 SRC=$(cd "$(dirname "$0")/.." && pwd)
 : "${LIMIT:=600}" "${JOBS:=$(getconf _NPROCESSORS_ONLN)}"
@@ -100,8 +100,8 @@ unset CDPATH GNUTERM DISPLAY
 
 cd "$SRC" || exit 1
 tests=$*
-for script in tests/cli/*.sh tests/build/*.sh ${LONG:+tests/long/*.sh}; do
-    [ ! -f "$script" ] || { script=${script#tests/}; tests="$tests ${script%.sh}"; }
+for script in $(find tests/cli tests/build ${LONG:+tests/long} -name '*.sh' 2> /dev/null | sort); do
+    script=${script#tests/} tests="$tests ${script%.sh}"
 done
 
 tests=${ONLY:-$tests}

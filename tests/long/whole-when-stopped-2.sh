@@ -1,3 +1,3 @@
-# As tests/cli/whole-when-stopped.sh, a hundred times each: half 2 of the files.
+# As tests/cli/all/whole-when-stopped.sh, a hundred times each: half 2 of the files.
 TRIES=100 HALF=2
-. "$SRC/tests/cli/whole-when-stopped.sh"
+. "$SRC/tests/cli/all/whole-when-stopped.sh"

@@ -12,6 +12,6 @@ for command in 'ss-cat run.h5' 'ss-contour w.h5' 'ss-features run.h5' 'ss-morlet
     [ ! -s err ] || cat err
 done
 for tool in "$SRC"/tools/ss-*.c; do
-    grep -q "$(basename "$tool" .c) " "$SRC/tests/cli/verbose-cost.sh" || echo "not here: $tool"
+    grep -q "$(basename "$tool" .c) " "$SRC/tests/cli/all/verbose-cost.sh" || echo "not here: $tool"
 done
 ss-sim -v --version 2>&1 | wc -l
