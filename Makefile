@@ -69,7 +69,8 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
-OBJECTS := $(LIB_OBJ) $(BUILD)/tools/common.o $(TOOLS:%=$(BUILD)/tools/%.o) \
+TOOL_OBJ := $(BUILD)/tools/common.o $(BUILD)/tools/files.o
+OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
 	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
@@ -108,7 +109,7 @@ $(BUILD)/$(SHARED): $(LIB_OBJ)
 	$(CC) $(SOFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 	cd $(@D) && for l in $(LINKS); do ln -sf $(@F) $$l; done
 
-$(BUILD)/bin/%: $(BUILD)/tools/%.o $(BUILD)/tools/common.o $(STATIC)
+$(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 

@@ -1,8 +1,9 @@
 /* common.c -- what every tool does the same way.
  *
- * A tool is one short-lived process, so its name, verbosity and the file that it is writing are
- * kept here as static state: an exit or a signal anywhere finds what has to be removed. */
+ * A tool is one short-lived process, so its name and verbosity are static state here, and its files
+ * in files.c: an exit or a signal anywhere finds what has to be removed. */
 #include "common.h"
+#include "files.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -24,28 +25,6 @@
 int tool_verbosity;
 static const char *tool_name = "stickslip", *usage_text = "";
 
-/* The file being written: out_temporary is renamed to out_target when whole. */
-static FILE *out_file;
-static char *out_target;
-static const char *out_name;            /* what the user calls it */
-static char out_temporary[PATH_MAX];    /* "" if there is none; an array, for the signal handler */
-
-static void
-remove_temporary(void)
-{
-    if (out_temporary[0] != '\0')
-        unlink(out_temporary);
-    out_temporary[0] = '\0';
-}
-
-static void
-remove_and_die(int number)
-{
-    remove_temporary();                 /* unlink is async-signal-safe */
-    signal(number, SIG_DFL);
-    raise(number);
-}
-
 static volatile sig_atomic_t asked_to_stop;     /* the signal, 0 if none came */
 
 int
@@ -60,24 +39,11 @@ ask_to_stop(int number)
     asked_to_stop = number;
 }
 
-/* Have the signals that end a tool handled, once; what nohup ignores stays ignored. */
-static void
-catch_signals(void (*handler)(int))
-{
-    static const int caught[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT };
-    struct sigaction old, new = { .sa_flags = (int)(SA_RESTART | SA_RESETHAND) };
-    new.sa_handler = handler;
-    sigemptyset(&new.sa_mask);
-    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
-        if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
-            sigaction(caught[i], &new, NULL);
-}
-
 /* --- progress ------------------------------------------------------------------------------ */
 
 static int progress_shown;
 
-static void
+void
 clear_progress(void)
 {
     if (progress_shown)
@@ -100,7 +66,7 @@ tool_progress(double done, void *user)
     static int terminal = -1;
     if (terminal < 0)
         terminal = tool_verbosity >= 0 && isatty(STDERR_FILENO)
-            && (user != NULL || out_file != NULL || out_temporary[0] != '\0' || !isatty(STDOUT_FILENO));
+            && (user != NULL || files_writing() || !isatty(STDOUT_FILENO));
     if (terminal && !tool_stopping()) {
         double now = seconds_now();
         if (began == 0)
@@ -127,6 +93,7 @@ tool_end_at_rows(const char *path)
 void
 tool_begin(char *argv[], const char *name, const char *usage)
 {
+    files_begin();
     tool_name = name;
     usage_text = usage;
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
@@ -157,7 +124,7 @@ say(const char *format, va_list args)
 static void TOOL_NORETURN
 leave(int status)
 {
-    remove_temporary();
+    files_discard();
     fflush(stdout);
     _exit(status);
 }
@@ -194,12 +161,11 @@ tool_note(const char *format, ...)
 void
 tool_check(ss_status status, const ss_error *err)
 {
-    if (status == SS_EIO && (ferror(stdout) || (out_file != NULL && ferror(out_file))))
+    const char *rest, *name = status != SS_OK && err != NULL ? files_name(err->text, &rest) : NULL;
+    if (status == SS_EIO && (ferror(stdout) || files_failed()))
         tool_die("write error: %s", strerror(errno));
-    size_t length = strlen(out_temporary);
-    if (status != SS_OK && err != NULL && length > 0
-        && strncmp(err->text, out_temporary, length) == 0)
-        tool_die("%s%s", out_name, err->text + length);
+    if (name != NULL)
+        tool_die("%s%s", name, rest);
     if (status != SS_OK && status != SS_STOP)
         tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));
 }
@@ -283,16 +249,15 @@ tool_choice(const char *option, const char *text, const char *const choice[])
 
 /* --- input --------------------------------------------------------------------------------- */
 
-static const char *in_path = "-";
-
 const char *
 tool_input(int argc, char *argv[], int first)
 {
     if (argc - first > 1)
         tool_usage("unexpected argument '%s'", argv[first + 1]);
+    const char *path = "-";
     if (argc > first)
-        in_path = argv[first];
-    return in_path;
+        path = argv[first];
+    return tool_reads(path);
 }
 
 const char *
@@ -304,7 +269,7 @@ tool_input_name(const char *path)
 FILE *
 tool_open(const char *path)
 {
-    if (strcmp(path, "-") == 0)
+    if (strcmp(tool_reads(path), "-") == 0)
         return stdin;
     FILE *in = fopen(path, "rb");
     struct stat st;
@@ -323,7 +288,7 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
     ss_error err = { "" };
-    if (strcmp(path, "-") == 0)
+    if (strcmp(tool_reads(path), "-") == 0)
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_signal_load(&signal, path, opts, &err), &err);
@@ -335,7 +300,7 @@ tool_read_coefficients(const char *path)
 {
     ss_coefficients *coefficients = NULL;
     ss_error err = { "" };
-    if (tool_is_hdf5(path)) {
+    if (tool_is_hdf5(tool_reads(path))) {
         tool_check(ss_store_read_coefficients(&coefficients, path, &err), &err);
         return coefficients;
     }
@@ -351,7 +316,7 @@ tool_read_scene(const char *path, const char *const settings[], size_t n)
 {
     ss_scene scene;
     ss_error err = { "" };
-    ss_status st = strcmp(path, "-") == 0
+    ss_status st = strcmp(tool_reads(path), "-") == 0
                  ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings, n, &err)
                  : ss_scene_load(&scene, path, settings, n, &err);
     if (st == SS_EINVAL)
@@ -408,6 +373,7 @@ tool_kind
 tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
 {
     char list[64] = "";
+    tool_writes(path);
     if (path == NULL || strcmp(path, "-") == 0)
         return fallback;
     const char *dot = strrchr(path, '.');
@@ -419,98 +385,6 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
         snprintf(list + strlen(list), sizeof list - strlen(list), " %s", ending[i]);
     }
     tool_usage("--output: the ending of '%s' picks the form and must be one of%s", path, list);
-}
-
-/* Where a file of this name is to be: a link keeps pointing where it does, and may point to a file
- * that is yet to be made. */
-static char *
-resolve(const char *path)
-{
-    char link[PATH_MAX], next[PATH_MAX], *real = realpath(path, NULL);
-    if (real != NULL)
-        return real;
-    ssize_t length = errno == ENOENT ? readlink(path, link, sizeof link - 1) : -1;
-    if (length < 0)
-        return strdup(path);
-    link[length] = '\0';
-    const char *slash = link[0] != '/' ? strrchr(path, '/') : NULL;
-    int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
-    if (snprintf(next, sizeof next, "%.*s%s", folder, path, link) >= (int)sizeof next)
-        tool_die("%s: %s", path, strerror(ENAMETOOLONG));
-    return resolve(next);
-}
-
-const char *
-tool_output_path(const char *path)
-{
-    struct stat st, in;
-    int exists = stat(path, &st) == 0;
-    if (exists && stat(in_path, &in) == 0 && in.st_dev == st.st_dev && in.st_ino == st.st_ino)
-        tool_usage("--output: %s is the input; it would be lost", path);
-    if (exists && S_ISDIR(st.st_mode))
-        tool_die("%s: %s", path, strerror(EISDIR));
-    if (exists && !S_ISREG(st.st_mode))
-        return path;                    /* a device or a FIFO: nothing to rename */
-
-    if (!exists && errno == ELOOP)
-        tool_die("%s: %s", path, strerror(errno));
-    out_target = resolve(path);
-    if (out_target == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    const char *base = strrchr(out_target, '/');
-    base = base != NULL ? base + 1 : out_target;
-    char name[PATH_MAX];
-    sigset_t all, before;               /* no signal may fall between making and knowing the file */
-    sigfillset(&all);
-    sigprocmask(SIG_SETMASK, &all, &before);
-    int fits = snprintf(name, sizeof name, "%.*s.%s.XXXXXX", (int)(base - out_target), out_target,
-                        base) < (int)sizeof name;
-    int fd = fits ? mkstemp(name) : -1;
-    if (fd < 0)
-        tool_die("%s: %s", path, strerror(fits ? errno : ENAMETOOLONG));
-    mode_t mask = umask(0);
-    umask(mask);
-    fchmod(fd, exists ? st.st_mode & 0777 : 0666 & ~mask);
-    close(fd);
-
-    memcpy(out_temporary, name, sizeof name);
-    out_name = path;
-    catch_signals(remove_and_die);
-    sigprocmask(SIG_SETMASK, &before, NULL);
-    return out_temporary;
-}
-
-FILE *
-tool_output(const char *path)
-{
-    clear_progress();
-    if (path == NULL || strcmp(path, "-") == 0)
-        return stdout;
-    out_file = fopen(tool_output_path(path), "wb");
-    if (out_file == NULL)
-        tool_die("%s: %s", path, strerror(errno));
-    return out_file;
-}
-
-FILE *
-tool_output_kept(const char *path)
-{
-    struct flock whole = { .l_type = F_WRLCK, .l_whence = SEEK_SET };
-    int fd = open(path, O_RDWR | O_CREAT, 0666);
-    if (fd >= 0 && fcntl(fd, F_SETLK, &whole) != 0)
-        tool_die("%s: %s", path, errno == EACCES || errno == EAGAIN
-                 ? "another process is writing it" : strerror(errno));
-    out_file = fd >= 0 ? fdopen(fd, "r+") : NULL;
-    if (out_file == NULL)
-        tool_die("%s: %s", path, strerror(errno));
-    return out_file;
-}
-
-void
-tool_cut(FILE *out, long offset)
-{
-    if (fseek(out, offset, SEEK_SET) != 0 || ftruncate(fileno(out), offset) != 0)
-        tool_die("%s", strerror(errno));
 }
 
 /* What it cost, gnuplot with it; memory at most, of whichever took more. */
@@ -539,19 +413,7 @@ void
 tool_end(void)
 {
     clear_progress();
-    if (out_file != NULL) {
-        int failed = ferror(out_file);
-        if (fclose(out_file) != 0 || failed)
-            tool_die("write error: %s", strerror(errno));
-        out_file = NULL;
-    }
-    if (out_temporary[0] != '\0') {
-        if (rename(out_temporary, out_target) != 0)
-            tool_die("%s: %s", out_target, strerror(errno));
-        out_temporary[0] = '\0';
-    }
-    free(out_target);
-    out_target = NULL;
+    files_finish();
     int failed = ferror(stdout);
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));

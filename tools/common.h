@@ -53,6 +53,11 @@ void tool_option(int c);
 const char *tool_input(int argc, char *argv[], int optind);
 /* What messages call a path: "<stdin>" for "-". */
 const char *tool_input_name(const char *path);
+/* Call with what any option or argument names as a file to read, before or after output is opened: dies
+ * if the output would take its place, under whatever name.  Returns path.  The functions below do it. */
+const char *tool_reads(const char *path);
+/* The same for what -o names, as early as it is known; tool_output_kind and tool_output do it. */
+void tool_writes(const char *path);
 /* Open for reading, or die; "-" is stdin. */
 FILE *tool_open(const char *path);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
@@ -83,10 +88,11 @@ typedef enum tool_kind {        /* what the ending of -o asks for */
  * names them; standard output (NULL or "-") has the fallback. */
 tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
 
-/* Open what -o names: NULL or "-" is standard output, else a temporary file beside path.  It gets
- * its name in tool_end; in tool_die, at exit and on SIGINT, SIGTERM and SIGHUP it is removed. */
+/* Open what -o names: NULL or "-" is standard output, else a file that gets its name in tool_end: it is
+ * whole or absent.  It has no name before, or where the system has no such files a temporary one beside
+ * path, which tool_die, SIGINT, SIGTERM, SIGHUP and SIGQUIT remove. */
 FILE *tool_output(const char *path);
-/* The same for a library call that wants a path: the name of the temporary file. */
+/* The same for a library call that wants a path: one that leads to the file. */
 const char *tool_output_path(const char *path);
 
 /* Open a file that another run is to go on with, from its start, or make it: what is written stays

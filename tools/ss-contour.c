@@ -65,7 +65,7 @@ open_coefficients(drawing *d, const char *path)
         d->coefficients = d->own = tool_read_coefficients(path);
         return;
     }
-    tool_check(ss_store_reader_new(&d->reader, path, &err), &err);
+    tool_check(ss_store_reader_new(&d->reader, tool_reads(path), &err), &err);
     d->coefficients = ss_store_reader_grid(d->reader);
     d->opts.source = read_scale;
     d->opts.source_user = d->reader;

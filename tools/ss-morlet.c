@@ -1,12 +1,11 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
 #include <errno.h>
 #include <getopt.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
+#include <sys/stat.h>
 #include "common.h"
 
 static const char usage[] =
@@ -146,6 +145,8 @@ check_request(request *req)
     }
     if (req->inverse && req->transforms)
         tool_usage("--inverse takes no options but --accuracy, --output and --format");
+    if (req->wisdom != NULL && strcmp(req->wisdom, "-") == 0)
+        tool_usage("--wisdom needs a file, which is read and written");
     if (req->stream && opts->fmin == 0 && !opts->octaves)
         tool_usage("--stream needs --fmin, as the length of the record is not known");
     if (req->stream && opts->detrend != SS_DETREND_NONE)
@@ -178,6 +179,9 @@ static void
 read_wisdom(const char *path)
 {
     ss_error err = { "" };
+    struct stat st;
+    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
+        tool_die("%s: not a regular file, which alone can keep wisdom", path);
     FILE *in = fopen(path, "r");
     if (in == NULL && errno == ENOENT)
         return;
@@ -187,39 +191,6 @@ read_wisdom(const char *path)
     if (c != EOF && ungetc(c, in) == c && ss_wisdom_read(in, &err) != SS_OK)
         tool_die("%s: %s", path, err.text);
     fclose(in);
-}
-
-/* Beside path, to take its place. */
-static FILE *
-open_wisdom(const char *path, char name[PATH_MAX])
-{
-    if (snprintf(name, PATH_MAX, "%s.%ld", path, (long)getpid()) >= PATH_MAX)
-        tool_die("%s: the name is too long", path);
-    FILE *out = fopen(name, "w");
-    if (out == NULL)
-        tool_die("%s: %s", path, strerror(errno));
-    return out;
-}
-
-/* Before the work, which may be long. */
-static void
-check_wisdom(const char *path)
-{
-    char name[PATH_MAX];
-    fclose(open_wisdom(path, name));
-    remove(name);
-}
-
-static void
-write_wisdom(const char *path)
-{
-    char name[PATH_MAX];
-    FILE *out = open_wisdom(path, name);
-    if (ss_wisdom_write(out) != SS_OK || fclose(out) != 0 || rename(name, path) != 0) {
-        int why = errno;
-        remove(name);
-        tool_die("%s: %s", path, strerror(why));
-    }
 }
 
 static ss_format
@@ -491,9 +462,10 @@ main(int argc, char *argv[])
         set_option(&req, c == 'c' ? OPT_COLUMN : c);
     check_request(&req);
     const char *path = tool_input(argc, argv, optind);
+    FILE *wisdom = NULL;
     if (req.wisdom != NULL) {
         read_wisdom(req.wisdom);
-        check_wisdom(req.wisdom);
+        wisdom = tool_output(req.wisdom);       /* before the work, which may be long */
     }
     if (req.inverse)
         invert(&req, path);
@@ -501,8 +473,8 @@ main(int argc, char *argv[])
         transform_stream(&req, path);
     else
         transform_whole(&req, path);
-    if (req.wisdom != NULL)
-        write_wisdom(req.wisdom);
+    if (wisdom != NULL && ss_wisdom_write(wisdom) != SS_OK)
+        tool_die("%s: write error: %s", req.wisdom, strerror(errno));
     tool_end();
     return 0;
 }

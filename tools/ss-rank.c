@@ -319,7 +319,9 @@ main(int argc, char *argv[])
         }
     if (fits && argc - optind > 2)
         tool_usage("--fit takes one scene");
-    if (!fits)
+    if (fits)
+        tool_writes(j.output);
+    else
         tool_output_kind(j.output, 1u << TOOL_TSV, TOOL_TSV);
     j.signal_path = optind < argc ? argv[optind] : "-";
     const char *shipped[16];

@@ -167,7 +167,7 @@ is_scene(const char *path)
         return 0;
     if (standard)
         keep_input();
-    FILE *in = standard ? stdin : fopen(path, "rb");
+    FILE *in = standard ? stdin : fopen(tool_reads(path), "rb");
     if (in == NULL)
         return 1;               /* shipped, or a name that is told to be wrong */
     scene = reads_as_scene(in);
