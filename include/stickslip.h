@@ -12,6 +12,7 @@
 #define STICKSLIP_H
 
 #include <stickslip/status.h>
+#include <stickslip/number.h>
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
 #include <stickslip/trade.h>

@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 #include <stdio.h>
+#include <stickslip/number.h>
 #include <stickslip/status.h>
 
 SS_BEGIN_DECLARATIONS
@@ -125,6 +126,12 @@ typedef enum ss_format {
     SS_AU                       /* Sun AU, 64-bit float, the header in its annotation */
 } ss_format;
 
+/* The name of the i-th format that can be written, which is also the ending of its files: "tsv", "au";
+ * NULL after the last. */
+const char *ss_format_name(size_t i);
+/* 1 and the format of that name, or 0 where none can be written. */
+int ss_format_find(ss_format *found, const char *name);
+
 typedef struct ss_writer ss_writer;
 
 /* Start a stream on out, which the writer does not own, with its header; head is copied.
@@ -191,17 +198,6 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
  * below range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
 ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped);
-
-/* --- numbers ------------------------------------------------------------------------------- */
-
-#define SS_NUMBER_MAX 32
-/* Write x in the fewest digits that read back to the same double, laid out as by %.17g but whatever
- * the locale, and a terminating NUL; the length is returned.  What is not finite is "nan", "inf"
- * or "-inf". */
-size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
-/* Read a decimal number as C's strtod does in the C locale, whatever the locale in force; *end is
- * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */
-double ss_number_parse(const char *text, char **end);
 
 SS_END_DECLARATIONS
 #endif

@@ -14,7 +14,7 @@
 #if defined(__APPLE__)
 #include <xlocale.h>
 #endif
-#include <stickslip/signal.h>
+#include <stickslip/number.h>
 #include "base/number_pow10.h"
 
 struct wide {

@@ -4,7 +4,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "signal/gaps.h"
-#include "stream/stream.h"
 
 static const char key[] = "gaps";
 

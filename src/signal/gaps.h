@@ -1,8 +1,14 @@
-/* gaps.h -- which samples of a record stand in for missing ones. */
+/* gaps.h -- samples that are missing, and what stands in for them. */
 #ifndef GAPS_H
 #define GAPS_H
 
+#include <stddef.h>
 #include <stickslip/signal.h>
+
+/* Put numbers in place of NaN in n rows, value c of row i at x[i * row + c * column], and note in
+ * head where that was. */
+ss_status ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss_gaps how,
+                       const char *name, ss_error *err);
 
 /* The gaps that head notes, of a record of so many rows: [s] from its first sample, in whole
  * samples and within it.  *out is to be freed. */

@@ -1,9 +1,10 @@
 /* header.c -- what a signal is made of: rate, start, columns, notes. */
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/utf8.h"
-#include "stream/stream.h"
+#include "signal/header.h"
 
 ss_header *
 ss_header_new(double rate, double start)
@@ -322,16 +323,15 @@ ss_header_note(ss_header *head, const char *key, const char *value)
 
 /* --- as text ------------------------------------------------------------------------------- */
 
-static void
-write_label(FILE *out, const ss_column *c)
+void
+ss_write_label(FILE *out, const char *name, const char *unit)
 {
-    const char *unit = c->unit;
     if (*unit == '\0')
-        fprintf(out, " %s", c->name);
+        fprintf(out, " %s", name);
     else if (strpbrk(unit, "/ (") != NULL)
-        fprintf(out, " %s/(%s)", c->name, unit);
+        fprintf(out, " %s/(%s)", name, unit);
     else
-        fprintf(out, " %s/%s", c->name, unit);
+        fprintf(out, " %s/%s", name, unit);
 }
 
 char *
@@ -351,7 +351,7 @@ ss_header_text(const ss_header *head, const char *magic, size_t *length)
     if (head->has_time)
         fputs(" t/s", out);
     for (size_t i = 0; i < head->n_columns; i++)
-        write_label(out, &head->column[i]);
+        ss_write_label(out, head->column[i].name, head->column[i].unit);
     fputc('\n', out);
     int failed = ferror(out);
     if (fclose(out) == 0 && !failed)

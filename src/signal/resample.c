@@ -3,9 +3,10 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_interp.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/resample.h"
 
 #define LONGEST 10              /* median steps; stamps farther apart have a gap between them */
 #define AT_END 1e-6             /* sample periods that a sample may lie beyond the last stamp */

@@ -5,9 +5,10 @@
  * any length. */
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <stickslip/signal.h>
 #include "base/error.h"
-#include "stream/stream.h"
 
 const ss_wave_opts ss_wave_defaults = {
     .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,

@@ -3,7 +3,6 @@
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
  * or its group, which our own files have. */
-#include "stream/stream.h"
 #include "store/h5.h"
 
 #include <math.h>
@@ -11,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/gaps.h"
+#include "signal/header.h"
 
 typedef struct array {
     size_t rows, columns;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/header.h"
 
 ss_status
 ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)

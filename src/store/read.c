@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/header.h"
+#include "stream/clock.h"
 
 /* A required attribute of a group, lo <= value <= hi. */
 static ss_status

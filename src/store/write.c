@@ -18,7 +18,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include "base/error.h"
-#include "stream/stream.h"
 
 #define CHUNK 65536             /* values in a chunk, or written at a time, at most */
 #define PLAIN_BYTES 65536       /* a dataset up to this size is stored as it is */

@@ -1,4 +1,4 @@
-/* au.c -- reading Sun AU: PCM of 8 to 32 bits and floating point, big-endian.
+/* au.c -- Sun AU: PCM of 8 to 32 bits and floating point, big-endian; 64-bit floating point is written.
  *
  * When we wrote it the annotation is the header of our text form, with what AU itself cannot say.
  * A program between (SoX) may have passed it on beside samples that it has changed, so the rate and
@@ -7,7 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/header.h"
+#include "stream/au.h"
+#include "stream/clock.h"
+#include "stream/format.h"
+#include "stream/reader.h"
+
+/* What is believed; the annotation is the rest of the header. */
+enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 
 #define UNKNOWN_SIZE UINT32_C(0xffffffff)
 
@@ -136,6 +143,13 @@ read_annotation(ss_header **out, const char *magic, char *text)
     return SS_OK;
 }
 
+/* The nearest whole Hz that AU can say; the annotation has the exact rate. */
+static uint32_t
+whole_rate(double rate)
+{
+    return rate < 1 ? 1 : rate < UINT32_MAX ? (uint32_t)rint(rate) : UINT32_MAX;
+}
+
 static ss_status
 make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
 {
@@ -150,7 +164,7 @@ make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
         ss_header_free(head);
         st = number_channels(reader->head, channels);
     }
-    if (!(reader->head->rate > 0) || ss_au_rate(reader->head->rate) != rate)
+    if (!(reader->head->rate > 0) || whole_rate(reader->head->rate) != rate)
         reader->head->rate = rate;
     return st;
 }
@@ -159,10 +173,10 @@ ss_status
 ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    ss_status st = ss_input_need(in, AU_FIXED_HEADER, err);
+    ss_status st = ss_input_need(in, FIXED_HEADER, err);
     if (st != SS_OK)
         return st;
-    if (in->hi - in->lo < AU_FIXED_HEADER)
+    if (in->hi - in->lo < FIXED_HEADER)
         return ss_fail(err, SS_EDATA, "%s: truncated AU header", in->name);
     const unsigned char *p = (unsigned char *)in->buffer + in->lo;
     uint32_t field[6];
@@ -170,13 +184,13 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         field[i] = (uint32_t)big_endian(p + 4 * i, 4);
     uint32_t offset = field[1], size = field[2], encoding = field[3], channels = field[5];
 
-    if (offset < AU_FIXED_HEADER || offset > AU_FIXED_HEADER + AU_MAX_ANNOTATION)
+    if (offset < FIXED_HEADER || offset > FIXED_HEADER + MAX_ANNOTATION)
         return ss_fail(err, SS_EDATA, "%s: AU header: impossible offset of the data, %lu", in->name,
                        (unsigned long)offset);
     if (encoding >= sizeof width / sizeof *width || width[encoding] == 0)
         return ss_fail(err, SS_EDATA, "%s: AU encoding %lu is not supported; 2 to 7 are (PCM of 8 to "
                        "32 bits, floating point)", in->name, (unsigned long)encoding);
-    if (channels < 1 || channels > AU_MAX_CHANNELS || field[4] < 1)
+    if (channels < 1 || channels > MAX_CHANNELS || field[4] < 1)
         return ss_fail(err, SS_EDATA, "%s: AU header: impossible: %lu channels at %lu Hz", in->name,
                        (unsigned long)channels, (unsigned long)field[4]);
     st = ss_input_need(in, offset, err);
@@ -185,8 +199,8 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (in->hi - in->lo < offset)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
-    char *annotation = strndup(in->buffer + in->lo + AU_FIXED_HEADER, offset - AU_FIXED_HEADER);
-    const char *wanted = strcmp(reader->magic, STREAM_MAGIC) == 0 ? "a signal" : "wavelet coefficients";
+    char *annotation = strndup(in->buffer + in->lo + FIXED_HEADER, offset - FIXED_HEADER);
+    const char *wanted = strcmp(reader->magic, SIGNAL_MAGIC) == 0 ? "a signal" : "wavelet coefficients";
     if (annotation != NULL
         && ss_fail_kind(err, in->name, annotation, strlen(annotation), wanted) != SS_OK) {
         free(annotation);
@@ -202,3 +216,62 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     reader->rows = au_rows;
     return ss_refuse_clock(in->name, reader->head->rate, opts, err);
 }
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+enum { ANNOTATION_UNIT = 8, ENCODING_DOUBLE = 7 };
+
+static void
+put_big_endian(char *p, uint64_t x, size_t n)
+{
+    for (; n-- > 0; x >>= 8)
+        p[n] = (char)(x & 0xff);
+}
+
+static void
+write_header(FILE *out, const ss_header *head, const char *text, size_t length, size_t padding)
+{
+    char fixed[FIXED_HEADER];
+    uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), UNKNOWN_SIZE,
+                          ENCODING_DOUBLE, whole_rate(head->rate), (uint32_t)head->n_columns };
+    for (int i = 0; i < 6; i++)
+        put_big_endian(fixed + 4 * i, field[i], 4);
+    fwrite(fixed, 1, sizeof fixed, out);
+    fwrite(text, 1, length, out);
+    fwrite("\0\0\0\0\0\0\0", 1, padding, out);
+}
+
+/* SS_EINVAL if AU is too narrow for the header. */
+static ss_status
+begin_au(FILE *out, const ss_header *head, const char *magic)
+{
+    size_t length;
+    char *text = ss_header_text(head, magic, &length);
+    if (text == NULL)
+        return SS_ENOMEM;
+    size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* NULs, at least one */
+    int fits = head->n_columns <= MAX_CHANNELS && length + padding <= MAX_ANNOTATION;
+    if (fits)
+        write_header(out, head, text, length, padding);
+    free(text);
+    return !fits ? SS_EINVAL : ferror(out) ? SS_EIO : SS_OK;
+}
+
+static size_t
+put_number(char *to, double x, int last)
+{
+    (void)last;
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    for (size_t i = 0; i < sizeof bits; i++)
+        to[i] = (char)(bits >> (56 - 8 * i) & 0xff);
+    return sizeof bits;
+}
+
+const struct format ss_format_au = {
+    .name = "au",
+    .magic = ".snd",
+    .open = ss_au_open,
+    .begin = begin_au,
+    .number = put_number,
+};

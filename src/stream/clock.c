@@ -5,9 +5,10 @@
  * in 7 digits give 1024 Hz, not 1023.9999998. */
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* sample periods that a stamp may be off */
 #define HINT "; ss-cat --rate HZ takes the rows as uniform, --resample HZ makes them so"
@@ -156,5 +157,16 @@ ss_find_clock(const char *file, const double *t, const unsigned long *line, size
     double by_rate = roundest(1 / (l.period + slack), 1 / (l.period - slack), &rate_digits);
     double by_period = roundest(l.period - slack, l.period + slack, &period_digits);
     *rate = rate_digits <= period_digits ? by_rate : 1 / by_period;
+    return SS_OK;
+}
+
+ss_status
+ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
+{
+    char rate[SS_NUMBER_MAX];
+    ss_number_format(rate, own);
+    if (opts->time != NULL || (opts->rate > 0 && (opts->rate < own || opts->rate > own)))
+        return ss_fail(err, SS_EDATA, "%s: has a clock of its own, %s Hz: no column of time or rate "
+                       "can be chosen", name, rate);
     return SS_OK;
 }

@@ -1,4 +1,4 @@
-/* coefficients.c -- coefficients with the grid they stand on, and how they are read.
+/* coefficients.c -- coefficients that are read.
  *
  * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the
  * grid and holds each row against it: a row that is missing, doubled or out of place is found.
@@ -13,25 +13,12 @@
 #include "base/list.h"
 #include "morlet/plan.h"
 #include "stream/coefficient_rows.h"
-#include "stream/stream.h"
+#include "signal/header.h"
+#include "stream/au.h"
+#include "stream/format.h"
+#include "stream/reader.h"
 
 static const char columns[] = "# columns: m a/s b/s f/Hz re im edge";
-
-static const char *const norm_name[] = { "l2", "l1" };
-static const char *const engine_name[] = { "auto", "quadrature", "fft" };
-static const char *const detrend_name[] = { "none", "mean", "linear" };
-
-void
-ss_coefficients_free(ss_coefficients *coefficients)
-{
-    if (coefficients == NULL)
-        return;
-    ss_header_free(coefficients->head);
-    free(coefficients->scale);
-    free(coefficients->w);
-    free(coefficients->gap);
-    free(coefficients);
-}
 
 /* 1 if nearer to a gap than the cone of influence is wide. */
 static int
@@ -39,128 +26,6 @@ near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
 {
     return ss_gaps_near(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
 }
-
-int
-ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
-{
-    if (c == NULL || i >= c->n_scales)
-        return 1;
-    const ss_scale *scale = &c->scale[i];
-    return ss_scale_edge(scale, k, c->n, c->head->rate) || near_gap(c, scale, k);
-}
-
-double
-ss_coefficients_max(const ss_coefficients *coefficients)
-{
-    if (coefficients == NULL || coefficients->w == NULL)
-        return NAN;
-    double outside = -1, all = 0, passed = 0;
-    for (size_t i = 0; i < coefficients->n_scales; i++) {
-        const ss_scale *scale = &coefficients->scale[i];
-        const double *w = coefficients->w + 2 * scale->offset;
-        for (size_t k = 0; k < scale->n; k++) {
-            double re = w[2 * k], im = w[2 * k + 1];
-            if (re * re + im * im < passed)             /* most are, and need no hypot */
-                continue;
-            double level = hypot(re, im);
-            all = fmax(all, level);
-            if (level > outside && !ss_coefficients_edge(coefficients, i, k)) {
-                outside = level;
-                passed = level > 1e-140 ? level * level * (1 - 1e-14) : 0;
-            }
-        }
-    }
-    return outside >= 0 ? outside : all;
-}
-
-/* --- transforming -------------------------------------------------------------------------- */
-
-static ss_status
-note_number(ss_header *head, const char *key, double value)
-{
-    char text[SS_NUMBER_MAX];
-    ss_number_format(text, value);
-    return ss_header_note(head, key, text);
-}
-
-static ss_status
-note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
-{
-    const ss_column *col = &head->column[0];
-    int failed = (n > 0 ? note_number(head, "samples", (double)n)
-                        : ss_header_note(head, "stream", "yes"))
-        || ss_header_note(head, "column", col->name)
-        || (col->unit[0] != '\0' && ss_header_note(head, "unit", col->unit))
-        || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
-        || (opts->dense ? ss_header_note(head, "dense", "yes")
-                        : note_number(head, "step", opts->step))
-        || ss_header_note(head, "norm", norm_name[opts->norm])
-        || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
-        || ss_header_note(head, "detrend", detrend_name[opts->detrend])
-        || note_number(head, "accuracy", opts->accuracy)
-        || ss_header_note(head, "method", engine_name[opts->engine])
-        || ss_header_note(head, "label", "f = center / (2 pi a)");
-    return failed ? SS_ENOMEM : SS_OK;
-}
-
-ss_status
-ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
-                       const ss_morlet_opts *opts)
-{
-    if (out == NULL || signal == NULL || opts == NULL
-        || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
-        return SS_EINVAL;
-    *out = NULL;
-    ss_status st = ss_header_select(out, signal, &column, 1, 0);
-    if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {
-        ss_header_free(*out);
-        *out = NULL;
-    }
-    return st;
-}
-
-static ss_status
-fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_morlet *plan,
-     const ss_morlet_opts *opts, ss_error *err)
-{
-    ss_status st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
-    if (st != SS_OK || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
-        return st;
-    coef->n = signal->n;
-    coef->center = opts->center;
-    coef->n_scales = plan->n_scales;
-    coef->scale = malloc(plan->n_scales * sizeof *coef->scale);
-    coef->w = malloc(2 * plan->total * sizeof *coef->w);
-    if (coef->scale == NULL || coef->w == NULL)
-        return SS_ENOMEM;
-    memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
-    return ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
-}
-
-ss_status
-ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
-             const ss_morlet_opts *opts, ss_error *err)
-{
-    ss_morlet *plan = NULL;
-    if (out == NULL || signal == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    if (column >= signal->head->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1,
-                       signal->head->n_columns);
-    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, opts, err);
-    if (st != SS_OK)
-        return st;
-    ss_coefficients *coef = calloc(1, sizeof *coef);
-    st = coef == NULL ? SS_ENOMEM : fill(coef, signal, column, plan, opts, err);
-    ss_morlet_free(plan);
-    if (st == SS_OK)
-        *out = coef;
-    else
-        ss_coefficients_free(coef);
-    return st;
-}
-
-/* --- reading ------------------------------------------------------------------------------- */
 
 /* A scale of which rows have come. */
 typedef struct part {

@@ -9,7 +9,12 @@
 #include <strings.h>
 #include "base/error.h"
 #include "base/utf8.h"
-#include "stream/stream.h"
+#include "signal/gaps.h"
+#include "signal/header.h"
+#include "signal/resample.h"
+#include "stream/clock.h"
+#include "stream/format.h"
+#include "stream/reader.h"
 
 enum {
     HEADER_LINES = 1000,
@@ -735,8 +740,8 @@ free_table(struct table *t)
     ss_header_free(t->names);
 }
 
-ss_status
-ss_delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+static ss_status
+open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
     struct table t = { .in = in, .opts = opts, .time = NONE, .names = ss_header_new(0, 0) };
@@ -765,3 +770,5 @@ ss_delimited_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     free_table(&t);
     return st;
 }
+
+const struct format ss_format_delimited = { .name = "csv", .open = open_table };

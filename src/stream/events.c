@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "stream/stream.h"
+#include "stream/input.h"
 
 static ss_status
 read_times(double **time, size_t *n, struct input *in, ss_error *err)

@@ -6,7 +6,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "stream/stream.h"
+#include "stream/input.h"
 
 typedef struct reader {
     struct input in;

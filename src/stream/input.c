@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <stickslip/number.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "stream/input.h"
 
 enum { PIECE = 65536 };
 

@@ -3,40 +3,27 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "stream/format.h"
+#include "stream/reader.h"
 
-ss_status
-ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
-{
-    char rate[SS_NUMBER_MAX];
-    ss_number_format(rate, own);
-    if (opts->time != NULL || (opts->rate > 0 && (opts->rate < own || opts->rate > own)))
-        return ss_fail(err, SS_EDATA, "%s: has a clock of its own, %s Hz: no column of time or rate "
-                       "can be chosen", name, rate);
-    return SS_OK;
-}
-
-/* The kind by its first bytes, and a word on files that are often tried. */
+/* In the format of its first bytes, after a word on files that are often tried. */
 static ss_status
-open_kind(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    ss_status st = ss_input_need(in, 11, err);
+    ss_status st = ss_input_need(in, FORMAT_BYTES, err);
     const char *p = in->buffer + in->lo;
     size_t n = in->hi - in->lo;
     if (st != SS_OK)
         return st;
     if (n == 0)
         return ss_fail(err, SS_EDATA, "%s: empty", in->name);
-    if (n >= 4 && memcmp(p, ".snd", 4) == 0)
-        return ss_au_open(reader, opts, err);
-    if (n >= 4 && memcmp(p, "\211HDF", 4) == 0)
+    const struct format *found = ss_format_of_bytes(p, n);
+    if (found->magic == NULL && n >= 4 && memcmp(p, "\211HDF", 4) == 0)
         return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
-    if (ss_fail_kind(err, in->name, p, n, "a signal") != SS_OK)
+    if (found->magic == NULL && ss_fail_kind(err, in->name, p, n, "a signal") != SS_OK)
         return SS_EDATA;
-    if (n >= 11 && memcmp(p, STREAM_MAGIC, 11) == 0)
-        return ss_text_open(reader, opts, err);
-    return ss_delimited_open(reader, opts, err);
+    return found->open(reader, opts, err);
 }
 
 ss_status
@@ -53,12 +40,12 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
     if (reader == NULL)
         return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     reader->head = ss_header_new(0, 0);
-    reader->magic = STREAM_MAGIC;
+    reader->magic = SIGNAL_MAGIC;
     ss_status st = ss_input_open(&reader->in, in, name, err);
     if (st == SS_OK && reader->head == NULL)
         st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     if (st == SS_OK)
-        st = open_kind(reader, opts != NULL ? opts : &no_opts, err);
+        st = open_format(reader, opts != NULL ? opts : &no_opts, err);
     if (st != SS_OK) {
         ss_reader_free(reader);
         return st;
@@ -104,60 +91,6 @@ ss_reader_free(ss_reader *reader)
 }
 
 /* --- whole signals ------------------------------------------------------------------------- */
-
-ss_status
-ss_signal_new(ss_signal **out, const ss_header *head, size_t n)
-{
-    if (out == NULL || head == NULL)
-        return SS_EINVAL;
-    ss_signal *signal = calloc(1, sizeof *signal);
-    size_t columns = head->n_columns > 0 ? head->n_columns : 1;
-    *out = NULL;
-    if (signal == NULL)
-        return SS_ENOMEM;
-    signal->n = n;
-    signal->head = ss_header_copy(head);
-    if (n < SIZE_MAX / sizeof *signal->values / columns)
-        signal->values = calloc(n * columns + 1, sizeof *signal->values);
-    if (signal->head == NULL || signal->values == NULL) {
-        ss_signal_free(signal);
-        return SS_ENOMEM;
-    }
-    *out = signal;
-    return SS_OK;
-}
-
-void
-ss_signal_free(ss_signal *signal)
-{
-    if (signal == NULL)
-        return;
-    ss_header_free(signal->head);
-    free(signal->values);
-    free(signal);
-}
-
-ss_status
-ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column, size_t n_columns,
-                 size_t first, size_t end)
-{
-    ss_header *head;
-    if (out == NULL || signal == NULL || (column == NULL && n_columns > 0))
-        return SS_EINVAL;
-    *out = NULL;
-    if (first > end || end > signal->n)
-        return SS_EINVAL;
-    ss_status st = ss_header_select(&head, signal->head, column, n_columns, first);
-    if (st != SS_OK)
-        return st;
-    size_t n = end - first;
-    st = ss_signal_new(out, head, n);
-    ss_header_free(head);
-    for (size_t c = 0; st == SS_OK && c < n_columns; c++)
-        memcpy((*out)->values + c * n, signal->values + column[c] * signal->n + first,
-               n * sizeof *signal->values);
-    return st;
-}
 
 /* All rows that are left, one after the other, in an array to be freed. */
 static ss_status

@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/header.h"
+#include "stream/clock.h"
+#include "stream/format.h"
+#include "stream/reader.h"
 
 static size_t
 n_cells(const ss_header *head)
@@ -109,19 +112,19 @@ refuse_magic(const ss_reader *reader, const char *line, ss_error *err)
 {
     if (ss_fail_kind(err, reader->in.name, line, strlen(line), "a signal") != SS_OK)
         return SS_EDATA;
-    return ss_fail(err, SS_EDATA, "%s:1: '%.40s' is not '%s'", reader->in.name, line, STREAM_MAGIC);
+    return ss_fail(err, SS_EDATA, "%s:1: '%.40s' is not '%s'", reader->in.name, line, SIGNAL_MAGIC);
 }
 
 /* The header ends before the first line that is no comment. */
-ss_status
-ss_text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+static ss_status
+open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
     const char *reason = "";
     char *line;
     size_t length;
     ss_status st = ss_input_line(in, &line, &length, err);
-    if (st == SS_OK && strcmp(line, STREAM_MAGIC) != 0)
+    if (st == SS_OK && strcmp(line, SIGNAL_MAGIC) != 0)
         return refuse_magic(reader, line, err);
     reader->head->rate = 0;
     while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK) {
@@ -147,3 +150,36 @@ ss_text_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     reader->head->rate = opts->rate;
     return SS_OK;
 }
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+static ss_status
+begin_text(FILE *out, const ss_header *head, const char *magic)
+{
+    size_t length;
+    char *text = ss_header_text(head, magic, &length);
+    if (text == NULL)
+        return SS_ENOMEM;
+    fwrite(text, 1, length, out);
+    free(text);
+    return ferror(out) ? SS_EIO : SS_OK;
+}
+
+static size_t
+put_number(char *to, double x, int last)
+{
+    size_t n = ss_number_format(to, x);
+    to[n] = last ? '\n' : '\t';
+    return n + 1;
+}
+
+const struct format ss_format_tsv = {
+    .name = "tsv",
+    .magic = "# stickslip",
+    .open = open_text,
+    .begin = begin_text,
+    .number = put_number,
+    .has_time = 1,
+    .has_notes = 1,
+    .separator = '\t',
+};

@@ -1,4 +1,4 @@
-/* table.c -- a sweep's rows read back. */
+/* sweep.c -- a sweep's rows read back. */
 #include <stickslip/sweep.h>
 
 #include <math.h>
@@ -7,7 +7,8 @@
 #include <string.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
-#include "stream/stream.h"
+#include "signal/header.h"
+#include "stream/input.h"
 
 typedef struct reader {
     ss_sweep_table *table;

@@ -1,0 +1,59 @@
+/* signal.c -- a whole signal in memory, column after column. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip/signal.h>
+
+ss_status
+ss_signal_new(ss_signal **out, const ss_header *head, size_t n)
+{
+    if (out == NULL || head == NULL)
+        return SS_EINVAL;
+    ss_signal *signal = calloc(1, sizeof *signal);
+    size_t columns = head->n_columns > 0 ? head->n_columns : 1;
+    *out = NULL;
+    if (signal == NULL)
+        return SS_ENOMEM;
+    signal->n = n;
+    signal->head = ss_header_copy(head);
+    if (n < SIZE_MAX / sizeof *signal->values / columns)
+        signal->values = calloc(n * columns + 1, sizeof *signal->values);
+    if (signal->head == NULL || signal->values == NULL) {
+        ss_signal_free(signal);
+        return SS_ENOMEM;
+    }
+    *out = signal;
+    return SS_OK;
+}
+
+void
+ss_signal_free(ss_signal *signal)
+{
+    if (signal == NULL)
+        return;
+    ss_header_free(signal->head);
+    free(signal->values);
+    free(signal);
+}
+
+ss_status
+ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column, size_t n_columns,
+                 size_t first, size_t end)
+{
+    ss_header *head;
+    if (out == NULL || signal == NULL || (column == NULL && n_columns > 0))
+        return SS_EINVAL;
+    *out = NULL;
+    if (first > end || end > signal->n)
+        return SS_EINVAL;
+    ss_status st = ss_header_select(&head, signal->head, column, n_columns, first);
+    if (st != SS_OK)
+        return st;
+    size_t n = end - first;
+    st = ss_signal_new(out, head, n);
+    ss_header_free(head);
+    for (size_t c = 0; st == SS_OK && c < n_columns; c++)
+        memcpy((*out)->values + c * n, signal->values + column[c] * signal->n + first,
+               n * sizeof *signal->values);
+    return st;
+}

@@ -1,0 +1,38 @@
+/* format.h -- the formats in which signals and rows come and go.
+ *
+ * A format is a file, which defines one of these tables, and a row in the list of format.c. */
+#ifndef FORMAT_H
+#define FORMAT_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/signal.h>
+
+#define SIGNAL_MAGIC "# stickslip signal 1"
+#define COEFFICIENTS_MAGIC "# stickslip coefficients 1"
+
+struct format {
+    const char *name;           /* "au": what users call it; a file's ending is that behind a dot */
+
+    /* Reading a signal: the bytes with which it begins, "?" for any; NULL: what no other is. */
+    const char *magic;
+    ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
+
+    /* Writing numbers under a header that begins with magic; NULL if none are. */
+    ss_status (*begin)(FILE *out, const ss_header *head, const char *magic);
+    /* A cell of at most SS_NUMBER_MAX bytes, the last of its row or not; gives its length. */
+    size_t (*number)(char *to, double x, int last);
+    int has_time;               /* a column of time is written as the others are */
+    int has_notes;              /* lines "# key: value" may stand anywhere */
+    char separator;             /* of cells that may be words; '\0': it holds numbers only */
+};
+
+extern const struct format ss_format_tsv, ss_format_au, ss_format_delimited;
+
+/* The table of a format that can be written, or NULL. */
+const struct format *ss_format_table(ss_format of);
+/* The format of a signal that begins with these n bytes. */
+const struct format *ss_format_of_bytes(const char *bytes, size_t n);
+enum { FORMAT_BYTES = 12 };     /* the longest magic */
+
+#endif

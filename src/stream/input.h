@@ -1,0 +1,40 @@
+/* input.h -- bytes and lines of a stream, as they come. */
+#ifndef INPUT_H
+#define INPUT_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/status.h>
+
+/* More than any honest input has, so that hostile input finds an end of memory. */
+enum { MAX_LINE = 1 << 24 };
+
+/* Bytes of a stream, as they come: never waits for more than is asked for. */
+struct input {
+    FILE *file;
+    const char *name;           /* in messages; owned */
+    char *buffer;
+    size_t capacity, lo, hi;    /* what is there is buffer[lo ... hi) */
+    size_t scanned;             /* no newline before this */
+    int ended;
+    unsigned long line;         /* of the line read last, from 1 */
+};
+ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err);
+void ss_input_close(struct input *in);
+/* Have n bytes in the buffer, or all that there are until the end. */
+ss_status ss_input_need(struct input *in, size_t n, ss_error *err);
+/* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0
+ * and *line = NULL at the end of the stream. */
+ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error *err);
+/* The first line, which must be magic: a list of what stands in the stream. */
+ss_status ss_input_begin(struct input *in, const char *magic, const char *what, ss_error *err);
+/* The next line of text that is not blank, as ss_input_line gives it; *line = NULL at the end. */
+ss_status ss_input_row(struct input *in, char **line, ss_error *err);
+/* The finite number that *text begins with; *text moves behind it and the blanks or comma after it.
+ * SS_EDATA, with the line: not what is expected there. */
+ss_status ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
+                          ss_error *err);
+int ss_input_has_line(struct input *in);           /* is a whole line in the buffer? */
+int ss_input_waits(const struct input *in);        /* would more bytes have to be waited for? */
+
+#endif

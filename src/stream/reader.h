@@ -1,0 +1,24 @@
+/* reader.h -- a signal that is being read. */
+#ifndef READER_H
+#define READER_H
+
+#include <stdint.h>
+#include <stickslip/signal.h>
+#include "stream/input.h"
+
+/* Rows as ss_reader_rows gives them; each format has its own. */
+typedef ss_status read_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+
+struct ss_reader {
+    struct input in;
+    ss_header *head;
+    read_rows *rows;
+    const char *magic;          /* with which the header begins, in text and in AU's annotation */
+    uint64_t row;               /* rows given so far */
+    int encoding;               /* AU: of its values */
+    uint64_t bytes_left;        /* AU: of its data, UINT64_MAX if unknown */
+    double *values;             /* delimited text: all rows, one after the other */
+    size_t n_rows;
+};
+
+#endif
