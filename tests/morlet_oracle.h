@@ -8,7 +8,7 @@
 #include <stickslip.h>
 
 /* W(a, b) of n samples.  Taps beyond 12 a are below 1e-31 and left out. */
-static void
+static inline void
 oracle(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a, double b,
        long double w[2])
 {
@@ -31,7 +31,7 @@ oracle(const double *x, size_t n, double rate, const ss_morlet_opts *opts, doubl
 }
 
 /* What long double itself gets wrong, in units of a^1/2 max|x|: nothing where it is wider. */
-static double
+static inline double
 oracle_error(const ss_morlet_opts *opts)
 {
     return LDBL_EPSILON * (16 + 8 * opts->center);
@@ -40,7 +40,7 @@ oracle_error(const ss_morlet_opts *opts)
 /* The largest error of a transform over the bound that stickslip/morlet.h promises, over all scales.
  * every: look at one coefficient in so many; the largest |W| is that of all coefficients got, which
  * is right to within accuracy. */
-static double
+static inline double
 worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
             const ss_morlet_opts *opts, const double *w, size_t every)
 {
@@ -74,7 +74,7 @@ static const char *const kind_name[KINDS] = {
 };
 
 /* Fill x with n samples; frequencies relative to the rate, so any rate will do. */
-static void
+static inline void
 make(kind which, double *x, size_t n)
 {
     unsigned long long seed = 12345;
