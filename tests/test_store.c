@@ -842,6 +842,154 @@ nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
     unlink(other);
 }
 
+/* A /signal of n values at 1 kHz, with a column t of no storage, tracked in the order of writing but
+ * without an index of it. */
+static hid_t
+open_signal_without_values(hid_t file, hsize_t n)
+{
+    const double one = 1;
+    static const char *const name[] = { "rate", "start", "has_time" };
+    hid_t how = H5Pcreate(H5P_GROUP_CREATE), scalar = H5Screate(H5S_SCALAR);
+    H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED);
+    hid_t group = H5Gcreate2(file, "signal", H5P_DEFAULT, how, H5P_DEFAULT);
+    for (size_t i = 0; i < 3; i++) {
+        hid_t id = H5Acreate2(group, name[i], H5T_NATIVE_DOUBLE, scalar, H5P_DEFAULT, H5P_DEFAULT);
+        H5Awrite(id, H5T_NATIVE_DOUBLE, &one);
+        H5Aclose(id);
+    }
+    hid_t space = H5Screate_simple(1, &n, NULL);
+    hid_t id = H5Dcreate2(group, "t", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dclose(id);
+    H5Sclose(space);
+    H5Sclose(scalar);
+    H5Pclose(how);
+    return group;
+}
+
+static void
+hard_links_do_not_multiply_what_a_file_may_claim(void **state)
+{
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    char name[32];
+    struct stat st;
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t group = open_signal_without_values(file, 1 << 24);
+    for (int i = 0; i < 12; i++) {
+        snprintf(name, sizeof name, "x%d", i);
+        H5Lcreate_hard(group, "t", group, name, H5P_DEFAULT, H5P_DEFAULT);
+    }
+    H5Gclose(group);
+    H5Fclose(file);
+    assert_int_equal(stat(path, &st), 0);
+    assert_true(st.st_size < 10000);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_null(signal);
+    assert_string_equal(err.text + strlen(path), ":/signal/x1: with those before, claims more values "
+                        "than a file of this size can hold");
+}
+
+/* In the order of writing, in a time that grows as their number does: one by one it were minutes. */
+static void
+many_columns_without_an_index_are_listed_at_once(void **state)
+{
+    enum { COLUMNS = 20000 };
+    ss_signal *signal = NULL;
+    char name[32];
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t group = open_signal_without_values(file, 3);
+    for (int i = COLUMNS; i > 0; i--) {
+        snprintf(name, sizeof name, "x%d", i);
+        H5Lcreate_hard(group, "t", group, name, H5P_DEFAULT, H5P_DEFAULT);
+    }
+    H5Gclose(group);
+    H5Fclose(file);
+    alarm(60);                          /* 4 s; with sanitizers more */
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, NULL), SS_OK);
+    alarm(0);
+    assert_int_equal(signal->head->n_columns, COLUMNS);
+    assert_string_equal(signal->head->column[0].name, "x20000");
+    assert_string_equal(signal->head->column[COLUMNS - 1].name, "x1");
+    ss_signal_free(signal);
+}
+
+/* HDF5 opens the sources of a virtual dataset when it is asked for an extent without limit: a FIFO
+ * that no one writes to would hold it for ever. */
+static void
+the_sources_of_a_virtual_dataset_are_not_opened(void **state)
+{
+    const hsize_t none = 0, one = 1, all = H5S_UNLIMITED;
+    static const ss_read_opts opts = { .rate = 1 };
+    char fifo[80];
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    (void)state;
+    snprintf(fifo, sizeof fifo, "%s.fifo", path);
+    assert_int_equal(mkfifo(fifo, 0600), 0);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &one, &all), how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, &none, NULL, &all, &one);
+    H5Pset_virtual(how, space, fifo, "/x", space);
+    H5Dclose(H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT));
+    H5Pclose(how);
+    H5Sclose(space);
+    H5Fclose(file);
+    alarm(20);
+    for (int named = 0; named < 2; named++)
+        assert_int_equal(ss_store_read_signal(&signal, path, named ? "/x" : NULL, &opts, &err), SS_EDATA);
+    alarm(0);
+    assert_string_equal(err.text + strlen(path), ":/x: its values lie outside this file");
+    unlink(fifo);
+}
+
+/* A dataset of one chunk of zeros through these filters; 0 ends them. */
+static void
+write_filtered(const H5Z_filter_t filter[])
+{
+    static const double zeros[1000];
+    const hsize_t n = 1000;
+    const unsigned level = 9;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &n, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(how, 1, &n);
+    for (int i = 0; filter[i] != 0; i++)
+        assert_true(H5Pset_filter(how, filter[i], H5Z_FLAG_OPTIONAL, filter[i] < 256, &level) >= 0);
+    hid_t id = H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros) >= 0);
+    H5Dclose(id);
+    H5Pclose(how);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+static void
+only_filters_that_bound_what_they_make_are_run(void **state)
+{
+    static const ss_read_opts opts = { .rate = 1 };
+    static const H5Z_filter_t plain[] = { H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32, 0 },
+        twice[] = { H5Z_FILTER_DEFLATE, H5Z_FILTER_DEFLATE, 0 }, other[] = { 32001, 0 };
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    unsigned before, after;
+    (void)state;
+    H5PLget_loading_state(&before);
+    write_filtered(plain);
+    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_OK);
+    ss_signal_free(signal);
+    for (int i = 0; i < 2; i++) {
+        H5E_BEGIN_TRY {
+            write_filtered(i == 0 ? twice : other);
+        } H5E_END_TRY
+        assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+        assert_string_equal(err.text + strlen(path), ":/x: is packed otherwise than by deflate, once; "
+                            "h5repack -f GZIP=1 makes it so");
+    }
+    H5PLget_loading_state(&after);
+    assert_int_equal(after, before);
+}
+
 /* Give an object of the file another number as an attribute, as anyone might. */
 static void
 put_attribute(const char *object, const char *name, double value)
@@ -1021,6 +1169,10 @@ main(void)
         cmocka_unit_test(a_truncated_file_is_refused),
         cmocka_unit_test(flipped_bits_are_refused_or_harmless),
         cmocka_unit_test(nothing_leads_out_of_a_file_or_claims_more_than_it_holds),
+        cmocka_unit_test(hard_links_do_not_multiply_what_a_file_may_claim),
+        cmocka_unit_test(many_columns_without_an_index_are_listed_at_once),
+        cmocka_unit_test(the_sources_of_a_virtual_dataset_are_not_opened),
+        cmocka_unit_test(only_filters_that_bound_what_they_make_are_run),
         cmocka_unit_test(a_grid_that_is_not_one_is_refused),
         cmocka_unit_test(a_clock_of_its_own_is_not_exchanged),
         cmocka_unit_test(attributes_that_are_no_notes_are_skipped),

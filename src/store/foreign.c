@@ -20,28 +20,25 @@ typedef struct array {
 
 /* --- what can be read ---------------------------------------------------------------------- */
 
-static const char no_memory[] = "out of memory";        /* a reason that is not the file's fault */
-
-static const char *
-refuse_type(hid_t id)
+/* SS_OK if it holds real numbers, else *why it does not, or NULL if the text is in file->err. */
+static ss_status
+check_type(h5_file *file, hid_t id, const char **why)
 {
+    char *matlab;
+    *why = NULL;
+    ss_status status = ss_h5_get_text(file, id, "MATLAB_class", &matlab);
+    if (status != SS_OK)
+        return status;
     hid_t type = H5Dget_type(id);
     H5T_class_t class = H5Tget_class(type);
-    char *matlab;
-    if (ss_h5_get_text(id, "MATLAB_class", &matlab) != SS_OK) {
-        H5Tclose(type);
-        return no_memory;
-    }
     int text = class == H5T_STRING || (matlab != NULL && strcmp(matlab, "char") == 0);
     int pair = class == H5T_COMPOUND && H5Tget_nmembers(type) == 2
                && (H5Tget_member_index(type, "imag") >= 0 || H5Tget_member_index(type, "i") >= 0);
     free(matlab);
     H5Tclose(type);
-    if (text)
-        return "holds text, not numbers";
-    if (pair)
-        return "holds complex numbers; a signal is real";
-    return ss_h5_refuse_values(id);
+    *why = text ? "holds text, not numbers"
+         : pair ? "holds complex numbers; a signal is real" : ss_h5_refuse_values(id);
+    return *why == NULL ? SS_OK : SS_EDATA;
 }
 
 static const char *
@@ -67,34 +64,45 @@ get_shape(hid_t id, array *shape)
 
 /* --- the list ------------------------------------------------------------------------------ */
 
+enum { LISTED = 300, LOOKED_AT = 10000 };       /* letters; objects, for files of nothing but names */
+
+struct list {
+    h5_file *file;
+    char text[LISTED + 10];                     /* room for the dots behind */
+    int looked_at;
+};
+
 static herr_t
 list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
 {
     array shape;
-    char *list = user;
+    const char *why;
+    struct list *list = user;
+    if (++list->looked_at > LOOKED_AT)
+        return 1;
     if (info->type != H5O_TYPE_DATASET)
         return 0;
     hid_t id = ss_h5_open_dataset(root, name);
-    if (id >= 0 && refuse_type(id) == NULL && get_shape(id, &shape) == NULL) {
-        size_t length = strlen(list), room = 300 - length;
-        if (snprintf(list + length, room, " /%s", name) >= (int)room) {
-            strcpy(list + length, " ...");
-            return H5Dclose(id) < 0 ? -1 : 1;
-        }
+    int full = 0;
+    if (id >= 0 && check_type(list->file, id, &why) == SS_OK && get_shape(id, &shape) == NULL) {
+        size_t length = strlen(list->text), room = LISTED - length;
+        full = snprintf(list->text + length, room, " /%s", name) >= (int)room;
+        if (full)
+            strcpy(list->text + length, " ...");
     }
     H5Dclose(id);
-    return 0;
+    return full;
 }
 
 ss_status
 ss_h5_fail_listing(h5_file *file)
 {
-    char list[310] = "";        /* room for the dots behind 300 */
-    H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, list);
-    if (list[0] == '\0')
+    struct list list = { .file = file };
+    H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, &list);
+    if (list.text[0] == '\0')
         return ss_h5_fail(file, SS_EDATA, 0, "", "no /signal in it, nor any array of real numbers");
     return ss_fail(file->err, SS_EDATA, "%s: no /signal in it; choose one as %s:/PATH from%s",
-                   file->path, file->path, list);
+                   file->path, file->path, list.text);
 }
 
 /* --- reading ------------------------------------------------------------------------------- */
@@ -140,7 +148,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
         return SS_ENOMEM;
     const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
     char *unit;
-    status = ss_h5_get_text(id, "units", &unit);
+    status = ss_h5_get_text(file, id, "units", &unit);
     for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
         int length = snprintf(name, sizeof name, "%.100s", base);
         if (shape->columns > 1)
@@ -188,14 +196,16 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
     hid_t id = ss_h5_open_dataset(file->id, dataset);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
-    const char *wrong = refuse_type(id);
-    if (wrong == NULL)
+    const char *wrong;
+    ss_status status = check_type(file, id, &wrong);
+    if (status == SS_OK)
         wrong = get_shape(id, &shape);
-    if (wrong == NULL && opts != NULL && opts->time != NULL)
+    if (status == SS_OK && wrong == NULL && opts != NULL && opts->time != NULL)
         wrong = "an array has no column of time to choose; give its rate with ss-cat --rate";
-    ss_status status = wrong == no_memory ? SS_ENOMEM
-                       : wrong != NULL ? ss_h5_fail(file, SS_EDATA, 0, dataset, wrong)
-                       : make_header(file, id, dataset, &shape, rate, &head);
+    if (wrong != NULL)
+        status = ss_h5_fail(file, SS_EDATA, 0, dataset, wrong);
+    if (status == SS_OK)
+        status = make_header(file, id, dataset, &shape, rate, &head);
     if (status == SS_OK)
         status = ss_signal_new(out, head, shape.rows);
     if (status == SS_OK)

@@ -1,7 +1,7 @@
 /* h5.c -- opening HDF5 files, reading attributes and datasets of real numbers.
  *
- * A file may claim what it likes, so what would open other files, or ask for memory out of all
- * proportion to the file, is refused before HDF5 is asked to do it. */
+ * A file may claim what it likes, so what would open other files, run a plugin, or ask for memory
+ * out of all proportion to the file, is refused before HDF5 is asked to do it. */
 #include "store/h5.h"
 
 #include <math.h>
@@ -71,16 +71,22 @@ ss_h5_open_group(hid_t group, const char *name)
     return id;
 }
 
-/* The bytes that a file may claim for one dataset or chunk: what deflate can make of all of it, and
- * whatever is no great matter. */
 static double
-largest_claim(hid_t object)
+file_size(hid_t object)
 {
     hsize_t size = 0;
     hid_t file = H5Iget_file_id(object);
     H5Fget_filesize(file, &size);
     H5Fclose(file);
-    return fmax(1032 * (double)size, 1 << 28);
+    return (double)size;
+}
+
+/* The bytes that a file may claim for all that is read of it: what deflate can make of all of it, and
+ * whatever is no great matter. */
+static double
+largest_claim(hid_t object)
+{
+    return fmax(1032 * file_size(object), 1 << 28);
 }
 
 static double
@@ -94,28 +100,92 @@ chunk_values(hid_t how)
     return values;
 }
 
+/* Are the values stored as they are, or by filters of which the limit of largest_claim is true?  Twice
+ * deflated, a file would hold 1032^2 times its size; other filters take the size from the file. */
+static int
+has_plain_filters(hid_t how)
+{
+    int deflated = 0, n = H5Pget_nfilters(how);
+    for (int i = 0; i < n; i++) {
+        unsigned flags, config;
+        size_t values = 0;
+        H5Z_filter_t filter = H5Pget_filter2(how, (unsigned)i, &flags, &values, NULL, 0, NULL, &config);
+        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE
+            && filter != H5Z_FILTER_FLETCHER32)
+            return 0;
+        deflated += filter == H5Z_FILTER_DEFLATE;
+    }
+    return n >= 0 && deflated <= 1;
+}
+
+/* The same before the extent is looked at: for that of a virtual dataset HDF5 opens its sources. */
+static const char *
+refuse_storage(hid_t how)
+{
+    if (H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0)
+        return "its values lie outside this file";
+    if (!has_plain_filters(how))
+        return "is packed otherwise than by deflate, once; h5repack -f GZIP=1 makes it so";
+    return NULL;
+}
+
+static const char *
+refuse_extent(hid_t dataset, hid_t how)
+{
+    hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
+    H5T_class_t class = H5Tget_class(type);
+    size_t width = H5Tget_size(type) > 8 ? H5Tget_size(type) : 8;       /* doubles in memory */
+    double values = (double)H5Sget_simple_extent_npoints(space);
+    double chunk = H5Pget_layout(how) == H5D_CHUNKED ? chunk_values(how) : 0;
+    H5Sclose(space);
+    H5Tclose(type);
+    if ((class != H5T_INTEGER && class != H5T_FLOAT) || width > 16)
+        return "does not hold real numbers";
+    if (!(values >= 0 && values <= H5_MAX_VALUES))
+        return "has more values than can be read at once";
+    if (fmax(values, chunk) * (double)width > largest_claim(dataset))
+        return "claims more values than a file of this size can hold";
+    return NULL;
+}
+
 const char *
 ss_h5_refuse_values(hid_t dataset)
 {
-    hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
     hid_t how = H5Dget_create_plist(dataset);
-    H5T_class_t class = H5Tget_class(type);
-    size_t width = H5Tget_size(type) > 8 ? H5Tget_size(type) : 8;       /* doubles in memory */
-    H5D_layout_t layout = H5Pget_layout(how);
-    double limit = largest_claim(dataset), values = (double)H5Sget_simple_extent_npoints(space);
-    double chunk = layout == H5D_CHUNKED ? chunk_values(how) : 0;
-    const char *wrong = (class != H5T_INTEGER && class != H5T_FLOAT) || width > 16
-                        ? "does not hold real numbers"
-                        : layout == H5D_VIRTUAL || H5Pget_external_count(how) > 0
-                        ? "its values lie outside this file"
-                        : !(values >= 0 && values <= H5_MAX_VALUES)
-                        ? "has more values than can be read at once"
-                        : fmax(values, chunk) * (double)width > limit
-                        ? "claims more values than a file of this size can hold" : NULL;
+    const char *wrong = refuse_storage(how);
+    if (wrong == NULL)
+        wrong = refuse_extent(dataset, how);
     H5Pclose(how);
-    H5Sclose(space);
-    H5Tclose(type);
     return wrong;
+}
+
+const char *
+ss_h5_claim(h5_file *file, hid_t dataset)
+{
+    const char *wrong = ss_h5_refuse_values(dataset);
+    if (wrong != NULL)
+        return wrong;
+    hid_t space = H5Dget_space(dataset);
+    file->claimed += 8 * (double)H5Sget_simple_extent_npoints(space);
+    H5Sclose(space);
+    return file->claimed > largest_claim(dataset)
+        ? "with those before, claims more values than a file of this size can hold" : NULL;
+}
+
+/* What HDF5_PLUGIN_PRELOAD has forbidden for good has no mask: then all is 0. */
+unsigned
+ss_h5_forbid_plugins(void)
+{
+    unsigned mask = 0;
+    H5PLget_loading_state(&mask);
+    H5PLset_loading_state(0);
+    return mask;
+}
+
+void
+ss_h5_restore_plugins(unsigned mask)
+{
+    H5PLset_loading_state(mask);
 }
 
 /* --- attributes and values ----------------------------------------------------------------- */
@@ -166,8 +236,15 @@ read_text(hid_t id, hid_t type, char **text)
     return status;
 }
 
+/* No attribute is packed, but those of variable length may be one text under many names. */
+static int
+has_claimed_too_much(const h5_file *file)
+{
+    return file->text > fmax(file_size(file->id), H5_MAX_TEXT);
+}
+
 ss_status
-ss_h5_get_text(hid_t object, const char *name, char **text)
+ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text)
 {
     ss_status status = SS_OK;
     hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
@@ -175,12 +252,18 @@ ss_h5_get_text(hid_t object, const char *name, char **text)
     if (id < 0)
         return SS_OK;
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
-    if (H5Tget_class(type) == H5T_STRING && H5Sget_simple_extent_npoints(space) == 1)
+    if (H5Tget_class(type) == H5T_STRING && H5Sget_simple_extent_npoints(space) == 1
+        && !has_claimed_too_much(file))
         status = read_text(id, type, text);
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(id);
-    return status;
+    file->text += *text != NULL ? (double)strlen(*text) : 0;
+    if (!has_claimed_too_much(file))
+        return status;
+    free(*text);
+    *text = NULL;
+    return ss_h5_fail(file, SS_EDATA, object, "", "attributes claim more text than the file holds");
 }
 
 ss_status
@@ -189,9 +272,9 @@ ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, 
     hid_t id = ss_h5_open_dataset(group, name);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    hid_t space = H5Dget_space(id);
-    hssize_t points = H5Sget_simple_extent_npoints(space);
     const char *wrong = ss_h5_refuse_values(id);
+    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
+    hssize_t points = H5Sget_simple_extent_npoints(space);
     ss_status status = SS_OK;
     if (wrong != NULL)
         status = ss_h5_fail(file, SS_EDATA, group, name, wrong);
@@ -204,32 +287,41 @@ ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, 
     return status;
 }
 
+struct notes {
+    h5_file *file;
+    ss_header *head;
+    ss_status status;
+};
+
 static herr_t
 read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
 {
-    ss_header *head = user;
+    struct notes *notes = user;
     (void)info;
     char *value = NULL;
-    if (head->n_notes == MAX_NOTES || strcmp(name, H5_VERSION_NOTE) == 0)
+    if (notes->head->n_notes == MAX_NOTES || strcmp(name, H5_VERSION_NOTE) == 0)
         return 0;
-    ss_status status = ss_h5_get_text(root, name, &value);
+    notes->status = ss_h5_get_text(notes->file, root, name, &value);
     if (value != NULL)
-        status = ss_header_note(head, name, value);
+        notes->status = ss_header_note(notes->head, name, value);
     free(value);
-    return status != SS_OK && status != SS_EINVAL;      /* others may write what is no note of ours */
+    if (notes->status == SS_EINVAL)             /* others may write what is no note of ours */
+        notes->status = SS_OK;
+    return notes->status != SS_OK;
 }
 
 ss_status
 ss_h5_read_notes(h5_file *file, ss_header *head)
 {
     hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
+    struct notes notes = { file, head, SS_OK };
     unsigned tracked = 0;
     H5Pget_attr_creation_order(how, &tracked);
     herr_t stopped = H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
-                                 H5_ITER_INC, NULL, read_note, head);
+                                 H5_ITER_INC, NULL, read_note, &notes);
     H5Pclose(how);
     H5Gclose(root);
     if (stopped < 0)
         return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
-    return stopped > 0 ? SS_ENOMEM : SS_OK;
+    return notes.status;
 }

@@ -17,6 +17,8 @@ typedef struct h5_file {
     hid_t id;
     const char *path;           /* for messages */
     ss_error *err;
+    double claimed;             /* bytes of the values that were asked for, as doubles */
+    double text;                /* and of text in attributes */
 } h5_file;
 
 /* SS_EIO or what is given, with the text "PATH:GROUP/NAME: TEXT"; group 0 for the file itself. */
@@ -41,11 +43,18 @@ hid_t ss_h5_open_group(hid_t group, const char *name);
 /* Why the values of a dataset are not to be read, or NULL: not plain real numbers of this file, or
  * more of them than the file can hold. */
 const char *ss_h5_refuse_values(hid_t dataset);
+/* Count the values of a dataset among those that the file claims; why they are too many, or NULL.
+ * Called once before they are read, so that names of one dataset do not multiply it. */
+const char *ss_h5_claim(h5_file *file, hid_t dataset);
+
+/* No plugin is loaded from here on, whatever filter a file asks for; gives what restores it. */
+unsigned ss_h5_forbid_plugins(void);
+void ss_h5_restore_plugins(unsigned mask);
 
 /* Attributes of an object.  A missing one, or one of another kind, gives 0. */
 int ss_h5_get_number(hid_t object, const char *name, double *value);
-/* The same of text: *text is NULL, or to be freed.  SS_ENOMEM is the only failure. */
-ss_status ss_h5_get_text(hid_t object, const char *name, char **text);
+/* The same of text: *text is NULL, or to be freed.  SS_EDATA: the file claims too much of it. */
+ss_status ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text);
 
 /* Read a whole dataset of real numbers, of n values in all, as doubles. */
 ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "signal/header.h"
 #include "stream/clock.h"
 
@@ -41,15 +42,15 @@ get_header(h5_file *file, hid_t group, ss_header **head)
     return ss_h5_read_notes(file, *head);
 }
 
-/* The number of values of a 1-D or 2-D dataset. */
+/* The number of values of a 1-D or 2-D dataset, which are counted as claimed. */
 static ss_status
 get_size(h5_file *file, hid_t group, const char *name, size_t *n)
 {
     hid_t id = ss_h5_open_dataset(group, name);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    hid_t space = H5Dget_space(id);
-    const char *wrong = ss_h5_refuse_values(id);
+    const char *wrong = ss_h5_claim(file, id);
+    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
     *n = wrong == NULL ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
     H5Sclose(space);
     H5Dclose(id);
@@ -69,15 +70,39 @@ link_order(hid_t group)
     return tracked & H5P_CRT_ORDER_TRACKED ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
 }
 
-static char *
-link_at(hid_t group, H5_index_t order, hsize_t i)
+struct links {
+    char **name;
+    size_t n, room;
+    ss_status status;
+};
+
+static herr_t
+append_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
 {
-    ssize_t length = H5Lget_name_by_idx(group, ".", order, H5_ITER_INC, i, NULL, 0, H5P_DEFAULT);
-    char *name = length >= 0 ? malloc((size_t)length + 1) : NULL;
-    if (name != NULL)
-        H5Lget_name_by_idx(group, ".", order, H5_ITER_INC, i, name, (size_t)length + 1,
-                           H5P_DEFAULT);
-    return name;
+    struct links *links = user;
+    char **more = ss_list_room(links->name, &links->room, links->n, sizeof *more);
+    (void)group, (void)info;
+    if (more != NULL)
+        links->name = more;
+    if (links->n == MAX_COLUMNS)
+        links->status = SS_EDATA;
+    else if (more == NULL || (more[links->n] = strdup(name)) == NULL)
+        links->status = SS_ENOMEM;
+    else
+        links->n++;
+    return links->status != SS_OK;
+}
+
+/* All names of a group at once: one by one, HDF5 sorts them all again for each where the group has no
+ * index of that order. */
+static ss_status
+list_links(h5_file *file, hid_t group, struct links *links)
+{
+    if (H5Literate(group, link_order(group), H5_ITER_INC, NULL, append_link, links) < 0)
+        return ss_h5_fail(file, SS_EIO, group, "", "cannot be read");
+    if (links->status == SS_EDATA)
+        return ss_h5_fail(file, SS_EDATA, group, "", "has more than 32768 columns");
+    return links->status;
 }
 
 /* Add the dataset at a link as a column of the header; *link stays the caller's. */
@@ -87,10 +112,12 @@ add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
     hid_t id = ss_h5_open_dataset(group, link);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, link, "not a dataset");
+    const char *wrong = ss_h5_claim(file, id);
     char *name = NULL, *unit = NULL;
-    ss_status status = ss_h5_get_text(id, "column", &name);
+    ss_status status = wrong == NULL ? ss_h5_get_text(file, id, "column", &name)
+                                     : ss_h5_fail(file, SS_EDATA, group, link, wrong);
     if (status == SS_OK)
-        status = ss_h5_get_text(id, "units", &unit);
+        status = ss_h5_get_text(file, id, "units", &unit);
     if (status == SS_OK)
         status = ss_header_add_column(head, name != NULL && *name != '\0' ? name : link, unit);
     free(name);
@@ -112,23 +139,24 @@ check_finite(h5_file *file, hid_t group, const char *name, const double *x, size
 }
 
 static ss_status
-read_columns(h5_file *file, hid_t group, ss_header *head, char *link[], hsize_t n_links,
+read_columns(h5_file *file, hid_t group, ss_header *head, const struct links *links,
              ss_signal **out)
 {
     size_t n;
     ss_status status = get_size(file, group, "t", &n);
-    for (hsize_t i = 0; status == SS_OK && i < n_links; i++)
-        if (strcmp(link[i], "t") != 0)
-            status = add_column(file, group, link[i], head);
+    for (size_t i = 0; status == SS_OK && i < links->n; i++)
+        if (strcmp(links->name[i], "t") != 0)
+            status = add_column(file, group, links->name[i], head);
     if (status == SS_OK)
         status = ss_signal_new(out, head, n);
     double *values = status == SS_OK ? (*out)->values : NULL;
-    for (hsize_t i = 0; status == SS_OK && i < n_links; i++) {
-        if (strcmp(link[i], "t") == 0)
+    for (size_t i = 0; status == SS_OK && i < links->n; i++) {
+        const char *name = links->name[i];
+        if (strcmp(name, "t") == 0)
             continue;
-        status = ss_h5_read_values(file, group, link[i], values, n);
+        status = ss_h5_read_values(file, group, name, values, n);
         if (status == SS_OK)
-            status = check_finite(file, group, link[i], values, n);
+            status = check_finite(file, group, name, values, n);
         values += n;
     }
     return status;
@@ -138,27 +166,18 @@ static ss_status
 read_signal(h5_file *file, ss_signal **out)
 {
     hid_t group = ss_h5_open_group(file->id, "/signal");
-    H5G_info_t info = { 0 };
+    struct links links = { .name = NULL };
     ss_header *head = NULL;
     if (group < 0)
         return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
     ss_status status = get_header(file, group, &head);
-    if (status == SS_OK && H5Gget_info(group, &info) < 0)
-        status = ss_h5_fail(file, SS_EIO, 0, "/signal", "cannot be read");
-    if (status == SS_OK && info.nlinks > MAX_COLUMNS)
-        status = ss_h5_fail(file, SS_EDATA, 0, "/signal", "has more than 32768 columns");
-    H5_index_t order = link_order(group);
-    char **link = calloc(info.nlinks + 1, sizeof *link);
-    if (link == NULL)
-        status = SS_ENOMEM;
-    for (hsize_t i = 0; status == SS_OK && i < info.nlinks; i++)
-        if ((link[i] = link_at(group, order, i)) == NULL)
-            status = SS_ENOMEM;
     if (status == SS_OK)
-        status = read_columns(file, group, head, link, info.nlinks, out);
-    for (hsize_t i = 0; link != NULL && i < info.nlinks; i++)
-        free(link[i]);
-    free(link);
+        status = list_links(file, group, &links);
+    if (status == SS_OK)
+        status = read_columns(file, group, head, &links, out);
+    for (size_t i = 0; i < links.n; i++)
+        free(links.name[i]);
+    free(links.name);
     ss_header_free(head);
     H5Gclose(group);
     return status;
@@ -180,12 +199,12 @@ ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset, const ss_
 /* --- /wavelet ------------------------------------------------------------------------------ */
 
 static ss_status
-add_grid_column(hid_t group, ss_header *head)
+add_grid_column(h5_file *file, hid_t group, ss_header *head)
 {
     char *name = NULL, *unit = NULL;
-    ss_status status = ss_h5_get_text(group, "column", &name);
+    ss_status status = ss_h5_get_text(file, group, "column", &name);
     if (status == SS_OK)
-        status = ss_h5_get_text(group, "column_units", &unit);
+        status = ss_h5_get_text(file, group, "column_units", &unit);
     if (status == SS_OK && name != NULL && name[0] != '\0')
         status = ss_header_add_column(head, name, unit);
     free(name);
@@ -241,7 +260,7 @@ get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *tot
 {
     double j;
     ss_scale *scale = &c->scale[i];
-    size_t n = 0;
+    size_t n = 0, n_im;
     ss_status status;
     hid_t group = open_scale(parent, i);
     if (group < 0) {
@@ -255,6 +274,7 @@ get_scale(h5_file *file, hid_t parent, ss_coefficients *c, size_t i, size_t *tot
         && (status = get_number(file, group, "frequency", 1e-300, 1e300, &scale->f)) == SS_OK
         && (status = get_lattice(file, group, scale)) == SS_OK
         && (status = get_size(file, group, "re", &n)) == SS_OK
+        && (status = get_size(file, group, "im", &n_im)) == SS_OK
         && (status = add_scale(scale, n, total)) == SS_OK
         && (status = check_scale(file, group, c, i)) == SS_OK)
         scale->j = (int)j;
@@ -321,7 +341,7 @@ read_grid(h5_file *file, hid_t group, ss_coefficients *c, int *dense, size_t *to
     double rate, samples, scales, number;
     ss_status status;
     if ((status = get_header(file, group, &c->head)) != SS_OK
-        || (status = add_grid_column(group, c->head)) != SS_OK
+        || (status = add_grid_column(file, group, c->head)) != SS_OK
         || (status = get_number(file, group, "rate", 1e-100, 1e100, &rate)) != SS_OK
         || (status = get_number(file, group, "samples", 1, H5_MAX_VALUES, &samples)) != SS_OK
         || (status = get_number(file, group, "scales", 1, 1e6, &scales)) != SS_OK
@@ -444,6 +464,15 @@ ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
     return status;
 }
 
+/* HDF5 without its reports, and without plugins that a file might ask for. */
+#define QUIETLY(work) do { \
+        H5E_BEGIN_TRY { \
+            unsigned plugins = ss_h5_forbid_plugins(); \
+            work \
+            ss_h5_restore_plugins(plugins); \
+        } H5E_END_TRY \
+    } while (0)
+
 /* --- public -------------------------------------------------------------------------------- */
 
 static ss_status
@@ -461,13 +490,13 @@ ss_store_has_signal(const char *path)
 {
     if (path == NULL)
         return 0;
-    h5_file file = { -1, path, NULL };
+    h5_file file = { .id = -1, .path = path };
     int has = 0;
-    H5E_BEGIN_TRY {
+    QUIETLY(
         if (ss_h5_open(&file) == SS_OK)
             has = H5Lexists(file.id, "signal", H5P_DEFAULT) > 0;
         finish(&file, SS_OK);
-    } H5E_END_TRY
+    );
     return has;
 }
 
@@ -475,17 +504,17 @@ ss_status
 ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
                      const ss_read_opts *opts, ss_error *err)
 {
-    h5_file file = { -1, path, err };
+    h5_file file = { .id = -1, .path = path, .err = err };
     ss_signal *signal = NULL;
     ss_status status;
     if (out == NULL || path == NULL)
         return SS_FAIL_NULL(err);
-    H5E_BEGIN_TRY {
+    QUIETLY(
         status = ss_h5_open(&file);
         if (status == SS_OK)
             status = ss_h5_read_signal(&signal, &file, dataset, opts);
         status = finish(&file, status);
-    } H5E_END_TRY
+    );
     if (status == SS_OK)
         *out = signal;
     else
@@ -501,11 +530,11 @@ ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err)
     ss_store_reader *r = calloc(1, sizeof *r);
     ss_status status = SS_ENOMEM;
     if (r != NULL)
-        r->file = (h5_file){ -1, r->path = strdup(path), &r->error };
-    H5E_BEGIN_TRY {
+        r->file = (h5_file){ .id = -1, .path = r->path = strdup(path), .err = &r->error };
+    QUIETLY(
         if (r != NULL && r->path != NULL && (status = ss_h5_open(&r->file)) == SS_OK)
             status = open_reader(r);
-    } H5E_END_TRY
+    );
     if (status == SS_OK)
         *out = r;
     else if (status == SS_ENOMEM)
@@ -531,9 +560,9 @@ ss_store_reader_scale(ss_store_reader *r, size_t i, double *w, ss_error *err)
         return SS_FAIL_NULL(err);
     if (i >= r->grid->n_scales)
         return ss_fail(err, SS_EINVAL, "no scale %zu, there are %zu", i, r->grid->n_scales);
-    H5E_BEGIN_TRY {
+    QUIETLY(
         status = read_scale(r, i, w);
-    } H5E_END_TRY
+    );
     if (status != SS_OK && err != NULL)
         *err = r->error;
     return status;
@@ -544,10 +573,10 @@ ss_store_reader_free(ss_store_reader *r)
 {
     if (r == NULL)
         return;
-    H5E_BEGIN_TRY {
+    QUIETLY(
         close_reader(r);
         finish(&r->file, SS_OK);
-    } H5E_END_TRY
+    );
     free(r->path);
     free(r);
 }
@@ -555,15 +584,15 @@ ss_store_reader_free(ss_store_reader *r)
 ss_status
 ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
-    h5_file file = { -1, path, err };
+    h5_file file = { .id = -1, .path = path, .err = err };
     ss_status status;
     if (out == NULL || path == NULL)
         return SS_FAIL_NULL(err);
-    H5E_BEGIN_TRY {
+    QUIETLY(
         status = ss_h5_open(&file);
         if (status == SS_OK)
             status = ss_h5_read_coefficients(out, &file);
         status = finish(&file, status);
-    } H5E_END_TRY
+    );
     return status;
 }

@@ -733,7 +733,7 @@ make_writer(ss_store_writer **out, const char *path)
     ss_store_writer *w = *out = calloc(1, sizeof *w);
     if (w == NULL)
         return SS_ENOMEM;
-    w->file = (h5_file){ -1, w->path = strdup(path), &w->error };
+    w->file = (h5_file){ .id = -1, .path = w->path = strdup(path), .err = &w->error };
     w->disk.fd = -1;
     for (int i = 0; i < 2; i++)
         w->value[i] = malloc(CHUNK * sizeof *w->value[i]);

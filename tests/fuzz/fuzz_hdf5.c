@@ -20,6 +20,7 @@ read_signal(h5_file *file, const char *dataset, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
     file->err->text[0] = '\0';
+    file->claimed = file->text = 0;
     ss_status status = ss_h5_read_signal(&signal, file, dataset, opts);
     if (status == SS_OK)
         fuzz_check_signal(signal);
@@ -33,6 +34,7 @@ read_coefficients(h5_file *file)
 {
     ss_coefficients *c = NULL;
     file->err->text[0] = '\0';
+    file->claimed = file->text = 0;
     ss_status status = ss_h5_read_coefficients(&c, file);
     if (status != SS_OK && status != SS_ENOMEM)
         fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
@@ -44,7 +46,7 @@ LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT };
     ss_error err = { "" };
-    h5_file file = { -1, "in", &err };
+    h5_file file = { .id = -1, .path = "in", .err = &err };
     if (size == 0)
         return 0;
     H5E_BEGIN_TRY {
