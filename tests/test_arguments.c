@@ -382,6 +382,45 @@ sweeps_refuse_null(void **state)
     fclose(in);
 }
 
+/* Of what tools write as text: NULL, a column that is not there, a format that has no words. */
+static void
+writers_of_rows_refuse_null(void **state)
+{
+    ss_header *head = ss_header_new(1, 0);
+    ss_event_writer *writer = NULL;
+    ss_event event = { .kind = (ss_event_kind)7 };
+    ss_features features = { .n = 0 };
+    ss_signal signal = { .head = head };
+    const ss_features_opts *const opts = &ss_features_defaults;
+    static const ss_trade trade;
+    FILE *out = tmpfile();
+    (void)state;
+    assert_int_equal(ss_event_writer_new(NULL, out, SS_TSV, head), SS_EINVAL);
+    assert_int_equal(ss_event_writer_new(&writer, NULL, SS_TSV, head), SS_EINVAL);
+    assert_int_equal(ss_event_writer_new(&writer, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_event_writer_new(&writer, out, SS_AU, head), SS_EINVAL);
+    assert_int_equal(ss_event_writer_new(&writer, out, (ss_format)9, head), SS_EINVAL);
+    assert_int_equal(ss_event_writer_row(NULL, &event), SS_EINVAL);
+    assert_int_equal(ss_event_writer_new(&writer, out, SS_TSV, head), SS_OK);
+    assert_int_equal(ss_event_writer_row(writer, NULL), SS_EINVAL);
+    assert_int_equal(ss_event_writer_row(writer, &event), SS_EINVAL);
+    assert_int_equal(ss_event_writer_flush(NULL), SS_EINVAL);
+    ss_event_writer_free(writer);
+    ss_event_writer_free(NULL);
+    assert_int_equal(ss_features_write(NULL, &signal, 0, opts, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_features_write(&features, NULL, 0, opts, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_features_write(&features, &signal, 0, opts, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_trade_write(NULL, "x", out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU), SS_EINVAL);
+    assert_null(ss_spikes_verdict(NULL));
+    assert_int_equal(ss_format_find(NULL, "tsv"), 0);
+    assert_int_equal(ss_format_find(&(ss_format){ SS_TSV }, NULL), 0);
+    ss_header_free(head);
+    fclose(out);
+}
+
 static void
 overlays_refuse_null(void **state)
 {
@@ -481,6 +520,7 @@ refuses_what_is_no_known_choice(void **state)
                          SS_EINVAL);
         assert_int_equal(ss_wave_new(&made, (ss_wave)k, &ss_wave_defaults, NULL), SS_EINVAL);
         assert_int_equal(ss_reader_new(&reader, in, "in", &gaps, NULL), SS_EINVAL);
+        assert_null(ss_format_name((size_t)k));
         assert_int_equal(ss_writer_new(&writer, in, (ss_format)k, head), SS_EINVAL);
         assert_int_equal(ss_signal_write(signal, in, (ss_format)k), SS_EINVAL);
         assert_int_equal(ss_coefficient_writer_new(&coefficient_writer, in, (ss_format)k, head),
@@ -550,7 +590,7 @@ main(void)
         cmocka_unit_test(transforms_refuse_null),
         cmocka_unit_test(conclusions_refuse_null),
         cmocka_unit_test(sweeps_refuse_null),
-        cmocka_unit_test(overlays_refuse_null),
+        cmocka_unit_test(writers_of_rows_refuse_null),
         cmocka_unit_test(overlays_refuse_null),
         cmocka_unit_test(plots_refuse_null),
         cmocka_unit_test(refuses_what_is_no_known_choice),

@@ -564,10 +564,25 @@ refuses_streams_that_are_cut_or_changed(void **state)
     free(text);
 }
 
+static void
+names_each_format_that_is_written(void **state)
+{
+    ss_format found = SS_TSV;
+    (void)state;
+    assert_string_equal(ss_format_name(SS_TSV), "tsv");
+    assert_string_equal(ss_format_name(SS_AU), "au");
+    for (size_t i = 0; ss_format_name(i) != NULL; i++) {
+        assert_int_equal(ss_format_find(&found, ss_format_name(i)), 1);
+        assert_string_equal(ss_format_name((size_t)found), ss_format_name(i));
+    }
+    assert_int_equal(ss_format_find(&found, "nosuch"), 0);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_each_format_that_is_written),
         cmocka_unit_test(keeps_the_record_s_bound_whatever_comes_together),
         cmocka_unit_test(keeps_the_bound_from_window_to_window),
         cmocka_unit_test(quiet_beginning_is_as_accurate_as_by_itself),

@@ -46,7 +46,7 @@ typedef struct request {
 typedef struct output {
     const request *req;
     ss_header *head;
-    FILE *events_out;                   /* events as text */
+    ss_event_writer *event_writer;      /* events as text */
     ss_writer *writer;                  /* samples as a stream */
     ss_signal *signal;                  /* for HDF5 */
     size_t n_samples;
@@ -79,13 +79,9 @@ stream_samples(const ss_sample *s, size_t n, void *user)
 static void
 begin_events(output *o)
 {
-    if (o->events_out != NULL)
-        return;
-    o->events_out = tool_output(o->req->path);
-    fprintf(o->events_out, "# stickslip events 1\n");
-    for (size_t i = 0; i < o->head->n_notes; i++)
-        fprintf(o->events_out, "# %s\n", o->head->note[i]);
-    fprintf(o->events_out, "# columns: t/s kind x/m v/(m/s) direction\n");
+    if (o->event_writer == NULL)
+        tool_check(ss_event_writer_new(&o->event_writer, tool_output(o->req->path), SS_TSV, o->head),
+                   NULL);
 }
 
 static int
@@ -102,16 +98,11 @@ keep_samples(const ss_sample *s, size_t n, void *user)
 }
 
 static int
-print_event(const ss_event *e, void *user)
+stream_event(const ss_event *e, void *user)
 {
     output *o = user;
     begin_events(o);
-    char t[SS_NUMBER_MAX], x[SS_NUMBER_MAX], v[SS_NUMBER_MAX];
-    ss_number_format(t, e->t);
-    ss_number_format(x, e->x);
-    ss_number_format(v, e->v);
-    return fprintf(o->events_out, "%s\t%s\t%s\t%s\t%d\n", t, ss_event_kind_name(e->kind), x, v,
-                   e->direction) < 0;
+    return ss_event_writer_row(o->event_writer, e) != SS_OK;
 }
 
 static int
@@ -257,11 +248,13 @@ finish(output *o, int has_events)
         tool_check(ss_store_write(tool_output_path(o->req->path), &record, &err), &err);
     } else if (o->req->events) {
         begin_events(o);
+        tool_check(ss_event_writer_flush(o->event_writer), NULL);
     } else {
         begin_samples(o);
         tool_check(ss_writer_flush(o->writer), NULL);
     }
     ss_writer_free(o->writer);
+    ss_event_writer_free(o->event_writer);
     ss_signal_free(o->signal);
     ss_header_free(o->head);
     free(o->events);
@@ -301,7 +294,7 @@ main(int argc, char *argv[])
     if (req.kind == TOOL_H5)
         tool_check(ss_signal_new(&o.signal, o.head, ss_scene_samples(&scene)), NULL);
     if (req.events || req.kind == TOOL_H5)
-        req.opts.events = req.events ? print_event : keep_event;
+        req.opts.events = req.events ? stream_event : keep_event;
     if (!req.events)
         req.opts.samples = req.kind == TOOL_H5 ? keep_samples : stream_samples;
     tool_end_at_rows(req.path);

@@ -28,68 +28,6 @@ static const char usage[] =
 "  -h, --help            show this text; --version: show the version\n";
 
 static void
-put(FILE *out, double x, const char *behind)
-{
-    char text[SS_NUMBER_MAX];
-    snprintf(text, sizeof text, "%.3g", x);     /* three digits of a measurement are plenty */
-    fprintf(out, "%s%s", text, behind);
-}
-
-static void
-write_row(FILE *out, const ss_trade_row *row, int transform, double fastest)
-{
-    fprintf(out, "%s\t", row->method);
-    if (row->tol > 0)
-        put(out, row->tol, "\t");
-    else
-        fputs("-\t", out);
-    if (row->status == SS_OK && transform) {
-        put(out, row->error_x, "\t");
-    } else if (transform) {
-        fputs("-\t", out);
-    } else if (row->status == SS_OK) {
-        put(out, row->error_x, "\t");
-        put(out, row->error_a, "\t");
-        put(out, row->error_t, "\t");
-        fprintf(out, "%zu\t%zu\t%lu\t%lu\t", row->missed, row->invented, row->rhs, row->steps);
-    } else {
-        fputs("-\t-\t-\t-\t-\t-\t-\t", out);
-    }
-    if (row->status == SS_OK || row->status == SS_EBUDGET)
-        put(out, row->seconds / fastest, "\t");
-    else
-        fputs("-\t", out);
-    fprintf(out, "%d\t%s\n", row->frontier, row->status == SS_OK ? "measured"
-            : row->status == SS_EBUDGET ? "estimated" : "refused");
-}
-
-static void
-write_rows(FILE *out, const ss_trade *trade, const char *name)
-{
-    double fastest = DBL_MAX;
-    for (size_t i = 0; i < trade->n; i++)
-        if (trade->row[i].status == SS_OK && trade->row[i].seconds < fastest)
-            fastest = trade->row[i].seconds;
-    fprintf(out, "# stickslip trade 1\n# %s: %s\n# reference: %s\n",
-            trade->transform ? "signal" : "scene", name, trade->reference);
-    if (trade->transform) {
-        fprintf(out, "# compared: %zu coefficients\n# fastest: ", trade->samples);
-    } else {
-        fprintf(out, "# compared: %zu samples, %zu events\n", trade->samples, trade->events);
-        fputs("# known: x ", out);
-        put(out, trade->known_x, ", a ");
-        put(out, trade->known_a, ", t ");
-        put(out, trade->known_t, " s\n# fastest: ");
-    }
-    put(out, fastest, " s\n");
-    fputs(trade->transform ? "# columns: method accuracy error time frontier state\n"
-          : "# columns: method tol x_error a_error event_error/s missed invented rhs steps time "
-          "frontier state\n", out);
-    for (size_t i = 0; i < trade->n; i++)
-        write_row(out, &trade->row[i], trade->transform, fastest);
-}
-
-static void
 write_options(FILE *out, const ss_trade *trade, double target)
 {
     const ss_trade_row *row = ss_trade_cheapest(trade, target);
@@ -255,7 +193,7 @@ main(int argc, char *argv[])
     else if (req.opts.target > 0)
         write_options(tool_output(req.output), trade, req.opts.target);
     else
-        write_rows(tool_output(req.output), trade, req.name);
+        tool_check(ss_trade_write(trade, req.name, tool_output(req.output), SS_TSV), NULL);
     ss_trade_free(trade);
     free(req.settings);
     tool_end();

@@ -101,5 +101,10 @@ ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t co
                            const ss_features_opts *opts, ss_error *err);
 void ss_features_free(ss_features *features);           /* NULL is allowed */
 
+/* Write them as text: a row a transition under notes, as ss-features(1) describes, with the column
+ * and the options that they were found with.  SS_EINVAL: the format holds numbers only; SS_EIO. */
+ss_status ss_features_write(const ss_features *features, const ss_signal *signal, size_t column,
+                            const ss_features_opts *opts, FILE *out, ss_format format);
+
 SS_END_DECLARATIONS
 #endif

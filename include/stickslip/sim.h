@@ -3,6 +3,7 @@
 #define STICKSLIP_SIM_H
 
 #include <stddef.h>
+#include <stdio.h>
 #include <stickslip/scene.h>
 #include <stickslip/signal.h>
 
@@ -90,6 +91,18 @@ const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL
 /* rk8pd, or bsimp, an implicit method, where a state-variable scene is so stiff that this is the
  * cheaper one.  The scene must have passed ss_scene_check. */
 const char *ss_sim_method_for(const ss_scene *scene);
+
+/* --- as text ------------------------------------------------------------------------------- */
+
+/* Write events as they come, a row each under the notes of head, as ss-sim(1) describes, on out, which
+ * the writer does not own.  SS_EINVAL: the format holds numbers only; SS_EIO. */
+typedef struct ss_event_writer ss_event_writer;
+ss_status ss_event_writer_new(ss_event_writer **writer, FILE *out, ss_format format,
+                              const ss_header *head);
+ss_status ss_event_writer_row(ss_event_writer *writer, const ss_event *event);
+/* Flush out: SS_EIO if any write failed. */
+ss_status ss_event_writer_flush(ss_event_writer *writer);
+void ss_event_writer_free(ss_event_writer *writer);     /* NULL is allowed; does not flush */
 
 SS_END_DECLARATIONS
 #endif

@@ -71,6 +71,8 @@ typedef struct ss_spike_group {
 ss_spike_group ss_spikes_within(const ss_spikes *found, double onset, double end,
                                 double range);
 
+/* "counted", or why they are not: too much noise, or a smooth signal. */
+const char *ss_spikes_verdict(const ss_spikes *found);
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
 
 /* --- single events --------------------------------------------------------------------------- */

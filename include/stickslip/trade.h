@@ -60,6 +60,10 @@ ss_status ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade
 ss_status ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
                              const ss_morlet_opts *grid, const ss_trade_opts *opts, ss_error *err);
 void ss_trade_free(ss_trade *trade);                /* NULL is allowed */
+/* Write it as text: a row a method and tolerance, as ss-trade(1) describes, times as multiples of the
+ * fastest; name is what the notes call the scene or signal.  SS_EINVAL: the format holds numbers only;
+ * SS_EIO. */
+ss_status ss_trade_write(const ss_trade *trade, const char *name, FILE *out, ss_format format);
 
 /* The fastest row that keeps x within accuracy of max|x|, with a margin of 2 and the right events;
  * NULL if there is none. */

@@ -34,6 +34,27 @@ typedef struct search {
     ss_spikes *found;
 } search;
 
+static int
+is_smooth(const ss_spikes *found)
+{
+    for (size_t i = 0; i < found->n; i++)
+        if (found->spike[i].kind != SS_SPIKE_BEND)
+            return 0;
+    return 1;
+}
+
+/* Where none is sharp, but some are there, it is not for noise. */
+const char *
+ss_spikes_verdict(const ss_spikes *found)
+{
+    if (found == NULL)
+        return NULL;
+    if (found->conclusive)
+        return "counted";
+    return found->n > 0 && is_smooth(found) ? "none to count, the signal is smooth"
+        : "too much noise to count them";
+}
+
 const char *
 ss_spike_kind_name(ss_spike_kind kind)
 {

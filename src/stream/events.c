@@ -1,10 +1,13 @@
-/* events.c -- the times of events read back. */
+/* events.c -- events as text, and their times read back. */
 #include <stickslip/overlay.h>
+#include <stickslip/sim.h>
 
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/list.h"
 #include "stream/input.h"
+#include "stream/output.h"
+#include "stream/rows.h"
 
 static ss_status
 read_times(double **time, size_t *n, struct input *in, ss_error *err)
@@ -43,4 +46,59 @@ ss_event_times_read(double **time, size_t *n, FILE *in, const char *name, ss_err
     *time = NULL;
     *n = 0;
     return st;
+}
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+struct ss_event_writer {
+    struct rows rows;
+};
+
+ss_status
+ss_event_writer_new(ss_event_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
+{
+    static const char *const columns[][2] = {
+        { "t", "s" }, { "kind", "" }, { "x", "m" }, { "v", "m/s" }, { "direction", "" } };
+    if (out_writer == NULL || out == NULL || head == NULL)
+        return SS_EINVAL;
+    ss_event_writer *writer = malloc(sizeof *writer);
+    *out_writer = NULL;
+    if (writer == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_rows_begin(&writer->rows, out, format, "events");
+    if (st != SS_OK) {
+        free(writer);
+        return st;
+    }
+    ss_rows_notes(&writer->rows, head, NULL);
+    ss_rows_columns(&writer->rows, columns, sizeof columns / sizeof *columns);
+    *out_writer = writer;
+    return SS_OK;
+}
+
+ss_status
+ss_event_writer_row(ss_event_writer *writer, const ss_event *event)
+{
+    if (writer == NULL || event == NULL || (unsigned)event->kind > SS_REVERSE)
+        return SS_EINVAL;
+    struct rows *rows = &writer->rows;
+    ss_rows_number(rows, event->t);
+    ss_rows_word(rows, ss_event_kind_name(event->kind));
+    ss_rows_number(rows, event->x);
+    ss_rows_number(rows, event->v);
+    ss_rows_number(rows, event->direction);
+    ss_rows_end(rows);
+    return ferror(rows->out) ? SS_EIO : SS_OK;
+}
+
+ss_status
+ss_event_writer_flush(ss_event_writer *writer)
+{
+    return writer != NULL ? ss_output_flush(writer->rows.out) : SS_EINVAL;
+}
+
+void
+ss_event_writer_free(ss_event_writer *writer)
+{
+    free(writer);
 }

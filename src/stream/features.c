@@ -1,4 +1,5 @@
-/* features.c -- features read back, as far as a plot shows them. */
+/* features.c -- features as text, and read back as far as a plot shows them. */
+#include <stickslip/features.h>
 #include <stickslip/overlay.h>
 
 #include <math.h>
@@ -7,6 +8,8 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "stream/input.h"
+#include "stream/output.h"
+#include "stream/rows.h"
 
 typedef struct reader {
     struct input in;
@@ -121,4 +124,117 @@ ss_overlay_free(ss_overlay *overlay)
     free(overlay->maximum);
     free(overlay->spike);
     free(overlay);
+}
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+static void
+write_transition(struct rows *rows, const ss_transition *tr, double start, int conclusive)
+{
+    const double cells[] = { start + tr->maximum.t, tr->maximum.f, tr->maximum.prominence,
+                             tr->frequency.value, tr->frequency.error, tr->damping_ratio.value,
+                             tr->damping_ratio.error };
+    ss_rows_number(rows, start + tr->onset);
+    ss_rows_number(rows, start + tr->end);
+    if (conclusive && !tr->gap)
+        ss_rows_count(rows, tr->spikes);
+    else
+        ss_rows_number(rows, NAN);
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+        ss_rows_number(rows, cells[i]);
+    ss_rows_end(rows);
+}
+
+static void
+write_spikes(struct rows *rows, const ss_spikes *found, double start)
+{
+    char t[SS_NUMBER_MAX], level[SS_NUMBER_MAX], slope[SS_NUMBER_MAX];
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        ss_rows_note(rows, "spike: %s %s %s %s", ss_number_text(t, start + spike->t),
+                     ss_spike_kind_name(spike->kind), ss_number_rounded(level, spike->level, 3),
+                     ss_number_rounded(slope, spike->slope, 3));
+    }
+}
+
+static void
+write_value(struct rows *rows, const char *key, ss_value v)
+{
+    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
+    ss_rows_note(rows, "%s: %s %s", key, ss_number_text(value, v.value),
+                 ss_number_text(error, v.error));
+}
+
+/* Three of them have a rate, unless the signal repeats itself faster. */
+static int
+is_missing_slips(const ss_features *f)
+{
+    return f->n > 2 && isnan(f->slip_rate.value) && !isnan(f->forcing_frequency.value);
+}
+
+/* Why there is no frequency; NULL where there is one, or too few transitions to look for it. */
+static const char *
+why_no_fit(const ss_features *f)
+{
+    if (f->n < 3 || !isnan(f->frequency.value))
+        return NULL;
+    return f->recurring > 0
+        ? "none: what recurs lasts under 2 periods or is no damped oscillation; try a part (ss-cat)"
+        : "none: no local maximum of |W| recurs, as ringing makes them if jumps do not hide it";
+}
+
+static void
+write_summary(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
+{
+    ss_rows_note(rows, "spikes: %s", ss_spikes_verdict(f->spikes));
+    if (why_no_fit(f) != NULL)
+        ss_rows_note(rows, "fit: %s", why_no_fit(f));
+    if (is_missing_slips(f))
+        ss_rows_note(rows, "slip_rate_not_known: fewer transitions than repetitions of the signal; "
+                     "try --drop for a force");
+    ss_rows_note(rows, "transitions: %zu -", f->n);
+    ss_rows_note(rows, "slips: %zu -", f->slips);
+    write_value(rows, "slip_rate", f->slip_rate);
+    write_value(rows, "forcing_frequency", f->forcing_frequency);
+    write_value(rows, "transition_frequency_raw", f->frequency_raw);
+    write_value(rows, "transition_frequency", f->frequency);
+    write_value(rows, "damping_ratio", f->damping_ratio);
+    if (opts->mass > 0) {
+        write_value(rows, "total_stiffness_raw", f->total_stiffness_raw);
+        write_value(rows, "total_stiffness", f->total_stiffness);
+        write_value(rows, "contact_stiffness", f->contact_stiffness);
+        write_value(rows, "contact_damping", f->contact_damping);
+    }
+    if (opts->displacement >= 0 && opts->force >= 0)
+        write_value(rows, "contact_stiffness_slope", f->contact_slope);
+}
+
+ss_status
+ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
+                  const ss_features_opts *opts, FILE *out, ss_format format)
+{
+    static const char *const columns[][2] = {
+        { "onset", "s" }, { "end", "s" }, { "spikes", "" }, { "time", "s" }, { "frequency", "Hz" },
+        { "prominence", "dB" }, { "transition_frequency", "Hz" },
+        { "transition_frequency_error", "Hz" }, { "damping_ratio", "" },
+        { "damping_ratio_error", "" } };
+    struct rows rows;
+    char threshold[SS_NUMBER_MAX];
+    if (f == NULL || signal == NULL || column >= signal->head->n_columns || opts == NULL || out == NULL
+        || ss_rows_begin(&rows, out, format, "features") != SS_OK)
+        return SS_EINVAL;
+    const ss_header *head = signal->head;
+    ss_rows_notes(&rows, head, "contact_");             /* a scene's own; here they are results */
+    ss_rows_note(&rows, "column: %s", head->column[column].name);
+    ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
+    ss_rows_note(&rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");
+    if (ss_header_find_note(head, "gaps") != NULL)
+        ss_rows_note(&rows, "near_gaps: nothing is claimed: no spike within 12 scales, no event "
+                     "within 6, no local maximum within sqrt(2), no fit over one");
+    ss_rows_columns(&rows, columns, sizeof columns / sizeof *columns);
+    for (size_t i = 0; i < f->n; i++)
+        write_transition(&rows, &f->transition[i], head->start, f->spikes->conclusive);
+    write_spikes(&rows, f->spikes, head->start);
+    write_summary(&rows, f, opts);
+    return ss_output_flush(out);
 }

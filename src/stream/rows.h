@@ -1,0 +1,42 @@
+/* rows.h -- rows of words and numbers under a header of notes, as they are written in any format that
+ * has words. */
+#ifndef ROWS_H
+#define ROWS_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/number.h>
+#include "stream/format.h"
+
+struct rows {
+    FILE *out;
+    const struct format *format;
+    size_t cells;               /* of the row begun, or of the line of columns */
+};
+
+/* The first line of the form: "sweep".  SS_EINVAL: the format has no words. */
+ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, const char *form);
+/* A line "# key: value", in a format that has notes. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void ss_rows_note(struct rows *rows, const char *text, ...);
+/* The notes of a header, all but those whose key begins with except, which may be NULL. */
+void ss_rows_notes(struct rows *rows, const ss_header *head, const char *except);
+
+/* One column, after the last of which comes ss_rows_end, or all of them. */
+void ss_rows_column(struct rows *rows, const char *name, const char *unit);
+void ss_rows_columns(struct rows *rows, const char *const label[][2], size_t n);
+
+/* The cells of a row and its end. */
+void ss_rows_word(struct rows *rows, const char *word);
+void ss_rows_count(struct rows *rows, size_t n);
+void ss_rows_number(struct rows *rows, double x);      /* "-" for NaN */
+void ss_rows_end(struct rows *rows);
+
+/* A number as a cell or a note shows it: "-" for NaN.  Gives text. */
+const char *ss_number_text(char text[SS_NUMBER_MAX], double x);
+/* The same in so many digits. */
+const char *ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits);
+
+#endif
