@@ -528,6 +528,9 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_ranking_new(&ranking, signal, 0, &scene, 1, &rank, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &rank, NULL), SS_EINVAL);
         assert_string_equal(ss_model_name((ss_model)k), "?");
+        assert_null(ss_model_range((ss_model)k, 0));
+        assert_int_equal(ss_model_has_events((ss_model)k), 0);
+        assert_int_equal(ss_model_is_linear((ss_model)k), 0);
         assert_string_equal(ss_event_kind_name((ss_event_kind)k), "?");
         assert_string_equal(ss_spike_kind_name((ss_spike_kind)k), "?");
         assert_null(ss_measure_name((ss_measure)k));

@@ -287,8 +287,8 @@ main(int argc, char *argv[])
     if (o.head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     note_origin(o.head, &req);
-    if (req.events && scene.model == SS_STATE_VARIABLE)
-        tool_warn("the state-variable model has no events");
+    if (req.events && !ss_model_has_events(scene.model))
+        tool_warn("the %s model has no events", ss_model_name(scene.model));
 
     req.opts.user = req.opts.progress.user = &o;
     if (req.kind == TOOL_H5)
@@ -307,7 +307,7 @@ main(int argc, char *argv[])
     if (stats.unresolved > 0 && req.accuracy == 0)     /* else the events have been counted twice */
         tool_warn("%lu slips and touches of the limit are smaller than the error of x: x is right, "
                   "their number and times are not resolved", stats.unresolved);
-    finish(&o, scene.model != SS_STATE_VARIABLE);
+    finish(&o, ss_model_has_events(scene.model));
     free(req.settings);
     tool_end();
     return 0;

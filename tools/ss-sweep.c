@@ -240,7 +240,7 @@ make_header(const request *req, ss_scene *scene)
         fprintf(out, "# max_cycles: %lu\n", s->max_cycles);
     fprintf(out, "# max_period: %d\n# max_steps: %lu\n", s->max_period, s->max_steps);
     fprintf(out, "# method: %s%s\n", s->shoot ? "shooting, " : "", s->method != NULL ? s->method
-            : scene->model == SS_STATE_VARIABLE ? "rk8pd, bsimp where stiff" : "exact");
+            : ss_model_is_linear(scene->model) ? "exact" : "rk8pd, bsimp where stiff");
     fputs("# columns: index", out);
     for (size_t i = 0; i < req->opts.n_axes; i++) {
         const char *unit;

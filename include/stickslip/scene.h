@@ -50,6 +50,30 @@ typedef struct ss_scene {
 
 extern const ss_scene ss_scene_defaults;    /* start here: settle 0, duration 10, rate 2000, ... */
 
+/* What a model says of the motion: one sample.  At an event the side after it is given. */
+typedef struct ss_sample {
+    double t;           /* [s] n / rate from the start of the record */
+    double x, v, a;     /* displacement, velocity, acceleration of the mass [m, m/s, m/s^2] */
+    double f;           /* friction force on the mass, as it stands in the equation of motion [N] */
+    double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
+    double z;           /* displacement of the base [m] */
+    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip;
+                           state-variable: the sign of v */
+} ss_sample;
+
+typedef enum ss_event_kind {
+    SS_STICK,           /* a Coulomb stick or a compliant microstick begins */
+    SS_SLIP,            /* slip begins */
+    SS_REVERSE          /* slip changes direction with no stick between */
+} ss_event_kind;
+
+typedef struct ss_event {
+    double t;           /* [s] from the start of the record */
+    double x, v;        /* [m, m/s] */
+    ss_event_kind kind;
+    int direction;      /* +1 or -1: of the slip that begins; for SS_STICK, of the one that ended */
+} ss_event;
+
 /* Read a scene from text.  name stands for the file in messages.  On failure *scene is unchanged.
  * SS_EDATA for a key that is unknown, repeated, missing, malformed, out of range or not the
  * model's; SS_EIO if reading failed. */
@@ -75,21 +99,24 @@ ss_status ss_scene_write(const ss_scene *scene, FILE *out);
  * has no such number, and err says so. */
 double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
 
-/* The ranges over which scenes are supported: there results are tested.  What lies outside is tried
- * all the same. */
+/* A range over which scenes are supported: there results are tested.  What lies outside is tried all
+ * the same. */
 typedef struct ss_scene_range {
     const char *name, *unit;    /* "Omega/omega_n"; X is the largest of Z_e, |x0|, |v0|/omega_n */
-    unsigned models;            /* bits 1 << ss_model of those that it concerns */
     double from, to;
     int zero;                   /* 1: or 0 */
     double (*value)(const ss_scene *scene);     /* NaN where it means nothing */
 } ss_scene_range;
-extern const ss_scene_range ss_scene_ranges[];      /* ends with a NULL name */
+/* The i-th range of the scenes of a model; NULL after the last. */
+const ss_scene_range *ss_model_range(ss_model model, size_t i);
 
 /* SS_OK if a scene that has passed ss_scene_check lies within them, else SS_EINVAL. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
+/* What a model is; "?" or 0 for a number that is no model's. */
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
+int ss_model_has_events(ss_model model);            /* stick, slip and reverse */
+int ss_model_is_linear(ss_model model);             /* between events: it has a closed form */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
 
 /* The scenes of the paper's figures, built in.  ss_scene_load reads one by its name; text is what

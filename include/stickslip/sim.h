@@ -9,30 +9,6 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* One sample.  At an event the side after it is given. */
-typedef struct ss_sample {
-    double t;           /* [s] n / rate from the start of the record */
-    double x, v, a;     /* displacement, velocity, acceleration of the mass [m, m/s, m/s^2] */
-    double f;           /* friction force on the mass, as it stands in the equation of motion [N] */
-    double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
-    double z;           /* displacement of the base [m] */
-    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip;
-                           state-variable: the sign of v */
-} ss_sample;
-
-typedef enum ss_event_kind {
-    SS_STICK,           /* a Coulomb stick or a compliant microstick begins */
-    SS_SLIP,            /* slip begins */
-    SS_REVERSE          /* slip changes direction with no stick between */
-} ss_event_kind;
-
-typedef struct ss_event {
-    double t;           /* [s] from the start of the record */
-    double x, v;        /* [m, m/s] */
-    ss_event_kind kind;
-    int direction;      /* +1 or -1: of the slip that begins; for SS_STICK, of the one that ended */
-} ss_event;
-
 /* Sinks receive samples (n >= 1) and events in time order, valid during the call only: an event
  * comes before the first sample that it precedes or coincides with.  A non-zero return ends the
  * run with SS_STOP. */

@@ -39,22 +39,18 @@ static const struct kind {
 static int
 is_scene(const char *p, const char *end)
 {
-    static const char *const models[] = { "coulomb", "state-variable", "compliant" };
+    static const char model[] = "model";
     while (p < end && (*p == '#' || *p == '\n' || *p == '\r')) {
         const char *newline = memchr(p, '\n', (size_t)(end - p));
         p = newline != NULL ? newline + 1 : end;
     }
-    char word[2][16] = { "", "" };
-    for (int i = 0; i < 2; i++) {
-        for (; p < end && strchr(" \t=", *p) != NULL && *p != '\0'; p++)
-            ;
-        for (size_t n = 0; p < end && *p > ' ' && *p != '=' && n < sizeof word[i] - 1; n++)
-            word[i][n] = *p++;
-    }
-    for (size_t i = 0; i < sizeof models / sizeof *models; i++)
-        if (strcmp(word[0], "model") == 0 && strcmp(word[1], models[i]) == 0)
-            return 1;
-    return 0;
+    while (p < end && (*p == ' ' || *p == '\t'))
+        p++;
+    if ((size_t)(end - p) < sizeof model || memcmp(p, model, sizeof model - 1) != 0)
+        return 0;
+    for (p += sizeof model - 1; p < end && (*p == ' ' || *p == '\t'); p++)
+        ;
+    return p < end && *p == '=';
 }
 
 /* No scene has a line that separates columns before any "=" and comment. */

@@ -2,6 +2,7 @@
 #ifndef ENGINE_H
 #define ENGINE_H
 
+#include <stickslip/sim.h>
 #include "motion/instant.h"
 #include "scene/model.h"
 
@@ -52,6 +53,7 @@ struct engine {
 #define EXACT "exact"                       /* what methods in closed form are called */
 const char *ss_ode_method_name(size_t i);      /* NULL after the last */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
+ss_status ss_exact_check(const struct model *model, ss_error *err);   /* has it a closed form? */
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 /* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over
  * mass has done (G), in the present mode of an exact engine; their rates of change are -(k/m) S,

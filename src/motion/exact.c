@@ -305,10 +305,18 @@ static const struct engine_type exact_type = {
 };
 
 ss_status
+ss_exact_check(const struct model *model, ss_error *err)
+{
+    return model->linear ? SS_OK : ss_fail(err, SS_EINVAL, "method " EXACT ": the %s model has no "
+                                           "closed form", model->name);
+}
+
+ss_status
 ss_exact_new(engine **out, motion *m, ss_error *err)
 {
-    if (m->now.scene->model == SS_STATE_VARIABLE)
-        return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");
+    ss_status st = ss_exact_check(m->now.model, err);
+    if (st != SS_OK)
+        return st;
     exact *x = calloc(1, sizeof *x);
     if (x == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));

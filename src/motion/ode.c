@@ -299,25 +299,34 @@ ss_ode_method_name(size_t i)
     return i < METHODS ? method[i].name : NULL;
 }
 
+static double
+memory_scale(const state *m)
+{
+    double unit = 0;
+    if (m->model->memory != NULL)
+        m->model->memory(m, &unit);
+    return unit;
+}
+
 /* Absolute tolerances in the scene's own measure, since x is about 1e-4 m: x by its scale, v by that
- * times the larger of Omega and omega_n, theta by f_k. */
+ * times the larger of Omega and omega_n, what else the model has by its own. */
 static void
 absolute_scales(const state *m, double scale[MAX_DIM])
 {
     const ss_scene *s = m->scene;
     scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
-    scale[1] = scale[0] * fmax(m->omega, sqrt(s->stiffness / s->mass));
-    scale[2] = s->friction > 0 ? s->friction : 1;
+    scale[1] = scale[0] * fmax(m->omega, own_frequency(s));
+    scale[2] = memory_scale(m) > 0 ? memory_scale(m) : 1;
 }
 
 static void
 set_zeros(ode *o)
 {
     const state *m = &o->base.m->now;
-    double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
+    double omega_n = own_frequency(m->scene);
     o->zero[0] = BSIMP_ZERO * (m->x_scale / o->unit[0]);
     o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->unit[1]);
-    o->zero[2] = BSIMP_ZERO * (m->scene->friction / o->unit[2]);
+    o->zero[2] = BSIMP_ZERO * (memory_scale(m) / o->unit[2]);
 }
 
 ss_status
@@ -349,7 +358,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
         scale[k] /= o->unit[k];
     }
     if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
-        && m->scene->model == SS_STATE_VARIABLE)
+        && !m->model->linear)
         set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
                                                    tol, tol, 1, 0, scale);

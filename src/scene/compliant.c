@@ -5,6 +5,37 @@
  * not x: a stiff contact has Y_m far below x, and x - X_s would cancel its digits away. */
 #include "scene/model.h"
 
+static const char *
+release_word(int i)
+{
+    static const char *const word[] = { "spring", "total", NULL };
+    return word[i];
+}
+
+static const scene_key keys[] = {
+    KEY_NUMBER(contact_stiffness, REQUIRED, POSITIVE, "N/m"),
+    KEY_NUMBER(contact_damping, REQUIRED, NOT_NEGATIVE, "N s/m"),
+    KEY_WORD(release, OPTIONAL, release_word),
+};
+
+static double
+stiffness_ratio(const ss_scene *s)
+{
+    return s->contact_stiffness / s->stiffness;
+}
+
+static double
+damping_ratio(const ss_scene *s)
+{
+    double k = s->stiffness + s->contact_stiffness;
+    return s->contact_damping / (2 * sqrt(k) * sqrt(s->mass));
+}
+
+static const ss_scene_range ranges[] = {
+    { "K_y/k", "1", 1e-2, 1e8, 0, stiffness_ratio },
+    { "c/(2 sqrt((k + K_y) m))", "1", 1e-4, 100, 1, damping_ratio },
+};
+
 static double
 deflection_limit(const state *m)
 {
@@ -59,16 +90,21 @@ start(state *m)
     return 1;
 }
 
+/* What the damper adds to the force that ends a microstick, over the spring's. */
+static double
+damper_ratio(const state *m)
+{
+    const ss_scene *s = m->scene;
+    return s->release == SS_RELEASE_SPRING ? 0 : s->contact_damping / s->contact_stiffness;
+}
+
 /* Microstick lasts while the spring's force, or that of spring and damper, is within f_k. */
 static double
 guard(const state *m, const double q[], const double dqdt[], double *slope)
 {
     if (m->mode != 0)
         return ss_linear_slip_guard(m, q, dqdt, slope);
-    double limit = deflection_limit(m), ratio = m->scene->contact_damping
-        / m->scene->contact_stiffness;
-    if (m->scene->release == SS_RELEASE_SPRING)
-        ratio = 0;
+    double limit = deflection_limit(m), ratio = damper_ratio(m);
     double force = q[0] + ratio * q[1];         /* in units of K_y */
     *slope = -sign(force) * (dqdt[0] + ratio * dqdt[1]);
     return limit + m->slack - fabs(force);
@@ -140,9 +176,89 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
         : m->f0;
 }
 
+static double
+deflection(const state *m)
+{
+    return m->mode == 0 ? m->q[0] : m->mode * deflection_limit(m);
+}
+
+static double
+memory(const state *m, double *unit)
+{
+    *unit = deflection_limit(m);
+    return deflection(m);
+}
+
+static int
+in_microstick(const state *m, double v)
+{
+    (void)v;
+    return m->mode == 0;
+}
+
+static void
+free_differences(const state *m, int free[D_MOST])
+{
+    free[D_REF] = m->mode == 0;
+    free[D_Q] = free[D_V] = 1;
+}
+
+/* The end of a microstick, where |y + ratio v| reaches its limit. */
+static void
+cross_release(const state *m, const double q[], const double before[], const double after[],
+              double d[D_MOST][D_MOST])
+{
+    double ratio = damper_ratio(m), jump = before[1] - after[1];
+    for (int i = 0; i < D_MOST; i++) {
+        double later = -(d[D_Q][i] + ratio * d[D_V][i]) / (q[1] + ratio * before[1]);
+        d[D_Q][i] += d[D_REF][i];
+        d[D_V][i] += jump * later;
+        d[D_REF][i] = 0;
+    }
+}
+
+static void
+cross(const state *m, int mode, const double q[], const double before[], const double after[],
+      double d[D_MOST][D_MOST])
+{
+    if (mode == 0) {
+        cross_release(m, q, before, after, d);
+        return;
+    }
+    for (int i = 0; i < D_MOST; i++) {
+        d[D_V][i] *= after[1] / before[1];
+        if (m->mode == 0) {
+            d[D_REF][i] = d[D_Q][i];
+            d[D_Q][i] = 0;
+        }
+    }
+}
+
+static int
+move(state *m, const double d[D_MOST])
+{
+    double rates[MAX_DIM], slope;
+    m->x_ref += d[D_REF];
+    m->q[0] += d[D_Q];
+    m->q[1] += d[D_V];
+    if (m->mode == 0)
+        m->f0 = m->scene->stiffness * m->x_ref;
+    ss_linear_rates(m, base_force(m, m->u), m->q, rates);
+    return guard(m, m->q, rates, &slope) > 0;
+}
+
+static const struct variation variation = { free_differences, cross, move };
+
 const struct model ss_compliant_model = {
-    .dim = 2, .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
+    .name = "compliant",
+    .keys = keys, .n_keys = sizeof keys / sizeof *keys,
+    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
+    .parameter = { { .offset = offsetof(ss_scene, contact_stiffness), .by_mass = 1 },
+                   { .offset = offsetof(ss_scene, contact_damping), .by_mass = 1 } },
+    .n_parameters = 2,
+    .dim = 2, .linear = 1, .has_contact = 1, .force_varies = IN_STICK,
+    .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .guard = guard,
-    .next = next,
-    .sample = sample
+    .next = next, .sample = sample,
+    .memory = memory, .in_transition = in_microstick, .variation = &variation
 };

@@ -96,9 +96,43 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->mode = m->mode;
 }
 
+static void
+free_differences(const state *m, int free[D_MOST])
+{
+    free[D_REF] = 0;
+    free[D_Q] = 1;
+    free[D_V] = m->mode != 0;
+}
+
+/* A stick forgets v and the time at which it began, so its end changes nothing. */
+static void
+cross(const state *m, int mode, const double q[], const double before[], const double after[],
+      double d[D_MOST][D_MOST])
+{
+    (void)q;
+    for (int i = 0; i < D_MOST && mode != 0; i++)
+        d[D_V][i] *= m->mode == 0 ? 0 : after[1] / before[1];
+}
+
+static int
+move(state *m, const double d[D_MOST])
+{
+    double rates[MAX_DIM], slope;
+    m->q[0] += d[D_Q];
+    m->q[1] += d[D_V];
+    double drive = base_force(m, m->u);
+    if (m->mode == 0)
+        return fabs(spring_force(m, drive, m->q[0])) <= m->scene->friction;
+    ss_linear_rates(m, drive, m->q, rates);
+    return ss_linear_slip_guard(m, m->q, rates, &slope) > 0;
+}
+
+static const struct variation variation = { free_differences, cross, move };
+
 const struct model ss_coulomb_model = {
-    .dim = 2, .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
+    .name = "coulomb", .dim = 2, .linear = 1,
+    .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives,
-    .guard = ss_linear_slip_guard,
-    .still = still, .next = next, .sample = sample
+    .guard = ss_linear_slip_guard, .still = still, .next = next, .sample = sample,
+    .variation = &variation
 };

@@ -8,7 +8,8 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stickslip/sim.h>
+#include <stickslip/scene.h>
+#include "scene/key.h"
 
 enum { MAX_DIM = 3, ORDERS = 4 };
 
@@ -36,8 +37,39 @@ typedef struct state {
 /* state.c: before its first mode, at u = 0. */
 state ss_state_of(const ss_scene *scene, double tol);
 
+/* In which modes the friction force varies. */
+enum { IN_STICK = 1, IN_SLIP = 2 };
+
+/* How a difference d of two neighbouring states changes, in the order x_ref, q[0], v. */
+enum { D_REF, D_Q, D_V, D_MOST };
+struct variation {
+    /* Which of the three can differ within the mode. */
+    void (*free)(const state *m, int free[D_MOST]);
+    /* Across the event that has led here from a mode, where q, at a rate of change that was before
+     * and is after: another state reaches the event at another time.  A column of d is the
+     * difference by one of those at the start. */
+    void (*cross)(const state *m, int mode, const double q[], const double before[],
+                  const double after[], double d[D_MOST][D_MOST]);
+    /* Move a state; 0 if its mode does not hold there. */
+    int (*move)(state *m, const double d[D_MOST]);
+};
+
 struct model {
-    size_t dim;
+    const char *name;               /* in scenes */
+    const scene_key *keys;                /* besides those of every scene (keys.c) */
+    size_t n_keys;
+    const ss_scene_range *ranges;   /* besides those of every scene (ranges.c) */
+    size_t n_ranges;
+    parameter parameter[PARAMETERS];
+    size_t n_parameters;
+    size_t dim;                     /* of the state */
+    int linear;                     /* in each mode, with the coefficients k, c and f0 */
+    int has_contact;                /* an elastic one, of contact_stiffness and contact_damping */
+    unsigned force_varies;          /* IN_STICK, IN_SLIP */
+
+    /* Rewrite a scene as one that moves alike and keeps the shape of its motion if f_k and Z_e grow
+     * together; NULL if all do. */
+    void (*normalise)(ss_scene *scene);
     /* Enter the first mode at the scene's initial state; 1 if it starts in slip. */
     int (*start)(state *m);
     /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s], and
@@ -60,17 +92,38 @@ struct model {
                         double higher[][MAX_DIM]);
     /* Not negative within the mode, and its rate of change; NULL if the model has no events. */
     double (*guard)(const state *m, const double q[], const double dqdt[], double *slope);
-    /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever). */
+    /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever); NULL if in none. */
     int (*still)(const state *m, double *u_end);
     /* The mode ends in this state: enter the next.  1 if that is an event, put into *e. */
     int (*next)(state *m, ss_event *e);
     /* What state, rate of change and force of the base say, except t and z. */
     void (*sample)(const state *m, double drive, const double q[], const double dqdt[],
                    ss_sample *s);
+    /* What the next motion depends on besides x and v, and what that is measured by; NULL if on
+     * nothing.  The state's third number if it has one. */
+    double (*memory)(const state *m, double *unit);
+    /* 1 where the mass neither slips nor stands still, so that it may oscillate on its contact; NULL
+     * if there is no such place. */
+    int (*in_transition)(const state *m, double v);
+    /* NULL if the model is not linear. */
+    const struct variation *variation;
 };
 
-const struct model *ss_model_of(const ss_scene *scene);     /* models.c; NULL: unknown */
-extern const struct model ss_coulomb_model, ss_state_variable_model, ss_compliant_model;
+const struct model *ss_model_at(size_t i);          /* models.c; NULL after the last */
+const struct model *ss_model_of(const ss_scene *scene);
+
+static inline double
+own_frequency(const ss_scene *scene)                /* omega_n [rad/s] */
+{
+    return sqrt(scene->stiffness / scene->mass);
+}
+
+static inline double
+amplitude_of(const ss_scene *scene)                 /* X of the supported ranges [m] */
+{
+    return fmax(scene->base_amplitude, fmax(fabs(scene->x0),
+                                            fabs(scene->v0) / own_frequency(scene)));
+}
 
 static inline int
 sign(double x)

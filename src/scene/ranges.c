@@ -3,15 +3,8 @@
  * Units of mass, length and time change nothing but rounding, so the ranges that matter are those of
  * the ratios; m, omega_n and X are there for overflow alone.  tests/test_random.c draws its scenes
  * from this table and stickslip-scene(5) shows it. */
-#include <math.h>
-#include <stickslip/scene.h>
 #include "base/error.h"
-
-static double
-own_frequency(const ss_scene *s)
-{
-    return sqrt(s->stiffness / s->mass);
-}
+#include "scene/model.h"
 
 static double
 mass(const ss_scene *s)
@@ -26,12 +19,6 @@ hertz(const ss_scene *s)
 }
 
 static double
-amplitude(const ss_scene *s)
-{
-    return fmax(s->base_amplitude, fmax(fabs(s->x0), fabs(s->v0) / own_frequency(s)));
-}
-
-static double
 base_speed(const ss_scene *s)
 {
     return 2 * M_PI * s->base_frequency / own_frequency(s);
@@ -40,63 +27,39 @@ base_speed(const ss_scene *s)
 static double
 friction(const ss_scene *s)
 {
-    double X = amplitude(s);
+    double X = amplitude_of(s);
     return X > 0 ? s->friction / s->stiffness / X : NAN;
 }
 
-static double
-contact(const ss_scene *s)
-{
-    return s->contact_stiffness / s->stiffness;
-}
-
-static double
-damping(const ss_scene *s)
-{
-    double k = s->stiffness + s->contact_stiffness;
-    return s->contact_damping / (2 * sqrt(k) * sqrt(s->mass));
-}
-
-static double
-steepness(const ss_scene *s)
-{
-    double X = amplitude(s);
-    return X > 0 ? s->alpha * X * own_frequency(s) : NAN;
-}
-
-static double
-relaxation(const ss_scene *s)
-{
-    double rate = s->law == SS_LAW_LITERAL ? s->gamma * s->friction : s->gamma;
-    return rate / own_frequency(s);
-}
-
-enum { STATE = 1 << SS_STATE_VARIABLE, COMPLIANT = 1 << SS_COMPLIANT,
-       EVERY = 1 << SS_COULOMB | STATE | COMPLIANT };
-
-const ss_scene_range ss_scene_ranges[] = {
-    { "m", "kg", EVERY, 1e-12, 1e12, 0, mass },
-    { "omega_n/(2 pi)", "Hz", EVERY, 1e-9, 1e9, 0, hertz },
-    { "X", "m", EVERY, 1e-15, 1e9, 1, amplitude },
-    { "Omega/omega_n", "1", EVERY, 1e-3, 1e3, 1, base_speed },
-    { "f_k/(k X)", "1", EVERY, 1e-3, 10, 1, friction },
-    { "K_y/k", "1", COMPLIANT, 1e-2, 1e8, 0, contact },
-    { "c/(2 sqrt((k + K_y) m))", "1", COMPLIANT, 1e-4, 100, 1, damping },
-    { "alpha X omega_n", "1", STATE, 0.1, 1e6, 0, steepness },
-    { "gamma/omega_n", "1", STATE, 1e-2, 1e8, 0, relaxation },
-    { NULL, NULL, 0, 0, 0, 0, NULL }
+static const ss_scene_range of_every[] = {
+    { "m", "kg", 1e-12, 1e12, 0, mass },
+    { "omega_n/(2 pi)", "Hz", 1e-9, 1e9, 0, hertz },
+    { "X", "m", 1e-15, 1e9, 1, amplitude_of },
+    { "Omega/omega_n", "1", 1e-3, 1e3, 1, base_speed },
+    { "f_k/(k X)", "1", 1e-3, 10, 1, friction },
 };
+enum { OF_EVERY = sizeof of_every / sizeof *of_every };
+
+const ss_scene_range *
+ss_model_range(ss_model model, size_t i)
+{
+    const struct model *m = ss_model_at((unsigned)model);
+    if (m == NULL)
+        return NULL;
+    if (i < OF_EVERY)
+        return &of_every[i];
+    return i - OF_EVERY < m->n_ranges ? &m->ranges[i - OF_EVERY] : NULL;
+}
 
 ss_status
 ss_scene_supported(const ss_scene *scene, ss_error *err)
 {
     if (scene == NULL)
         return SS_FAIL_NULL(err);
-    if ((unsigned)scene->model > SS_COMPLIANT)
+    if (ss_model_of(scene) == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
-    for (const ss_scene_range *r = ss_scene_ranges; r->name != NULL; r++) {
-        if ((r->models & 1u << scene->model) == 0)
-            continue;
+    const ss_scene_range *r;
+    for (size_t i = 0; (r = ss_model_range(scene->model, i)) != NULL; i++) {
         double x = r->value(scene);
         if (!(x < r->from * (1 - 1e-9) || x > r->to * (1 + 1e-9)) || (x == 0 && r->zero))
             continue;

@@ -1,69 +1,21 @@
 /* scene.c -- a scene: read, check, write; its model's parameters and no others.
  *
- * One table says for every key which models have it, whether it must be given and what it may be;
- * reading, checking and writing all follow that table. */
+ * Tables of keys (keys.c, and that of each model) say what must be given and what it may be;
+ * reading, checking and writing all follow them. */
 #include <stickslip/scene.h>
 
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
+#include "scene/model.h"
 
 const ss_scene ss_scene_defaults = { .duration = 10, .rate = 2000 };
-
-static const char *const model_words[] = { "coulomb", "state-variable", "compliant", NULL };
-static const char *const law_words[] = { "scaled", "literal", NULL };
-static const char *const release_words[] = { "spring", "total", NULL };
-
-enum { COULOMB = 1 << SS_COULOMB, STATE = 1 << SS_STATE_VARIABLE, COMPLIANT = 1 << SS_COMPLIANT,
-       EVERY = COULOMB | STATE | COMPLIANT };
-enum { ANY, NOT_NEGATIVE, POSITIVE };       /* what a number may be; all are finite */
-
-static const struct key {
-    const char *name;
-    unsigned models;                /* that have it */
-    int required;
-    int range;                      /* of a number */
-    const char *const *words;       /* of an enumeration; NULL for a number */
-    size_t offset;
-    const char *unit;               /* of a number */
-} key[] = {
-    { "model",             EVERY,     1, 0, model_words, offsetof(ss_scene, model), "" },
-    { "mass",              EVERY,     1, POSITIVE, NULL, offsetof(ss_scene, mass), "kg" },
-    { "stiffness",         EVERY,     1, POSITIVE, NULL, offsetof(ss_scene, stiffness), "N/m" },
-    { "friction",          EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, friction), "N" },
-    { "base_amplitude",    EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, base_amplitude),
-      "m" },
-    { "base_frequency",    EVERY,     1, NOT_NEGATIVE, NULL, offsetof(ss_scene, base_frequency),
-      "Hz" },
-    { "phase",             EVERY,     0, ANY, NULL, offsetof(ss_scene, phase), "rad" },
-    { "x0",                EVERY,     0, ANY, NULL, offsetof(ss_scene, x0), "m" },
-    { "v0",                EVERY,     0, ANY, NULL, offsetof(ss_scene, v0), "m/s" },
-    { "alpha",             STATE,     1, POSITIVE, NULL, offsetof(ss_scene, alpha), "s/m" },
-    { "gamma",             STATE,     1, POSITIVE, NULL, offsetof(ss_scene, gamma), "1/s" },
-    { "law",               STATE,     0, 0, law_words, offsetof(ss_scene, law), "" },
-    { "contact_stiffness", COMPLIANT, 1, POSITIVE, NULL, offsetof(ss_scene, contact_stiffness),
-      "N/m" },
-    { "contact_damping",   COMPLIANT, 1, NOT_NEGATIVE, NULL, offsetof(ss_scene, contact_damping),
-      "N s/m" },
-    { "release",           COMPLIANT, 0, 0, release_words, offsetof(ss_scene, release), "" },
-    { "settle",            EVERY,     0, NOT_NEGATIVE, NULL, offsetof(ss_scene, settle), "s" },
-    { "duration",          EVERY,     0, NOT_NEGATIVE, NULL, offsetof(ss_scene, duration), "s" },
-    { "rate",              EVERY,     0, POSITIVE, NULL, offsetof(ss_scene, rate), "Hz" },
-};
-enum { KEYS = sizeof key / sizeof *key, MODEL_KEY = 0 };
-
-const char *
-ss_model_name(ss_model model)
-{
-    return (unsigned)model <= SS_COMPLIANT ? model_words[model] : "?";
-}
 
 size_t
 ss_scene_samples(const ss_scene *scene)
@@ -81,25 +33,34 @@ _Static_assert(sizeof(ss_model) == sizeof(int) && sizeof(ss_law) == sizeof(int)
                && sizeof(ss_release) == sizeof(int), "enumerations have the size of int");
 
 static double *
-number_of(ss_scene *scene, const struct key *k)
+number_of(ss_scene *scene, const scene_key *k)
 {
     return (double *)(void *)((char *)scene + k->offset);
 }
 
 static int *
-word_of(ss_scene *scene, const struct key *k)
+word_of(ss_scene *scene, const scene_key *k)
 {
     return (int *)(void *)((char *)scene + k->offset);
 }
 
 static int
-in_range(const struct key *k, double x)
+in_range(const scene_key *k, double x)
 {
     return isfinite(x) && (k->range == ANY || x > 0 || (k->range == NOT_NEGATIVE && x == 0));
 }
 
+static int
+is_choice(const scene_key *k, int word)
+{
+    int i = 0;
+    while (k->word(i) != NULL && i != word)
+        i++;
+    return k->word(i) != NULL;
+}
+
 static const char *
-range_text(const struct key *k)
+range_text(const scene_key *k)
 {
     return k->range == POSITIVE ? "> 0" : k->range == NOT_NEGATIVE ? ">= 0" : "finite";
 }
@@ -119,18 +80,19 @@ fail_at(struct place at, ss_error *err, const char *text)
 }
 
 static ss_status
-set_value(ss_scene *scene, const struct key *k, const char *value, struct place at, ss_error *err)
+set_value(ss_scene *scene, const scene_key *k, const char *value, struct place at, ss_error *err)
 {
     char text[256], *end;
-    if (k->words != NULL) {
+    if (k->word != NULL) {
+        const char *word;
         snprintf(text, sizeof text, "%s is '%.64s', but must be one of", k->name, value);
-        for (int i = 0; k->words[i] != NULL; i++) {
-            if (strcmp(value, k->words[i]) == 0) {
+        for (int i = 0; (word = k->word(i)) != NULL; i++) {
+            if (strcmp(value, word) == 0) {
                 *word_of(scene, k) = i;
                 return SS_OK;
             }
-            snprintf(text + strlen(text), sizeof text - strlen(text), "%s %s", i ? "," : "",
-                     k->words[i]);
+            size_t length = strlen(text);
+            snprintf(text + length, sizeof text - length, "%s %s", i ? "," : "", word);
         }
         return fail_at(at, err, text);
     }
@@ -176,22 +138,28 @@ distance(const char *a, const char *b)
     return row[n];
 }
 
-static const struct key *
+/* The key of this name that any model has. */
+static const scene_key *
 find_key(const char *name)
 {
-    for (size_t i = 0; i < KEYS; i++)
-        if (strcmp(name, key[i].name) == 0)
-            return &key[i];
-    return NULL;
+    const scene_key *k = NULL;
+    const struct model *model;
+    for (size_t i = 0; k == NULL && (model = ss_model_at(i)) != NULL; i++)
+        k = ss_key_named(model, name);
+    return k;
 }
 
 static const char *
 nearest_key(const char *name)
 {
-    const char *best = key[0].name;
-    for (size_t i = 1; i < KEYS; i++)
-        if (distance(name, key[i].name) < distance(name, best))
-            best = key[i].name;
+    const struct model *model;
+    const char *best = "model";
+    for (size_t i = 0; (model = ss_model_at(i)) != NULL; i++) {
+        const scene_key *k;
+        for (size_t j = 0; (k = ss_key_at(model, j)) != NULL; j++)
+            if (distance(name, k->name) < distance(name, best))
+                best = k->name;
+    }
     return best;
 }
 
@@ -213,16 +181,17 @@ fail_unknown(const char *name, struct place at, ss_error *err)
 double *
 ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *err)
 {
-    if (scene == NULL || name == NULL || (unsigned)scene->model > SS_COMPLIANT) {
+    const struct model *model = scene != NULL ? ss_model_of(scene) : NULL;
+    if (model == NULL || name == NULL) {
         ss_fail(err, SS_EINVAL, "no scene of a known model, or no key");
         return NULL;
     }
-    const struct key *k = find_key(name);
-    if (k == NULL) {
+    const scene_key *k = ss_key_named(model, name);
+    if (k == NULL && find_key(name) == NULL) {
         fail_unknown(name, (struct place){ "", -1 }, err);
-    } else if (!(k->models & 1u << scene->model)) {
-        ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model_words[scene->model], name);
-    } else if (k->words != NULL) {
+    } else if (k == NULL) {
+        ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model->name, name);
+    } else if (k->word != NULL) {
         ss_fail(err, SS_EINVAL, "%s is not a number", name);
     } else {
         if (unit != NULL)
@@ -244,9 +213,20 @@ trim(char *text)
     return text;
 }
 
-/* One "key = value", which is cut up in place.  given holds the line of each key so far. */
+/* The line of each key so far, by the place of its field in ss_scene. */
+typedef struct given {
+    long line[sizeof(ss_scene) / sizeof(int)];
+} given;
+
+static long *
+line_of(given *g, const scene_key *k)
+{
+    return &g->line[k->offset / sizeof(int)];
+}
+
+/* One "key = value", which is cut up in place. */
 static ss_status
-read_setting(ss_scene *scene, char *text, struct place at, long given[KEYS], ss_error *err)
+read_setting(ss_scene *scene, char *text, struct place at, given *g, ss_error *err)
 {
     char message[256], *equals = strchr(text, '=');
     if (equals == NULL) {
@@ -255,10 +235,10 @@ read_setting(ss_scene *scene, char *text, struct place at, long given[KEYS], ss_
     }
     *equals = '\0';
     char *name = trim(text);
-    const struct key *k = find_key(name);
+    const scene_key *k = find_key(name);
     if (k == NULL)
         return fail_unknown(name, at, err);
-    long *seen = &given[k - key];
+    long *seen = line_of(g, k);
     if (at.line < 0 && *seen > 0)
         *seen = 0;                      /* a setting takes the place of the file's line */
     if (*seen != 0) {
@@ -270,33 +250,48 @@ read_setting(ss_scene *scene, char *text, struct place at, long given[KEYS], ss_
     return set_value(scene, k, trim(equals + 1), at, err);
 }
 
-/* After the last line: every key belongs to the model, and none is missing. */
+/* A key that was given and is another model's. */
 static ss_status
-check_keys(const ss_scene *scene, const long given[KEYS], struct place last, ss_error *err)
+check_foreign(const struct model *model, given *g, struct place last, ss_error *err)
 {
-    char text[256];
-    if (given[MODEL_KEY] == 0)
-        return fail_at(last, err, "missing key 'model'");
-    const char *model = model_words[scene->model];
-    for (size_t i = 0; i < KEYS; i++) {
-        struct place at = { last.name, given[i] };
-        int has = (key[i].models & 1u << scene->model) != 0;
-        if (given[i] != 0 && !has) {
-            snprintf(text, sizeof text, "model %s has no key '%s'", model, key[i].name);
+    const struct model *other;
+    for (size_t i = 0; (other = ss_model_at(i)) != NULL; i++)
+        for (size_t j = 0; j < other->n_keys; j++) {
+            const scene_key *k = &other->keys[j];
+            struct place at = { last.name, *line_of(g, k) };
+            if (at.line == 0 || ss_key_of_field(model, k->offset) != NULL)
+                continue;
+            char text[256];
+            snprintf(text, sizeof text, "model %s has no key '%s'", model->name, k->name);
             /* a model chosen by a setting makes the file's keys wrong, not the file */
-            if (given[MODEL_KEY] < 0)
+            if (*line_of(g, find_key("model")) < 0)
                 at.line = -1;
             return fail_at(at, err, text);
         }
-        if (given[i] == 0 && has && key[i].required) {
-            snprintf(text, sizeof text, "missing key '%s', which model %s needs", key[i].name,
-                     model);
+    return SS_OK;
+}
+
+/* After the last line: every key belongs to the model, and none is missing. */
+static ss_status
+check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
+{
+    const struct model *model = ss_model_of(scene);
+    const scene_key *k;
+    if (*line_of(g, find_key("model")) == 0)
+        return fail_at(last, err, "missing key 'model'");
+    ss_status st = check_foreign(model, g, last, err);
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
+        if (*line_of(g, k) == 0 && k->required) {
+            char text[256];
+            snprintf(text, sizeof text, "missing key '%s', which model %s needs", k->name,
+                     model->name);
             return fail_at(last, err, text);
         }
-    }
     if (ss_scene_samples(scene) == SIZE_MAX) {
-        long where = given[find_key("rate") - key];
-        struct place at = { last.name, where != 0 ? where : given[find_key("duration") - key] };
+        long where = *line_of(g, find_key("rate"));
+        struct place at = { last.name, where != 0 ? where : *line_of(g, find_key("duration")) };
         return fail_at(at, err, "duration x rate is more than 2^53 samples");
     }
     return SS_OK;
@@ -331,7 +326,7 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
                   size_t n, ss_error *err)
 {
     ss_scene scene = ss_scene_defaults;
-    long given[KEYS] = { 0 };
+    given g = { 0 };
     struct place at = { name, 0 };
     char line[1024];
     ss_status st = SS_OK;
@@ -342,16 +337,16 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
         at.line++;
         st = read_line(in, line, sizeof line, at, &end, err);
         if (st == SS_OK && *trim(line) != '\0')
-            st = read_setting(&scene, line, at, given, err);
+            st = read_setting(&scene, line, at, &g, err);
     }
     struct place setting = { name, -1 };
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         if (snprintf(line, sizeof line, "%s", settings[i]) >= (int)sizeof line)
             return fail_at(setting, err, "setting too long");
-        st = read_setting(&scene, line, setting, given, err);
+        st = read_setting(&scene, line, setting, &g, err);
     }
     if (st == SS_OK)
-        st = check_keys(&scene, given, at, err);
+        st = check_keys(&scene, &g, at, err);
     if (st == SS_OK)
         *out = scene;
     return st;
@@ -411,16 +406,15 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
 {
     if (scene == NULL)
         return SS_FAIL_NULL(err);
+    const struct model *model = ss_model_of(scene);
+    const scene_key *k;
+    if (model == NULL)
+        return ss_fail(err, SS_EINVAL, "model is no known choice");
     ss_scene copy = *scene;         /* the accessors below give what may be changed */
-    for (size_t i = 0; i < KEYS; i++) {
-        const struct key *k = &key[i];
-        if (k->words != NULL) {
-            int word = *word_of(&copy, k), count = 0;
-            while (k->words[count] != NULL)
-                count++;
-            if (word < 0 || word >= count)
-                return ss_fail(err, SS_EINVAL, "%s is no known choice", k->name);
-        } else if ((k->models & 1u << copy.model) && !in_range(k, *number_of(&copy, k))) {
+    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
+        if (k->word != NULL && !is_choice(k, *word_of(&copy, k)))
+            return ss_fail(err, SS_EINVAL, "%s is no known choice", k->name);
+        if (k->word == NULL && !in_range(k, *number_of(&copy, k))) {
             char text[SS_NUMBER_MAX];
             ss_number_format(text, *number_of(&copy, k));
             return ss_fail(err, SS_EINVAL, "%s = %s is out of range, it must be %s", k->name,
@@ -436,14 +430,12 @@ ss_scene_write(const ss_scene *scene, FILE *out)
     if (scene == NULL || out == NULL || ss_scene_check(scene, NULL) != SS_OK)
         return SS_EINVAL;
     ss_scene copy = *scene;
-    for (size_t i = 0; i < KEYS; i++) {
-        const struct key *k = &key[i];
+    const scene_key *k;
+    for (size_t i = 0; (k = ss_key_at(ss_model_of(scene), i)) != NULL; i++) {
         char text[SS_NUMBER_MAX];
-        if (!(k->models & 1u << scene->model))
-            continue;
-        if (k->words == NULL)
+        if (k->word == NULL)
             ss_number_format(text, *number_of(&copy, k));
-        fprintf(out, "%s = %s\n", k->name, k->words ? k->words[*word_of(&copy, k)] : text);
+        fprintf(out, "%s = %s\n", k->name, k->word != NULL ? k->word(*word_of(&copy, k)) : text);
     }
     return ferror(out) ? SS_EIO : SS_OK;
 }

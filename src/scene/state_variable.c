@@ -2,6 +2,49 @@
  * as the paper prints it, towards tanh(alpha v) at the rate gamma f_k).  Smooth: no events. */
 #include "scene/model.h"
 
+static const char *
+law_word(int i)
+{
+    static const char *const word[] = { "scaled", "literal", NULL };
+    return word[i];
+}
+
+static const scene_key keys[] = {
+    KEY_NUMBER(alpha, REQUIRED, POSITIVE, "s/m"),
+    KEY_NUMBER(gamma, REQUIRED, POSITIVE, "1/s"),
+    KEY_WORD(law, OPTIONAL, law_word),
+};
+
+static double
+steepness(const ss_scene *s)
+{
+    double X = amplitude_of(s);
+    return X > 0 ? s->alpha * X * own_frequency(s) : NAN;
+}
+
+static double
+relaxation(const ss_scene *s)
+{
+    double rate = s->law == SS_LAW_LITERAL ? s->gamma * s->friction : s->gamma;
+    return rate / own_frequency(s);
+}
+
+static const ss_scene_range ranges[] = {
+    { "alpha X omega_n", "1", 0.1, 1e6, 0, steepness },
+    { "gamma/omega_n", "1", 1e-2, 1e8, 0, relaxation },
+};
+
+/* The scaled law of f_k = 1 N and gamma f_k in place of gamma is the literal one. */
+static void
+normalise(ss_scene *s)
+{
+    if (s->law != SS_LAW_LITERAL)
+        return;
+    s->gamma *= s->friction;
+    s->friction = 1;
+    s->law = SS_LAW_SCALED;
+}
+
 static int
 start(state *m)
 {
@@ -25,7 +68,7 @@ law(const ss_scene *s, double *rate, double *goal)
 static double
 fastest(const state *m, const char **what)
 {
-    double omega_n = sqrt(m->scene->stiffness / m->scene->mass);
+    double omega_n = own_frequency(m->scene);
     if (what != NULL)
         *what = m->omega >= omega_n ? "the base" : "the spring";
     return fmax(omega_n, m->omega);
@@ -61,7 +104,7 @@ quickest(const ss_scene *s)
 static int
 stiff(const ss_scene *s)
 {
-    double slow = fmax(sqrt(s->stiffness / s->mass), 2 * M_PI * s->base_frequency), damping;
+    double slow = fmax(own_frequency(s), 2 * M_PI * s->base_frequency), damping;
     return front_rate(s, &damping) > STIFF_RATIO * slow && damping > STIFF_DAMPING;
 }
 
@@ -117,9 +160,29 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->mode = sign(q[1]);
 }
 
+static double
+memory(const state *m, double *unit)
+{
+    *unit = m->scene->friction;
+    return m->q[2];
+}
+
+/* Where the friction law is steep. */
+static int
+in_transition(const state *m, double v)
+{
+    return fabs(m->scene->alpha * v) < 1;
+}
+
 const struct model ss_state_variable_model = {
-    .dim = 3, .start = start, .fastest = fastest, .quickest = quickest,
-    .sight = sight, .stiff = stiff, .rates = rates,
-    .jacobian = jacobian,
-    .sample = sample
+    .name = "state-variable",
+    .keys = keys, .n_keys = sizeof keys / sizeof *keys,
+    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
+    .parameter = { { .offset = offsetof(ss_scene, gamma) },
+                   { .offset = offsetof(ss_scene, alpha), .by_speed = 1 } },
+    .n_parameters = 2, .normalise = normalise,
+    .dim = 3, .force_varies = IN_STICK | IN_SLIP,
+    .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,
+    .rates = rates, .jacobian = jacobian, .sample = sample,
+    .memory = memory, .in_transition = in_transition
 };

@@ -16,19 +16,14 @@
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_qrng.h>
 #include "base/error.h"
+#include "scene/model.h"
 
 enum { STARTS_MOST = 256 };
 
-/* The scaled law of f_k = 1 N and gamma f_k in place of gamma is the literal one. */
-static ss_scene
-scaled_law(ss_scene scene)
+static double *
+own(const candidate *c, ss_scene *s, size_t i)
 {
-    if (scene.model == SS_STATE_VARIABLE && scene.law == SS_LAW_LITERAL) {
-        scene.gamma *= scene.friction;
-        scene.friction = 1;
-        scene.law = SS_LAW_SCALED;
-    }
-    return scene;
+    return (double *)(void *)((char *)s + c->model->parameter[i].offset);
 }
 
 static double
@@ -49,26 +44,28 @@ ss_candidate_check(const ss_scene *scene, ss_error *err)
 candidate
 ss_candidate_of(const ss_scene *scene, int pick, double factor)
 {
-    candidate c = { .scene = scaled_law(*scene), .pick = pick, .n = CANDIDATE_KEYS };
-    const ss_scene *s = &c.scene;
-    int compliant = s->model == SS_COMPLIANT;
-    double own[CANDIDATE_KEYS] = { s->stiffness, s->friction / drive_of(s),
-                                   compliant ? s->contact_stiffness : s->gamma,
-                                   compliant ? s->contact_damping : s->alpha };
-    if (s->model == SS_COULOMB)
-        c.n = CANDIDATE_FIRST;
+    candidate c = { .model = ss_model_of(scene), .scene = *scene, .pick = pick };
+    ss_scene *s = &c.scene;
+    if (c.model->normalise != NULL)
+        c.model->normalise(s);
+    double key[CANDIDATE_KEYS] = { s->stiffness, s->friction / drive_of(s) };
+    c.n = CANDIDATE_OWN + c.model->n_parameters;
+    for (size_t i = 0; i < c.model->n_parameters; i++)
+        key[CANDIDATE_OWN + i] = *own(&c, s, i);
     for (size_t i = 0; i < c.n; i++) {
         /* no friction or damping is as good as too little to see */
-        c.own[i] = log(fmax(own[i], 1e-300));
+        c.own[i] = log(fmax(key[i], 1e-300));
         c.lo[i] = c.own[i] - log(factor);
         c.hi[i] = c.own[i] + log(factor);
         c.best[i] = c.own[i];
     }
     if (c.lo[CANDIDATE_RATIO] < 0)            /* f_k > k Z_e: nothing slips */
         c.hi[CANDIDATE_RATIO] = fmin(c.hi[CANDIDATE_RATIO], 0);
-    if (s->model == SS_STATE_VARIABLE) {    /* alpha v is told, and v is as free as Z_e is */
-        c.lo[CANDIDATE_SECOND] -= log(factor) / 2;
-        c.hi[CANDIDATE_SECOND] += log(factor) / 2;
+    for (size_t i = 0; i < c.model->n_parameters; i++) {
+        if (!c.model->parameter[i].by_speed)
+            continue;
+        c.lo[CANDIDATE_OWN + i] -= log(factor) / 2;     /* the speed is as free as Z_e is */
+        c.hi[CANDIDATE_OWN + i] += log(factor) / 2;
     }
     return c;
 }
@@ -83,13 +80,8 @@ scene_of(const candidate *c, const double key[CANDIDATE_KEYS], double period)
     s.base_amplitude = drive / s.stiffness;
     s.friction = drive * exp(key[CANDIDATE_RATIO]);
     s.base_frequency = 1 / period;
-    if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = exp(key[CANDIDATE_FIRST]);
-        s.contact_damping = exp(key[CANDIDATE_SECOND]);
-    } else if (s.model == SS_STATE_VARIABLE) {
-        s.gamma = exp(key[CANDIDATE_FIRST]);
-        s.alpha = exp(key[CANDIDATE_SECOND]);
-    }
+    for (size_t i = 0; i < c->model->n_parameters; i++)
+        *own(c, &s, i) = exp(key[CANDIDATE_OWN + i]);
     s.phase = s.x0 = s.v0 = 0;
     s.settle = CANDIDATE_SETTLE * period;
     return s;
@@ -122,8 +114,8 @@ ss_status
 ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n)
 {
     taken t = { pick, 0, n, value };
-    int smooth = scene->model == SS_STATE_VARIABLE;
-    ss_sim_opts opts = { .method = smooth ? "rkck" : "exact", .tol = 1e-5, .max_steps = 10000000,
+    int is_linear = ss_model_is_linear(scene->model);
+    ss_sim_opts opts = { .method = is_linear ? "exact" : "rkck", .tol = 1e-5, .max_steps = 10000000,
                          .samples = take, .user = &t };
     ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
     return st == SS_OK && t.n != n ? SS_EDATA : st;
@@ -265,7 +257,9 @@ ss_candidate_scene(const candidate *c, const cycle *goal)
     if (c->size > 0) {
         s.friction *= c->size;
         s.base_amplitude *= c->size;
-        s.alpha /= c->size;
+        for (size_t i = 0; i < c->model->n_parameters; i++)
+            if (c->model->parameter[i].by_speed)
+                *own(c, &s, i) /= c->size;
     }
     s.phase = -2 * M_PI * c->shift;     /* the cycle begins so much before the settled one */
     return s;
@@ -278,7 +272,7 @@ ss_candidate_distance(const candidate *c)
     for (size_t i = 0; i < c->n; i++) {
         double d = c->best[i] - c->own[i];
         int by_mass = i == CANDIDATE_STIFFNESS
-                      || (i > CANDIDATE_RATIO && c->scene.model == SS_COMPLIANT);
+                      || (i >= CANDIDATE_OWN && c->model->parameter[i - CANDIDATE_OWN].by_mass);
         sum += by_mass ? d : 0;
         of_mass += by_mass;
         squares += d * d;

@@ -6,16 +6,18 @@
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
 #include "base/progress.h"
+#include "scene/key.h"
 #include "study/rank/cycle.h"
 
-enum { CANDIDATE_STIFFNESS, CANDIDATE_RATIO, CANDIDATE_FIRST, CANDIDATE_SECOND, CANDIDATE_KEYS };
+enum { CANDIDATE_STIFFNESS, CANDIDATE_RATIO, CANDIDATE_OWN, CANDIDATE_KEYS = CANDIDATE_OWN + PARAMETERS };
 enum { CANDIDATE_SETTLE = 6 };      /* cycles from rest to the one compared */
 
-/* Its keys: the stiffness k (at the same k Z_e), f_k / (k Z_e), and the model's own two: K_y and
- * c, or gamma and alpha.  The mass is left alone, as no motion tells it: what counts is the ratios
+/* Its keys: the stiffness k (at the same k Z_e), f_k / (k Z_e), and the parameters that the model
+ * says.  The mass is left alone, as no motion tells it: what counts is the ratios
  * to it. */
 typedef struct candidate {
-    ss_scene scene;             /* as given, a literal law as the scaled one that equals it */
+    const struct model *model;
+    ss_scene scene;             /* as given, normalised */
     int pick;                   /* what is compared: an index of ss_sim_row's */
     size_t n;                   /* keys that the model has */
     double own[CANDIDATE_KEYS];             /* the scene's, as logarithms */

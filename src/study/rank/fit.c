@@ -32,6 +32,7 @@
 #include <stickslip/sim.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "scene/model.h"
 #include "study/rank/candidate.h"
 #include "signal/gaps.h"
 
@@ -326,10 +327,10 @@ narrow(candidate *c, double *noise, const ss_signal *signal, size_t column, ss_e
     ss_features_free(f);
     for (size_t i = 0; i < 2; i++) {
         int known = estimate[i] > 0;            /* NaN is not */
-        double middle = known ? log(estimate[i]) : c->own[CANDIDATE_FIRST + i];
+        double middle = known ? log(estimate[i]) : c->own[CANDIDATE_OWN + i];
         double width = log(known ? NEAR : FAR);
-        c->lo[CANDIDATE_FIRST + i] = middle - width;
-        c->hi[CANDIDATE_FIRST + i] = middle + width;
+        c->lo[CANDIDATE_OWN + i] = middle - width;
+        c->hi[CANDIDATE_OWN + i] = middle + width;
     }
     return SS_OK;
 }
@@ -463,7 +464,7 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_ra
     if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
         return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
                        opts->forcing_frequency);
-    if (start->model != SS_COMPLIANT)
+    if (ss_model_of(start) == NULL || !ss_model_of(start)->has_contact)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
     for (size_t i = 0; i < signal->n; i++)

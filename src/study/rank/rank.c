@@ -17,6 +17,7 @@
 #include <stickslip/spikes.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "scene/model.h"
 #include "study/rank/candidate.h"
 #include "signal/gaps.h"
 
@@ -369,7 +370,7 @@ doubt(ss_ranking *r)
     else if (lead < DOUBTFUL)
         snprintf(r->why, sizeof r->why, "the best two scenes differ by %.2g, less than half a "
                  "threshold", lead);
-    else if (r->row[0].adjusted.model == SS_COMPLIANT && isnan(r->value[SS_BY_DAMPING]))
+    else if (ss_model_of(&r->row[0].adjusted)->has_contact && isnan(r->value[SS_BY_DAMPING]))
         snprintf(r->why, sizeof r->why, "no oscillation in the sticks, by which compliant contacts "
                  "are known");
 }

@@ -14,7 +14,7 @@ void
 ss_meter_begin(meter *r, unsigned wanted, const state *m)
 {
     unsigned inside = 1u << SS_V_MAX | 1u << SS_A_MAX | 1u << SS_TRANSITION;
-    if (m->scene->model != SS_COULOMB)
+    if (m->model->force_varies)         /* else x has its extrema where modes end */
         inside |= RANGE | 1u << SS_ENERGY;
     *r = (meter){ .wanted = wanted, .needs_course = (wanted & inside) != 0,
                   .x_lo = INFINITY, .x_hi = -INFINITY, .slip = m->mode, .in_first = 1 };
@@ -103,11 +103,10 @@ extremum(walk *w, point lo, point hi, rate which)
     return mid;
 }
 
-/* In a microstick, or where the state variable's friction law is steep. */
 static int
 in_transition(const state *m, const point *p)
 {
-    return m->scene->model == SS_STATE_VARIABLE ? fabs(m->scene->alpha * p->v) < 1 : m->mode == 0;
+    return m->model->in_transition != NULL && m->model->in_transition(m, p->v);
 }
 
 static void
@@ -193,8 +192,7 @@ take_part(meter *r, walk *w, const point *lo, const point *hi)
 static int
 force_varies(const state *m)
 {
-    return m->scene->model == SS_STATE_VARIABLE
-        || (m->scene->model == SS_COMPLIANT && m->mode == 0);
+    return (m->model->force_varies & (m->mode == 0 ? IN_STICK : IN_SLIP)) != 0;
 }
 
 void
@@ -202,7 +200,7 @@ ss_meter_leg(meter *r, walk *w)
 {
     int still = w->still || !r->needs_course;
     size_t parts = still ? 1 : (size_t)ceil(w->h / ss_step_cap(&w->m.now));
-    if (w->m.now.scene->model == SS_STATE_VARIABLE && !still)
+    if (!w->m.now.model->linear && !still)
         parts *= 2;
     point lo = point_at_start(w), first = lo;
     look_at(r, &lo);

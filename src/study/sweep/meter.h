@@ -32,15 +32,14 @@ void ss_meter_end(meter *r, int cycles, int closes, double value[]);
 
 /* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an exact engine. */
 typedef struct tangent {
-    double d[3][3];
+    double d[D_MOST][D_MOST];
 } tangent;
 
 void ss_tangent_begin(tangent *t, const state *m);
 /* Along the leg that w stands on; then, if it ends in an event, across it: rates are those before,
  * and mode, whether that was an event. */
 void ss_tangent_leg(tangent *t, const walk *w);
-void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[],
-                      int is_event);
+void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[]);
 /* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
  * is. */
 void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);

@@ -15,27 +15,48 @@
 const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
                                             .max_steps = 10000000 };
 
-enum { EVERY = 1 << SS_COULOMB | 1 << SS_STATE_VARIABLE | 1 << SS_COMPLIANT,
-       STICKS = 1 << SS_COULOMB | 1 << SS_COMPLIANT, RINGS = 1 << SS_STATE_VARIABLE
-       | 1 << SS_COMPLIANT };
+/* What a model must have for a measure. */
+static int
+any(const struct model *model)
+{
+    return model != NULL;
+}
 
-static const struct { const char *name, *unit; unsigned models; } measure[SS_MEASURES] = {
-    [SS_STOPS] = { "stops", "", STICKS },
-    [SS_STICK_FRACTION] = { "stick", "", STICKS },
-    [SS_AMPLITUDE] = { "amplitude", "m", EVERY },
-    [SS_X_MAX] = { "x_max", "m", EVERY },
-    [SS_V_MAX] = { "v_max", "m/s", EVERY },
-    [SS_A_MAX] = { "a_max", "m/s^2", EVERY },
-    [SS_ENERGY] = { "energy", "J", EVERY },
-    [SS_PERIOD] = { "period", "", EVERY },
-    [SS_CYCLES] = { "cycles", "", EVERY },
-    [SS_MICROSLIPS] = { "microslips", "", STICKS },
-    [SS_TRANSITION] = { "transition", "Hz", RINGS },
-    [SS_X_PHASE] = { "x_phase", "m", EVERY },
-    [SS_V_PHASE] = { "v_phase", "m/s", EVERY },
-    [SS_FLOQUET] = { "floquet", "", STICKS },
-    [SS_FLOQUET_2] = { "floquet2", "", STICKS },
-    [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", STICKS },
+static int
+sticks(const struct model *model)
+{
+    return model->guard != NULL;
+}
+
+static int
+rings(const struct model *model)
+{
+    return model->in_transition != NULL;
+}
+
+static int
+differs(const struct model *model)
+{
+    return model->variation != NULL;
+}
+
+static const struct { const char *name, *unit; int (*has)(const struct model *model); } measure[SS_MEASURES] = {
+    [SS_STOPS] = { "stops", "", sticks },
+    [SS_STICK_FRACTION] = { "stick", "", sticks },
+    [SS_AMPLITUDE] = { "amplitude", "m", any },
+    [SS_X_MAX] = { "x_max", "m", any },
+    [SS_V_MAX] = { "v_max", "m/s", any },
+    [SS_A_MAX] = { "a_max", "m/s^2", any },
+    [SS_ENERGY] = { "energy", "J", any },
+    [SS_PERIOD] = { "period", "", any },
+    [SS_CYCLES] = { "cycles", "", any },
+    [SS_MICROSLIPS] = { "microslips", "", sticks },
+    [SS_TRANSITION] = { "transition", "Hz", rings },
+    [SS_X_PHASE] = { "x_phase", "m", any },
+    [SS_V_PHASE] = { "v_phase", "m/s", any },
+    [SS_FLOQUET] = { "floquet", "", differs },
+    [SS_FLOQUET_2] = { "floquet2", "", differs },
+    [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", differs },
 };
 
 #define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
@@ -52,11 +73,11 @@ ss_measure_unit(ss_measure m)
     return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
 }
 
-/* For the state variable without a method one that does: what is used depends on the point. */
+/* Without a closed form any method stands for the one that suits the point. */
 static const char *
-method_of(const ss_steady_opts *opts, ss_model model)
+method_of(const ss_steady_opts *opts, const struct model *model)
 {
-    return opts->method != NULL ? opts->method : model == SS_STATE_VARIABLE ? "rk8pd" : EXACT;
+    return opts->method != NULL ? opts->method : model->linear ? EXACT : "rk8pd";
 }
 
 ss_status
@@ -64,14 +85,16 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
 {
     if (opts == NULL)
         return SS_FAIL_NULL(err);
-    if ((unsigned)model > SS_COMPLIANT)
+    const struct model *m = ss_model_at((unsigned)model);
+    if (m == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
-    int exact = strcmp(method_of(opts, model), EXACT) == 0, known = 0;
+    const char *method = method_of(opts, m);
+    int exact = strcmp(method, EXACT) == 0, known = 0;
     for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
-        known |= strcmp(method_of(opts, model), ss_sim_method_name(i)) == 0;
+        known |= strcmp(method, ss_sim_method_name(i)) == 0;
     for (int i = 0; i < SS_MEASURES; i++)
-        if ((opts->measures & 1u << i) && !(measure[i].models & 1u << model))
-            return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", ss_model_name(model),
+        if ((opts->measures & 1u << i) && !measure[i].has(m))
+            return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", m->name,
                            measure[i].name);
     if (!(opts->tol >= 1e-13 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-13 ... 0.1", opts->tol);
@@ -79,10 +102,9 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
         return ss_fail(err, SS_EINVAL, "the longest period is 1 ... %d cycles", SS_PERIOD_MAX);
     if (opts->max_cycles < 1)
         return ss_fail(err, SS_EINVAL, "no cycles to look for a period in");
-    if (!known || (exact && model == SS_STATE_VARIABLE))
-        return ss_fail(err, SS_EINVAL, "no method '%s' for model %s", method_of(opts, model),
-                       ss_model_name(model));
-    if ((opts->shoot || (opts->measures & FLOQUET)) && !exact)
+    if (!known || (exact && !m->linear))
+        return ss_fail(err, SS_EINVAL, "no method '%s' for model %s", method, m->name);
+    if ((opts->shoot || (opts->measures & FLOQUET)) && !(exact && differs(m)))
         return ss_fail(err, SS_EINVAL, "shooting and multipliers need a closed form, method exact");
     if (opts->shoot && (opts->settle > 0 || (opts->measures & 1u << SS_CYCLES)))
         return ss_fail(err, SS_EINVAL, "shooting does not wait for the motion to settle: it leaves "
@@ -94,7 +116,7 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
 
 /* At the start of a forcing cycle. */
 typedef struct section {
-    double x, v, y;                     /* y: contact deflection, or theta */
+    double x, v, y;                     /* y: of the model (memory), 0 if it has none */
 } section;
 
 typedef struct finder {
@@ -109,16 +131,19 @@ typedef struct finder {
     unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
 } finder;
 
+/* *unit: what y is measured by. */
+static double
+memory_of(const state *m, double *unit)
+{
+    *unit = 1;
+    return m->model->memory != NULL ? m->model->memory(m, unit) : 0;
+}
+
 static section
 section_of(const state *m)
 {
-    const ss_scene *s = m->scene;
-    section at = { m->x_ref + m->q[0], m->q[1], 0 };
-    if (s->model == SS_STATE_VARIABLE)
-        at.y = m->q[2];
-    else if (s->model == SS_COMPLIANT)
-        at.y = m->mode == 0 ? m->q[0] : m->mode * s->friction / s->contact_stiffness;
-    return at;
+    double unit;
+    return (section){ m->x_ref + m->q[0], m->q[1], memory_of(m, &unit) };
 }
 
 static double
@@ -137,10 +162,9 @@ distance(const finder *f, section a, section b)
 static section
 section_units(const state *m)
 {
-    const ss_scene *s = m->scene;
-    double faster = fmax(m->omega, sqrt(s->stiffness / s->mass));
-    return (section){ m->x_scale, m->x_scale * faster,
-                    s->model == SS_COMPLIANT ? s->friction / s->contact_stiffness : s->friction };
+    section unit = { m->x_scale, m->x_scale * fmax(m->omega, own_frequency(m->scene)), 1 };
+    memory_of(m, &unit.y);
+    return unit;
 }
 
 /* --- walking ------------------------------------------------------------------------------- */
@@ -169,8 +193,8 @@ go(finder *f, int cycles, meter *r, tangent *t)
         st = ss_walk_on(w, &is_event, &event, f->err);
         if (st != SS_OK)
             return st;
-        if (t != NULL && ends)
-            ss_tangent_event(t, w, mode, q, rates, is_event);
+        if (t != NULL && ends && is_event)
+            ss_tangent_event(t, w, mode, q, rates);
         if (r != NULL && is_event)
             ss_meter_event(r, &event);
     }
@@ -187,7 +211,8 @@ measure_cycles(finder *f, int cycles, int period, ss_steady *out)
     section at = section_of(&f->w.m.now);
     int derive = period > 0 && (f->opts->measures & FLOQUET);
     ss_meter_begin(&r, f->opts->measures, &f->w.m.now);
-    ss_tangent_begin(&t, &f->w.m.now);
+    if (derive)
+        ss_tangent_begin(&t, &f->w.m.now);
     unsigned long before = ss_motion_unresolved(&f->w.m);
     ss_status st = go(f, cycles, &r, derive ? &t : NULL);
     if (st != SS_OK)
@@ -302,24 +327,12 @@ simulate(finder *f, ss_steady *out)
 /* Cycles simulated before the first of Newton's steps, and how many of those there are. */
 enum { APPROACH = 4, NEWTON_STEPS = 20 };
 
-/* Move a state by d(x_ref, q, v); 0 if its mode does not allow that. */
+/* Move a state by d; 0 if its mode does not allow that. */
 static int
-move(motion *of, const double d[3])
+move(motion *m, const double d[D_MOST])
 {
-    state *m = &of->now;
-    const ss_scene *s = m->scene;
-    double rates[MAX_DIM], drive, slope;
-    m->x_ref += d[0];
-    m->q[0] += d[1];
-    m->q[1] += d[2];
-    ss_motion_rebase(of);
-    drive = base_force(m, 0);
-    if (s->model == SS_COULOMB && m->mode == 0)
-        return fabs(drive - s->stiffness * m->q[0]) <= s->friction;
-    if (m->mode == 0)
-        m->f0 = s->stiffness * m->x_ref;
-    m->model->rates(m, drive, m->q, rates);
-    return m->model->guard(m, m->q, rates, &slope) > 0;
+    ss_motion_rebase(m);
+    return m->now.model->variation->move(&m->now, d);
 }
 
 /* One of Newton's steps from *at, which it moves; what it moved by and missed goes into *off. */
@@ -383,8 +396,9 @@ shoot(finder *f, ss_steady *out, int *found)
 static ss_status
 begin(finder *f)
 {
-    int is_free = f->opts->method == NULL && f->scene->model == SS_STATE_VARIABLE;
-    const ss_sim_opts sim = { .method = is_free ? NULL : method_of(f->opts, f->scene->model),
+    const struct model *model = ss_model_of(f->scene);
+    int is_free = f->opts->method == NULL && !model->linear;
+    const ss_sim_opts sim = { .method = is_free ? NULL : method_of(f->opts, model),
                               .tol = fmax(1e-14, f->opts->tol / 1000),
                               .max_steps = f->opts->max_steps };
     ss_walk_end(&f->w);

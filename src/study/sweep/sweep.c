@@ -12,6 +12,7 @@
 #include <string.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
+#include "scene/key.h"
 #include "base/pool.h"
 #include "base/progress.h"
 
@@ -91,7 +92,6 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
     if (scene == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    static const char *const of_record[] = { "settle", "duration", "rate" };
     ss_scene copy = *scene;
     size_t all;
     ss_status st = ss_steady_check(&opts->steady, scene->model, err);
@@ -101,10 +101,8 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
         const char *key = opts->axis[i].key;
         if (ss_scene_number(&copy, key, NULL, err) == NULL)
             return SS_EINVAL;
-        for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
-            if (strcmp(key, of_record[k]) == 0)
-                return ss_fail(err, SS_EINVAL, "%s belongs to the record, which no measure sees",
-                               key);
+        if (ss_key_is_of_record(key))
+            return ss_fail(err, SS_EINVAL, "%s belongs to the record, which no measure sees", key);
         for (size_t k = 0; k < i; k++)
             if (strcmp(key, opts->axis[k].key) == 0)
                 return ss_fail(err, SS_EINVAL, "%s is varied twice", key);

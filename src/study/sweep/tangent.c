@@ -9,15 +9,14 @@
 
 #include <math.h>
 
-enum { REF, Q, V };
-
 void
 ss_tangent_begin(tangent *t, const state *m)
 {
-    int stuck = m->mode == 0, compliant = m->scene->model == SS_COMPLIANT;
-    *t = (tangent){ .d = { [Q][Q] = 1 } };
-    t->d[REF][REF] = stuck && compliant;
-    t->d[V][V] = !stuck || compliant;
+    int free[D_MOST];
+    *t = (tangent){ 0 };
+    m->model->variation->free(m, free);
+    for (int i = 0; i < D_MOST; i++)
+        t->d[i][i] = free[i];
 }
 
 void
@@ -29,51 +28,17 @@ ss_tangent_leg(tangent *t, const walk *w)
         return;
     ss_exact_response(w->e, w->h, &C, &S, &G);
     for (int i = 0; i < 3; i++) {
-        double force = m->scene->stiffness * t->d[REF][i] / mass, q = t->d[Q][i], v = t->d[V][i];
-        t->d[Q][i] = C * q + S * v - G * force;
-        t->d[V][i] = -m->k / mass * S * q + (C - m->c / mass * S) * v - S * force;
-    }
-}
-
-/* The end of a microstick, where |y + ratio v| reaches its limit. */
-static void
-release(tangent *t, const walk *w, const double q[], const double rates[])
-{
-    const ss_scene *s = w->m.now.scene;
-    double ratio = s->release == SS_RELEASE_TOTAL ? s->contact_damping / s->contact_stiffness : 0;
-    double jump = rates[1] - w->e->dq0[1];
-    for (int i = 0; i < 3; i++) {
-        double later = -(t->d[Q][i] + ratio * t->d[V][i]) / (q[1] + ratio * rates[1]);
-        t->d[Q][i] += t->d[REF][i];
-        t->d[V][i] += jump * later;
-        t->d[REF][i] = 0;
-    }
-}
-
-/* The end of a slip, where v reaches 0. */
-static void
-stop(tangent *t, const walk *w, const double rates[])
-{
-    const state *m = &w->m.now;
-    int microstick = m->mode == 0 && m->scene->model == SS_COMPLIANT;
-    double factor = m->mode == 0 && !microstick ? 0 : w->e->dq0[1] / rates[1];
-    for (int i = 0; i < 3; i++) {
-        t->d[V][i] *= factor;
-        if (microstick) {
-            t->d[REF][i] = t->d[Q][i];
-            t->d[Q][i] = 0;
-        }
+        double force = m->scene->stiffness * t->d[D_REF][i] / mass, q = t->d[D_Q][i], v = t->d[D_V][i];
+        t->d[D_Q][i] = C * q + S * v - G * force;
+        t->d[D_V][i] = -m->k / mass * S * q + (C - m->c / mass * S) * v - S * force;
     }
 }
 
 void
-ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[],
-                 int is_event)
+ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[])
 {
-    if (mode != 0 && is_event)
-        stop(t, w, rates);
-    else if (mode == 0 && is_event && w->m.now.scene->model == SS_COMPLIANT)
-        release(t, w, q, rates);
+    const state *m = &w->m.now;
+    m->model->variation->cross(m, mode, q, rates, w->e->dq0, t->d);
 }
 
 void
@@ -112,11 +77,11 @@ void
 ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle)
 {
     const double (*d)[3] = t->d;
-    int never_slips = d[REF][REF] == 1 && d[REF][Q] == 0 && d[REF][V] == 0;
-    double trace = d[Q][Q] + d[V][V], minors = d[Q][Q] * d[V][V] - d[Q][V] * d[V][Q];
+    int never_slips = d[D_REF][D_REF] == 1 && d[D_REF][D_Q] == 0 && d[D_REF][D_V] == 0;
+    double trace = d[D_Q][D_Q] + d[D_V][D_V], minors = d[D_Q][D_Q] * d[D_V][D_V] - d[D_Q][D_V] * d[D_V][D_Q];
     if (!never_slips) {
-        trace += d[REF][REF];
-        minors += d[REF][REF] * (d[Q][Q] + d[V][V]) - d[REF][Q] * d[Q][REF] - d[REF][V] * d[V][REF];
+        trace += d[D_REF][D_REF];
+        minors += d[D_REF][D_REF] * (d[D_Q][D_Q] + d[D_V][D_V]) - d[D_REF][D_Q] * d[D_Q][D_REF] - d[D_REF][D_V] * d[D_V][D_REF];
     }
     double under = trace * trace / 4 - minors;
     if (under < 0) {

@@ -1,8 +1,8 @@
 /* scene.c -- what accuracy costs on a scene, measured; and the cheapest way to an accuracy.
  *
- * A run is compared with a reference, sample by sample and event by event.  Coulomb and compliant
- * scenes have a closed form; what rounding does to it is found by moving the scene's own numbers by
- * their last bit.  The state variable has none: there two methods of different order at the
+ * A run is compared with a reference, sample by sample and event by event.  Linear models have a
+ * closed form; what rounding does to it is found by moving the scene's own numbers by their last
+ * bit.  The others have none: there two methods of different order at the
  * tightest tolerance that both keep take its place, and their distance says how well they know.
  *
  * The error of a run is that of the very same run when it is done again, as nothing here is random
@@ -46,15 +46,15 @@ typedef struct probe {
     size_t stride;                  /* one of so many of the scene's */
 } probe;
 
-/* The events of a scene do not depend on its rate.  The steps of multistep methods on the state
- * variable do, so that model keeps its rate and one sample in every stride is compared. */
+/* The events of a scene do not depend on its rate.  The steps of multistep methods on a model without
+ * events do, so that keeps its rate and one sample in every stride is compared. */
 static probe
 probe_of(const ss_scene *scene)
 {
     probe p = { *scene, ss_scene_samples(scene), 1 };
     if (p.n <= MOST)
         return p;
-    if (scene->model == SS_STATE_VARIABLE) {
+    if (!ss_model_has_events(scene->model)) {
         p.stride = p.n / MOST + 1;
         p.n /= p.stride;
     } else {
@@ -289,7 +289,7 @@ static ss_status
 refer(taken *ref, taken *other, const probe *p, unsigned long max_steps, char text[64],
       ss_error *err)
 {
-    if (p->scene.model != SS_STATE_VARIABLE) {
+    if (ss_model_is_linear(p->scene.model)) {
         const probe beside = nudged(p);
         ss_status st = take(ref, p, EXACT, 1e-14, max_steps, err);
         snprintf(text, 64, EXACT);
@@ -314,7 +314,7 @@ refer(taken *ref, taken *other, const probe *p, unsigned long max_steps, char te
 static double
 known(const probe *p, double distance)
 {
-    return fmax(p->scene.model == SS_STATE_VARIABLE ? distance : 2 * distance, 16 * DBL_EPSILON);
+    return fmax(ss_model_is_linear(p->scene.model) ? 2 * distance : distance, 16 * DBL_EPSILON);
 }
 
 /* --- the table ----------------------------------------------------------------------------- */
@@ -359,7 +359,7 @@ make_rows(ss_trade *trade, const ss_scene *scene)
     for (size_t m = 0; m < methods; m++) {
         const char *method = ss_sim_method_name(m);
         int exact = strcmp(method, EXACT) == 0;
-        if (exact && scene->model == SS_STATE_VARIABLE)
+        if (exact && !ss_model_is_linear(scene->model))
             continue;
         for (int i = 1; i < TOLERANCES - 1; i++) {
             trade->row[trade->n++] = (ss_trade_row){ .method = method, .status = SS_STOP,
@@ -615,6 +615,7 @@ static ss_status
 choose(search *s, ss_sim_opts *opts, ss_error *err)
 {
     char reference[64];
+    int is_linear = ss_model_is_linear(s->p.scene.model);
     ss_status st = taken_init(&s->ref, &s->p);
     if (st == SS_OK)
         st = taken_init(&s->run, &s->p);
@@ -627,11 +628,11 @@ choose(search *s, ss_sim_opts *opts, ss_error *err)
         return ss_fail(err, SS_ETOL, "no accuracy can be kept: rounding alone makes %lu events or "
                        "%lu", s->ref.stats.events, s->run.stats.events);
     if (MARGIN * s->known > s->accuracy)
-        return ss_fail(err, SS_ETOL, s->p.scene.model == SS_STATE_VARIABLE
-                       ? "an accuracy of %g cannot be told: %s differ by %.2g of max|x|"
-                       : "an accuracy of %g cannot be kept: by %s, rounding alone moves x by %.2g "
-                       "of its maximum", s->accuracy, reference, s->known);
-    if (opts->method == NULL && s->p.scene.model == SS_STATE_VARIABLE)
+        return ss_fail(err, SS_ETOL, is_linear
+                       ? "an accuracy of %g cannot be kept: by %s, rounding alone moves x by %.2g "
+                       "of its maximum"
+                       : "an accuracy of %g cannot be told: %s differ by %.2g of max|x|", s->accuracy, reference, s->known);
+    if (opts->method == NULL && !is_linear)
         return choose_cheapest(s, opts, err);
     if (opts->method == NULL)
         opts->method = EXACT;
@@ -654,9 +655,10 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
         return st;
     if (!(accuracy >= 1e-12 && accuracy <= 1e-3))
         return ss_fail(err, SS_EINVAL, "accuracy %g is out of range 1e-12 ... 0.001", accuracy);
-    if (opts->method != NULL && strcmp(opts->method, EXACT) == 0
-        && scene->model == SS_STATE_VARIABLE)
-        return ss_fail(err, SS_EINVAL, "method exact: the state-variable model has no closed form");
+    if (opts->method != NULL && strcmp(opts->method, EXACT) == 0)
+        st = ss_exact_check(ss_model_of(scene), err);
+    if (st != SS_OK)
+        return st;
     const taken empty = { .progress = opts->progress };
     search s = { .p = probe_of(scene), .ref = empty, .run = empty, .accuracy = accuracy,
                  .user_steps = opts->max_steps };

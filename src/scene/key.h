@@ -1,0 +1,42 @@
+/* key.h -- the fields of ss_scene: which key names one, what it may be, what a fit may vary. */
+#ifndef KEY_H
+#define KEY_H
+
+#include <stddef.h>
+#include <stickslip/scene.h>
+
+enum { ANY, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
+enum { OPTIONAL, REQUIRED };
+
+typedef struct scene_key {
+    const char *name;
+    int required;
+    int range;                      /* of a number */
+    size_t offset;                  /* in ss_scene, of a double or an enumeration: one key each */
+    const char *unit;               /* of a number */
+    /* Of an enumeration: its i-th word, asked for from 0 to the first NULL.  NULL for a number. */
+    const char *(*word)(int i);
+} scene_key;
+
+#define KEY_NUMBER(field, required, range, unit) \
+    { #field, required, range, offsetof(ss_scene, field), unit, NULL }
+#define KEY_WORD(field, required, word) { #field, required, 0, offsetof(ss_scene, field), "", word }
+
+/* A number of the scene that a fit may vary besides k and f_k / (k Z_e). */
+typedef struct parameter {
+    size_t offset;                  /* in ss_scene */
+    int by_mass;                    /* the motion stays the same if it grows as the mass does */
+    int by_speed;                   /* the motion keeps its shape if it falls as the speed grows */
+} parameter;
+enum { PARAMETERS = 2 };             /* of a model at most */
+
+struct model;
+/* keys.c: the i-th key of a model, in the order in which scenes are written; NULL after the last. */
+const scene_key *ss_key_at(const struct model *model, size_t i);
+/* The key of this name, or of this field, that the model has; NULL if none. */
+const scene_key *ss_key_named(const struct model *model, const char *name);
+const scene_key *ss_key_of_field(const struct model *model, size_t offset);
+/* 1 if the key belongs to the record that is made of the motion, not to the motion. */
+int ss_key_is_of_record(const char *name);
+
+#endif

@@ -1,0 +1,69 @@
+/* keys.c -- the keys that scenes of every model have, about those of the model. */
+#include <string.h>
+#include "scene/model.h"
+
+static const char *
+model_word(int i)
+{
+    const struct model *model = ss_model_at((size_t)i);
+    return model != NULL ? model->name : NULL;
+}
+
+static const scene_key of_motion[] = {
+    KEY_WORD(model, REQUIRED, model_word),
+    KEY_NUMBER(mass, REQUIRED, POSITIVE, "kg"),
+    KEY_NUMBER(stiffness, REQUIRED, POSITIVE, "N/m"),
+    KEY_NUMBER(friction, REQUIRED, NOT_NEGATIVE, "N"),
+    KEY_NUMBER(base_amplitude, REQUIRED, NOT_NEGATIVE, "m"),
+    KEY_NUMBER(base_frequency, REQUIRED, NOT_NEGATIVE, "Hz"),
+    KEY_NUMBER(phase, OPTIONAL, ANY, "rad"),
+    KEY_NUMBER(x0, OPTIONAL, ANY, "m"),
+    KEY_NUMBER(v0, OPTIONAL, ANY, "m/s"),
+};
+enum { OF_MOTION = sizeof of_motion / sizeof *of_motion };
+
+static const scene_key of_record[] = {
+    KEY_NUMBER(settle, OPTIONAL, NOT_NEGATIVE, "s"),
+    KEY_NUMBER(duration, OPTIONAL, NOT_NEGATIVE, "s"),
+    KEY_NUMBER(rate, OPTIONAL, POSITIVE, "Hz"),
+};
+enum { OF_RECORD = sizeof of_record / sizeof *of_record };
+
+const scene_key *
+ss_key_at(const struct model *model, size_t i)
+{
+    if (i < OF_MOTION)
+        return &of_motion[i];
+    i -= OF_MOTION;
+    if (i < model->n_keys)
+        return &model->keys[i];
+    i -= model->n_keys;
+    return i < OF_RECORD ? &of_record[i] : NULL;
+}
+
+const scene_key *
+ss_key_named(const struct model *model, const char *name)
+{
+    const scene_key *k = NULL;
+    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL && strcmp(k->name, name) != 0; i++)
+        ;
+    return k;
+}
+
+const scene_key *
+ss_key_of_field(const struct model *model, size_t offset)
+{
+    const scene_key *k = NULL;
+    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL && k->offset != offset; i++)
+        ;
+    return k;
+}
+
+int
+ss_key_is_of_record(const char *name)
+{
+    for (size_t i = 0; i < OF_RECORD; i++)
+        if (strcmp(name, of_record[i].name) == 0)
+            return 1;
+    return 0;
+}

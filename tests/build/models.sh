@@ -1,0 +1,5 @@
+# What a model is stands in its table: nothing outside the folder of scenes asks which one it has.
+cd "$SRC"
+grep -rnE --include='*.[ch]' 'SS_(COULOMB|STATE_VARIABLE|COMPLIANT)\b' src tools | grep -v '^src/scene/' || true
+# And a scene knows nothing of what moves it.
+grep -rnE --include='*.[ch]' 'include "(motion|morlet|features|study|stream|store|plot)/' src/scene || true
