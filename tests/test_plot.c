@@ -201,15 +201,64 @@ labels_carry_powers_of_ten_and_raised_digits(void **state)
         signal->values[1] = row[i].value;
         char *script = signal_script(signal, &ss_plot_defaults);
         int n = snprintf(line, sizeof line, "set label 1 \"");
-        for (const char *c = row[i].label; *c != '\0'; c++)
-            n += snprintf(line + n, sizeof line - (size_t)n,
-                          (*c & 0x80) != 0 || *c == '^' ? "\\%03o" : "%c", (unsigned char)*c);
+        for (const char *c = row[i].label; *c != '\0'; c++) {      /* the digit behind ^ is escaped, too */
+            int escaped = (*c & 0x80) != 0 || *c == '^' || (c > row[i].label && c[-1] == '^');
+            n += snprintf(line + n, sizeof line - (size_t)n, escaped ? "\\%03o" : "%c",
+                          (unsigned char)*c);
+        }
         snprintf(line + n, sizeof line - (size_t)n, "\" at ");
         if (strstr(script, line) == NULL)
             fail_msg("no %s", row[i].label);
         free(script);
         ss_signal_free(signal);
     }
+}
+
+static void
+names_of_ten_thousand_characters_are_cut(void **state)
+{
+    static const char *const letter[] = { "a", "_", "é", "\xff", "'" };
+    (void)state;
+    for (size_t i = 0; i < sizeof letter / sizeof *letter; i++) {
+        char *name = calloc(10000, strlen(letter[i]) + 1);
+        for (int k = 0; k < 9999; k++)
+            strcat(name + strlen(letter[i]) * (size_t)k, letter[i]);
+        ss_signal *signal = new_signal(2, 1, 0, name, name);
+        signal->values[1] = 1;
+        char *script = signal_script(signal, &ss_plot_defaults), *cut = strstr(script, "\\342\\200\\246\" at ");
+        assert_non_null(cut);                   /* an ellipsis ends it */
+        assert_true(cut - strstr(script, "set label 1") < 4 * 256 + 20);
+        free(script);
+        ss_signal_free(signal);
+        free(name);
+    }
+}
+
+static void
+values_that_gnuplot_cannot_draw_are_refused(void **state)
+{
+    static const double value[] = { NAN, INFINITY, -INFINITY, -1e308, 1e-310 };
+    ss_signal *signal = new_signal(10, 10, 0, "a", "");
+    (void)state;
+    for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
+        ss_error err = { "" };
+        signal->values[3] = value[i];
+        assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &ss_plot_defaults, &err), SS_EINVAL);
+        assert_non_null(strstr(err.text, "a cannot be drawn"));
+        assert_int_equal(ss_plot_xy(stdout, signal, 0, 0, &ss_plot_defaults, &err), SS_EINVAL);
+    }
+    ss_signal_free(signal);
+}
+
+static void
+an_octal_escape_swallows_no_digit(void **state)
+{
+    ss_signal *signal = new_signal(2, 1, 0, "&#0;'9a1", "");
+    (void)state;
+    char *script = signal_script(signal, &ss_plot_defaults);
+    assert_non_null(strstr(script, "\"\\046\\043\\060\\073\\047\\071a1\""));
+    free(script);
+    ss_signal_free(signal);
 }
 
 static void
@@ -337,6 +386,46 @@ one_large_coefficient_is_not_lost(void **state)
 }
 
 static void
+a_coefficient_of_any_size_gives_numbers(void **state)
+{
+    static const double value[] = { -1e308, 1e-308, 5e-324, 1.7e308 };
+    (void)state;
+    for (size_t i = 0; i < sizeof value / sizeof *value; i++)
+        for (size_t at = 0; at < 3000; at += 1499) {        /* in an edge, too, which is not the reference */
+            ss_coefficients *c = new_coefficients();
+            c->w[2 * 1501] = 1e-3;
+            c->w[2 * at] = value[i];
+            char *script = contour_script(c, &ss_contour_defaults);
+            assert_true(strstr(script, "nan") == NULL && strstr(script, "inf") == NULL);
+            free(script);
+            ss_coefficients_free(c);
+        }
+}
+
+static void
+coefficients_and_scales_that_cannot_be_drawn_are_refused(void **state)
+{
+    static const double value[] = { NAN, INFINITY, 1.7e308 };
+    ss_error err = { "" };
+    ss_coefficients *c = new_coefficients();
+    (void)state;
+    for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
+        c->w[2 * 1501] = c->w[2 * 1501 + 1] = value[i];
+        assert_int_equal(ss_plot_contour(stdout, c, &ss_contour_defaults, &ss_plot_defaults, &err),
+                         SS_EINVAL);
+        assert_non_null(strstr(err.text, "a value is not finite"));
+    }
+    c->w[2 * 1501] = c->w[2 * 1501 + 1] = 0;
+    for (int i = 0; i < 4; i++) {
+        c->scale[1].f = (const double[]){ NAN, 0, 20, INFINITY }[i];
+        assert_int_equal(ss_plot_contour(stdout, c, &ss_contour_defaults, &ss_plot_defaults, &err),
+                         SS_EINVAL);
+        assert_non_null(strstr(err.text, "cannot be drawn"));
+    }
+    ss_coefficients_free(c);
+}
+
+static void
 zero_everywhere_gives_an_empty_picture(void **state)
 {
     ss_coefficients *c = new_coefficients();
@@ -430,6 +519,11 @@ main(void)
         cmocka_unit_test(a_flat_map_has_no_lines),
         cmocka_unit_test(a_spike_of_one_sample_in_a_million_is_drawn),
         cmocka_unit_test(text_of_files_stands_between_quotes),
+        cmocka_unit_test(names_of_ten_thousand_characters_are_cut),
+        cmocka_unit_test(values_that_gnuplot_cannot_draw_are_refused),
+        cmocka_unit_test(an_octal_escape_swallows_no_digit),
+        cmocka_unit_test(a_coefficient_of_any_size_gives_numbers),
+        cmocka_unit_test(coefficients_and_scales_that_cannot_be_drawn_are_refused),
         cmocka_unit_test(long_labels_have_two_lines_and_smaller_letters),
         cmocka_unit_test(labels_carry_powers_of_ten_and_raised_digits),
         cmocka_unit_test(what_lies_outside_the_record_is_refused),

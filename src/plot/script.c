@@ -45,41 +45,49 @@ ss_script_decimals(double range)
 /* Bytes in a string constant between double quotes.  gnuplot replaces @name and `command` in a line
  * before it looks for strings, so that nothing that it knows may stand in the line at all: letters,
  * digits and signs without a meaning are written as they are, all others as \ooo, which gnuplot
- * makes a byte again when it has found the end of the string. */
-static void
-put_bytes(FILE *out, const char *bytes, size_t n)
+ * makes a byte again when it has found the end of the string.  It reads all octal digits that
+ * follow, not three: a digit behind such a byte is written so, too.  Is the last byte so written? */
+static int
+put_bytes(FILE *out, const char *bytes, size_t n, int escaped)
 {
-    for (size_t i = 0; i < n; i++)
-        if (isalnum((unsigned char)bytes[i]) && (unsigned char)bytes[i] < 0x80)
-            putc(bytes[i], out);
-        else if (strchr(" ()+,-./:=_", bytes[i]) != NULL)
-            putc(bytes[i], out);
-        else
+    static const char plain[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                " ()+,-./:=_";
+    for (size_t i = 0; i < n; i++) {
+        int is_plain = memchr(plain, bytes[i], sizeof plain - 1) != NULL;
+        escaped = !is_plain || (escaped && isdigit((unsigned char)bytes[i]));
+        if (escaped)
             fprintf(out, "\\%03o", (unsigned char)bytes[i]);
+        else
+            putc(bytes[i], out);
+    }
+    return escaped;
 }
 
-/* XML, and so SVG, has no control characters and no U+FFFE and U+FFFF (XML 1.0, production Char). */
+/* XML, and so SVG, has no control characters and no U+FFFE and U+FFFF (XML 1.0, production Char), and
+ * gnuplot writes the > of "]]>" as it is, which no text of XML may have (production CharData). */
 static int
-is_drawable(const char *character, size_t n)
+is_drawable(const char *text, size_t at, size_t n)
 {
-    const unsigned char *p = (const unsigned char *)character;
-    return n == 1 ? p[0] >= 0x20 && p[0] != 0x7f
-        : n == 2 ? p[0] != 0xc2 || p[1] >= 0xa0
+    const unsigned char *p = (const unsigned char *)text + at;
+    if (n == 1)
+        return p[0] >= 0x20 && p[0] != 0x7f && !(at >= 2 && memcmp(p - 2, "]]>", 3) == 0);
+    return n == 2 ? p[0] != 0xc2 || p[1] >= 0xa0
         : n == 3 ? p[0] != 0xef || p[1] != 0xbf || p[2] < 0xbe : 1;
 }
 
-/* Text between double quotes: a control character is a blank, what is no character is U+FFFD. */
+/* Text between double quotes: what cannot be drawn is a blank, what is no character is U+FFFD. */
 static void
 put_text(FILE *out, const char *text, size_t n)
 {
+    int escaped = 0;
     for (size_t i = 0, length; i < n; i += length > 0 ? length : 1) {
         length = ss_utf8_length(text + i);
         if (length == 0)
-            put_bytes(out, "\xef\xbf\xbd", 3);
-        else if (is_drawable(text + i, length))
-            put_bytes(out, text + i, length);
+            escaped = put_bytes(out, "\xef\xbf\xbd", 3, escaped);
+        else if (is_drawable(text, i, length))
+            escaped = put_bytes(out, text + i, length, escaped);
         else
-            putc(' ', out);
+            escaped = put_bytes(out, " ", 1, escaped);
     }
 }
 
@@ -291,7 +299,7 @@ put_terminal(FILE *out, const char *format, const char *output, double width, do
     if (output != NULL) {
         /* gnuplot starts a program for '|' and has a meaning for '~' at the beginning of a name. */
         fprintf(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
-        put_bytes(out, output, strlen(output));
+        put_bytes(out, output, strlen(output), 0);
         fputs("\"\n", out);
     }
 }
@@ -312,7 +320,7 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
     else
         fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
-    fputs("set encoding utf8\n", out);
+    fputs("set encoding utf8; set termoption noenhanced\n", out);
     return SS_OK;
 }
 

@@ -64,8 +64,9 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
         const ss_trade_row *row = &trade->row[i];
         if (row->status != SS_OK)
             continue;
-        if (!(row->seconds > 0 && isfinite(row->seconds) && isfinite(row->error_x)))
-            return ss_fail(err, SS_EINVAL, "row %zu has no finite time and error", i + 1);
+        if (!(row->seconds >= 1e-12 && row->seconds <= 1e12 && fabs(row->error_x) <= 1e300))
+            return ss_fail(err, SS_EINVAL, "row %zu cannot be drawn: an error of %.3g in %.3g s", i + 1,
+                           row->error_x, row->seconds);
         fastest = fmin(fastest, row->seconds);
     }
     if (isinf(fastest))
