@@ -12,6 +12,8 @@
 #include "base/error.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
+#include "stream/clock.h"
+#include "stream/clock.h"
 
 typedef struct array {
     size_t rows, columns;
@@ -141,6 +143,8 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
     double start;
     char name[128];
     ss_status status = find_clock(file, id, dataset, &rate, &start);
+    if (status == SS_OK)
+        status = ss_refuse_range(file->path, rate, start, file->err);
     if (status != SS_OK)
         return status;
     *out = ss_header_new(rate, start);

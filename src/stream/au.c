@@ -76,6 +76,19 @@ decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
     return SS_OK;
 }
 
+/* Behind the data that the header gives there must be nothing: which of the two is right? */
+static ss_status
+refuse_more(ss_reader *reader, ss_error *err)
+{
+    struct input *in = &reader->in;
+    ss_status st = ss_input_need(in, 1, err);
+    if (st != SS_OK || in->hi == in->lo)
+        return st;
+    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
+                   "cuts it there", in->name, (unsigned long long)reader->row,
+                   (unsigned long long)reader->end);
+}
+
 static ss_status
 au_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
@@ -100,7 +113,7 @@ au_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
         if (reader->bytes_left != UINT64_MAX)
             reader->bytes_left -= frame;
     }
-    return SS_OK;
+    return *n == 0 && reader->bytes_left == 0 ? refuse_more(reader, err) : SS_OK;
 }
 
 /* The columns that a file without names has. */
@@ -212,7 +225,9 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
     in->lo += offset;
     reader->encoding = (int)encoding;
-    reader->bytes_left = size == UNKNOWN_SIZE ? UINT64_MAX : size;
+    /* 0 is what a program leaves that meant to fill it in at the end. */
+    reader->bytes_left = size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size;
+    reader->end = (uint64_t)offset + size;
     reader->rows = au_rows;
     return ss_refuse_clock(in->name, reader->head->rate, opts, err);
 }

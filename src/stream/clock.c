@@ -64,6 +64,9 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
         if (!(t[i] > t[i - 1]))
             return ss_fail(err, SS_EDATA, "%s:%lu: time stamps do not ascend; ss-cat --rate HZ takes the "
                            "rows as uniform", file, line[i]);
+    if (!isfinite(t[n - 1] - t[0]))
+        return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", file, t[0],
+                       t[n - 1]);
     double *step = malloc(n * sizeof *step);
     if (step == NULL)
         return ss_fail(err, SS_ENOMEM, "%s: %s", file, ss_strerror(SS_ENOMEM));
@@ -117,6 +120,15 @@ count_samples(const double *t, size_t n, double usual, size_t *sample)
     }
 }
 
+ss_status
+ss_refuse_range(const char *name, double rate, double start, ss_error *err)
+{
+    if (rate >= 1e-300 && rate <= 1e300 && fabs(start) <= 1e300)
+        return SS_OK;
+    return ss_fail(err, SS_EDATA, "%s: a clock of %.3g Hz that starts at %.3g s is out of range: 1e-300 "
+                   "... 1e300 Hz, -1e300 ... 1e300 s", name, rate, start);
+}
+
 /* The decimal of fewest digits in [lo, hi]; *digits is how many that are. */
 static double
 roundest(double lo, double hi, int *digits)
@@ -154,6 +166,9 @@ ss_find_clock(const char *file, const double *t, const unsigned long *line, size
     double rounding = 2 * DBL_EPSILON * fmax(fabs(t[0]), fabs(t[n - 1]));
     double slack = 2 * (l.deviation + rounding) / (double)sample[n - 1] + 4 * DBL_EPSILON * l.period;
     int rate_digits, period_digits;
+    st = ss_refuse_range(file, 1 / (l.period - slack), t[0], err);
+    if (st != SS_OK)
+        return st;
     double by_rate = roundest(1 / (l.period + slack), 1 / (l.period - slack), &rate_digits);
     double by_period = roundest(l.period - slack, l.period + slack, &period_digits);
     *rate = rate_digits <= period_digits ? by_rate : 1 / by_period;

@@ -15,5 +15,7 @@ ss_status ss_usual_step(const char *file, const double *t, const unsigned long *
 
 /* Refuse options for input without a clock, as this one has one of its own rate. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
+/* Refuse a clock so fast or slow that its times might not be finite: SS_EDATA. */
+ss_status ss_refuse_range(const char *name, double rate, double start, ss_error *err);
 
 #endif

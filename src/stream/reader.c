@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "stream/clock.h"
 #include "stream/format.h"
 #include "stream/reader.h"
 
@@ -46,6 +47,8 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
         st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
     if (st == SS_OK)
         st = open_format(reader, opts != NULL ? opts : &no_opts, err);
+    if (st == SS_OK)
+        st = ss_refuse_range(name, reader->head->rate, reader->head->start, err);
     if (st != SS_OK) {
         ss_reader_free(reader);
         return st;

@@ -17,6 +17,7 @@ struct ss_reader {
     uint64_t row;               /* rows given so far */
     int encoding;               /* AU: of its values */
     uint64_t bytes_left;        /* AU: of its data, UINT64_MAX if unknown */
+    uint64_t end;               /* AU: where its data end by the header, in bytes from its start */
     double *values;             /* delimited text: all rows, one after the other */
     size_t n_rows;
 };
