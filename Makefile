@@ -52,9 +52,21 @@ CMOCKA_LIBS     := $(or $(call pc,libs,cmocka),-lcmocka)
 ifneq ($(SAN),)
 SANFLAGS := -fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all # any report fails
 endif
+# What stops an overrun that is left, where compiler and linker have it: asked once, of both, and not
+# where sanitizers look closer.  FORTIFY needs optimisation, and some compilers define it themselves.
+HARDEN_CFLAGS  := -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2 -fstack-protector-strong
+HARDEN_LDFLAGS := -Wl,-z,relro,-z,now
+ifneq ($(SANFLAGS)$(filter -O0,$(CFLAGS) $(CPPFLAGS)),)
+HARDEN_CFLAGS  :=
+HARDEN_LDFLAGS :=
+else ifneq ($(shell echo 'int main(void) { return 0; }' | $(CC) -O2 -Werror $(HARDEN_CFLAGS) $(HARDEN_LDFLAGS) \
+	-x c -o /dev/null - 2>&1 || echo failed),)
+HARDEN_CFLAGS  :=
+HARDEN_LDFLAGS :=
+endif
 ALL_CFLAGS := -std=c11 -D_XOPEN_SOURCE=700 -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
-	$(INCLUDES) -fPIC -fvisibility=hidden $(SANFLAGS) $(CPPFLAGS) $(CFLAGS)
-ALL_LDFLAGS := $(SANFLAGS) $(LDFLAGS)
+	$(INCLUDES) -fPIC -fvisibility=hidden $(HARDEN_CFLAGS) $(SANFLAGS) $(CPPFLAGS) $(CFLAGS)
+ALL_LDFLAGS := $(HARDEN_LDFLAGS) $(SANFLAGS) $(LDFLAGS)
 COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@
 
 # --- what is built ---------------------------------------------------------------------------

@@ -386,7 +386,8 @@ reads_every_au_encoding(void **state)
         { BYTES(AU(SIZE_UNKNOWN, "\6", "\1") "\x3f\xc0\0\0\xc2\xf6\xe9\x79"), 1.5, -123.456f },
         { BYTES(AU(SIZE_UNKNOWN, "\7", "\1") "\x3f\xb9\x99\x99\x99\x99\x99\x9a\xff\xef\xff\xff\xff\xff"
                 "\xff\xff"), 0.1, -DBL_MAX },
-        { BYTES(AU("\0\0\0\2", "\2", "\1") "\x40\x80 and what is not data"), 0.5, -1 },
+        { BYTES(AU("\0\0\0\2", "\2", "\1") "\x40\x80"), 0.5, -1 },
+        { BYTES(AU("\0\0\0\0", "\2", "\1") "\x40\x80"), 0.5, -1 },      /* never filled in */
     };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
@@ -476,6 +477,8 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
     { BYTES(AU(SIZE_UNKNOWN, "\3", "\2") "\0\1\0\2\0"), "in: truncated: 1 of 4 bytes of row 2" },
     { BYTES(AU("\0\0\0\x9", "\3", "\1") "\0\1\0\2"),
       "in: truncated: ends after row 2, 5 bytes before the end that its header gives" },
+    { BYTES(AU("\0\0\0\2", "\2", "\1") "\x40\x80 and more"),
+      "in: goes on after the 2 rows that its header gives; head -c 30 cuts it there" },
     { BYTES(AU("\0\0\0\3", "\3", "\1") "\0\1\0\2"), "in: truncated: 1 of 2 bytes of row 2" },
     { BYTES(AU(SIZE_UNKNOWN, "\6", "\1") "\0\0\0\0\x7f\xc0\0\0"),
       "in: row 2, column ch1: not a finite number" },
