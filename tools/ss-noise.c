@@ -108,7 +108,7 @@ add_noise(ss_noise *noise, ss_signal *signal, const double *level)
     size_t n = signal->n, columns = signal->head->n_columns;
     ss_error err = { "" };
     if (isnan(band[0]))
-        ss_noise_add(noise, signal->values, n, 1, columns, n, level);
+        tool_check(ss_noise_add(noise, signal->values, n, 1, columns, n, level), NULL);
     for (size_t c = 0; c < columns && !isnan(band[0]); c++)
         if (level[c] > 0)
             tool_check(ss_noise_add_band(noise, signal->values + c * n, n, signal->head->rate,
@@ -165,7 +165,7 @@ change_stream(tool_kind kind, ss_noise *noise)
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         if (n == 0)
             break;
-        ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level);
+        tool_check(ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level), NULL);
         for (size_t i = 0; i < n * head->n_columns && bits > 0; i++)
             if (chosen[i % head->n_columns] == 1)
                 convert(&rows[i], 1);

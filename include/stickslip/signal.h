@@ -180,10 +180,11 @@ ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, s
  * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
 ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed);
 /* The same piece by piece, for several columns: to n rows, of which value c of row i stands at
- * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (where it is 0 none is drawn). */
+ * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (where it is 0 none is drawn).
+ * SS_ERANGE, here and below, if a sum is not finite; x has been changed then. */
 typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
-void ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
+ss_status ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
 /* Noise of the frequencies lo to hi [Hz] only, 0 <= lo <= hi <= rate / 2, to n samples of one column;
  * the rms of what is added is rms.  SS_EINVAL if the record has no frequency in the band. */

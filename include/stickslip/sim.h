@@ -18,7 +18,8 @@ typedef int ss_event_sink(const ss_event *e, void *user);
 typedef struct ss_sim_opts {
     const char *method;         /* one of ss_sim_method_name; NULL: ss_sim_method_for the scene */
     double tol;                 /* relative local error a step, 1e-14 ... 1e-1 */
-    unsigned long max_steps;    /* 0: as many as it takes */
+    unsigned long max_steps;    /* 0: what 5e6 right-hand sides allow, and 1e4 more a sample and 1e6
+                                   more a second of settling and record, 1e11 in all at most */
     ss_sample_sink *samples;
     ss_event_sink *events;
     void *user;                 /* handed to both, either of which may be NULL */
@@ -38,7 +39,8 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
 
 /* Simulate the scene from the start of settling to the end of the record, in constant memory.
  * The events never depend on rate.  stats may be NULL.  SS_EINVAL for a scene or option out of
- * range, SS_ETOL, SS_ECHATTER, SS_EBUDGET with a diagnosis; SS_STOP. */
+ * range, SS_ERANGE for a value that is not finite, SS_ETOL, SS_ECHATTER, SS_EBUDGET with a
+ * diagnosis; SS_STOP. */
 ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats,
                      ss_error *err);
 

@@ -33,7 +33,8 @@ typedef enum ss_status {
     SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range */
     SS_ETOL,        /* the step size underflowed before the tolerance was met */
     SS_ECHATTER,    /* events follow each other faster than double precision can tell apart */
-    SS_EBUDGET      /* the scene needs more than max_steps integration steps */
+    SS_EBUDGET,     /* the scene needs more work than it may: max_steps, or what it has without */
+    SS_ERANGE       /* a value is not finite: the numbers lie beyond double precision */
 } ss_status;
 
 /* Why a call failed, in one line without a newline: "run.tsv:17: expected 4 columns, found 3".

@@ -45,7 +45,8 @@ typedef struct ss_steady_opts {
     int shoot;                  /* Newton on the period map; exact method, no SS_CYCLES */
     const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
                                    else as ss_sim_run chooses */
-    unsigned long max_steps;    /* > 0: give up after so many */
+    unsigned long max_steps;    /* > 0: give up after so many, or after 20 right-hand sides for
+                                   each of them */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64 };
 extern const ss_steady_opts ss_steady_defaults; /* 1e-9, 8, 10000, 0, simulation, 10^7 steps */

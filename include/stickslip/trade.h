@@ -37,7 +37,8 @@ typedef struct ss_trade {
 } ss_trade;
 
 typedef struct ss_trade_opts {
-    double budget;              /* [s] > 0 of CPU time a row */
+    double budget;              /* [s] > 0 of CPU time a row; a run of the reference may take
+                                   100 times that, else SS_EBUDGET */
     double target;              /* > 0: give up rows slower than twice the fastest that reaches it */
     ss_progress progress;
 } ss_trade_opts;

@@ -19,6 +19,7 @@ ss_strerror(ss_status status)
     case SS_ETOL:     return "tolerance cannot be met";
     case SS_ECHATTER: return "events too close to tell apart";
     case SS_EBUDGET:  return "step budget used up";
+    case SS_ERANGE:   return "numbers beyond double precision";
     }
     return "unknown status";
 }

@@ -47,6 +47,7 @@ struct engine {
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
     int lands_on_samples;                   /* at() answers at the nearer end */
+    int lost;                               /* a guard within a step was no number */
     unsigned long steps, rhs, events;
 };
 
@@ -68,7 +69,10 @@ void ss_motion_rebase(motion *m);                   /* let u count from the pres
 int ss_motion_start(motion *m);                     /* 1 if it starts in slip */
 unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
 motion ss_motion_of(const ss_scene *scene, int exact, double tol);
-int ss_engine_ends_within(engine *e, double *s_event);     /* the mode ends in the step just taken */
+/* Take a step, see struct engine_type; SS_ERANGE if it leads to what is not finite. */
+ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
+/* Whether the mode ends within the step just taken, and when; as above. */
+ss_status ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err);
 int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s from now */
 void ss_engine_accept(engine *e);                           /* it does not */
 ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);

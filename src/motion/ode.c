@@ -144,6 +144,9 @@ ode_step(engine *e, double h_max, ss_error *err)
     size_t dim = o->system.dimension;
     double h = fmin(o->h_next, h_max), y[MAX_DIM], dydt[MAX_DIM], error[MAX_DIM];
 
+    if (!(h > 0))
+        return ss_fail(err, SS_ERANGE, "no step from t = %.9g s is short enough: rates of change lie "
+                       "beyond double precision", e->m->origin.hi + m->u);
     for (;;) {
         double h_adjusted = h / 2;
         int verdict = GSL_ODEIV_HADJ_DEC;
@@ -157,7 +160,7 @@ ode_step(engine *e, double h_max, ss_error *err)
                 o->h_next = h_adjusted;     /* a step cut short by h_max says nothing */
             break;
         }
-        if (!(h_adjusted >= o->shortest))
+        if (!(h_adjusted >= o->shortest && h_adjusted > 0))
             return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
                            "step fell below %.3g s", step->type->name, o->tol, e->m->origin.hi + m->u,
                            o->shortest);
@@ -352,7 +355,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
     for (size_t k = 0; k < m->model->dim; k++) {
         if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {
             ode_free(&o->base);
-            return ss_fail(err, SS_EINVAL, "amplitudes of this scene lie beyond double precision");
+            return ss_fail(err, SS_ERANGE, "amplitudes of this scene lie beyond double precision");
         }
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];

@@ -110,6 +110,7 @@ typedef struct record {
     instant end;                        /* of the record, from the start of settling */
     size_t n, i;                        /* samples in all (that anyone wants), next sample */
     double interval;                    /* between samples */
+    double work;                        /* right-hand sides allowed where there is no max_steps */
     turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
     size_t filled;
     ss_sample buffer[256];
@@ -176,22 +177,45 @@ fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
     sample->z = r->scene->base_amplitude * r->base.co;
 }
 
+static ss_status
+fail_sample(const record *r, const ss_sample *s, ss_error *err)
+{
+    static const char name[] = "xvafyz";
+    const double value[] = { s->x, s->v, s->a, s->f, s->y, s->z };
+    int i = 0;
+    while (isfinite(value[i]))
+        i++;
+    return ss_fail(err, SS_ERANGE, "%c is not finite at t = %.9g s after %.9g s of settling: numbers "
+                   "of this scene lie beyond double precision", name[i], s->t, r->scene->settle);
+}
+
+/* 0 times a number is 0 if the number is finite, else NaN. */
+static int
+is_finite(const ss_sample *s)
+{
+    return 0 * s->x + 0 * s->v + 0 * s->a + 0 * s->f + 0 * s->y + 0 * s->z == 0;
+}
+
 /* All samples up to, not including, h from now. */
 static ss_status
-write_samples(record *r, engine *e, int still, double h)
+write_samples(record *r, engine *e, int still, double h, ss_error *err)
 {
+    ss_status st = SS_OK;
     if (r->i == r->n)
         return SS_OK;
     double first = until_sample(r, e->m, r->i), s = first;
     for (size_t n = 1; r->i < r->n && s < h; r->i++, s = first + (double)n++ * r->interval) {
         if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
-            ss_status st = flush(r);
+            st = flush(r);
             if (st == SS_OK)
                 st = report(r, instant_of_sample(r, r->i).hi);
             if (st != SS_OK)
                 return st;
         }
-        fill_sample(&r->buffer[r->filled++], r, e, still, s);
+        ss_sample *sample = &r->buffer[r->filled++];
+        fill_sample(sample, r, e, still, s);
+        if (!is_finite(sample))
+            return fail_sample(r, sample, err);
     }
     return SS_OK;
 }
@@ -222,20 +246,30 @@ guard_at(double s, void *user)
     guard_value at;
     e->type->at(e, ANYWHERE, s, base_turn(m, m->u + s), q, dqdt);
     at.g = m->model->guard(m, q, dqdt, &at.slope);
+    e->lost |= isnan(at.g);
     return at;
 }
 
-/* Whether the mode ends within the step just taken, and when. */
-int
-ss_engine_ends_within(engine *e, double *s_event)
+static ss_status
+fail_lost(const engine *e, ss_error *err)
+{
+    return ss_fail(err, SS_ERANGE, "the state or its rate of change is not finite at t = %.9g s: "
+                   "numbers of this scene lie beyond double precision",
+                   e->m->origin.hi + e->m->now.u + e->h);
+}
+
+ss_status
+ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
 {
     const state *m = &e->m->now;
     guard_value at_0, at_h;
+    *ends = 0;
     if (m->model->guard == NULL)
-        return 0;
+        return SS_OK;
     at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
     at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
-    return ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
+    *ends = ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
+    return e->lost ? fail_lost(e, err) : SS_OK;
 }
 
 /* The mode has ended s from now: enter the next one.  1 if that is an event. */
@@ -270,6 +304,17 @@ change_mode(record *r, engine *e, int still, double s)
     return st == SS_OK ? e->type->begin(e) : st;
 }
 
+/* A step, unless it leads to what is not finite: then a rate of change is not, since each part of
+ * the state is in one (and those that a model does not have are 0). */
+ss_status
+ss_engine_step(engine *e, double h_max, ss_error *err)
+{
+    ss_status st = e->type->step(e, h_max, err);
+    if (st != SS_OK || 0 * e->dq1[0] + 0 * e->dq1[1] + 0 * e->dq1[2] == 0)
+        return st;
+    return fail_lost(e, err);
+}
+
 /* The step is done with, and no event was in it. */
 void
 ss_engine_accept(engine *e)
@@ -293,38 +338,76 @@ ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
                    m->origin.hi, CHATTER_PART * period);
 }
 
+/* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
+#define TOO_MANY_STEPS 1e12
+
+/* What a run without max_steps may cost in right-hand sides, which unlike steps cost about the same in
+ * every method: so many, so many more a sample and a second of settling and record, and at most an
+ * hour of a machine of today.  Ordinary scenes take 10 a sample. */
+#define WORK_ALWAYS 5e6
+#define WORK_SAMPLE 1e4
+#define WORK_SECOND 1e6
+#define WORK_MOST 1e11
+
+static double
+work_allowed(const ss_scene *scene)
+{
+    double length = scene->settle + scene->duration;
+    return fmin(WORK_ALWAYS + length * (WORK_SAMPLE * scene->rate + WORK_SECOND), WORK_MOST);
+}
+
+static int
+has_budget(const record *r, const engine *e)
+{
+    return r->opts->max_steps > 0 ? e->steps < r->opts->max_steps : (double)e->rhs < r->work;
+}
+
 /* Why a run was too long for its budget, and how long it would have been. */
 static ss_status
 over_budget(const record *r, const engine *e, double cap, ss_error *err)
 {
     const motion *m = e->m;
     const char *what;
+    char budget[80];
     double t = m->origin.hi + m->now.u, all = r->scene->settle + r->scene->duration;
     double estimate = (double)e->steps * all / t;
     m->now.model->fastest(&m->now, &what);
+    if (r->opts->max_steps > 0)
+        snprintf(budget, sizeof budget, "step budget of %lu", r->opts->max_steps);
+    else
+        snprintf(budget, sizeof budget, "budget of %.2g right-hand sides (max_steps would set another)",
+                 r->work);
     if (e->h < cap / 2)
-        return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about "
+        return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, about "
                        "%.2g steps would do; the tolerance forces steps of %.3g s, where the "
-                       "motion of %s allows %.3g s", r->opts->max_steps, t, all, estimate, e->h,
-                       what, cap);
-    return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s of %.9g s, about %.2g "
+                       "motion of %s allows %.3g s", budget, t, all, estimate, e->h, what, cap);
+    return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, about %.2g "
                    "steps would do; they are %.3g s long, 1/%d of the period of %s",
-                   r->opts->max_steps, t, all, estimate, cap, STEPS_PER_PERIOD, what);
+                   budget, t, all, estimate, cap, STEPS_PER_PERIOD, what);
 }
 
-/* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
-#define TOO_MANY_STEPS 1e12
-
+/* Refuse at once what is sure to be too long: by the mode that the scene begins in, where no budget
+ * would do; by its slip, the slower mode, where the budget would not. */
 static ss_status
-check_length(const state *m, double length, ss_error *err)
+check_length(const record *r, const state *m, int exact, ss_error *err)
 {
     const char *what;
-    double steps = length / ss_step_cap(m), end;
-    m->model->fastest(m, &what);
-    if (steps <= TOO_MANY_STEPS || (m->model->still != NULL && m->model->still(m, &end)))
+    const ss_scene *s = r->scene;
+    double length = s->settle + s->duration, end, steps = length / ss_step_cap(m);
+    double slow = fmax(sqrt(s->stiffness / s->mass), m->omega);
+    double least = length * STEPS_PER_PERIOD * slow / (2 * M_PI), most = r->work * (exact ? 10 : 1);
+    if (m->model->still != NULL && m->model->still(m, &end))
         return SS_OK;
-    return ss_fail(err, SS_EBUDGET, "%.3g s are %.2g steps of 1/%d of the period of %s: more than "
-                   "%.0g are not tried", length, steps, STEPS_PER_PERIOD, what, TOO_MANY_STEPS);
+    m->model->fastest(m, &what);
+    if (!(steps <= TOO_MANY_STEPS))
+        return ss_fail(err, SS_EBUDGET, "%.3g s are %.2g steps of 1/%d of the period of %s: more than "
+                       "%.0g are not tried", length, steps, STEPS_PER_PERIOD, what,
+                       TOO_MANY_STEPS);
+    if (r->opts->max_steps > 0 || least <= most)
+        return SS_OK;
+    return ss_fail(err, SS_EBUDGET, "%.3g s are at least %.3g steps of 1/%d of the period of %s: more "
+                   "than %.3g are done only if max_steps asks for them", length, least, STEPS_PER_PERIOD,
+                   m->omega >= slow ? "the base" : "the spring", most);
 }
 
 static ss_status
@@ -343,7 +426,7 @@ run(record *r, engine *e, ss_error *err)
         if (still) {
             h -= now->u;
         } else {
-            if (r->opts->max_steps > 0 && e->steps >= r->opts->max_steps)
+            if (!has_budget(r, e))
                 return over_budget(r, e, cap, err);
             if (e->lands_on_samples && r->i < r->n) {
                 double s = until_sample(r, m, r->i);
@@ -351,15 +434,17 @@ run(record *r, engine *e, ss_error *err)
             }
             if (model->sight != NULL)
                 cap = fmin(cap, model->sight(now, e->dq0));
-            st = e->type->step(e, cap, err);
+            st = ss_engine_step(e, cap, err);
             if (st == SS_OK && e->steps % REPORT_STEPS == 0)
                 st = report(r, m->origin.hi + now->u);
             if (st != SS_OK)
                 return st;
             h = e->h;
-            ends = ss_engine_ends_within(e, &h);
+            st = ss_engine_ends_within(e, &ends, &h, err);
+            if (st != SS_OK)
+                return st;
         }
-        st = write_samples(r, e, still, h);
+        st = write_samples(r, e, still, h, err);
         if (st != SS_OK)
             return st;
         if (instant_diff(r->end, m->origin) - now->u <= h)
@@ -411,7 +496,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     record r = { .scene = scene, .opts = opts,
                  .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
                  .end = instant_sum(scene->settle, scene->duration),
-                 .interval = 1 / scene->rate,
+                 .interval = 1 / scene->rate, .work = work_allowed(scene),
                  .base_further = base_turns(scene) };
     const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
     int exact = strcmp(method, EXACT) == 0;
@@ -421,7 +506,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
         return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
     int slips = ss_motion_start(&m);
-    st = check_length(&m.now, scene->settle + scene->duration, err);
+    st = check_length(&r, &m.now, exact, err);
     if (st != SS_OK)
         return st;
     st = exact ? ss_exact_new(&e, &m, err) : ss_ode_new(&e, &m, method, opts->tol, err);

@@ -4,6 +4,10 @@
 #include <string.h>
 #include "base/error.h"
 
+/* A step that takes more right-hand sides than this counts as more than one: it is what rk8pd takes
+ * with its events, while a step of an implicit method may take hundreds. */
+enum { RHS_PER_STEP = 20 };
+
 ss_status
 ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err)
 {
@@ -46,7 +50,7 @@ static ss_status
 take_step(walk *w, double longest, ss_error *err)
 {
     double cap = ss_step_cap(&w->m.now);
-    ss_status st = w->e->type->step(w->e, fmin(cap, longest), err);
+    ss_status st = ss_engine_step(w->e, fmin(cap, longest), err);
     if (st != SS_OK)
         return st;
     if (w->e->h > longest) {            /* steps of an exact engine may be longer than asked for */
@@ -54,8 +58,7 @@ take_step(walk *w, double longest, ss_error *err)
         ss_walk_at(w, longest, w->e->q1, w->e->dq1);
     }
     w->h = w->e->h;
-    w->ends = ss_engine_ends_within(w->e, &w->h);
-    return SS_OK;
+    return ss_engine_ends_within(w->e, &w->ends, &w->h, err);
 }
 
 ss_status
@@ -64,7 +67,8 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
     const state *m = &w->m.now;
     engine *e = w->e;
     double u_end;
-    if (w->max_steps > 0 && e->steps >= w->max_steps)
+    if (w->max_steps > 0
+        && (e->steps >= w->max_steps || e->rhs / RHS_PER_STEP >= w->max_steps))
         return ss_fail(err, SS_EBUDGET, "step budget of %lu used up at t = %.9g s", w->max_steps,
                        w->m.origin.hi + m->u);
     w->still = m->model->still != NULL && m->model->still(m, &u_end);

@@ -35,16 +35,21 @@ ss_noise_new(ss_noise **out, unsigned long seed)
     return SS_OK;
 }
 
-void
+ss_status
 ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
              const double *rms)
 {
     if (noise == NULL || x == NULL || rms == NULL)
-        return;
+        return SS_EINVAL;
+    double zero = 0;                    /* NaN once a sum is not finite */
     for (size_t i = 0; i < n; i++)
         for (size_t c = 0; c < n_columns; c++)
-            if (rms[c] > 0)
-                x[i * row + c * column] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
+            if (rms[c] > 0) {
+                double *sum = &x[i * row + c * column];
+                *sum += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
+                zero += 0 * *sum;
+            }
+    return zero == 0 ? SS_OK : SS_ERANGE;
 }
 
 /* Gaussian numbers at the frequencies of a spectrum of m samples in [lo, hi], as GSL wants them:
@@ -88,11 +93,13 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, 
     gsl_fft_halfcomplex_radix2_inverse(y, 1, m);
     for (size_t i = 0; i < n; i++)
         square += y[i] * y[i];
-    double gain = square > 0 ? rms / sqrt(square / (double)n) : 0;
-    for (size_t i = 0; i < n; i++)
+    double gain = square > 0 ? rms / sqrt(square / (double)n) : 0, zero = 0;
+    for (size_t i = 0; i < n; i++) {
         x[i] += gain * y[i];
+        zero += 0 * x[i];
+    }
     free(y);
-    return SS_OK;
+    return zero == 0 ? SS_OK : ss_fail(err, SS_ERANGE, "signal and noise exceed what a double holds");
 }
 
 void
@@ -113,22 +120,39 @@ ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed)
     ss_status st = ss_noise_new(&noise, seed);
     if (st != SS_OK)
         return st;
-    ss_noise_add(noise, x, n, 1, 1, 1, &rms);
+    if (n > 0)
+        st = ss_noise_add(noise, x, n, 1, 1, 1, &rms);
     ss_noise_free(noise);
-    return SS_OK;
+    return st;
 }
+
+/* The standard deviation of x * unit about its mean. */
+static double
+deviation(const double *x, size_t n, double unit)
+{
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += (x[i] * unit - mean) / (double)(i + 1);
+    for (size_t i = 0; i < n; i++)
+        square += (x[i] * unit - mean) * (x[i] * unit - mean);
+    return sqrt(square / (double)n);
+}
+
+/* Squares of what is not between these overflow, or lose digits to underflow. */
+#define SQUARE_LEAST 1e-145
+#define SQUARE_MOST 1e145
 
 double
 ss_noise_rms(const double *x, size_t n, double snr_db)
 {
+    double largest = 0, unit = 1;
     if (x == NULL && n > 0)
         return NAN;
-    double mean = 0, square = 0;
     for (size_t i = 0; i < n; i++)
-        mean += (x[i] - mean) / (double)(i + 1);
-    for (size_t i = 0; i < n; i++)
-        square += (x[i] - mean) * (x[i] - mean);
-    return n > 0 ? sqrt(square / (double)n) * pow(10, -snr_db / 20) : 0;
+        largest = fmax(largest, fabs(x[i]));
+    if (largest > SQUARE_MOST || (largest > 0 && largest < SQUARE_LEAST))
+        unit = ldexp(1, largest > 1 ? -1000 : 1000);
+    return n > 0 ? deviation(x, n, unit) / unit * pow(10, -snr_db / 20) : 0;
 }
 
 ss_status

@@ -62,9 +62,13 @@ ss_axis_value(const ss_axis *axis, size_t i)
         return axis->from;
     if (i + 1 >= axis->n)
         return axis->to;
-    double n = (double)(axis->n - 1), done = (double)i;
-    return axis->log ? axis->from * pow(axis->to / axis->from, done / n)
-        : (axis->from * (n - done) + axis->to * done) / n;
+    double n = (double)(axis->n - 1), done = (double)i, part = done / n;
+    double ratio = axis->to / axis->from, x = axis->from * (n - done) + axis->to * done;
+    if (axis->log && ratio > 0 && isfinite(ratio))
+        return axis->from * pow(ratio, part);
+    if (axis->log)                      /* the ends are further apart than a double reaches */
+        return pow(axis->from, 1 - part) * pow(axis->to, part);
+    return isfinite(x) ? x / n : axis->from * (1 - part) + axis->to * part;
 }
 
 ss_status

@@ -30,6 +30,7 @@ enum { MOST = 19997 };
 enum { REPEATS = 5 };               /* of short rows */
 #define SHORT 0.1                   /* [s] */
 #define OUTRAGEOUS 300              /* times the steps of the reference: SS_EBUDGET */
+#define REFERENCE_BUDGET 100        /* times a row's: what each run of the reference may take */
 
 static const double tolerance[] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
                                     1e-11, 1e-12, 1e-13, 1e-14 };
@@ -466,8 +467,13 @@ fill_table(table *t, ss_error *err)
         st = taken_init(&t->run, &t->p);
     if (st == SS_OK)
         st = make_rows(trade, &t->p.scene);
+    t->ref.budget = t->run.budget = REFERENCE_BUDGET * t->opts->budget;
     if (st == SS_OK)
         st = refer(&t->ref, &t->run, &t->p, 0, trade->reference, err);
+    if (st == SS_EBUDGET && (t->ref.over || t->run.over))
+        return ss_fail(err, st, "the run of reference would take about %.2g s: a row's budget of %g s "
+                       "allows it %g s", t->ref.over ? t->ref.seconds : t->run.seconds,
+                       t->opts->budget, t->ref.budget);
     if (st == SS_OK)
         st = compare(&between, &t->run, &t->ref);
     trade->known_x = known(&t->p, between.error_x);

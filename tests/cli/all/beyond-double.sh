@@ -1,0 +1,25 @@
+# Values that no double holds end a run with their reason.
+try() {
+    "$@" > out 2> err || echo "exit $?"
+    sed 's/t = [^ ]* s/t = T s/; s/about .* s: /about ? s: /' err
+    grep -v '^#' out | grep -i -e nan -e inf || :
+}
+try ss-sim -s base_amplitude=1e300 -s duration=0.5 -s rate=100 compliant-light
+try ss-sim -s x0=1e300 -s duration=0.5 -s rate=100 state-variable
+try ss-sim -e -s x0=1e300 -s duration=0.5 -s rate=100 compliant-light
+try ss-sim -m exact -s v0=1e307 -s duration=0.5 -s rate=100 coulomb
+try ss-sim -a 1e-6 -s friction=1e300 -s duration=0.5 -s rate=100 state-variable
+try ss-signal noise --amplitude 1e308
+ss-signal sine --amplitude 1e308 > huge.tsv
+try ss-noise --snr 10 huge.tsv
+try ss-noise --rms 1e308 huge.tsv
+try ss-noise --rms 1e308 --band 1:1000 -o x.h5 huge.tsv
+
+echo "noise is in proportion to its signal, however large"
+for amplitude in 1e-300 1 1e300; do
+    ss-signal sine --amplitude $amplitude | ss-noise --snr 10 | tail -n 1 | awk '{ printf "%.9f\n", $2 / '$amplitude' }'
+done
+echo "an axis may reach from end to end of a double"
+ss-sweep coulomb --vary friction=1e-300:1e300:3:log --measure amplitude | grep -v '^#' | cut -f 1,2,4
+echo "the run of reference has a budget too"
+try ss-trade -q --budget 1e-6 -s alpha=1e9 state-variable
