@@ -375,6 +375,22 @@ sweeps_refuse_null(void **state)
     assert_refused(ss_sweep_run(NULL, &opts, &e), &e);
     assert_refused(ss_sweep_run(&scene, NULL, &e), &e);
     assert_refused(ss_sweep_run(&scene, &no_sink, &e), &e);
+    ss_sweep_text text = { "x", &scene, &opts, NULL, 1, SS_TSV }, none = { .name = "x" },
+        numbers = { "x", &scene, &opts, NULL, 0, SS_AU };
+    ss_sweep_row row = { .index = 0, .reason = "ok" };
+    char *header = NULL;
+    long end;
+    assert_int_equal(ss_sweep_header(NULL, &numbers), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, &text), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, &none), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, &numbers), SS_EINVAL);
+    assert_null(header);
+    assert_int_equal(ss_sweep_row_write(&text, &row, in), SS_EINVAL);
+    assert_int_equal(ss_sweep_row_write(&numbers, &row, in), SS_EINVAL);
+    assert_refused(ss_sweep_resume(NULL, in, "in", &n, &end, &e), &e);
+    assert_refused(ss_sweep_resume(&text, NULL, "in", &n, &end, &e), &e);
+    assert_int_equal(ss_sweep_resume(&text, in, "in", &n, &end, &e), SS_EINVAL);
     assert_refused(ss_sweep_read(NULL, in, "in", &e), &e);
     assert_refused(ss_sweep_read(&table, NULL, "in", &e), &e);
     assert_refused(ss_sweep_read(&table, in, NULL, &e), &e);

@@ -42,6 +42,7 @@ typedef struct request {
     ss_sweep_opts opts;
     ss_measure pick[SS_MEASURES];       /* the measures, in the order asked for */
     size_t n_picks;
+    ss_sweep_text text;
     FILE *out;
     size_t rows, failed;
 } request;
@@ -167,93 +168,7 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--resume FILE is where the rows go: --output does not go with it");
 }
 
-/* --- text ---------------------------------------------------------------------------------- */
-
-static void
-put_number(FILE *out, double x, char behind)
-{
-    char text[SS_NUMBER_MAX];
-    ss_number_format(text, x);
-    fprintf(out, "%s%c", isnan(x) ? "-" : text, behind);
-}
-
-static void
-put_label(FILE *out, const char *name, const char *unit)
-{
-    const char *around = strpbrk(unit, "/ ") != NULL ? "()" : "";
-    fprintf(out, " %s", name);
-    if (*unit != '\0')
-        fprintf(out, *around != '\0' ? "/(%s)" : "/%s", unit);
-}
-
-/* The scene's own numbers but for those that are varied or say how it is recorded. */
-static void
-put_scene(FILE *out, const request *req, const ss_scene *scene)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *all = open_memstream(&text, &size);
-    if (all == NULL || ss_scene_write(scene, all) != SS_OK || fclose(all) != 0)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (char *line = strtok(text, "\n"); line != NULL; line = strtok(NULL, "\n")) {
-        char *equals = strstr(line, " = ");
-        *equals = '\0';
-        int shown = strcmp(line, "settle") != 0 && strcmp(line, "duration") != 0
-            && strcmp(line, "rate") != 0;
-        for (size_t i = 0; i < req->opts.n_axes; i++)
-            shown &= strcmp(line, req->axis[i].key) != 0;
-        if (shown)
-            fprintf(out, "# %s: %s\n", line, equals + 3);
-    }
-    free(text);
-}
-
-static void
-put_axis(FILE *out, const ss_axis *axis)
-{
-    fprintf(out, "# vary: %s=", axis->key);
-    put_number(out, axis->from, ':');
-    put_number(out, axis->to, ':');
-    fprintf(out, "%zu%s\n", axis->n, axis->log ? ":log" : "");
-}
-
-/* All that the rows depend on, and nothing else: a file is resumed if it begins with this text. */
-static char *
-make_header(const request *req, ss_scene *scene)
-{
-    const ss_steady_opts *s = &req->opts.steady;
-    char *text = NULL, name[256];
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    tool_name_scene(name, sizeof name, req->scene_path, req->settings, req->n_settings);
-    fprintf(out, "# stickslip sweep 1\n# scene: %s\n", name);
-    put_scene(out, req, scene);
-    for (size_t i = 0; i < req->opts.n_axes; i++)
-        put_axis(out, &req->axis[i]);
-    fputs("# tolerance: ", out);
-    put_number(out, s->tol, '\n');
-    if (s->settle > 0)
-        fprintf(out, "# settle_cycles: %lu\n", s->settle);
-    else
-        fprintf(out, "# max_cycles: %lu\n", s->max_cycles);
-    fprintf(out, "# max_period: %d\n# max_steps: %lu\n", s->max_period, s->max_steps);
-    fprintf(out, "# method: %s%s\n", s->shoot ? "shooting, " : "", s->method != NULL ? s->method
-            : ss_model_is_linear(scene->model) ? "exact" : "rk8pd, bsimp where stiff");
-    fputs("# columns: index", out);
-    for (size_t i = 0; i < req->opts.n_axes; i++) {
-        const char *unit;
-        ss_scene_number(scene, req->axis[i].key, &unit, NULL);
-        put_label(out, req->axis[i].key, unit);
-    }
-    for (size_t i = 0; i < req->n_picks; i++)
-        put_label(out, ss_measure_name(req->pick[i]), ss_measure_unit(req->pick[i]));
-    fputs(" status\n", out);
-    if (fclose(out) != 0)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    return text;
-}
+/* --- rows ---------------------------------------------------------------------------------- */
 
 static int
 write_row(const ss_sweep_row *row, void *user)
@@ -261,20 +176,9 @@ write_row(const ss_sweep_row *row, void *user)
     request *req = user;
     if (tool_stopping())
         return 1;
-    fprintf(req->out, "%zu\t", row->index);
-    for (size_t i = 0; i < req->opts.n_axes; i++)
-        put_number(req->out, row->vary[i], '\t');
-    for (size_t i = 0; i < req->n_picks; i++) {
-        double value = row->steady.value[req->pick[i]];
-        if (req->pick[i] == SS_PERIOD && value == 0)
-            fputs("aperiodic\t", req->out);
-        else
-            put_number(req->out, value, '\t');
-    }
-    fprintf(req->out, "%s\n", row->reason);
     req->rows++;
     req->failed += row->status != SS_OK;
-    return ferror(req->out);
+    return ss_sweep_row_write(&req->text, row, req->out) != SS_OK;
 }
 
 /* Between batches: what is done must outlive a kill. */
@@ -285,63 +189,26 @@ report(double done, void *user)
     return (req->resume != NULL && fflush(req->out) != 0) || tool_progress(done, NULL) != 0;
 }
 
-/* --- resuming ------------------------------------------------------------------------------ */
-
-/* The first of the next line's bytes, as far as there is room, without its end; gives the length of
- * all of it, or 0 if it was cut off. */
-static long
-read_line(FILE *in, char *line, size_t room)
-{
-    long length = 0;
-    size_t n = 0;
-    int c;
-    while ((c = getc(in)) != EOF && c != '\n') {
-        length++;
-        if (n + 1 < room)
-            line[n++] = (char)c;
-    }
-    line[n] = '\0';
-    return c == '\n' ? length + 1 : 0;
-}
-
-/* Whole rows at the head of FILE, in the order in which they must come; dies if it is no part of
- * this sweep.  What lies behind *end was cut off in the middle of a line. */
-static size_t
-count_rows(const request *req, FILE *in, const char *header, long *end)
-{
-    size_t rows = 0, length = strlen(header);
-    char line[64], *start = malloc(length + 1);
-    if (start == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    size_t got = fread(start, 1, length, in);
-    if (memcmp(start, header, got) != 0)
-        tool_die("%s: another sweep than this: its header differs", req->resume);
-    free(start);
-    *end = got == length ? (long)length : 0;
-    for (long n; got == length && (n = read_line(in, line, sizeof line)) > 0;) {
-        char *tab;
-        size_t due = req->opts.shard + rows * req->opts.shards, index = strtoul(line, &tab, 10);
-        if (tab == line || *tab != '\t' || index != due)
-            tool_die("%s: row %zu is '%.*s', but point %zu is due: another sweep or shard",
-                     req->resume, rows + 1, (int)strcspn(line, "\t"), line, due);
-        rows++;
-        *end += n;
-    }
-    if (ferror(in))
-        tool_die("%s: %s", req->resume, strerror(errno));
-    return rows;
-}
-
+/* Open what the rows go to, with the header where it is not there yet. */
 static void
-resume(request *req, const char *header)
+open_rows(request *req)
 {
+    char *header;
     long end = 0;
-    req->out = tool_output_kept(req->resume);
-    req->opts.first = count_rows(req, req->out, header, &end);
-    tool_cut(req->out, end);
+    ss_error err = { "" };
+    if (req->resume == NULL) {
+        req->out = tool_output(req->path);
+    } else {
+        req->out = tool_output_kept(req->resume);
+        tool_check(ss_sweep_resume(&req->text, req->out, req->resume, &req->opts.first, &end, &err),
+                   &err);
+        tool_cut(req->out, end);
+        tool_note("%s: %zu rows are there", req->resume, req->opts.first);
+    }
+    tool_check(ss_sweep_header(&header, &req->text), NULL);
     if (end == 0)
         fputs(header, req->out);
-    tool_note("%s: %zu rows are there", req->resume, req->opts.first);
+    free(header);
 }
 
 /* A value that is varied cannot be given too. */
@@ -380,20 +247,17 @@ main(int argc, char *argv[])
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)
         tool_usage("%s", err.text);
 
-    char *header = make_header(&req, &scene);
+    char name[256];
+    tool_name_scene(name, sizeof name, req.scene_path, req.settings, req.n_settings);
+    req.text = (ss_sweep_text){ .name = name, .scene = &scene, .opts = &req.opts,
+                                .measure = req.pick, .n_measures = req.n_picks, .format = SS_TSV };
     tool_end_at_rows(req.path);
-    if (req.resume != NULL) {
-        resume(&req, header);
-    } else {
-        req.out = tool_output(req.path);
-        fputs(header, req.out);
-    }
+    open_rows(&req);
     ss_status st = ss_sweep_run(&scene, &req.opts, &err);
     if (st == SS_STOP && !tool_stopping())
         tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
     tool_note("%zu points, %zu of them with something missing", req.rows, req.failed);
-    free(header);
     free(req.settings);
     free(req.axis);
     tool_end();

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stickslip/scene.h>
+#include <stickslip/signal.h>
 #include <stickslip/sim.h>
 
 SS_BEGIN_DECLARATIONS
@@ -123,6 +124,27 @@ ss_status ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_er
 ss_status ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
 /* --- as text ---------------------------------------------------------------------------------- */
+
+/* What the rows of a sweep hold and what stands above them. */
+typedef struct ss_sweep_text {
+    const char *name;           /* of the scene */
+    const ss_scene *scene;
+    const ss_sweep_opts *opts;  /* that the sweep is run with */
+    const ss_measure *measure;  /* a column each, in this order */
+    size_t n_measures;
+    ss_format format;           /* one that holds words */
+} ss_sweep_text;
+
+/* All that the rows depend on and nothing else, to be freed with free(): files with the same header are
+ * parts of the same sweep.  SS_EINVAL: something is missing, or the format holds numbers only. */
+ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep);
+ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out);
+/* How far a file of such rows has come, which may have been cut off anywhere: *rows whole ones of the
+ * shard of opts, which is the first that is wanted then, and they end at byte *end, from which on to
+ * write; 0: with the header.  Reads file from where it stands, its start.  SS_EDATA: these are not the
+ * rows of this sweep; SS_EIO. */
+ss_status ss_sweep_resume(const ss_sweep_text *sweep, FILE *file, const char *name, size_t *rows,
+                          long *end, ss_error *err);
 
 /* A sweep's rows: every column but the status, as numbers; NaN for "-", 0 for "aperiodic". */
 typedef struct ss_sweep_table {
