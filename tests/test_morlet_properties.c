@@ -237,7 +237,7 @@ static const struct refusal {
     const char *says;
 } refusal[] = {
     { 6000, 2000, 0,    1000, 0, SS_ESCALE, "from 0.914444 to 510.57 Hz" },
-    { 6000, 2000, 0.01, 0,    0, SS_ESCALE, "--force" },
+    { 6000, 2000, 0.01, 0,    0, SS_ESCALE, "resolve scales from" },
     { 6000, 2000, 900,  0,    0, SS_ESCALE, "from 0.914444 to 510.57 Hz" },
     { 6000, 2000, 0.01, 1000, 1, SS_OK,     "" },
     { 6000, 2000, 100,  100.1, 0, SS_EINVAL, "no scale lies between" },

@@ -158,6 +158,42 @@ tool_note(const char *format, ...)
         SAY(format);
 }
 
+/* What reads files of another kind, or makes the kind that is wanted, by the library's words. */
+static const struct kind_hint {
+    const char *kind, *hint;
+} kind_hints[] = {
+    { ": a signal, not", "; ss-morlet makes coefficients of it, ss-plot draws it" },
+    { ": wavelet coefficients, not", "; ss-contour reads them, and ss-morlet --inverse" },
+    { ": a list of features, not", "; ss-contour --features reads it" },
+    { ": a list of events, not", "; ss-contour --events reads it" },
+    { ": a sweep, not", "; ss-plot --map reads it" },
+    { ": a trade of accuracy for time, not", "; ss-trade -o FILE.png draws one" },
+    { ": a Sun AU stream, not", "; ss-cat, ss-morlet and ss-contour read it" },
+    { ": an HDF5 file, not", "; ss-cat, ss-morlet and ss-contour read it" },
+    { ": a scene, not", "; ss-sim makes a signal of it" },
+    { ":1: not wavelet coefficients", "; ss-morlet makes them of a signal" },
+    { ": AU without wavelet coefficients", "; ss-morlet makes them of a signal" },
+    { ": no /wavelet in it", "; ss-morlet -o FILE.h5 makes one" },
+    { ":1: not a sweep", "; ss-sweep makes one" },
+    { ": a table of numbers or names, not",
+      "; ss-cat, ss-morlet, ss-features and ss-plot read a signal in it" },
+};
+
+const char *
+tool_hint(ss_status status, const ss_error *err)
+{
+    for (size_t i = 0; status == SS_EKIND && i < sizeof kind_hints / sizeof *kind_hints; i++)
+        if (strstr(err->text, kind_hints[i].kind) != NULL)
+            return kind_hints[i].hint;
+    switch (status) {
+    case SS_ECLOCK:  return "; ss-cat --time NAME names a column of time, --rate HZ gives the sample rate";
+    case SS_EGAPS:   return "; ss-cat --gaps=split or interpolate fills the gap";
+    case SS_EUNEVEN: return "; ss-cat --resample HZ makes time stamps uniform, --rate HZ takes the rows so";
+    case SS_ESCALE:  return "; ss-morlet --force computes them all the same";
+    default:         return "";
+    }
+}
+
 void
 tool_check(ss_status status, const ss_error *err)
 {
@@ -165,9 +201,10 @@ tool_check(ss_status status, const ss_error *err)
     if (status == SS_EIO && (ferror(stdout) || files_failed()))
         tool_die("write error: %s", strerror(errno));
     if (name != NULL)
-        tool_die("%s%s", name, rest);
+        tool_die("%s%s%s", name, rest, tool_hint(status, err));
     if (status != SS_OK && status != SS_STOP)
-        tool_die("%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status));
+        tool_die("%s%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status),
+                 tool_hint(status, err));
 }
 
 void

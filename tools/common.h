@@ -26,6 +26,8 @@ void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
+/* What the user may do about a failure, "; text", or "". */
+const char *tool_hint(ss_status status, const ss_error *err);
 
 extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 

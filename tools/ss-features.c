@@ -102,7 +102,7 @@ main(int argc, char *argv[])
     req.opts.progress = (ss_progress){ tool_progress, &req };
     ss_status st = ss_features_find(&features, signal, column, &req.opts, &err);
     if (st != SS_OK)
-        tool_die("%s: %s", tool_input_name(path), err.text);
+        tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
     tool_note("noise of rms %.3g, %zu local maxima, %zu spikes, %s", features->noise,
               features->n_maxima, features->spikes->n, ss_spikes_verdict(features->spikes));
     if (req.opts.stiffness > features->total_stiffness.value)

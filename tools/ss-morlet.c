@@ -162,8 +162,8 @@ static void
 check(ss_status status, const ss_error *err, const char *path)
 {
     if (status != SS_OK)
-        tool_die("%s: %s", tool_input_name(path),
-                 err->text[0] != '\0' ? err->text : ss_strerror(status));
+        tool_die("%s: %s%s", tool_input_name(path),
+                 err->text[0] != '\0' ? err->text : ss_strerror(status), tool_hint(status, err));
 }
 
 static double

@@ -30,7 +30,12 @@ typedef enum ss_status {
     SS_ENOMEM,      /* an allocation failed */
     SS_EIO,         /* reading or writing failed; errno says why */
     SS_EDATA,       /* malformed input; the text names file and line */
-    SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range */
+    SS_EKIND,       /* a file of another kind than the call reads; the text says which kind it is */
+    SS_ECLOCK,      /* a signal without a clock: ss_read_opts.rate or .time gives one */
+    SS_EGAPS,       /* samples are missing, or not numbers: ss_read_opts.gaps says what to do */
+    SS_EUNEVEN,     /* time stamps are not uniform: ss_read_opts.resample or .rate makes them so */
+    SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range;
+                       ss_morlet_opts.force computes them all the same */
     SS_ETOL,        /* the step size underflowed before the tolerance was met */
     SS_ECHATTER,    /* events follow each other faster than double precision can tell apart */
     SS_EBUDGET,     /* the scene needs more work than it may: max_steps, or what it has without */

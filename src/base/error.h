@@ -14,8 +14,8 @@ ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);
 #define SS_FAIL_NULL(err) ss_fail(err, SS_EINVAL, "an argument is NULL")
 /* SS_EIO for a file, with the system's words for this errno; strerror is not for threads. */
 ss_status ss_fail_errno(ss_error *err, const char *name, int number);
-/* SS_EDATA for a file that by its first n bytes is of a known kind other than the one wanted ("a
- * signal", "wavelet coefficients", "a scene", "a sweep"): says which, and what reads it.  Else SS_OK. */
+/* SS_EKIND for a file that by its first n bytes is of a known kind other than the one wanted ("a
+ * signal", "wavelet coefficients", "a scene", "a sweep"): says which.  Else SS_OK. */
 ss_status ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n,
                        const char *wanted);
 

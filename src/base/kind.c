@@ -4,28 +4,28 @@
 
 #define PICTURE "a picture", "give what it was drawn from"
 #define NETCDF "a netCDF 3 file", "nccopy -k nc4 makes HDF5 of it"
-#define UTF16 "text in UTF-16", "iconv -f UTF-16 -t UTF-8 FILE | gives it to a tool"
+#define UTF16 "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"
 #define SOUND "a sound file", "sox FILE -t au - makes a signal of it"
 
 static const struct kind {
-    const char *magic, *what, *advice;
+    const char *magic, *what;
+    const char *remedy;         /* by other programs; may be NULL */
 } kinds[] = {
-    { "# stickslip signal ", "a signal", "ss-morlet makes coefficients of it, ss-plot draws it" },
-    { "# stickslip coefficients ", "wavelet coefficients",
-      "ss-contour reads them, and ss-morlet --inverse" },
-    { "# stickslip features ", "a list of features", "ss-contour --features reads it" },
-    { "# stickslip events ", "a list of events", "ss-contour --events reads it" },
-    { "# stickslip sweep ", "a sweep", "ss-plot --map reads it" },
-    { "# stickslip ranking ", "a ranking", "give what was ranked" },
-    { "# stickslip trade ", "rows of ss-trade", "ss-trade -o FILE.png draws them" },
+    { "# stickslip signal ", "a signal", NULL },
+    { "# stickslip coefficients ", "wavelet coefficients", NULL },
+    { "# stickslip features ", "a list of features", NULL },
+    { "# stickslip events ", "a list of events", NULL },
+    { "# stickslip sweep ", "a sweep", NULL },
+    { "# stickslip ranking ", "a ranking", NULL },
+    { "# stickslip trade ", "a trade of accuracy for time", NULL },
     { "# Made by libstickslip ", "a gnuplot script", "gnuplot -p FILE shows it" },
-    { ".snd", "a Sun AU stream", "ss-cat, ss-morlet and ss-contour read it" },
-    { "\211HDF", "an HDF5 file", "ss-cat, ss-morlet and ss-contour read it" },
+    { ".snd", "a Sun AU stream", NULL },
+    { "\211HDF", "an HDF5 file", NULL },
     { "\211PNG", PICTURE }, { "%PDF-", PICTURE }, { "<?xml", PICTURE }, { "<svg", PICTURE },
     { "\377\330\377", PICTURE },
     { "RIFF", SOUND }, { "fLaC", SOUND }, { "OggS", SOUND },
     { "ID3\003", SOUND }, { "ID3\004", SOUND },
-    { "\037\213", "a gzip file", "gunzip -c FILE | gives a tool what is in it" },
+    { "\037\213", "a gzip file", "gunzip unpacks it" },
     { "\377\376", UTF16 }, { "\376\377", UTF16 },
     { "PK\003\004", "a workbook or another zip archive", "save its sheet as CSV" },
     { "\320\317\021\340", "a workbook", "save its sheet as CSV" },
@@ -66,10 +66,8 @@ is_table(const char *p, const char *end)
 ss_status
 ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, const char *wanted)
 {
-    static const struct kind scene = { "", "a scene", "ss-sim makes a signal of it" };
-    static const struct kind table = { "", "a table of numbers or names",
-                                       "ss-cat, ss-morlet, ss-features and ss-plot read a signal "
-                                       "in it" };
+    static const struct kind scene = { "", "a scene", NULL };
+    static const struct kind table = { "", "a table of numbers or names", NULL };
     const struct kind *found = is_scene(bytes, bytes + n) ? &scene
         : strcmp(wanted, "a scene") == 0 && is_table(bytes, bytes + n) ? &table : NULL;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -79,6 +77,6 @@ ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, const
     }
     if (found == NULL || strcmp(found->what, wanted) == 0)
         return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s: %s, not %s; %s", name, found->what, wanted,
-                   found->advice);
+    return ss_fail(err, SS_EKIND, "%s: %s, not %s%s%s", name, found->what, wanted,
+                   found->remedy != NULL ? "; " : "", found->remedy != NULL ? found->remedy : "");
 }

@@ -15,6 +15,10 @@ ss_strerror(ss_status status)
     case SS_ENOMEM:   return "out of memory";
     case SS_EIO:      return "input or output error";
     case SS_EDATA:    return "malformed input";
+    case SS_EKIND:    return "a file of another kind";
+    case SS_ECLOCK:   return "a signal without a clock";
+    case SS_EGAPS:    return "samples are missing";
+    case SS_EUNEVEN:  return "time stamps are not uniform";
     case SS_ESCALE:   return "scales outside the range that the record resolves";
     case SS_ETOL:     return "tolerance cannot be met";
     case SS_ECHATTER: return "events too close to tell apart";

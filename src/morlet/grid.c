@@ -76,16 +76,14 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
         return ss_fail(err, SS_ESCALE, "a record of %zu sample%s at %g Hz is too short for any "
                        "scale that its sampling resolves within accuracy %g; %.0f samples are "
                        "needed%s", n, n == 1 ? "" : "s", rate, opts->accuracy, need,
-                       opts->force ? ", or ss-morlet --force with both limits of frequency" : "");
+                       opts->force ? ", or both limits of frequency" : "");
     }
     if (!opts->force && n == 0 && ask.lo < use.lo)
         return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within "
-                       "accuracy %g, not %.6g Hz; ss-morlet --force computes them all the same",
-                       rate, label(use.lo, opts), opts->accuracy, label(ask.lo, opts));
+                       "accuracy %g, not %.6g Hz", rate, label(use.lo, opts), opts->accuracy, label(ask.lo, opts));
     if (!opts->force && (ask.lo < use.lo || ask.hi > use.hi))
         return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz "
-                       "within accuracy %g, not from %.6g to %.6g Hz; ss-morlet --force computes "
-                       "them all the same", n, rate, label(use.hi, opts), label(use.lo, opts),
+                       "within accuracy %g, not from %.6g to %.6g Hz", n, rate, label(use.hi, opts), label(use.lo, opts),
                        opts->accuracy, label(ask.hi, opts), label(ask.lo, opts));
     if (ask.lo > ask.hi)
         return ss_fail(err, SS_EINVAL, "no scale lies between these limits of frequency; %d voices "

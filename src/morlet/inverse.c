@@ -90,7 +90,7 @@ refuse(double tol, double residual, int passes, int stays, ss_error *err)
                        "left after %d passes, and stays", tol, takes, passes);
     return ss_fail(err, SS_ETOL, "after %d passes %.2g of the coefficients is left, more than the "
                    "%g asked for: what lies at the edge of the scales and beyond is found slowly; "
-                   "--accuracy %.2g takes it, or transform with scales that reach further", passes,
+                   "an accuracy of %.2g can be had, or more with scales that reach further", passes,
                    takes, tol, takes);
 }
 

@@ -173,8 +173,7 @@ fail_unknown(const char *name, struct place at, ss_error *err)
     if (off < length && off <= (length / 3 > 2 ? length / 3 : 2))
         snprintf(text, sizeof text, "unknown key '%.64s'; the nearest is '%s'", name, best);
     else
-        snprintf(text, sizeof text, "unknown key '%.64s'; ss-sim --list SCENE shows a scene's, "
-                 "stickslip-scene(5) all", name);
+        snprintf(text, sizeof text, "unknown key '%.64s'", name);
     return fail_at(at, err, text);
 }
 
@@ -309,7 +308,7 @@ read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error
         line[n++] = (char)c;
     line[n] = '\0';
     if (at.line == 1 && ss_fail_kind(err, at.name, line, n, "a scene") != SS_OK)
-        return SS_EDATA;
+        return SS_EKIND;
     if (c == '\0' || (c != EOF && c != '\n'))
         return fail_at(at, err, c == '\0' ? "NUL byte: this is not a text file" : "line too long");
     *end = c == EOF;

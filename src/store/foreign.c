@@ -131,7 +131,7 @@ find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *s
         ss_h5_get_number(group, "start", start);
     H5Gclose(group);
     if (!found || !(*rate > 0) || !isfinite(*rate) || !isfinite(*start))
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, "has no clock; give its rate with ss-cat --rate");
+        return ss_h5_fail(file, SS_ECLOCK, 0, dataset, "has no clock");
     return SS_OK;
 }
 
@@ -205,7 +205,7 @@ ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss
     if (status == SS_OK)
         wrong = get_shape(id, &shape);
     if (status == SS_OK && wrong == NULL && opts != NULL && opts->time != NULL)
-        wrong = "an array has no column of time to choose; give its rate with ss-cat --rate";
+        wrong = "an array has no column of time to choose, only a rate";
     if (wrong != NULL)
         status = ss_h5_fail(file, SS_EDATA, 0, dataset, wrong);
     if (status == SS_OK)

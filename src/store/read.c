@@ -386,8 +386,7 @@ open_reader(ss_store_reader *r)
     if (r->grid == NULL)
         return SS_ENOMEM;
     if (H5Lexists(r->file.id, "wavelet", H5P_DEFAULT) <= 0)
-        return ss_h5_fail(&r->file, SS_EDATA, 0, "",
-                          "no /wavelet in it; ss-morlet -o FILE.h5 makes one");
+        return ss_h5_fail(&r->file, SS_EKIND, 0, "", "no /wavelet in it");
     r->group = ss_h5_open_group(r->file.id, "wavelet");
     if (r->group < 0)
         return ss_h5_fail(&r->file, SS_EDATA, 0, "/wavelet", "not a group of this file");

@@ -217,7 +217,7 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (annotation != NULL
         && ss_fail_kind(err, in->name, annotation, strlen(annotation), wanted) != SS_OK) {
         free(annotation);
-        return SS_EDATA;
+        return SS_EKIND;
     }
     st = annotation != NULL ? make_header(reader, annotation, field[4], channels) : SS_ENOMEM;
     free(annotation);

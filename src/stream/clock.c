@@ -11,7 +11,6 @@
 #include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* sample periods that a stamp may be off */
-#define HINT "; ss-cat --rate HZ takes the rows as uniform, --resample HZ makes them so"
 
 /* The straight line through the stamps over their samples' numbers (least squares) and the stamp
  * farthest from it. */
@@ -59,11 +58,10 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
               ss_error *err)
 {
     if (n < 2)
-        return ss_fail(err, SS_EDATA, "%s: one row has no sample rate; give it with ss-cat --rate", file);
+        return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", file);
     for (size_t i = 1; i < n; i++)
         if (!(t[i] > t[i - 1]))
-            return ss_fail(err, SS_EDATA, "%s:%lu: time stamps do not ascend; ss-cat --rate HZ takes the "
-                           "rows as uniform", file, line[i]);
+            return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps do not ascend", file, line[i]);
     if (!isfinite(t[n - 1] - t[0]))
         return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", file, t[0],
                        t[n - 1]);
@@ -85,9 +83,8 @@ refuse(const char *file, const double *t, const unsigned long *line, size_t n, d
        int gaps, struct line l, ss_error *err)
 {
     if (gaps && l.period > 0)
-        return ss_fail(err, SS_EDATA, "%s:%lu: time stamps are not uniform, with gaps counted too: "
-                       "this one is off by %.3g sample periods, %.1f is allowed; ss-cat --resample "
-                       "HZ --gaps=interpolate (or split) makes them so", file, line[l.worst],
+        return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
+                       "this one is off by %.3g sample periods, %.1f is allowed", file, line[l.worst],
                        l.deviation / l.period, TOLERANCE);
     double off = 0;
     size_t worst = 1;
@@ -102,11 +99,10 @@ refuse(const char *file, const double *t, const unsigned long *line, size_t n, d
     }
     double missing = rint(off / usual);
     if (missing > 0 && t[worst] - t[worst - 1] > usual && fabs(off / usual - missing) <= 2 * TOLERANCE)
-        return ss_fail(err, SS_EDATA, "%s:%lu: %.0f sample%s missing before this time stamp; ss-cat "
-                       "--gaps=split or interpolate fills the gap", file, line[worst], missing,
+        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", file, line[worst], missing,
                        missing > 1 ? "s are" : " is");
-    return ss_fail(err, SS_EDATA, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
-                   "sample periods, %.1f is allowed" HINT, file, line[worst], off / usual, TOLERANCE);
+    return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
+                   "sample periods, %.1f is allowed", file, line[worst], off / usual, TOLERANCE);
 }
 
 /* The samples' numbers, where some may be missing. */

@@ -106,10 +106,10 @@ check_magic(const reader *r, const char *line)
         return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", name);
     if (strcmp(line, COEFFICIENTS_MAGIC) != 0
         && ss_fail_kind(r->err, name, line, strlen(line), "wavelet coefficients") != SS_OK)
-        return SS_EDATA;
+        return SS_EKIND;
     if (strcmp(line, COEFFICIENTS_MAGIC) != 0)
-        return ss_fail(r->err, SS_EDATA, "%s:1: not wavelet coefficients, which begin '%s'; "
-                       "ss-morlet makes them of a signal", name, COEFFICIENTS_MAGIC);
+        return ss_fail(r->err, SS_EKIND, "%s:1: not wavelet coefficients, which begin '%s'",
+                       name, COEFFICIENTS_MAGIC);
     return SS_OK;
 }
 
@@ -147,8 +147,7 @@ read_au_header(reader *r)
         return st;
     if (r->in.head->n_columns != COEFFICIENT_COLUMNS
         || strcmp(r->in.head->column[0].name, "m") != 0)
-        return ss_fail(r->err, SS_EDATA, "%s: AU without coefficients; ss-morlet makes them",
-                       r->in.in.name);
+        return ss_fail(r->err, SS_EKIND, "%s: AU without wavelet coefficients", r->in.in.name);
     if ((st = ss_header_select(&head, r->in.head, NULL, 0, 0)) != SS_OK)
         return st;
     head->has_time = 1;
@@ -171,7 +170,7 @@ read_header(reader *r)
         return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
                        in->name);
     if (!r->au && ss_fail_kind(r->err, in->name, bytes, n, "wavelet coefficients") != SS_OK)
-        return SS_EDATA;
+        return SS_EKIND;
     return r->au ? read_au_header(r) : read_text_header(r);
 }
 

@@ -466,10 +466,9 @@ take_row(struct table *t, char *text, ss_error *err)
             continue;
         }
         if (kind != CELL_NUMBER)
-            return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %snumber%s", name,
-                           line, t->names->column[i].name, t->cell[i],
-                           kind == CELL_NOT_FINITE ? "finite " : "",
-                           missing ? "; ss-cat --gaps=split or interpolate fills the gap" : "");
+            return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a "
+                           "%snumber", name, line, t->names->column[i].name, t->cell[i],
+                           kind == CELL_NOT_FINITE ? "finite " : "");
         ss_status st = check_mark(t, i, err);
         if (st != SS_OK)
             return st;
@@ -620,8 +619,7 @@ take_samples(struct table *t, const double *stamp, ss_error *err)
     t->n_rows = n;
     for (size_t i = 0; !gaps && i < n; i++)
         if (isnan(value[i * t->n_columns]))
-            return ss_fail(err, SS_EDATA, "%s: a gap around %g s, of more than ten usual steps of %g s; "
-                           "ss-cat --gaps=split or interpolate fills the gap", name,
+            return ss_fail(err, SS_EGAPS, "%s: a gap around %g s, of more than ten usual steps of %g s", name,
                            stamp[0] + (double)i / t->names->rate, usual);
     return SS_OK;
 }
@@ -688,13 +686,12 @@ choose_clock(struct table *t, ss_error *err)
             return take_clock(t, i, unit, err);
     if (t->n_columns > 1 && *first != '\0' && find_time_unit(first) != NULL)
         return take_clock(t, 0, first, err);
-    ss_status st = SS_EDATA;
+    ss_status st = SS_ECLOCK;
     if (t->n_columns > 1 && !t->named)          /* a force over its deflection ascends too */
         st = take_clock(t, 0, "", NULL);
-    if (st != SS_EDATA)
+    if (st == SS_OK || st == SS_ENOMEM)
         return st == SS_OK ? SS_OK : out_of_memory(t, err);
-    return ss_fail(err, SS_EDATA, "%s: no column of time; name it with ss-cat --time, or give the "
-                   "sample rate with ss-cat --rate", t->in->name);
+    return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->in->name);
 }
 
 /* Leave the column of time out of the names, which become *head, and of the rows. */

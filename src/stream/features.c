@@ -179,7 +179,7 @@ why_no_fit(const ss_features *f)
     if (f->n < 3 || !isnan(f->frequency.value))
         return NULL;
     return f->recurring > 0
-        ? "none: what recurs lasts under 2 periods or is no damped oscillation; try a part (ss-cat)"
+        ? "none: what recurs lasts under 2 periods or is no damped oscillation; try a part of the record"
         : "none: no local maximum of |W| recurs, as ringing makes them if jumps do not hide it";
 }
 
@@ -191,7 +191,7 @@ write_summary(struct rows *rows, const ss_features *f, const ss_features_opts *o
         ss_rows_note(rows, "fit: %s", why_no_fit(f));
     if (is_missing_slips(f))
         ss_rows_note(rows, "slip_rate_not_known: fewer transitions than repetitions of the signal; "
-                     "try --drop for a force");
+                     "try the falls of a force");
     ss_rows_note(rows, "transitions: %zu -", f->n);
     ss_rows_note(rows, "slips: %zu -", f->slips);
     write_value(rows, "slip_rate", f->slip_rate);

@@ -23,7 +23,7 @@ open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (found->magic == NULL && n >= 4 && memcmp(p, "\211HDF", 4) == 0)
         return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
     if (found->magic == NULL && ss_fail_kind(err, in->name, p, n, "a signal") != SS_OK)
-        return SS_EDATA;
+        return SS_EKIND;
     return found->open(reader, opts, err);
 }
 

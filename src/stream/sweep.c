@@ -148,10 +148,10 @@ take_line(reader *r, char *line, ss_error *err)
     static const char columns[] = "# columns: ", scene[] = "# scene: ";
     if (r->in.line == 1 && strcmp(line, "# stickslip sweep 1") != 0
         && ss_fail_kind(err, r->in.name, line, strlen(line), "a sweep") != SS_OK)
-        return SS_EDATA;
+        return SS_EKIND;
     if (r->in.line == 1 && strcmp(line, "# stickslip sweep 1") != 0)
-        return ss_fail(err, SS_EDATA, "%s:1: not a sweep, which begins '# stickslip sweep 1'; "
-                       "ss-sweep makes one", r->in.name);
+        return ss_fail(err, SS_EKIND, "%s:1: not a sweep, which begins '# stickslip sweep 1'",
+                       r->in.name);
     if (strncmp(line, columns, strlen(columns)) == 0)
         return take_columns(r, line + strlen(columns), err);
     if (strncmp(line, scene, strlen(scene)) == 0 && r->table->scene == NULL

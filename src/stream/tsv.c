@@ -111,7 +111,7 @@ static ss_status
 refuse_magic(const ss_reader *reader, const char *line, ss_error *err)
 {
     if (ss_fail_kind(err, reader->in.name, line, strlen(line), "a signal") != SS_OK)
-        return SS_EDATA;
+        return SS_EKIND;
     return ss_fail(err, SS_EDATA, "%s:1: '%.40s' is not '%s'", reader->in.name, line, SIGNAL_MAGIC);
 }
 

@@ -18,7 +18,8 @@ fuzz_check(int is_true, const char *what)
 void
 fuzz_check_refusal(ss_status status, const ss_error *err)
 {
-    fuzz_check(status == SS_EDATA || status == SS_ENOMEM, "refused as malformed");
+    fuzz_check((status >= SS_EDATA && status <= SS_EUNEVEN) || status == SS_ENOMEM,
+               "refused as malformed");
     fuzz_check(err->text[0] != '\0', "refused with a text");
     for (const char *p = err->text; *p != '\0'; p++)
         fuzz_check(!iscntrl((unsigned char)*p), "refused in one printable line");
