@@ -1,0 +1,73 @@
+# A friction model is a file and a line: a copy of state_variable.c under another name, listed in
+# models.c, is all that is compiled anew.  Every tool then works with it as it does with the
+# original, or refuses in one clear line.
+sed -e 's/ss_state_variable_model/ss_copied_model/' -e 's/"state-variable"/"copied"/' \
+    "$SRC/src/scene/state_variable.c" > copied.c
+# shellcheck disable=SC1003  # a backslash at the end of a line
+sed 's/model(ss_compliant_model)/model(ss_compliant_model) model(ss_copied_model)/' \
+    "$SRC/src/scene/models.c" > models.c
+# shellcheck disable=SC2086  # flags are lists
+$CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -I"$SRC/include" -I"$SRC/src" $INCLUDES -c copied.c models.c
+mkdir bin
+common=
+for source in "$SRC"/tools/*.c; do
+    name=$(basename "$source" .c)
+    case $name in ss-* | paper-*) ;; *) common="$common $BUILD/tools/$name.o" ;; esac
+done
+for tool in sim trade rank sweep; do
+    # what is linked first takes the place of the library's models.o
+    # shellcheck disable=SC2086
+    $CCLD -o bin/ss-$tool "$BUILD/tools/ss-$tool.o" $common models.o copied.o \
+        "$BUILD/libstickslip.a" $LIBS &
+done
+wait
+sim() { bin/ss-sim -s duration=0.2 -s settle=0 "$@"; }
+refused() { "$@" > refused.out || echo "exit $?"; cat refused.out; }
+ss-sim --list state-variable > original.scene
+bin/ss-sim --list -s model=copied original.scene > copied.scene
+diff original.scene copied.scene || true
+
+echo '-- ss-sim, by every method'
+for method in $(ss-sim --list | sed -n 's/^methods: *exact//p'); do
+    case $method in
+    rk1imp)      tol=1e-3 ;;
+    rk2* | rk4*) tol=1e-6 ;;
+    *)           tol=1e-9 ;;
+    esac
+    for scene in copied original; do
+        sim -m "$method" -t $tol $scene.scene | grep -v '^# ' > $scene.tsv
+    done
+    cmp copied.tsv original.tsv && echo "$method: $(grep -c . copied.tsv)"
+done
+for scene in copied original; do
+    sim --accuracy 1e-6 $scene.scene | grep -v '^# ' > $scene.tsv
+done
+cmp copied.tsv original.tsv && echo "--accuracy: $(grep -c . copied.tsv)"
+refused sim -m exact copied.scene
+refused sim -m exact --accuracy 1e-6 copied.scene
+refused sim -s contact_damping=3 copied.scene
+refused sim -s alpha=-1 copied.scene
+refused sim -s model=coulumb copied.scene
+sim --events copied.scene | grep -v '^# [a-z0-9_]*: [a-z0-9.-]*$'
+
+echo '-- ss-trade'
+bin/ss-trade -b 0.1 -s duration=0.05 -s settle=0 copied.scene | sed '/^#/d' | cut -f 1 | uniq -c
+bin/ss-trade --target 1e-6 -s duration=0.05 -s settle=0 copied.scene | sed 's/ [a-z0-9]* --tol .*/ .../'
+
+echo '-- ss-rank'
+bin/ss-sim copied.scene > signal.tsv
+ss-sim --list coulomb > coulomb.scene
+bin/ss-rank signal.tsv coulomb.scene copied.scene > ranking.tsv
+grep '^# answer' ranking.tsv
+refused bin/ss-rank --fit signal.tsv copied.scene
+
+echo '-- ss-sweep'
+for scene in copied original; do
+    bin/ss-sweep --vary friction=1.2:1.28:2 --measure amplitude,energy,transition,period $scene.scene |
+        grep -v '^# \(scene\|model\)' > $scene.tsv
+done
+cmp copied.tsv original.tsv && tail -n 2 copied.tsv | cut -f 7
+refused bin/ss-sweep --vary friction=0.5:1:2 --measure stops copied.scene
+refused bin/ss-sweep --vary friction=0.5:1:2 --measure floquet copied.scene
+refused bin/ss-sweep --vary friction=0.5:1:2 --shoot copied.scene
+refused bin/ss-sweep --vary contact_damping=1:2:2 copied.scene
