@@ -3,25 +3,15 @@
 #define ENGINE_H
 
 #include <stickslip/sim.h>
-#include "motion/instant.h"
-#include "scene/model.h"
-
-typedef struct motion {
-    state now;                      /* at the start of the present step */
-    instant origin;                 /* now.u, the time within a mode, counts from here */
-    double phase;                   /* of the base at t = 0, in [-pi, pi] */
-    double doubt;                   /* what tolerance or rounding leaves of x in a step [m] */
-    double x_begin;                 /* where the mode began */
-    unsigned long unresolved;       /* slips over no more than the doubt */
-} motion;
+#include "motion/motion.h"
 
 typedef struct engine engine;
 
-/* Where a state is asked for.  A run of samples, each one interval after the last, may be carried on
+/* What a state is read for.  A run of samples, each one interval after the last, may be carried on
  * from one to the next. */
-typedef enum place {
+typedef enum reading {
     ANYWHERE, FIRST_SAMPLE, NEXT_SAMPLE
-} place;
+} reading;
 
 struct engine_type {
     /* The motion has entered a mode: forget what belonged to the last one. */
@@ -34,7 +24,7 @@ struct engine_type {
     int (*ahead)(engine *e, double s_max, double *s_event);
     /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change; base
      * is the phase there. */
-    void (*at)(engine *e, place where, double s, turn base, double q[], double dqdt[]);
+    void (*at)(engine *e, reading where, double s, turn base, double q[], double dqdt[]);
     /* The motion has come to the end of the step: count u from a new origin if it is time to. */
     void (*go_on)(engine *e);
     void (*free)(engine *e);
@@ -52,29 +42,26 @@ struct engine {
 };
 
 #define EXACT "exact"                       /* what methods in closed form are called */
-const char *ss_ode_method_name(size_t i);      /* NULL after the last */
+/* An engine by its method's name, for the motion as it stands. */
+ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err);
+
+const char *ss_ode_method_name(size_t i);   /* NULL after the last */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
-ss_status ss_exact_check(const struct model *model, ss_error *err);   /* has it a closed form? */
+ss_status ss_exact_check(const struct model *model, ss_error *err);    /* has it a closed form? */
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 /* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over
  * mass has done (G), in the present mode of an exact engine; their rates of change are -(k/m) S,
  * C - (c/m) S and S. */
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
-/* run.c: SS_OK if the scene is one and its record can be counted. */
-ss_status ss_record_check(const ss_scene *scene, ss_error *err);
-/* run.c: what a walk shares with a record. */
-double ss_step_cap(const state *m);                 /* the longest step in the mode */
-void ss_motion_rebase(motion *m);                   /* let u count from the present step */
-int ss_motion_start(motion *m);                     /* 1 if it starts in slip */
-unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
-motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 /* Take a step, see struct engine_type; SS_ERANGE if it leads to what is not finite. */
 ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
 /* Whether the mode ends within the step just taken, and when; as above. */
 ss_status ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err);
 int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s from now */
 void ss_engine_accept(engine *e);                           /* it does not */
-ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
+
+/* run.c: SS_OK if the scene is one and its record can be counted. */
+ss_status ss_record_check(const ss_scene *scene, ss_error *err);
 
 #endif

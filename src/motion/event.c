@@ -7,7 +7,7 @@
  *
  * A guard that is negative at the end has crossed; one that falls at the start and rises at the end
  * has a minimum between, which may be negative: such a pair of crossings is what a look at the ends
- * alone loses.  The step caps (run.c) leave no room for more than one minimum. */
+ * alone loses.  The step caps (motion.h) leave no room for more than one minimum. */
 #include "motion/event.h"
 
 #include <math.h>

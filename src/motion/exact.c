@@ -272,7 +272,7 @@ ss_exact_response(const engine *e, double s, double *C, double *S, double *G)
 }
 
 static void
-exact_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
+exact_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
 {
     exact *x = (exact *)e;
     double u = e->m->now.u + s;

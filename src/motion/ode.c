@@ -2,7 +2,7 @@
  *
  * GSL has no dense output.  Linear modes know the higher derivatives of their state, so what lies
  * inside a step is read off the polynomial of degree 9 that has the state and four derivatives at
- * both ends (Hermite).  With the cap of run.c, w h = 2 pi / 40, it is off by
+ * both ends (Hermite).  With the cap of motion.h, w h = 2 pi / 40, it is off by
  * (w h)^10 / 10! / 4^5 = 2e-18 of the amplitude: rounding is all that it adds, whatever the method.
  * The state variable, which may be stiff and has no such cap, is stepped again from the step's
  * start by one-step methods; multistep ones, whose memory that would spoil, land on every sample. */
@@ -236,7 +236,7 @@ read_curve(const ode *o, double x, double q[])
 }
 
 static void
-ode_at(engine *e, place where, double s, turn base, double q[], double dqdt[])
+ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
 {
     ode *o = (ode *)e;
     const state *m = &e->m->now;

@@ -6,39 +6,13 @@
  * the samples.) */
 #include <stickslip/sim.h>
 
-#include <float.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
 #include "motion/engine.h"
-#include "motion/event.h"
-
-/* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
- * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and a guard has at most one extremum a step. */
-enum { STEPS_PER_PERIOD = 40 };
-
-double
-ss_step_cap(const state *m)
-{
-    return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
-}
-
-/* Chatter: so many events in a row, each within so small a part of the fastest period of the last,
- * are the rounding of one grazing contact and no motion. */
-enum { CHATTER_EVENTS = 1000 };
-#define CHATTER_PART 1e-6
-
-enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
 
 const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
-
-const char *
-ss_sim_method_name(size_t i)
-{
-    return i == 0 ? EXACT : ss_ode_method_name(i - 1);
-}
 
 const char *
 ss_event_kind_name(ss_event_kind kind)
@@ -47,62 +21,7 @@ ss_event_kind_name(ss_event_kind kind)
     return (unsigned)kind <= SS_REVERSE ? name[kind] : "?";
 }
 
-const char *
-ss_sim_method_for(const ss_scene *scene)
-{
-    const struct model *model = scene != NULL ? ss_model_of(scene) : NULL;
-    if (model == NULL)
-        return NULL;
-    return model->stiff != NULL && model->stiff(scene) ? "bsimp" : "rk8pd";
-}
-
-/* --- the motion ---------------------------------------------------------------------------- */
-
-/* Let u count from the instant of the present step, with the phase there. */
-void
-ss_motion_rebase(motion *m)
-{
-    state *now = &m->now;
-    m->origin = instant_add(m->origin, now->u);
-    now->u = 0;
-    now->theta = 2 * M_PI * instant_cycles(m->origin, now->scene->base_frequency) + m->phase;
-}
-
-/* What the closed form rounds off of x: an ulp for each of its four terms. */
-#define EXACT_DOUBT (4 * DBL_EPSILON)
-
-motion
-ss_motion_of(const ss_scene *scene, int exact, double tol)
-{
-    motion m = { .now = ss_state_of(scene, tol) };
-    m.phase = m.now.theta;
-    m.doubt = m.now.x_scale * (exact ? EXACT_DOUBT : tol);
-    return m;
-}
-
-/* Enter the first mode; 1 if it starts in slip. */
-int
-ss_motion_start(motion *m)
-{
-    int slips = m->now.model->start(&m->now);
-    m->x_begin = m->now.x_ref + m->now.q[0];
-    return slips;
-}
-
-unsigned long
-ss_motion_unresolved(const motion *m)
-{
-    return m->unresolved + m->now.touches;
-}
-
-/* The phase of the base at t. */
-static turn
-base_at(const motion *m, instant t)
-{
-    return turn_of(2 * M_PI * instant_cycles(t, m->now.scene->base_frequency) + m->phase);
-}
-
-/* --- the record ---------------------------------------------------------------------------- */
+enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
 
 typedef struct record {
     const ss_scene *scene;
@@ -166,7 +85,7 @@ fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
     const motion *m = e->m;
     double q[MAX_DIM], dqdt[MAX_DIM] = { 0 };
     int renew = r->i % RENEWAL == 0;
-    r->base = renew ? base_at(m, instant_of_sample(r, r->i))
+    r->base = renew ? ss_motion_base(m, instant_of_sample(r, r->i))
         : turn_further(r->base, r->base_further);
     if (still)
         memcpy(q, m->now.q, sizeof q);
@@ -237,63 +156,6 @@ write_event(record *r, const motion *m, ss_event *e)
 
 /* --- from event to event ------------------------------------------------------------------- */
 
-static guard_value
-guard_at(double s, void *user)
-{
-    engine *e = user;
-    const state *m = &e->m->now;
-    double q[MAX_DIM], dqdt[MAX_DIM];
-    guard_value at;
-    e->type->at(e, ANYWHERE, s, base_turn(m, m->u + s), q, dqdt);
-    at.g = m->model->guard(m, q, dqdt, &at.slope);
-    e->lost |= isnan(at.g);
-    return at;
-}
-
-static ss_status
-fail_lost(const engine *e, ss_error *err)
-{
-    return ss_fail(err, SS_ERANGE, "the state or its rate of change is not finite at t = %.9g s: "
-                   "numbers of this scene lie beyond double precision",
-                   e->m->origin.hi + e->m->now.u + e->h);
-}
-
-ss_status
-ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
-{
-    const state *m = &e->m->now;
-    guard_value at_0, at_h;
-    *ends = 0;
-    if (m->model->guard == NULL)
-        return SS_OK;
-    at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
-    at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
-    *ends = ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
-    return e->lost ? fail_lost(e, err) : SS_OK;
-}
-
-/* The mode has ended s from now: enter the next one.  1 if that is an event. */
-int
-ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
-{
-    motion *m = e->m;
-    state *now = &m->now;
-    if (!still) {
-        double q[MAX_DIM], dqdt[MAX_DIM];
-        e->type->at(e, ANYWHERE, s, base_turn(now, now->u + s), q, dqdt);
-        memcpy(now->q, q, sizeof q);
-    }
-    now->u += s;
-    ss_motion_rebase(m);
-    if (now->mode != 0 && fabs(now->x_ref + now->q[0] - m->x_begin) <= m->doubt)
-        m->unresolved++;
-    if (!now->model->next(now, event))
-        return 0;
-    m->x_begin = now->x_ref + now->q[0];
-    e->events++;
-    return 1;
-}
-
 static ss_status
 change_mode(record *r, engine *e, int still, double s)
 {
@@ -302,40 +164,6 @@ change_mode(record *r, engine *e, int still, double s)
     if (ss_engine_next_mode(e, still, s, &event))
         st = write_event(r, e->m, &event);
     return st == SS_OK ? e->type->begin(e) : st;
-}
-
-/* A step, unless it leads to what is not finite: then a rate of change is not, since each part of
- * the state is in one (and those that a model does not have are 0). */
-ss_status
-ss_engine_step(engine *e, double h_max, ss_error *err)
-{
-    ss_status st = e->type->step(e, h_max, err);
-    if (st != SS_OK || 0 * e->dq1[0] + 0 * e->dq1[1] + 0 * e->dq1[2] == 0)
-        return st;
-    return fail_lost(e, err);
-}
-
-/* The step is done with, and no event was in it. */
-void
-ss_engine_accept(engine *e)
-{
-    state *m = &e->m->now;
-    memcpy(m->q, e->q1, sizeof m->q);
-    memcpy(e->dq0, e->dq1, sizeof e->dq0);
-    m->u += e->h;
-    e->type->go_on(e);
-}
-
-ss_status
-ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
-{
-    double period = 2 * M_PI / m->now.model->fastest(&m->now, NULL);
-    *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
-    if (*in_a_row <= CHATTER_EVENTS)
-        return SS_OK;
-    return ss_fail(err, SS_ECHATTER, "more than %d events in a row at t = %.9g s, each within "
-                   "%.2g s of the last: the contact grazes its limit", CHATTER_EVENTS,
-                   m->origin.hi, CHATTER_PART * period);
 }
 
 /* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
@@ -509,7 +337,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     st = check_length(&r, &m.now, exact, err);
     if (st != SS_OK)
         return st;
-    st = exact ? ss_exact_new(&e, &m, err) : ss_ode_new(&e, &m, method, opts->tol, err);
+    st = ss_engine_new(&e, &m, method, opts->tol, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)
@@ -518,142 +346,5 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
         *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, ss_motion_unresolved(&m) };
     if (e != NULL)
         e->type->free(e);
-    return st;
-}
-
-/* --- as a signal --------------------------------------------------------------------------- */
-
-static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
-    { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "y", "m" }, { "z", "m" },
-    { "mode", "" }
-};
-
-ss_status
-ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
-{
-    if (out == NULL || list == NULL)
-        return SS_FAIL_NULL(err);
-    ss_sim_columns columns = { 0 };
-    for (const char *name = list;; name++) {
-        size_t length = strcspn(name, ",");
-        int c = 0, repeated = 0;
-        if (length == 1 && *name == 't' && name == list) {
-            columns.has_time = 1;
-        } else {
-            while (c < SS_SIM_COLUMNS && (strlen(column[c].name) != length
-                                          || strncmp(name, column[c].name, length) != 0))
-                c++;
-            for (size_t i = 0; i < columns.n; i++)
-                repeated |= columns.pick[i] == c;
-            if (c == SS_SIM_COLUMNS || repeated)
-                return ss_fail(err, SS_EINVAL, repeated ? "'%.*s' is there twice in '%s'"
-                               : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, y, z, "
-                               "mode", (int)length, name, list);
-            columns.pick[columns.n++] = c;
-        }
-        name += length;
-        if (*name == '\0')
-            break;
-    }
-    if (columns.n == 0)
-        return ss_fail(err, SS_EINVAL, "a signal needs a column besides t");
-    *out = columns;
-    return SS_OK;
-}
-
-void
-ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
-{
-    if (columns == NULL || s == NULL || row == NULL)
-        return;
-    const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->y, s->z, s->mode };
-    for (size_t i = 0; i < columns->n; i++)
-        row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
-}
-
-/* The scene's own text as notes, but for the rate, which every header has. */
-static ss_status
-note_scene(ss_header *head, const ss_scene *scene)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_scene_write(scene, out);
-    if (fclose(out) != 0)
-        st = SS_ENOMEM;
-    for (char *line = text; st == SS_OK && *line != '\0';) {
-        char *equals = strstr(line, " = "), *end = strchr(line, '\n');
-        *equals = *end = '\0';
-        if (strcmp(line, "rate") != 0)
-            st = ss_header_note(head, line, equals + 3);
-        line = end + 1;
-    }
-    free(text);
-    return st;
-}
-
-ss_header *
-ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns)
-{
-    if (scene == NULL || columns == NULL)
-        return NULL;
-    ss_header *head = ss_header_new(scene->rate, 0);
-    if (head == NULL)
-        return NULL;
-    head->has_time = columns->has_time;
-    ss_status st = note_scene(head, scene);
-    for (size_t i = 0; st == SS_OK && i < columns->n; i++)
-        st = ss_header_add_column(head, column[columns->pick[i]].name,
-                                  column[columns->pick[i]].unit);
-    if (st == SS_OK)
-        return head;
-    ss_header_free(head);
-    return NULL;
-}
-
-struct collector {
-    const ss_sim_columns *columns;
-    ss_signal *signal;
-    size_t i;
-};
-
-static int
-collect(const ss_sample *s, size_t n, void *user)
-{
-    struct collector *c = user;
-    double row[SS_SIM_COLUMNS];
-    for (size_t k = 0; k < n; k++, c->i++) {
-        ss_sim_row(c->columns, &s[k], row);
-        for (size_t j = 0; j < c->columns->n; j++)
-            c->signal->values[j * c->signal->n + c->i] = row[j];
-    }
-    return 0;
-}
-
-ss_status
-ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err)
-{
-    if (out == NULL)
-        return SS_FAIL_NULL(err);
-    const ss_sim_columns columns = { 1, 4, { 0, 1, 2, 3 } };
-    ss_status st = ss_scene_check(scene, err);
-    if (st != SS_OK)
-        return st;
-    struct collector c = { &columns, NULL, 0 };
-    ss_header *head = ss_sim_header(scene, &columns);
-    st = head != NULL ? ss_signal_new(&c.signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
-    ss_header_free(head);
-    if (st != SS_OK)
-        return ss_fail(err, st, "%s", ss_strerror(st));
-    ss_sim_opts opts = ss_sim_defaults;
-    opts.samples = collect;
-    opts.user = &c;
-    st = ss_sim_run(scene, &opts, NULL, err);
-    if (st == SS_OK)
-        *out = c.signal;
-    else
-        ss_signal_free(c.signal);
     return st;
 }

@@ -15,8 +15,7 @@ ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error 
     int exact = strcmp(method, EXACT) == 0;
     *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
     ss_motion_start(&w->m);
-    ss_status st = exact ? ss_exact_new(&w->e, &w->m, err)
-                         : ss_ode_new(&w->e, &w->m, method, opts->tol, err);
+    ss_status st = ss_engine_new(&w->e, &w->m, method, opts->tol, err);
     return st == SS_OK ? w->e->type->begin(w->e) : st;
 }
 

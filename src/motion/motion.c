@@ -1,0 +1,72 @@
+/* motion.c -- a motion in time: its clock, its steps' limit, its first mode, its chatter. */
+#include "motion/motion.h"
+
+#include <float.h>
+#include "base/error.h"
+
+double
+ss_step_cap(const state *m)
+{
+    return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
+}
+
+/* Let u count from the instant of the present step, with the phase there. */
+void
+ss_motion_rebase(motion *m)
+{
+    state *now = &m->now;
+    m->origin = instant_add(m->origin, now->u);
+    now->u = 0;
+    now->theta = 2 * M_PI * instant_cycles(m->origin, now->scene->base_frequency) + m->phase;
+}
+
+/* What the closed form rounds off of x: an ulp for each of its four terms. */
+#define EXACT_DOUBT (4 * DBL_EPSILON)
+
+motion
+ss_motion_of(const ss_scene *scene, int exact, double tol)
+{
+    motion m = { .now = ss_state_of(scene, tol) };
+    m.phase = m.now.theta;
+    m.doubt = m.now.x_scale * (exact ? EXACT_DOUBT : tol);
+    return m;
+}
+
+/* Enter the first mode; 1 if it starts in slip. */
+int
+ss_motion_start(motion *m)
+{
+    int slips = m->now.model->start(&m->now);
+    m->x_begin = m->now.x_ref + m->now.q[0];
+    return slips;
+}
+
+unsigned long
+ss_motion_unresolved(const motion *m)
+{
+    return m->unresolved + m->now.touches;
+}
+
+/* The phase of the base at t. */
+turn
+ss_motion_base(const motion *m, instant t)
+{
+    return turn_of(2 * M_PI * instant_cycles(t, m->now.scene->base_frequency) + m->phase);
+}
+
+/* Chatter: so many events in a row, each within so small a part of the fastest period of the last,
+ * are the rounding of one grazing contact and no motion. */
+enum { CHATTER_EVENTS = 1000 };
+#define CHATTER_PART 1e-6
+
+ss_status
+ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
+{
+    double period = 2 * M_PI / m->now.model->fastest(&m->now, NULL);
+    *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
+    if (*in_a_row <= CHATTER_EVENTS)
+        return SS_OK;
+    return ss_fail(err, SS_ECHATTER, "more than %d events in a row at t = %.9g s, each within "
+                   "%.2g s of the last: the contact grazes its limit", CHATTER_EVENTS,
+                   m->origin.hi, CHATTER_PART * period);
+}

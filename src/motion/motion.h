@@ -1,0 +1,32 @@
+/* motion.h -- the state of a scene as it moves in time. */
+#ifndef MOTION_H
+#define MOTION_H
+
+#include "motion/instant.h"
+#include "scene/model.h"
+
+typedef struct motion {
+    state now;                      /* at the start of the present step */
+    instant origin;                 /* now.u, the time within a mode, counts from here */
+    double phase;                   /* of the base at t = 0, in [-pi, pi] */
+    double doubt;                   /* what tolerance or rounding leaves of x in a step [m] */
+    double x_begin;                 /* where the mode began */
+    unsigned long unresolved;       /* slips over no more than the doubt */
+} motion;
+
+/* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
+ * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and a guard has at most one extremum a step. */
+enum { STEPS_PER_PERIOD = 40 };
+
+double ss_step_cap(const state *m);                 /* the longest step in the mode */
+
+/* At t = 0, before its first mode.  exact: it is moved in closed form. */
+motion ss_motion_of(const ss_scene *scene, int exact, double tol);
+int ss_motion_start(motion *m);                     /* enter that; 1 if it starts in slip */
+void ss_motion_rebase(motion *m);                   /* let u count from the present step */
+turn ss_motion_base(const motion *m, instant t);    /* the phase of the base */
+unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
+/* A mode has lasted so long: SS_ECHATTER after too many short ones in a row. */
+ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
+
+#endif
