@@ -6,18 +6,25 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* The list, moved if need be, with room for one more behind its n of size bytes each: it doubles.
+/* The list, moved if need be, with room for need entries of size bytes each: it grows to twice that.
  * NULL: no memory; the list is as it was. */
 static inline void *
-ss_list_room(void *list, size_t *room, size_t n, size_t size)
+ss_list_grow(void *list, size_t *room, size_t need, size_t size)
 {
-    if (n < *room)
+    if (need <= *room && list != NULL)
         return list;
-    size_t more = 2 * *room + 64;
+    size_t more = need <= SIZE_MAX / 4 ? 2 * need + 62 : SIZE_MAX;
     void *longer = more <= SIZE_MAX / size ? realloc(list, more * size) : NULL;
     if (longer != NULL)
         *room = more;
     return longer;
+}
+
+/* The same with room for one more behind the n that there are. */
+static inline void *
+ss_list_room(void *list, size_t *room, size_t n, size_t size)
+{
+    return ss_list_grow(list, room, n + 1, size);
 }
 
 /* The first of n entries of size bytes that is not before t; each begins with its time. */

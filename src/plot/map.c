@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/list.h"
+#include "base/sort.h"
 
 enum { REGIONS_MAX = 10, LEVELS_MAX = 40, LABELS_MAX = 80 };
 #define LONG 0.15                       /* a line worth a second label: in widths of the map */
@@ -35,13 +37,6 @@ typedef struct grid {
     axis x, y;
     size_t *row;                    /* of the table at x i, y j: row[j * x.n + i]; SIZE_MAX: none */
 } grid;
-
-static int
-ascending(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
 
 /* The step that varies less over the values is the grid's. */
 static int
@@ -70,7 +65,7 @@ make_axis(axis *a, const ss_sweep_table *t, size_t column, ss_error *err)
     for (size_t i = 0; i < t->n; i++)
         if (isfinite(a->column[i]))
             a->value[found++] = a->column[i];
-    qsort(a->value, found, sizeof *a->value, ascending);
+    qsort(a->value, found, sizeof *a->value, ss_ascending);
     for (size_t i = 0; i < found; i++)
         if (a->n == 0 || a->value[i] != a->value[a->n - 1])
             a->value[a->n++] = a->value[i];
@@ -86,7 +81,7 @@ make_axis(axis *a, const ss_sweep_table *t, size_t column, ss_error *err)
 static size_t
 find(const axis *a, double x)
 {
-    const double *at = bsearch(&x, a->value, a->n, sizeof x, ascending);
+    const double *at = bsearch(&x, a->value, a->n, sizeof x, ss_ascending);
     return (size_t)(at - a->value);
 }
 
@@ -178,7 +173,7 @@ find_regions(regions *r, const grid *g, const double *column)
             return 0;
         r->value[r->n++] = z;
     }
-    qsort(r->value, r->n, sizeof *r->value, ascending);
+    qsort(r->value, r->n, sizeof *r->value, ss_ascending);
     return r->n > 0;
 }
 
@@ -265,29 +260,15 @@ is_known(const line_sink *s, const double point[2])
     return isfinite(sum);
 }
 
-static int
-has_room(void **array, size_t *room, size_t need, size_t size)
-{
-    if (need <= *room)
-        return 1;
-    size_t more = 2 * need + 64;
-    void *wider = more < SIZE_MAX / size ? realloc(*array, more * size) : NULL;
-    if (wider == NULL)
-        return 0;
-    *array = wider;
-    *room = more;
-    return 1;
-}
-
 static void
 keep_piece(line_sink *s, const double (*point)[2], size_t n)
 {
     piece p = { s->n_points, n, s->level, 0, 0 };
-    void *points = s->point, *pieces = s->piece;
-    s->no_memory |= !has_room(&points, &s->points_room, s->n_points + n, sizeof *s->point)
-        || !has_room(&pieces, &s->pieces_room, s->n_pieces + 1, sizeof *s->piece);
-    s->point = points;
-    s->piece = pieces;
+    void *points = ss_list_grow(s->point, &s->points_room, s->n_points + n, sizeof *s->point);
+    s->point = points != NULL ? points : s->point;
+    void *pieces = ss_list_room(s->piece, &s->pieces_room, s->n_pieces, sizeof *s->piece);
+    s->piece = pieces != NULL ? pieces : s->piece;
+    s->no_memory |= points == NULL || pieces == NULL;
     if (s->no_memory)
         return;
     memcpy(s->point + s->n_points, point, n * sizeof *point);
@@ -405,7 +386,7 @@ choose_levels(double level[LEVELS_MAX], double *sorted, size_t n)
 {
     static const double digit[] = { 1, 2, 5 };
     size_t count = 0;
-    qsort(sorted, n, sizeof *sorted, ascending);
+    qsort(sorted, n, sizeof *sorted, ss_ascending);
     double least = sorted[0];
     while (least == 0 && n > 1 && sorted[0] == 0)
         sorted++, n--;

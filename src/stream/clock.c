@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/sort.h"
 #include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* sample periods that a stamp may be off */
@@ -46,13 +47,6 @@ fit(const double *t, const size_t *sample, size_t n)
     return l;
 }
 
-static int
-ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 ss_status
 ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n, double *usual,
               ss_error *err)
@@ -70,7 +64,7 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
         return ss_fail(err, SS_ENOMEM, "%s: %s", file, ss_strerror(SS_ENOMEM));
     for (size_t i = 1; i < n; i++)
         step[i - 1] = t[i] - t[i - 1];
-    qsort(step, n - 1, sizeof *step, ascending);
+    qsort(step, n - 1, sizeof *step, ss_ascending);
     *usual = step[(n - 2) / 2];                 /* the lower median: gaps lengthen steps */
     free(step);
     return SS_OK;

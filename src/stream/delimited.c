@@ -8,6 +8,7 @@
 #include <string.h>
 #include <strings.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "base/utf8.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
@@ -85,13 +86,10 @@ split(struct table *t, char *p, char separator)
 {
     size_t n = 0;
     for (int more = 1; more; ) {
-        if (n == t->cell_room) {
-            char **cell = realloc(t->cell, (2 * n + 16) * sizeof *cell);
-            if (cell == NULL)
-                return NONE;
-            t->cell = cell;
-            t->cell_room = 2 * n + 16;
-        }
+        char **cell = ss_list_room(t->cell, &t->cell_room, n, sizeof *cell);
+        if (cell == NULL)
+            return NONE;
+        t->cell = cell;
         p += separator == '\t' ? strspn(p, " ") : strspn(p, " \t");
         char *begin = p, *end = *p == '"' ? unquote(p) : p;
         end += separator == ' ' ? strcspn(end, " \t") : separator == '\0' ? strlen(end)

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "signal/header.h"
 #include "stream/input.h"
 #include "stream/rows.h"
@@ -117,15 +118,10 @@ take_row(reader *r, char *line, ss_error *err)
     if (t->n_columns == 0)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->in.name,
                        r->in.line);
-    if (t->n == r->room) {
-        size_t more = r->room > 0 ? 2 * r->room : 1 + 1024 / t->n_columns;
-        double *rows = more <= SIZE_MAX / sizeof *rows / t->n_columns
-            ? realloc(r->rows, more * t->n_columns * sizeof *rows) : NULL;
-        if (rows == NULL)
-            return no_memory(err);
-        r->rows = rows;
-        r->room = more;
-    }
+    double *rows = ss_list_room(r->rows, &r->room, t->n, t->n_columns * sizeof *rows);
+    if (rows == NULL)
+        return no_memory(err);
+    r->rows = rows;
     double *row = r->rows + t->n++ * t->n_columns;
     size_t found = 1;
     for (const char *p = line; *p != '\0'; p++)

@@ -17,8 +17,9 @@
 #include <string.h>
 #include <time.h>
 #include "base/error.h"
-#include "base/progress.h"
 #include "base/list.h"
+#include "base/progress.h"
+#include "base/sort.h"
 #include "motion/engine.h"
 #include "study/trade/common.h"
 
@@ -401,13 +402,6 @@ measure_row(table *t, ss_trade_row *row)
     return st;
 }
 
-static int
-ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* In turns, so that what disturbs the machine falls on all alike; the medians count. */
 ss_status
 ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
@@ -423,7 +417,7 @@ ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
         }
     for (size_t i = 0; st == SS_OK && i < trade->n; i++)
         if (trade->row[i].status == SS_OK && trade->row[i].seconds <= SHORT) {
-            qsort(seconds[i], REPEATS, sizeof *seconds[i], ascending);
+            qsort(seconds[i], REPEATS, sizeof *seconds[i], ss_ascending);
             trade->row[i].seconds = seconds[i][REPEATS / 2];
         }
     free(seconds);
