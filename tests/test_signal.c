@@ -409,7 +409,8 @@ reads_every_au_encoding(void **state)
 #define HEAD "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m v/(m/s)\n"
 static const struct { const char *bytes; size_t n; const char *error; } malformed[] = {
     { BYTES(""), "in: empty" },
-    { BYTES("RIFF....WAVE"), "in: a sound file, not a signal; sox FILE -t au - makes a signal of it" },
+    { BYTES("RIFF....WAVE"), "in: truncated WAV header" },
+    { BYTES("fLaC........"), "in: a sound file, not a signal; sox FILE -t au - makes a signal of it" },
     { BYTES("\211HDF\r\n\032\n...."), "in: HDF5 cannot be read from a stream; give its path" },
     { BYTES("# stickslip coefficients 1\n"), "in: wavelet coefficients, not a signal" },
     { BYTES("# stickslip signal 2\n"), "in:1: '# stickslip signal 2' is not '# stickslip signal 1'" },

@@ -11,6 +11,7 @@
 #include "stream/au.h"
 #include "stream/clock.h"
 #include "stream/format.h"
+#include "stream/frames.h"
 #include "stream/reader.h"
 
 /* What is believed; the annotation is the rest of the header. */
@@ -19,114 +20,13 @@ enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 #define UNKNOWN_SIZE UINT32_C(0xffffffff)
 
 /* Bytes a value, by the encoding of the file; 0 is not supported. */
-static const size_t width[] = { 0, 0, 1, 2, 3, 4, 4, 8 };
+static const unsigned width[] = { 0, 0, 1, 2, 3, 4, 4, 8 };
+enum { ENCODING_FLOAT = 6, ENCODING_DOUBLE = 7 };
 
-static uint64_t
-big_endian(const unsigned char *p, size_t n)
+static uint32_t
+big_endian(const unsigned char *p)
 {
-    uint64_t x = 0;
-    for (size_t i = 0; i < n; i++)
-        x = x << 8 | p[i];
-    return x;
-}
-
-static double
-decode(const unsigned char *p, int encoding)
-{
-    uint64_t bits = big_endian(p, width[encoding]);
-    if (encoding == 7) {
-        double x;
-        memcpy(&x, &bits, sizeof x);
-        return x;
-    }
-    if (encoding == 6) {
-        uint32_t half = (uint32_t)bits;
-        float x;
-        memcpy(&x, &half, sizeof x);
-        return x;
-    }
-    double full = ldexp(1, 8 * (int)width[encoding] - 1);   /* two's complement, to [-1, 1) */
-    return (double)bits / full - ((double)bits >= full ? 2 : 0);
-}
-
-static ss_status
-refuse_end(const ss_reader *reader, size_t frame, size_t rest, ss_error *err)
-{
-    unsigned long long row = reader->row;
-    if (rest > 0)
-        return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu",
-                       reader->in.name, rest, frame, row + 1);
-    return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end "
-                   "that its header gives", reader->in.name, row,
-                   (unsigned long long)reader->bytes_left);
-}
-
-static ss_status
-decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
-{
-    size_t bytes = width[reader->encoding];
-    for (size_t c = 0; c < reader->head->n_columns; c++) {
-        row[c] = decode((const unsigned char *)p + c * bytes, reader->encoding);
-        if (!isfinite(row[c]))
-            return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
-                           reader->in.name, (unsigned long long)reader->row + 1,
-                           reader->head->column[c].name);
-    }
-    reader->row++;
-    return SS_OK;
-}
-
-/* Behind the data that the header gives there must be nothing: which of the two is right? */
-static ss_status
-refuse_more(ss_reader *reader, ss_error *err)
-{
-    struct input *in = &reader->in;
-    ss_status st = ss_input_need(in, 1, err);
-    if (st != SS_OK || in->hi == in->lo)
-        return st;
-    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
-                   "cuts it there", in->name, (unsigned long long)reader->row,
-                   (unsigned long long)reader->end);
-}
-
-static ss_status
-au_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
-{
-    struct input *in = &reader->in;
-    size_t n_columns = reader->head->n_columns, frame = n_columns * width[reader->encoding];
-    for (; *n < max && reader->bytes_left > 0; ++*n) {
-        if (*n > 0 && in->hi - in->lo < frame)
-            break;
-        ss_status st = ss_input_need(in, frame, err);
-        if (st != SS_OK)
-            return st;
-        size_t there = in->hi - in->lo;
-        if (there == 0 && reader->bytes_left == UINT64_MAX)
-            break;
-        if (there < frame || reader->bytes_left < frame)
-            return refuse_end(reader, frame, reader->bytes_left < there
-                              ? (size_t)reader->bytes_left : there, err);
-        st = decode_row(reader, in->buffer + in->lo, rows + *n * n_columns, err);
-        if (st != SS_OK)
-            return st;
-        in->lo += frame;
-        if (reader->bytes_left != UINT64_MAX)
-            reader->bytes_left -= frame;
-    }
-    return *n == 0 && reader->bytes_left == 0 ? refuse_more(reader, err) : SS_OK;
-}
-
-/* The columns that a file without names has. */
-static ss_status
-number_channels(ss_header *head, size_t n)
-{
-    char name[32];
-    ss_status st = SS_OK;
-    for (size_t i = 1; st == SS_OK && i <= n; i++) {
-        snprintf(name, sizeof name, "ch%zu", i);
-        st = ss_header_add_column(head, name, "");
-    }
-    return st;
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
 /* Our header in the annotation: gives *out NULL if it is none or is malformed. */
@@ -175,7 +75,7 @@ make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
         reader->head = head;
     } else {
         ss_header_free(head);
-        st = number_channels(reader->head, channels);
+        st = ss_frames_columns(reader->head, channels);
     }
     if (!(reader->head->rate > 0) || whole_rate(reader->head->rate) != rate)
         reader->head->rate = rate;
@@ -194,7 +94,7 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     const unsigned char *p = (unsigned char *)in->buffer + in->lo;
     uint32_t field[6];
     for (int i = 0; i < 6; i++)
-        field[i] = (uint32_t)big_endian(p + 4 * i, 4);
+        field[i] = big_endian(p + 4 * i);
     uint32_t offset = field[1], size = field[2], encoding = field[3], channels = field[5];
 
     if (offset < FIXED_HEADER || offset > FIXED_HEADER + MAX_ANNOTATION)
@@ -224,17 +124,16 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st != SS_OK)
         return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
     in->lo += offset;
-    reader->encoding = (int)encoding;
     /* 0 is what a program leaves that meant to fill it in at the end. */
-    reader->bytes_left = size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size;
-    reader->end = (uint64_t)offset + size;
-    reader->rows = au_rows;
+    ss_frames_begin(reader, (sample_type){ .bytes = width[encoding],
+                                           .is_float = encoding >= ENCODING_FLOAT },
+                    size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size, (uint64_t)offset + size);
     return ss_refuse_clock(in->name, reader->head->rate, opts, err);
 }
 
 /* --- writing ------------------------------------------------------------------------------- */
 
-enum { ANNOTATION_UNIT = 8, ENCODING_DOUBLE = 7 };
+enum { ANNOTATION_UNIT = 8 };
 
 static void
 put_big_endian(char *p, uint64_t x, size_t n)

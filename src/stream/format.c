@@ -3,7 +3,9 @@
 #include "stream/format.h"
 
 /* In the order of ss_format; the one without first bytes is asked last. */
-static const struct format *const list[] = { &ss_format_tsv, &ss_format_au, &ss_format_delimited };
+static const struct format *const list[] = {
+    &ss_format_tsv, &ss_format_au, &ss_format_wav, &ss_format_delimited
+};
 enum { FORMATS = sizeof list / sizeof *list };
 
 const struct format *

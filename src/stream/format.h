@@ -27,7 +27,7 @@ struct format {
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
 };
 
-extern const struct format ss_format_tsv, ss_format_au, ss_format_delimited;
+extern const struct format ss_format_tsv, ss_format_au, ss_format_wav, ss_format_delimited;
 
 /* The table of a format that can be written, or NULL. */
 const struct format *ss_format_table(ss_format of);

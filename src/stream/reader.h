@@ -9,15 +9,20 @@
 /* Rows as ss_reader_rows gives them; each format has its own. */
 typedef ss_status read_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
 
+typedef struct sample_type {    /* of a sound file; integers are signed, big-endian comes first */
+    unsigned bytes;
+    int is_float, is_unsigned, little_endian;
+} sample_type;
+
 struct ss_reader {
     struct input in;
     ss_header *head;
     read_rows *rows;
     const char *magic;          /* with which the header begins, in text and in AU's annotation */
     uint64_t row;               /* rows given so far */
-    int encoding;               /* AU: of its values */
-    uint64_t bytes_left;        /* AU: of its data, UINT64_MAX if unknown */
-    uint64_t end;               /* AU: where its data end by the header, in bytes from its start */
+    sample_type type;           /* frames: of their values */
+    uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
+    uint64_t end;               /* frames: see ss_frames_begin */
     double *values;             /* delimited text: all rows, one after the other */
     size_t n_rows;
 };

@@ -1,0 +1,123 @@
+/* frames.c -- samples as integers, as fractions of full scale, and as floating point, of either byte
+ * order. */
+#include <math.h>
+#include <string.h>
+#include "base/error.h"
+#include "stream/frames.h"
+
+static uint64_t
+gather(const unsigned char *p, sample_type type)
+{
+    uint64_t x = 0;
+    for (unsigned i = 0; i < type.bytes; i++)
+        x = x << 8 | p[type.little_endian ? type.bytes - 1 - i : i];
+    return x;
+}
+
+static double
+decode(const unsigned char *p, sample_type type)
+{
+    uint64_t bits = gather(p, type);
+    if (type.is_float && type.bytes == sizeof(double)) {
+        double x;
+        memcpy(&x, &bits, sizeof x);
+        return x;
+    }
+    if (type.is_float) {
+        uint32_t half = (uint32_t)bits;
+        float x;
+        memcpy(&x, &half, sizeof x);
+        return x;
+    }
+    double full = ldexp(1, 8 * (int)type.bytes - 1);        /* to [-1, 1) */
+    if (type.is_unsigned)
+        return (double)bits / full - 1;
+    return (double)bits / full - ((double)bits >= full ? 2 : 0);
+}
+
+static ss_status
+refuse_end(const ss_reader *reader, size_t frame, size_t rest, ss_error *err)
+{
+    unsigned long long row = reader->row;
+    if (rest > 0)
+        return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu",
+                       reader->in.name, rest, frame, row + 1);
+    return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end "
+                   "that its header gives", reader->in.name, row,
+                   (unsigned long long)reader->bytes_left);
+}
+
+static ss_status
+decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
+{
+    for (size_t c = 0; c < reader->head->n_columns; c++) {
+        row[c] = decode((const unsigned char *)p + c * reader->type.bytes, reader->type);
+        if (!isfinite(row[c]))
+            return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
+                           reader->in.name, (unsigned long long)reader->row + 1,
+                           reader->head->column[c].name);
+    }
+    reader->row++;
+    return SS_OK;
+}
+
+/* Behind the data that the header gives there must be nothing: which of the two is right? */
+static ss_status
+refuse_more(ss_reader *reader, ss_error *err)
+{
+    struct input *in = &reader->in;
+    ss_status st = ss_input_need(in, 1, err);
+    if (st != SS_OK || in->hi == in->lo)
+        return st;
+    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
+                   "cuts it there", in->name, (unsigned long long)reader->row,
+                   (unsigned long long)reader->end);
+}
+
+static ss_status
+read_frames(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    struct input *in = &reader->in;
+    size_t n_columns = reader->head->n_columns, frame = n_columns * reader->type.bytes;
+    for (; *n < max && reader->bytes_left > 0; ++*n) {
+        if (*n > 0 && in->hi - in->lo < frame)
+            break;
+        ss_status st = ss_input_need(in, frame, err);
+        if (st != SS_OK)
+            return st;
+        size_t there = in->hi - in->lo;
+        if (there == 0 && reader->bytes_left == UINT64_MAX)
+            break;
+        if (there < frame || reader->bytes_left < frame)
+            return refuse_end(reader, frame, reader->bytes_left < there
+                              ? (size_t)reader->bytes_left : there, err);
+        st = decode_row(reader, in->buffer + in->lo, rows + *n * n_columns, err);
+        if (st != SS_OK)
+            return st;
+        in->lo += frame;
+        if (reader->bytes_left != UINT64_MAX)
+            reader->bytes_left -= frame;
+    }
+    return *n == 0 && reader->bytes_left == 0 && reader->end > 0 ? refuse_more(reader, err) : SS_OK;
+}
+
+ss_status
+ss_frames_columns(ss_header *head, size_t n)
+{
+    char name[32];
+    ss_status st = SS_OK;
+    for (size_t i = 1; st == SS_OK && i <= n; i++) {
+        snprintf(name, sizeof name, "ch%zu", i);
+        st = ss_header_add_column(head, name, "");
+    }
+    return st;
+}
+
+void
+ss_frames_begin(ss_reader *reader, sample_type type, uint64_t bytes, uint64_t end)
+{
+    reader->type = type;
+    reader->bytes_left = bytes;
+    reader->end = end;
+    reader->rows = read_frames;
+}
