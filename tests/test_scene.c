@@ -194,6 +194,31 @@ checks_scenes_made_by_hand(void **state)
     assert_int_equal(ss_scene_check(&s, NULL), SS_EINVAL);
 }
 
+/* What the tables say, against what scenes do. */
+static void
+models_do_what_their_tables_say(void **state)
+{
+    static const struct { ss_model model; const char *name, *shipped; } row[] = {
+        { SS_COULOMB, "coulomb", "coulomb" },
+        { SS_STATE_VARIABLE, "state-variable", "state-variable" },
+        { SS_COMPLIANT, "compliant", "compliant-heavy" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_scene s;
+        ss_sim_opts opts = ss_sim_defaults;
+        ss_sim_stats stats;
+        assert_int_equal(ss_scene_load(&s, row[i].shipped, NULL, 0, NULL), SS_OK);
+        assert_int_equal(s.model, row[i].model);
+        assert_string_equal(ss_model_name(s.model), row[i].name);
+        opts.method = "rk8pd";
+        assert_int_equal(ss_sim_run(&s, &opts, &stats, NULL), SS_OK);
+        assert_int_equal(ss_model_has_events(s.model), stats.events > 0);
+        opts.method = "exact";
+        assert_int_equal(ss_model_is_linear(s.model), ss_sim_run(&s, &opts, NULL, NULL) == SS_OK);
+    }
+}
+
 static void
 refuses_bytes_that_are_not_text(void **state)
 {
@@ -225,6 +250,7 @@ main(void)
         cmocka_unit_test(says_what_is_wrong_and_where),
         cmocka_unit_test(settings_take_the_place_of_lines),
         cmocka_unit_test(checks_scenes_made_by_hand),
+        cmocka_unit_test(models_do_what_their_tables_say),
         cmocka_unit_test(refuses_bytes_that_are_not_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -342,6 +342,9 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
         i++;
     if (i == METHODS)
         return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
+    if (method[i].multistep && m->model->guard != NULL && m->model->derivatives == NULL)
+        return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone events of "
+                       "the %s model are found", name, m->model->name);
     ode *o = calloc(1, sizeof *o);
     if (o == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));

@@ -197,10 +197,10 @@ in_microstick(const state *m, double v)
 }
 
 static void
-free_differences(const state *m, int free[D_MOST])
+free_differences(const state *m, int is_free[D_MOST])
 {
-    free[D_REF] = m->mode == 0;
-    free[D_Q] = free[D_V] = 1;
+    is_free[D_REF] = m->mode == 0;
+    is_free[D_Q] = is_free[D_V] = 1;
 }
 
 /* The end of a microstick, where |y + ratio v| reaches its limit. */

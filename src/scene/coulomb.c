@@ -97,11 +97,11 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
 }
 
 static void
-free_differences(const state *m, int free[D_MOST])
+free_differences(const state *m, int is_free[D_MOST])
 {
-    free[D_REF] = 0;
-    free[D_Q] = 1;
-    free[D_V] = m->mode != 0;
+    is_free[D_REF] = 0;
+    is_free[D_Q] = 1;
+    is_free[D_V] = m->mode != 0;
 }
 
 /* A stick forgets v and the time at which it began, so its end changes nothing. */

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stickslip/scene.h>
 
-enum { ANY, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
+enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
 enum { OPTIONAL, REQUIRED };
 
 typedef struct scene_key {

@@ -16,9 +16,9 @@ static const scene_key of_motion[] = {
     KEY_NUMBER(friction, REQUIRED, NOT_NEGATIVE, "N"),
     KEY_NUMBER(base_amplitude, REQUIRED, NOT_NEGATIVE, "m"),
     KEY_NUMBER(base_frequency, REQUIRED, NOT_NEGATIVE, "Hz"),
-    KEY_NUMBER(phase, OPTIONAL, ANY, "rad"),
-    KEY_NUMBER(x0, OPTIONAL, ANY, "m"),
-    KEY_NUMBER(v0, OPTIONAL, ANY, "m/s"),
+    KEY_NUMBER(phase, OPTIONAL, ANY_NUMBER, "rad"),
+    KEY_NUMBER(x0, OPTIONAL, ANY_NUMBER, "m"),
+    KEY_NUMBER(v0, OPTIONAL, ANY_NUMBER, "m/s"),
 };
 enum { OF_MOTION = sizeof of_motion / sizeof *of_motion };
 

@@ -1,5 +1,9 @@
 /* model.h -- a friction model as a table: what it is, and the functions that move its state.
  *
+ * A new model is a file like state_variable.c and a line in models.c, besides the fields of ss_scene
+ * that only it has.  Everything else asks the table: what may be NULL there says what the model does
+ * not have.
+ *
  * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); everything non-smooth
  * happens where the mode changes.  Coulomb and compliant contact are linear within a mode and
  * share one equation, m q'' = drive - f0 - k q - c q', whose coefficients the mode sets. */
@@ -44,7 +48,7 @@ enum { IN_STICK = 1, IN_SLIP = 2 };
 enum { D_REF, D_Q, D_V, D_MOST };
 struct variation {
     /* Which of the three can differ within the mode. */
-    void (*free)(const state *m, int free[D_MOST]);
+    void (*free)(const state *m, int is_free[D_MOST]);
     /* Across the event that has led here from a mode, where q, at a rate of change that was before
      * and is after: another state reaches the event at another time.  A column of d is the
      * difference by one of those at the start. */
@@ -56,7 +60,7 @@ struct variation {
 
 struct model {
     const char *name;               /* in scenes */
-    const scene_key *keys;                /* besides those of every scene (keys.c) */
+    const scene_key *keys;          /* besides those of every scene (keys.c) */
     size_t n_keys;
     const ss_scene_range *ranges;   /* besides those of every scene (ranges.c) */
     size_t n_ranges;
@@ -87,7 +91,7 @@ struct model {
     /* Its derivatives by the state (row after row) and by time. */
     void (*jacobian)(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
     /* The ORDERS - 1 rates of change after dqdt of a state at u; NULL if steps are to be repeated
-     * for what lies inside them. */
+     * for what lies inside them, which the multistep methods cannot do where there are events. */
     void (*derivatives)(const state *m, double u, const double q[], const double dqdt[],
                         double higher[][MAX_DIM]);
     /* Not negative within the mode, and its rate of change; NULL if the model has no events. */

@@ -47,7 +47,7 @@ word_of(ss_scene *scene, const scene_key *k)
 static int
 in_range(const scene_key *k, double x)
 {
-    return isfinite(x) && (k->range == ANY || x > 0 || (k->range == NOT_NEGATIVE && x == 0));
+    return isfinite(x) && (k->range == ANY_NUMBER || x > 0 || (k->range == NOT_NEGATIVE && x == 0));
 }
 
 static int

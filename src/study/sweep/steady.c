@@ -17,12 +17,6 @@ const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_c
 
 /* What a model must have for a measure. */
 static int
-any(const struct model *model)
-{
-    return model != NULL;
-}
-
-static int
 sticks(const struct model *model)
 {
     return model->guard != NULL;
@@ -40,20 +34,23 @@ differs(const struct model *model)
     return model->variation != NULL;
 }
 
-static const struct { const char *name, *unit; int (*has)(const struct model *model); } measure[SS_MEASURES] = {
+static const struct {
+    const char *name, *unit;
+    int (*has)(const struct model *model);      /* NULL: every model has it */
+} measure[SS_MEASURES] = {
     [SS_STOPS] = { "stops", "", sticks },
     [SS_STICK_FRACTION] = { "stick", "", sticks },
-    [SS_AMPLITUDE] = { "amplitude", "m", any },
-    [SS_X_MAX] = { "x_max", "m", any },
-    [SS_V_MAX] = { "v_max", "m/s", any },
-    [SS_A_MAX] = { "a_max", "m/s^2", any },
-    [SS_ENERGY] = { "energy", "J", any },
-    [SS_PERIOD] = { "period", "", any },
-    [SS_CYCLES] = { "cycles", "", any },
+    [SS_AMPLITUDE] = { "amplitude", "m", NULL },
+    [SS_X_MAX] = { "x_max", "m", NULL },
+    [SS_V_MAX] = { "v_max", "m/s", NULL },
+    [SS_A_MAX] = { "a_max", "m/s^2", NULL },
+    [SS_ENERGY] = { "energy", "J", NULL },
+    [SS_PERIOD] = { "period", "", NULL },
+    [SS_CYCLES] = { "cycles", "", NULL },
     [SS_MICROSLIPS] = { "microslips", "", sticks },
     [SS_TRANSITION] = { "transition", "Hz", rings },
-    [SS_X_PHASE] = { "x_phase", "m", any },
-    [SS_V_PHASE] = { "v_phase", "m/s", any },
+    [SS_X_PHASE] = { "x_phase", "m", NULL },
+    [SS_V_PHASE] = { "v_phase", "m/s", NULL },
     [SS_FLOQUET] = { "floquet", "", differs },
     [SS_FLOQUET_2] = { "floquet2", "", differs },
     [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", differs },
@@ -93,7 +90,7 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
     for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
         known |= strcmp(method, ss_sim_method_name(i)) == 0;
     for (int i = 0; i < SS_MEASURES; i++)
-        if ((opts->measures & 1u << i) && !measure[i].has(m))
+        if ((opts->measures & 1u << i) && measure[i].has != NULL && !measure[i].has(m))
             return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", m->name,
                            measure[i].name);
     if (!(opts->tol >= 1e-13 && opts->tol <= 1e-1))

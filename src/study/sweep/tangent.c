@@ -12,11 +12,11 @@
 void
 ss_tangent_begin(tangent *t, const state *m)
 {
-    int free[D_MOST];
+    int is_free[D_MOST];
     *t = (tangent){ 0 };
-    m->model->variation->free(m, free);
+    m->model->variation->free(m, is_free);
     for (int i = 0; i < D_MOST; i++)
-        t->d[i][i] = free[i];
+        t->d[i][i] = is_free[i];
 }
 
 void
