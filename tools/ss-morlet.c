@@ -367,24 +367,36 @@ invert(const request *req, const char *path)
 
 /* --- streams ------------------------------------------------------------------------------- */
 
-static void
-show_what_is_complete(const flow *f, const char *path)
+/* A file does not pause: it goes in long windows.  What comes from elsewhere goes sample by sample, and
+ * each coefficient is given with the last sample that it needs, so what is written does not depend on
+ * how many samples came at a time; but windows were asked for with --method=fft. */
+static int
+comes_slowly(FILE *in, const request *req)
 {
-    ss_error err = { "" };
-    check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
-    if (f->out != NULL && fflush(f->out) != 0)
-        check_written(SS_EIO);
+    struct stat st;
+    return (fstat(fileno(in), &st) != 0 || !S_ISREG(st.st_mode)) && req->opts.engine != SS_ENGINE_FFT;
 }
 
-/* Samples as they come: while there are more, in long windows; when the source pauses, all that is
- * complete. */
 static void
-follow(flow *f, ss_reader *reader, size_t column, const char *path)
+push_samples(flow *f, const double *x, size_t n, int slowly, const char *path)
+{
+    ss_error err = { "" };
+    size_t step = slowly ? 1 : n;
+    for (size_t i = 0; i < n; i += step) {
+        check_flow(f, ss_stream_push(f->stream, x + i, step, &err), &err, path);
+        if (slowly)
+            check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
+    }
+}
+
+/* Samples as they come, until there are no more. */
+static void
+follow(flow *f, ss_reader *reader, size_t column, int slowly, const char *path)
 {
     enum { PIECE = 8192 };
     size_t columns = ss_reader_header(reader)->n_columns, n = 1;
     double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
-    ss_error bad = { "" }, err = { "" };
+    ss_error bad = { "" };
     if (rows == NULL || x == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     while (n > 0 && !tool_stopping()) {
@@ -392,9 +404,9 @@ follow(flow *f, ss_reader *reader, size_t column, const char *path)
         for (size_t i = 0; i < n; i++)
             x[i] = rows[i * columns + column];
         store_samples(f, rows, n, columns, 1);
-        check_flow(f, ss_stream_push(f->stream, x, n, &err), &err, path);
-        if (st != SS_OK || (n < PIECE && ss_reader_waits(reader)))
-            show_what_is_complete(f, path);
+        push_samples(f, x, n, slowly, path);
+        if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
+            check_written(SS_EIO);
         tool_check(st, &bad);
     }
     free(rows);
@@ -445,7 +457,7 @@ transform_stream(const request *req, const char *path)
     size_t column = tool_column(ss_reader_header(reader), path, req->column);
     tool_end_at_rows(req->output);
     open_flow(&f, req, ss_reader_header(reader), column, path);
-    follow(&f, reader, column, path);
+    follow(&f, reader, column, comes_slowly(in, req), path);
     close_flow(&f, path);
     ss_reader_free(reader);
     if (in != stdin)

@@ -136,8 +136,9 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
  * The transform of a signal whose length is not known, in memory bounded by the longest scale.  A
  * coefficient is complete, and can be had, when the samples up to 8.5 a after b have come: what may
  * follow, however large, stays below the floor of the accuracy.  So the error is the one promised for
- * the whole record; even the largest |W| is only that of its scale so far.  Which samples come
- * together changes a coefficient within that error only. */
+ * the whole record; even the largest |W| is only that of its scale so far.  What is
+ * given, and in which order, depends on the samples and on where it was drained, not on how many were
+ * pushed at a time nor on threads. */
 
 typedef struct ss_stream ss_stream;
 

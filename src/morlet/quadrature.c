@@ -23,6 +23,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "morlet/plan.h"
 
@@ -41,6 +42,10 @@ typedef struct kernel {
     double second;                      /* exp(-omega_c^2/2) if admissible, else 0 */
     size_t taps;                        /* tables are filled for |k| < taps */
     double *re, *im, *gauss;            /* T_k and exp(-(k d)^2/2) at index k, also negative */
+    struct answer {
+        double bound;
+        size_t n, taps;                 /* taps 0: none yet */
+    } last[2];                          /* what taps_for answered to each pass */
 } kernel;
 
 static kernel
@@ -98,6 +103,17 @@ taps_for(const kernel *ker, double bound, size_t n)
         r += 1. / 16;
     double taps = ceil(r / ker->d + 0.5);       /* |tau| <= 1/2 */
     return taps < (double)n ? (size_t)taps : n;
+}
+
+/* The same, with the last answer of each pass kept: a stream asks for one coefficient after the other,
+ * nearly always with the same bound. */
+static size_t
+taps_of_pass(kernel *ker, int pass, double bound, size_t n)
+{
+    struct answer *last = &ker->last[pass];
+    if (last->taps == 0 || last->n != n || memcmp(&last->bound, &bound, sizeof bound) != 0)
+        *last = (struct answer){ bound, n, taps_for(ker, bound, n) };
+    return last->taps;
 }
 
 /* Sum x_i g_i (re_i, im_i) over n taps; in lanes, which a compiler may put into one register. */
@@ -290,7 +306,7 @@ ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *
         w[i] = 0;
 
     for (int pass = 0; pass < 2 && rec->x_max > 0; pass++) {
-        size_t to = taps_for(ker, fmax(bound, TAIL_FLOOR), n);
+        size_t to = taps_of_pass(ker, pass, fmax(bound, TAIL_FLOOR), n);
         if (to <= from)
             break;
         fill_tables(ker, to);

@@ -27,15 +27,18 @@ enum {
     SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
     OCTAVES = 5,                /* of scales in the others */
     LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
-    PIECE = 1 << 14,            /* samples taken at a time */
+    PIECE = 1 << 14,            /* after so many samples full windows are looked for: where they lie
+                                   and what they give does not depend on how the samples came */
     GIVEN = 1 << 17,            /* coefficients given at a time */
     TABLES = 32 << 20,          /* bytes of wavelets kept */
+    WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone */
     LANES = 8
 };
 
 /* What is known of a scale. */
 typedef struct row {
     size_t next;                /* its first translation to come */
+    ptrdiff_t due;              /* the samples that it needs, from the first on */
     size_t count;               /* in the record; SIZE_MAX until that has ended */
     ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
     double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
@@ -106,6 +109,15 @@ places_of(const group *g, size_t i)
     return g->plan->fft != NULL ? (ptrdiff_t)ss_fft_places(g->plan->fft, i - g->first) : 1;
 }
 
+/* A scale goes on at this translation. */
+static void
+go_on(ss_stream *s, size_t i, size_t next)
+{
+    row *r = &s->row[i];
+    r->next = next;
+    r->due = place_of(s, i, next) + r->reach;
+}
+
 static ptrdiff_t
 round_down(ptrdiff_t x, ptrdiff_t unit)
 {
@@ -122,7 +134,7 @@ start_of(const ss_stream *s, const group *g)
         const row *r = &s->row[i];
         if (r->next >= r->count)
             continue;
-        ptrdiff_t from = place_of(s, i, r->next) - r->reach - places_of(g, i);
+        ptrdiff_t from = r->due - 2 * r->reach - places_of(g, i);
         start = from < start ? from : start;
     }
     return start < PTRDIFF_MAX ? round_down(start, g->unit) : start;
@@ -134,7 +146,7 @@ ready(const ss_stream *s, size_t i, ptrdiff_t limit)
 {
     const row *r = &s->row[i];
     ptrdiff_t last = limit - r->reach;
-    if (last < 0 || place_of(s, i, r->next) > last)
+    if (last < 0 || limit < r->due)
         return 0;
     size_t count = ss_scale_count(&s->scale[i], (double)last / s->rate);
     count = count < r->count ? count : r->count;
@@ -227,29 +239,54 @@ give(ss_stream *s, lane *l, ss_error *err)
             *err = l->error;
         return l->status;
     }
-    s->row[l->scale].next += n;
+    go_on(s, l->scale, s->row[l->scale].next + n);
     int stop = s->sink(&s->scale[l->scale], l->part.first + l->skip, n, l->w + 2 * l->skip,
                        s->samples, s->user);
     return stop ? SS_STOP : SS_OK;
 }
 
-/* All of as many scales as there are lanes, a part of each at a time. */
+/* The next part of as many scales as there are lanes, from first on; *busy counts those that had one. */
 static ss_status
-compute_scales(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limit, ss_error *err)
+compute_parts(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limit, size_t *busy,
+              ss_error *err)
 {
+    lane *work[SS_THREADS_MAX];
+    size_t parts = 0, coefficients = 0;
     ss_status st = SS_OK;
-    for (size_t busy = 1; st == SS_OK && busy > 0;) {
-        lane *work[SS_THREADS_MAX];
+    for (size_t t = 0; t < n; t++) {
+        lane *l = &s->lane[t];
+        l->scale = first + t;
+        l->window = win;
+        if (!next_part(l, limit))
+            continue;
+        work[parts++] = l;
+        coefficients += l->part.n;
+    }
+    if (coefficients < WORTH_THREADS)
+        for (size_t t = 0; t < parts; t++)
+            compute(&work[t]);
+    else
+        ss_pool_run(compute, work, sizeof *work, parts);
+    for (size_t t = 0; st == SS_OK && t < parts; t++)
+        st = give(s, work[t], err);
+    *busy += parts;
+    return st;
+}
+
+/* All that the scales of a window give: a part of each, then the next of each, so that their order
+ * does not depend on the number of lanes. */
+static ss_status
+compute_scales(ss_stream *s, window *win, ptrdiff_t limit, ss_error *err)
+{
+    const group *g = win->group;
+    size_t lanes = (size_t)s->opts.threads, busy = 1;
+    ss_status st = SS_OK;
+    while (st == SS_OK && busy > 0) {
         busy = 0;
-        for (size_t t = 0; t < n; t++) {
-            s->lane[t].scale = first + t;
-            s->lane[t].window = win;
-            if (next_part(&s->lane[t], limit))
-                work[busy++] = &s->lane[t];
+        for (size_t i = 0; st == SS_OK && i < g->plan->n_scales; i += lanes) {
+            size_t left = g->plan->n_scales - i;
+            st = compute_parts(s, win, g->first + i, left < lanes ? left : lanes, limit, &busy, err);
         }
-        ss_pool_run(compute, work, sizeof *work, busy);
-        for (size_t t = 0; st == SS_OK && t < busy; t++)
-            st = give(s, work[t], err);
     }
     return st;
 }
@@ -286,10 +323,8 @@ transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
     for (size_t t = 0; st == SS_OK && !win.by_sum && t < lanes; t++)
         if ((s->lane[t].scratch = ss_fft_scratch(g->plan->fft)) == NULL)
             st = SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < g->plan->n_scales; i += lanes) {
-        size_t left = g->plan->n_scales - i;
-        st = compute_scales(s, &win, g->first + i, left < lanes ? left : lanes, limit, err);
-    }
+    if (st == SS_OK)
+        st = compute_scales(s, &win, limit, err);
     release(&win);
     return st;
 }
@@ -369,7 +404,7 @@ take(ss_stream *s, const double *x, size_t n, ss_error *err)
     memcpy(s->x + ((ptrdiff_t)s->samples - s->origin), x, good * sizeof *x);
     s->samples += good;
     s->x_max = most;
-    ss_status st = transform_full(s, err);
+    ss_status st = s->samples % PIECE == 0 ? transform_full(s, err) : SS_OK;
     if (st == SS_OK && good < n)
         st = ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", s->samples + 1,
                      isnan(x[good]) ? "NaN" : "infinite");
@@ -399,7 +434,8 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
     if (st == SS_OK && s->ended)
         st = ss_fail(&why, SS_EINVAL, "the stream has ended");
     while (st == SS_OK && n > 0) {
-        size_t piece = n < PIECE ? n : PIECE;
+        size_t piece = PIECE - s->samples % PIECE;
+        piece = n < piece ? n : piece;
         st = take(s, x, piece, &why);
         x += piece;
         n -= piece;
@@ -416,12 +452,11 @@ ss_stream_drain(ss_stream *s, ss_error *err)
     ss_status st = s->status;
     for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
         const group *g = &s->group[i];
-        ptrdiff_t start = start_of(s, g);
         size_t found = 0;
-        for (size_t k = 0; start < PTRDIFF_MAX && found == 0 && k < g->plan->n_scales; k++)
+        for (size_t k = 0; found == 0 && k < g->plan->n_scales; k++)
             found = ready(s, g->first + k, (ptrdiff_t)s->samples);
         if (found > 0)
-            st = transform(s, g, start, &why);
+            st = transform(s, g, start_of(s, g), &why);
     }
     return keep(s, st, &why, err);
 }
@@ -571,6 +606,7 @@ prepare(ss_stream *s, ss_error *err)
     for (size_t i = 0; i < s->n_scales; i++) {
         s->row[i].reach = reach_of(s->scale[i].a, s->rate);
         s->row[i].count = SIZE_MAX;
+        go_on(s, i, 0);
     }
     if ((st = plan_groups(s)) == SS_OK && (st = plan_rows(s)) == SS_OK)
         st = make_buffers(s);
