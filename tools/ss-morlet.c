@@ -396,7 +396,7 @@ follow(flow *f, ss_reader *reader, size_t column, int slowly, const char *path)
     enum { PIECE = 8192 };
     size_t columns = ss_reader_header(reader)->n_columns, n = 1;
     double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
-    ss_error bad = { "" };
+    ss_error bad = { "" }, err = { "" };
     if (rows == NULL || x == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     while (n > 0 && !tool_stopping()) {
@@ -405,6 +405,8 @@ follow(flow *f, ss_reader *reader, size_t column, int slowly, const char *path)
             x[i] = rows[i * columns + column];
         store_samples(f, rows, n, columns, 1);
         push_samples(f, x, n, slowly, path);
+        if (st != SS_OK)                /* bad data: what is complete before them is written */
+            check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
         if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
             check_written(SS_EIO);
         tool_check(st, &bad);
