@@ -270,6 +270,7 @@ transforms_refuse_null(void **state)
     assert_int_equal(ss_stream_new(&stream, 1, &with_fmin, no_coefficients, NULL, &e), SS_OK);
     assert_int_equal(ss_stream_scales(NULL), 0);
     assert_int_equal(ss_stream_samples(NULL), 0);
+    assert_int_equal(ss_stream_window(NULL, 0), 0);
     assert_null(ss_stream_scale(NULL, 0));
     assert_null(ss_stream_scale(stream, ss_stream_scales(stream)));
     assert_refused(ss_stream_push(NULL, x, 1, &e), &e);

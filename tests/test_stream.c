@@ -276,6 +276,48 @@ delay_is_the_window(void **state)
     }
 }
 
+/* Samples come one by one: a coefficient comes less than its window behind b. */
+typedef struct delays {
+    ss_stream *stream;
+    size_t at_end;              /* coefficients that came after the last sample */
+    int ended;
+} delays;
+
+static int
+check_window(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
+{
+    delays *d = user;
+    size_t i = 0;
+    (void)w;
+    while (ss_stream_scale(d->stream, i)->a != scale->a)
+        i++;
+    double window = (double)ss_stream_window(d->stream, i);
+    for (size_t k = first; k < first + n; k++)
+        assert_true((double)samples - ss_scale_b(scale, k) * 2000 < window);
+    d->at_end += d->ended ? n : 0;
+    return 0;
+}
+
+static void
+windows_delay_coefficients_by_less_than_their_length(void **state)
+{
+    (void)state;
+    for (int row = 0; row < 3; row++) {
+        ss_morlet_opts opts = ss_morlet_defaults;
+        delays d = { .ended = 0 };
+        opts.fmin = row == 2 ? 1 : 20, opts.voices = 1, opts.dense = row == 1;
+        assert_int_equal(ss_stream_new(&d.stream, 2000, &opts, check_window, &d, NULL), SS_OK);
+        assert_int_equal(ss_stream_window(d.stream, ss_stream_scales(d.stream)), 0);
+        assert_in_range(ss_stream_window(d.stream, 0), 1 << 14, row == 2 ? 140000 : 20000);
+        for (int i = 0; i < 150000; i++)
+            assert_int_equal(ss_stream_push(d.stream, &(double){ sin(i) }, 1, NULL), SS_OK);
+        d.ended = 1;
+        assert_int_equal(ss_stream_end(d.stream, NULL), SS_OK);
+        assert_true(d.at_end > 0);
+        ss_stream_free(d.stream);
+    }
+}
+
 static void
 threads_change_nothing(void **state)
 {
@@ -587,6 +629,7 @@ main(void)
         cmocka_unit_test(keeps_the_bound_from_window_to_window),
         cmocka_unit_test(quiet_beginning_is_as_accurate_as_by_itself),
         cmocka_unit_test(delay_is_the_window),
+        cmocka_unit_test(windows_delay_coefficients_by_less_than_their_length),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(amplitudes_of_any_size_scale_the_coefficients),
         cmocka_unit_test(refuses_what_a_stream_cannot_do),

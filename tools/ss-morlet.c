@@ -367,31 +367,25 @@ invert(const request *req, const char *path)
 
 /* --- streams ------------------------------------------------------------------------------- */
 
-/* A file does not pause: it goes in long windows.  What comes from elsewhere goes sample by sample, and
- * each coefficient is given with the last sample that it needs, so what is written does not depend on
- * how many samples came at a time; but windows were asked for with --method=fft. */
-static int
-comes_slowly(FILE *in, const request *req)
-{
-    struct stat st;
-    return (fstat(fileno(in), &st) != 0 || !S_ISREG(st.st_mode)) && req->opts.engine != SS_ENGINE_FFT;
-}
-
+/* The definition costs the same sample by sample: then each coefficient comes with the last sample that
+ * it needs.  Else windows come when they are full.  In neither case does it matter how many samples
+ * are there at a time. */
 static void
-push_samples(flow *f, const double *x, size_t n, int slowly, const char *path)
+push_samples(flow *f, const double *x, size_t n, const request *req, const char *path)
 {
     ss_error err = { "" };
-    size_t step = slowly ? 1 : n;
+    int one_by_one = req->opts.engine == SS_ENGINE_QUADRATURE;
+    size_t step = one_by_one ? 1 : n;
     for (size_t i = 0; i < n; i += step) {
         check_flow(f, ss_stream_push(f->stream, x + i, step, &err), &err, path);
-        if (slowly)
+        if (one_by_one)
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
     }
 }
 
 /* Samples as they come, until there are no more. */
 static void
-follow(flow *f, ss_reader *reader, size_t column, int slowly, const char *path)
+follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
 {
     enum { PIECE = 8192 };
     size_t columns = ss_reader_header(reader)->n_columns, n = 1;
@@ -404,7 +398,7 @@ follow(flow *f, ss_reader *reader, size_t column, int slowly, const char *path)
         for (size_t i = 0; i < n; i++)
             x[i] = rows[i * columns + column];
         store_samples(f, rows, n, columns, 1);
-        push_samples(f, x, n, slowly, path);
+        push_samples(f, x, n, req, path);
         if (st != SS_OK)                /* bad data: what is complete before them is written */
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
         if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
@@ -434,6 +428,8 @@ close_flow(flow *f, const char *path)
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
               ss_stream_samples(f->stream), scales, ss_stream_scale(f->stream, 0)->f,
               ss_stream_scale(f->stream, scales - 1)->f);
+    tool_note("in windows of %zu to %zu samples", ss_stream_window(f->stream, scales - 1),
+              ss_stream_window(f->stream, 0));
     ss_stream_free(f->stream);
 }
 
@@ -441,15 +437,14 @@ static void
 transform_stream(const request *req, const char *path)
 {
     flow f = { .text = NULL };
-    ss_error err = { "" };
+    ss_error err;
     ss_reader *reader;
     if (tool_is_hdf5(path)) {           /* is not read row by row */
         ss_signal *signal = tool_read_signal(path, NULL);
         size_t column = tool_column(signal->head, path, req->column);
         open_flow(&f, req, signal->head, column, path);
         store_samples(&f, signal->values, signal->n, 1, signal->n);
-        check_flow(&f, ss_stream_push(f.stream, signal->values + column * signal->n, signal->n,
-                                      &err), &err, path);
+        push_samples(&f, signal->values + column * signal->n, signal->n, req, path);
         close_flow(&f, path);
         ss_signal_free(signal);
         return;
@@ -459,7 +454,7 @@ transform_stream(const request *req, const char *path)
     size_t column = tool_column(ss_reader_header(reader), path, req->column);
     tool_end_at_rows(req->output);
     open_flow(&f, req, ss_reader_header(reader), column, path);
-    follow(&f, reader, column, comes_slowly(in, req), path);
+    follow(&f, reader, column, req, path);
     close_flow(&f, path);
     ss_reader_free(reader);
     if (in != stdin)

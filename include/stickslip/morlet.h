@@ -136,9 +136,11 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
  * The transform of a signal whose length is not known, in memory bounded by the longest scale.  A
  * coefficient is complete, and can be had, when the samples up to 8.5 a after b have come: what may
  * follow, however large, stays below the floor of the accuracy.  So the error is the one promised for
- * the whole record; even the largest |W| is only that of its scale so far.  What is
- * given, and in which order, depends on the samples and on where it was drained, not on how many were
- * pushed at a time nor on threads. */
+ * the whole record; even the largest |W| is only that of its scale so far.
+ *
+ * Windows lie at fixed places and are given with their last sample.  So what is given, and in which
+ * order, depends on the samples and on where the stream was drained, not on how many samples were
+ * pushed at a time nor on the number of threads. */
 
 typedef struct ss_stream ss_stream;
 
@@ -150,12 +152,15 @@ ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts
 size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
 const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* an array that it owns */
 size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
+/* Samples in a window of scale i, 0 if there is no such scale: without ss_stream_drain a coefficient
+ * comes less than this behind b. */
+size_t ss_stream_window(const ss_stream *stream, size_t i);
 
-/* Take n samples.  The sink gets what is complete of them as soon as that is cheap: in long windows.
+/* Take n samples.  The sink gets what is complete of them when a window is full.
  * SS_EINVAL: one is not finite; those before it have been taken.  After a failure the stream only
  * says it again. */
 ss_status ss_stream_push(ss_stream *stream, const double *x, size_t n, ss_error *err);
-/* Give all that is complete; call it when no more samples are there for now. */
+/* Give all that is complete. */
 ss_status ss_stream_drain(ss_stream *stream, ss_error *err);
 /* Give all the rest: the signal has ended, and is zero from here on. */
 ss_status ss_stream_end(ss_stream *stream, ss_error *err);

@@ -23,12 +23,11 @@
 #include "morlet/versions.h"
 
 enum {
-    BASE = 1 << 16,             /* samples in a window at least */
+    BASE = 1 << 14,             /* samples in a window at least */
     SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
     OCTAVES = 5,                /* of scales in the others */
     LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
-    PIECE = 1 << 14,            /* after so many samples full windows are looked for: where they lie
-                                   and what they give does not depend on how the samples came */
+    PIECE = 1 << 14,            /* samples taken at a time, at most */
     GIVEN = 1 << 17,            /* coefficients given at a time */
     TABLES = 32 << 20,          /* bytes of wavelets kept */
     WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone */
@@ -70,6 +69,7 @@ struct ss_stream {
     ss_coefficient_sink *sink;
     void *user;
     size_t n_scales, n_groups, samples;
+    size_t full;                /* no window is full before there are so many samples */
     ss_scale *scale;
     row *row;
     group *group;
@@ -374,10 +374,12 @@ largest(const double *x, size_t n, double most, double *sum)
     return most;
 }
 
-/* Give what full windows there are. */
+/* Give what full windows there are, and say when to look again: a window goes with its last sample,
+ * so what it gives does not depend on how the samples came. */
 static ss_status
 transform_full(ss_stream *s, ss_error *err)
 {
+    s->full = SIZE_MAX;
     for (size_t i = 0; i < s->n_groups; i++) {
         const group *g = &s->group[i];
         ptrdiff_t start, n = (ptrdiff_t)g->plan->n;
@@ -386,6 +388,7 @@ transform_full(ss_stream *s, ss_error *err)
             if (st != SS_OK)
                 return st;
         }
+        s->full = (size_t)(start + n) < s->full ? (size_t)(start + n) : s->full;
     }
     return SS_OK;
 }
@@ -404,7 +407,7 @@ take(ss_stream *s, const double *x, size_t n, ss_error *err)
     memcpy(s->x + ((ptrdiff_t)s->samples - s->origin), x, good * sizeof *x);
     s->samples += good;
     s->x_max = most;
-    ss_status st = s->samples % PIECE == 0 ? transform_full(s, err) : SS_OK;
+    ss_status st = s->samples == s->full ? transform_full(s, err) : SS_OK;
     if (st == SS_OK && good < n)
         st = ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", s->samples + 1,
                      isnan(x[good]) ? "NaN" : "infinite");
@@ -434,7 +437,7 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
     if (st == SS_OK && s->ended)
         st = ss_fail(&why, SS_EINVAL, "the stream has ended");
     while (st == SS_OK && n > 0) {
-        size_t piece = PIECE - s->samples % PIECE;
+        size_t piece = s->full - s->samples < PIECE ? s->full - s->samples : PIECE;
         piece = n < piece ? n : piece;
         st = take(s, x, piece, &why);
         x += piece;
@@ -508,11 +511,13 @@ static ss_status
 plan_group(const ss_stream *s, group *g, size_t first)
 {
     double reach = (double)s->row[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
+    if (s->row[first].reach <= SHORT)
+        n = exp2(ceil(log2(fmax(n, BASE))));
     size_t n_scales = scales_together(s, first);
     *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
     if (g->plan == NULL || !(n < 0x1p58))
         return SS_ENOMEM;
-    *g->plan = (ss_morlet){ .opts = s->opts, .n = (size_t)fmax(n, BASE), .rate = s->rate,
+    *g->plan = (ss_morlet){ .opts = s->opts, .n = (size_t)n, .rate = s->rate,
                             .window = 1, .scale = malloc(n_scales * sizeof *s->scale) };
     if (g->plan->scale == NULL)
         return SS_ENOMEM;
@@ -610,7 +615,7 @@ prepare(ss_stream *s, ss_error *err)
     }
     if ((st = plan_groups(s)) == SS_OK && (st = plan_rows(s)) == SS_OK)
         st = make_buffers(s);
-    return st;
+    return st == SS_OK ? transform_full(s, err) : st;
 }
 
 ss_status
@@ -651,6 +656,17 @@ const ss_scale *
 ss_stream_scale(const ss_stream *s, size_t i)
 {
     return s != NULL && i < s->n_scales ? &s->scale[i] : NULL;
+}
+
+size_t
+ss_stream_window(const ss_stream *s, size_t i)
+{
+    for (size_t k = 0; s != NULL && k < s->n_groups; k++) {
+        const group *g = &s->group[k];
+        if (i - g->first < g->plan->n_scales)
+            return g->plan->n;
+    }
+    return 0;
 }
 
 size_t

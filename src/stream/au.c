@@ -176,9 +176,11 @@ put_number(char *to, double x, int last)
 {
     (void)last;
     uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    for (size_t i = 0; i < sizeof bits; i++)
-        to[i] = (char)(bits >> (56 - 8 * i) & 0xff);
+    memcpy(&bits, &x, sizeof bits);     /* and one by one, which compilers make one instruction */
+    to[0] = (char)(bits >> 56), to[1] = (char)(bits >> 48 & 0xff);
+    to[2] = (char)(bits >> 40 & 0xff), to[3] = (char)(bits >> 32 & 0xff);
+    to[4] = (char)(bits >> 24 & 0xff), to[5] = (char)(bits >> 16 & 0xff);
+    to[6] = (char)(bits >> 8 & 0xff), to[7] = (char)(bits & 0xff);
     return sizeof bits;
 }
 

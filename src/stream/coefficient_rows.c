@@ -73,18 +73,19 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
     if (writer == NULL || scale == NULL || w == NULL)
         return SS_EINVAL;
     size_t (*put)(char *, double, int) = writer->format->number;
-    char m_and_a[2 * SS_NUMBER_MAX], f[SS_NUMBER_MAX];
+    char m_and_a[2 * SS_NUMBER_MAX] = { 0 }, f[SS_NUMBER_MAX] = { 0 };
     size_t f_length = put(f, scale->f, 0), length = put(m_and_a, scale->m, 0);
     length += put(m_and_a + length, scale->a, 0);
     for (size_t i = 0; i < n; i++, w += 2) {
         double b = ss_scale_b(scale, first + i);
         int edge = ss_scale_edge(scale, first + i, samples, writer->rate)
-            || ss_gaps_near(writer->gap, writer->n_gaps, writer->start + b, sqrt(2) * scale->a);
+            || (writer->n_gaps > 0 && ss_gaps_near(writer->gap, writer->n_gaps, writer->start + b,
+                                                   sqrt(2) * scale->a));
         char *to = writer->out.buffer + writer->out.used;
-        memcpy(to, m_and_a, length);
+        memcpy(to, m_and_a, sizeof m_and_a);    /* a known size is copied without a call */
         to += length;
         to += put(to, b, 0);
-        memcpy(to, f, f_length);
+        memcpy(to, f, sizeof f);
         to += f_length;
         to += put(to, w[0], 0);
         to += put(to, w[1], 0);

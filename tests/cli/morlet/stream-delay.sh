@@ -1,7 +1,7 @@
-# A source that gives one sample at a time: before the next one comes, every coefficient is out
+# By the definition, from a source that gives one sample at a time: before the next one comes, every coefficient is out
 # whose window, 8.5 a behind b, ended three samples ago or earlier, and none whose has not ended.
 mkfifo in
-grid="--fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3"
+grid="--fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 --method quadrature"
 ss-signal noise --rate 100 --duration 1.6 --seed 3 > s.tsv
 ss-cat s.tsv -o s.au
 # shellcheck disable=SC2086  # grid is a list

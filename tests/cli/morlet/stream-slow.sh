@@ -1,14 +1,14 @@
-# A slow source: a coefficient comes as soon as its window is complete, 8.5 a behind b, while the
+# A slow source, by the definition: a coefficient comes as soon as its window is complete, 8.5 a behind b, while the
 # source waits; the end brings the rest, and all is what the whole record gives.
 mkfifo in
 : > out
-ss-morlet --stream --fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 < in > out &
+ss-morlet --stream --fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 --method quadrature < in > out &
 exec 3> in
 ss-signal sine --rate 100 --frequency 25 --duration 3 > s.tsv
 grep '^#' s.tsv >&3
 grep -v '^#' s.tsv | head -n 200 | while read -r line; do printf '%s\n' "$line" >&3; done
 # 200 samples, up to 1.99 s: b + 8.5 a <= 1.98 s, a sample earlier for rounding
-expected=$(ss-morlet --fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 s.tsv |
+expected=$(ss-morlet --fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 --method quadrature s.tsv |
     awk '!/^#/ && $3 + 8.5 * $2 <= 1.98 { n++ } END { print n + 0 }')
 tries=0
 until [ "$(grep -vc '^#' out)" -ge "$expected" ] || [ $tries = 100 ]; do
@@ -22,5 +22,5 @@ exec 3>&-
 wait
 tail -n 1 out
 grep -v '^#' out | cut -f 1-4,7 | sort > a
-ss-morlet --fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 s.tsv | grep -v '^#' |
+ss-morlet --fmin 20 --fmax 40 --voices 2 --step 1 --accuracy 1e-3 --method quadrature s.tsv | grep -v '^#' |
     cut -f 1-4,7 | sort | cmp - a
