@@ -308,7 +308,7 @@ windows_delay_coefficients_by_less_than_their_length(void **state)
         opts.fmin = row == 2 ? 1 : 20, opts.voices = 1, opts.dense = row == 1;
         assert_int_equal(ss_stream_new(&d.stream, 2000, &opts, check_window, &d, NULL), SS_OK);
         assert_int_equal(ss_stream_window(d.stream, ss_stream_scales(d.stream)), 0);
-        assert_in_range(ss_stream_window(d.stream, 0), 1 << 14, row == 2 ? 140000 : 20000);
+        assert_in_range(ss_stream_window(d.stream, 0), 1 << 13, row == 2 ? 140000 : 20000);
         for (int i = 0; i < 150000; i++)
             assert_int_equal(ss_stream_push(d.stream, &(double){ sin(i) }, 1, NULL), SS_OK);
         d.ended = 1;

@@ -23,7 +23,7 @@
 #include "morlet/versions.h"
 
 enum {
-    BASE = 1 << 14,             /* samples in a window at least */
+    BASE = 1 << 13,             /* samples in a window at least */
     SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
     OCTAVES = 5,                /* of scales in the others */
     LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
