@@ -404,23 +404,39 @@ tool_column(const ss_header *head, const char *path, const char *name)
 
 /* --- output -------------------------------------------------------------------------------- */
 
-static const char *const ending[] = { ".tsv", ".au", ".h5", ".gp", ".png", ".svg", ".pdf" };
+static const char *const ending[] = { "h5", "gp", "png", "svg", "pdf" };
+
+ss_format
+tool_stream(tool_kind kind)
+{
+    return (ss_format)(kind - TOOL_STREAM);
+}
+
+static int
+is_name(char *list, size_t size, const char *name, const char *wanted)
+{
+    size_t n = strlen(list);
+    snprintf(list + n, size - n, " .%s", name);
+    return wanted != NULL && strcmp(wanted, name) == 0;
+}
 
 tool_kind
 tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
 {
-    char list[64] = "";
+    char list[256] = "";
+    ss_format format;
     tool_writes(path);
     if (path == NULL || strcmp(path, "-") == 0)
         return fallback;
-    const char *dot = strrchr(path, '.');
-    for (int i = TOOL_TSV; i <= TOOL_PDF; i++) {
-        if (!(allowed & 1u << i))
-            continue;
-        if (dot != NULL && strcmp(dot, ending[i]) == 0)
+    const char *dot = strrchr(path, '.'), *wanted = dot != NULL ? dot + 1 : NULL, *name;
+    for (size_t i = 0; (allowed & TOOL_NUMBERS) && (name = ss_format_name(i)) != NULL; i++)
+        if (ss_format_find(&format, name)
+            && ((allowed & TOOL_NUMBERS) == TOOL_NUMBERS || ss_format_has_words(format))
+            && is_name(list, sizeof list, name, wanted))
+            return (tool_kind)(TOOL_STREAM + format);
+    for (int i = TOOL_H5; i < TOOL_STREAM; i++)
+        if ((allowed & 1u << i) && is_name(list, sizeof list, ending[i], wanted))
             return (tool_kind)i;
-        snprintf(list + strlen(list), sizeof list - strlen(list), " %s", ending[i]);
-    }
     tool_usage("--output: the ending of '%s' picks the form and must be one of%s", path, list);
 }
 
@@ -462,8 +478,13 @@ tool_end(void)
 tool_kind
 tool_format(const char *text)
 {
-    static const char *const form[] = { "tsv", "au", NULL };
-    return tool_choice("--format", text, form) == 0 ? TOOL_TSV : TOOL_AU;
+    enum { MOST = 32 };
+    const char *name[MOST + 1] = { NULL };
+    ss_format format = SS_TSV;
+    for (size_t i = 0; i < MOST && ss_format_name(i) != NULL; i++)
+        name[i] = ss_format_name(i);
+    ss_format_find(&format, name[tool_choice("--format", text, name)]);
+    return (tool_kind)(TOOL_STREAM + format);
 }
 
 const char *
@@ -484,8 +505,7 @@ tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
         tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
                    &err);
     else
-        tool_check(ss_signal_write(signal, tool_output(path), kind == TOOL_AU ? SS_AU : SS_TSV),
-                   NULL);
+        tool_check(ss_signal_write(signal, tool_output(path), tool_stream(kind)), NULL);
 }
 
 /* The last line of gnuplot's words is the reason; those above quote the script. */
@@ -616,7 +636,7 @@ tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void 
     if (script == NULL)
         tool_die("%s", strerror(errno));
     if (kind != TOOL_GP)
-        opts->format = ending[kind] + 1;
+        opts->format = ending[kind];
     ss_status status = write_script(script, opts, user, &err);
     if (status == SS_EIO)
         tool_die("write error: %s", strerror(errno));

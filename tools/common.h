@@ -80,13 +80,24 @@ size_t tool_column(const ss_header *head, const char *path, const char *name);
 
 /* --- output -------------------------------------------------------------------------------- */
 
-typedef enum tool_kind {        /* what the ending of -o asks for */
-    TOOL_TSV, TOOL_AU, TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF
+typedef enum tool_kind {        /* what the ending of -o or --format asks for */
+    TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF,
+    TOOL_STREAM,                /* and from here on a format of streams: see tool_stream */
+    TOOL_TSV = TOOL_STREAM + SS_TSV
 } tool_kind;
 
-#define TOOL_PICTURES (1u << TOOL_GP | 1u << TOOL_PNG | 1u << TOOL_SVG | 1u << TOOL_PDF)
+/* What a tool can write, to be put together with |: pictures, formats of streams that hold words, all of
+ * them, signals. */
+enum {
+    TOOL_PICTURES = 1 << TOOL_GP | 1 << TOOL_PNG | 1 << TOOL_SVG | 1 << TOOL_PDF,
+    TOOL_WORDS = 1 << TOOL_STREAM,
+    TOOL_NUMBERS = TOOL_WORDS | 1 << (TOOL_STREAM + 1),
+    TOOL_SIGNALS = TOOL_NUMBERS | 1 << TOOL_H5
+};
 
-/* The kind of path's ending, among those allowed (a bit set of 1u << kind), else wrong usage that
+/* The format of a kind that is a stream. */
+ss_format tool_stream(tool_kind kind);
+/* The kind of path's ending, among those allowed, else wrong usage that
  * names them; standard output (NULL or "-") has the fallback. */
 tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
 
@@ -103,7 +114,7 @@ FILE *tool_output_kept(const char *path);
 /* Go on writing at this offset; what lies behind it is dropped. */
 void tool_cut(FILE *out, long offset);
 
-/* What --format names: tsv or au. */
+/* What --format names: a format of streams. */
 tool_kind tool_format(const char *text);
 /* What --method names: a method of simulation. */
 const char *tool_method(const char *text);

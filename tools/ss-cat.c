@@ -108,7 +108,7 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
     if (rows == NULL || part == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     tool_check(ss_header_select(&chosen, head, column, n, first), NULL);
-    ss_status st = ss_writer_new(&writer, tool_output(output), kind == TOOL_AU ? SS_AU : SS_TSV,
+    ss_status st = ss_writer_new(&writer, tool_output(output), tool_stream(kind),
                                  chosen);
     if (st == SS_EINVAL)
         tool_die("AU is limited to 4096 columns and a header of 1 MiB; take fewer with --column");
@@ -169,7 +169,7 @@ main(int argc, char *argv[])
         tool_usage("--time and --rate exclude each other");
     if (from >= to)
         tool_usage("--from does not lie before --to");
-    kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
+    kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     if (kind == TOOL_H5 || tool_is_hdf5(path) || opts.resample > 0)
         copy_whole(kind, &opts);
     else

@@ -92,7 +92,7 @@ main(int argc, char *argv[])
         set_option(&req, c);
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
-    tool_output_kind(req.output, 1u << TOOL_TSV, TOOL_TSV);
+    tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, TOOL_TSV);
     const char *path = tool_input(argc, argv, optind);
 
     ss_signal *signal = tool_read_signal(path, NULL);
@@ -108,8 +108,8 @@ main(int argc, char *argv[])
     if (req.opts.stiffness > features->total_stiffness.value)
         tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "
                   "leaves none to the contact", features->total_stiffness.value);
-    tool_check(ss_features_write(features, signal, column, &req.opts, tool_output(req.output), SS_TSV),
-               NULL);
+    tool_check(ss_features_write(features, signal, column, &req.opts, tool_output(req.output),
+                                 tool_stream(kind)), NULL);
     ss_features_free(features);
     ss_signal_free(signal);
     tool_end();

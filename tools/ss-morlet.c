@@ -153,8 +153,7 @@ check_request(request *req)
         tool_usage("--stream excludes --detrend: a mean or a line is that of the whole record");
     if (req->stream && req->check)
         tool_usage("--stream excludes --check, which takes the whole record");
-    req->kind = tool_output_kind(req->output, 1u << TOOL_TSV | 1u << TOOL_AU
-                                 | 1u << TOOL_H5, req->kind);
+    req->kind = tool_output_kind(req->output, TOOL_SIGNALS, req->kind);
 }
 
 /* A library call's failure, told with the input's name. */
@@ -196,7 +195,7 @@ read_wisdom(const char *path)
 static ss_format
 format_of(const request *req)
 {
-    return req->kind == TOOL_AU ? SS_AU : SS_TSV;
+    return tool_stream(req->kind);
 }
 
 static void

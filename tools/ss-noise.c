@@ -160,7 +160,7 @@ change_stream(tool_kind kind, ss_noise *noise)
         level[c] *= isnan(rms) ? 0 : rms;
     add_notes(head);
     out = tool_output(output);
-    tool_check(ss_writer_new(&writer, out, kind == TOOL_AU ? SS_AU : SS_TSV, head), NULL);
+    tool_check(ss_writer_new(&writer, out, tool_stream(kind), head), NULL);
     for (;;) {
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         if (n == 0)
@@ -222,7 +222,7 @@ main(int argc, char *argv[])
     if ((bits > 0) == isnan(range))
         tool_usage("--bits and --range need each other");
     path = tool_input(argc, argv, optind);
-    kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
+    kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
     if (!isnan(snr) || !isnan(band[0]) || kind == TOOL_H5 || tool_is_hdf5(path))
         change_whole(kind, noise);

@@ -322,7 +322,7 @@ main(int argc, char *argv[])
     if (fits)
         tool_writes(j.output);
     else
-        tool_output_kind(j.output, 1u << TOOL_TSV, TOOL_TSV);
+        tool_output_kind(j.output, TOOL_WORDS, TOOL_TSV);
     j.signal_path = optind < argc ? argv[optind] : "-";
     const char *shipped[16];
     size_t n = 0;

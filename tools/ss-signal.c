@@ -105,7 +105,7 @@ main(int argc, char *argv[])
         if ((used & 1u << i) && !(only[i].kinds & SET(wave)))
             tool_usage("%s: a signal of kind %s has none", only[i].name, kinds[wave]);
     check_sense(wave, &opts, used);
-    kind = tool_output_kind(output, 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, kind);
+    kind = tool_output_kind(output, TOOL_SIGNALS, kind);
 
     tool_check(ss_wave_new(&signal, wave, &opts, &err), &err);
     tool_note("%s: %zu samples", kinds[wave], signal->n);

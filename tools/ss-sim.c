@@ -57,7 +57,7 @@ typedef struct output {
 static void
 begin_samples(output *o)
 {
-    ss_format format = o->req->kind == TOOL_AU ? SS_AU : SS_TSV;
+    ss_format format = tool_stream(o->req->kind);
     if (o->writer == NULL)
         tool_check(ss_writer_new(&o->writer, tool_output(o->req->path), format, o->head), NULL);
 }
@@ -80,8 +80,8 @@ static void
 begin_events(output *o)
 {
     if (o->event_writer == NULL)
-        tool_check(ss_event_writer_new(&o->event_writer, tool_output(o->req->path), SS_TSV, o->head),
-                   NULL);
+        tool_check(ss_event_writer_new(&o->event_writer, tool_output(o->req->path),
+                                       tool_stream(o->req->kind), o->head), NULL);
 }
 
 static int
@@ -229,10 +229,9 @@ parse(request *req, int argc, char *argv[])
     req->scene_path = tool_input(argc, argv, optind);
     if (req->list)
         return;
-    req->kind = tool_output_kind(req->path, req->events ? 1u << TOOL_TSV
-                                 : 1u << TOOL_TSV | 1u << TOOL_AU | 1u << TOOL_H5, req->kind);
-    if (req->events && req->kind != TOOL_TSV)
-        tool_usage("--events are text: --format au does not apply");
+    req->kind = tool_output_kind(req->path, req->events ? TOOL_WORDS : TOOL_SIGNALS, req->kind);
+    if (req->events && !ss_format_has_words(tool_stream(req->kind)))
+        tool_usage("--events are text, and this --format holds numbers only");
     if (req->accuracy > 0 && opts->tol > 0)
         tool_usage("--accuracy finds the tolerance: --tol does not go with it");
 }

@@ -161,7 +161,7 @@ parse(request *req, int argc, char *argv[])
     if (optind == argc)
         tool_usage("which scene? give a file, or a shipped one by its name");
     req->scene_path = tool_input(argc, argv, optind);
-    tool_output_kind(req->path, 1u << TOOL_TSV, TOOL_TSV);
+    req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, TOOL_TSV));
     if (req->resume != NULL && strcmp(req->resume, "-") == 0)
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
     if (req->resume != NULL && req->path != NULL)
@@ -250,7 +250,8 @@ main(int argc, char *argv[])
     char name[256];
     tool_name_scene(name, sizeof name, req.scene_path, req.settings, req.n_settings);
     req.text = (ss_sweep_text){ .name = name, .scene = &scene, .opts = &req.opts,
-                                .measure = req.pick, .n_measures = req.n_picks, .format = SS_TSV };
+                                .measure = req.pick, .n_measures = req.n_picks,
+                                .format = req.text.format };
     tool_end_at_rows(req.path);
     open_rows(&req);
     ss_status st = ss_sweep_run(&scene, &req.opts, &err);

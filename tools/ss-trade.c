@@ -180,20 +180,20 @@ main(int argc, char *argv[])
         tool_usage("of what? give a scene, a shipped one by its name, or a signal");
     if (optind + 1 != argc)
         tool_usage("unexpected argument '%s'", argv[optind + 1]);
-    tool_kind kind = tool_output_kind(req.output, 1u << TOOL_TSV | TOOL_PICTURES, TOOL_TSV);
-    if (req.opts.target > 0 && kind != TOOL_TSV)
+    tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, TOOL_TSV);
+    if (req.opts.target > 0 && kind < TOOL_STREAM)
         tool_usage("--target writes options, not a picture");
 
     req.path = argv[optind];
     req.opts.progress.function = tool_progress;
     ss_trade *trade = is_scene(req.path) ? measure_scene(&req) : measure_signal(&req);
     plot.title = strcmp(req.name, tool_input_name("-")) == 0 ? NULL : req.name;
-    if (kind != TOOL_TSV)
+    if (kind < TOOL_STREAM)
         tool_draw(req.output, &plot, write_script, trade);
     else if (req.opts.target > 0)
         write_options(tool_output(req.output), trade, req.opts.target);
     else
-        tool_check(ss_trade_write(trade, req.name, tool_output(req.output), SS_TSV), NULL);
+        tool_check(ss_trade_write(trade, req.name, tool_output(req.output), tool_stream(kind)), NULL);
     ss_trade_free(trade);
     free(req.settings);
     tool_end();

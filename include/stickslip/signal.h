@@ -131,6 +131,7 @@ typedef enum ss_format {
 const char *ss_format_name(size_t i);
 /* 1 and the format of that name, or 0 where none can be written. */
 int ss_format_find(ss_format *found, const char *name);
+int ss_format_has_words(ss_format format);     /* 1; 0: it holds numbers only, or cannot be written */
 
 typedef struct ss_writer ss_writer;
 

@@ -2,10 +2,8 @@
 #include <string.h>
 #include "stream/format.h"
 
-/* In the order of ss_format; the one without first bytes is asked last. */
-static const struct format *const list[] = {
-    &ss_format_tsv, &ss_format_au, &ss_format_wav, &ss_format_delimited
-};
+#define ROW(name) &ss_format_##name,
+static const struct format *const list[] = { FORMAT_LIST(ROW) };
 enum { FORMATS = sizeof list / sizeof *list };
 
 const struct format *
@@ -21,6 +19,13 @@ begins(const char *bytes, size_t n, const char *magic)
     for (i = 0; i < n && magic[i] != '\0' && (magic[i] == '?' || magic[i] == bytes[i]); i++)
         ;
     return magic[i] == '\0';
+}
+
+int
+ss_format_has_words(ss_format of)
+{
+    const struct format *table = ss_format_table(of);
+    return table != NULL && table->separator != '\0';
 }
 
 const struct format *

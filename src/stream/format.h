@@ -1,6 +1,6 @@
 /* format.h -- the formats in which signals and rows come and go.
  *
- * A format is a file, which defines one of these tables, and a row in the list of format.c. */
+ * A format is a file, which defines one of these tables, and a row in the list below. */
 #ifndef FORMAT_H
 #define FORMAT_H
 
@@ -27,7 +27,16 @@ struct format {
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
 };
 
-extern const struct format ss_format_tsv, ss_format_au, ss_format_wav, ss_format_delimited;
+/* The list, in the order of ss_format: ss_format_tsv and so on.  That without first bytes is asked last. */
+#define FORMAT_LIST(row) \
+    row(tsv) \
+    row(au) \
+    row(wav) \
+    row(delimited)
+
+#define FORMAT_DECLARATION(name) extern const struct format ss_format_##name;
+FORMAT_LIST(FORMAT_DECLARATION)
+#undef FORMAT_DECLARATION
 
 /* The table of a format that can be written, or NULL. */
 const struct format *ss_format_table(ss_format of);

@@ -1,0 +1,103 @@
+# A format is added by one file and one row of the list: then every tool reads a signal in it, and each
+# that writes signals, coefficients or rows writes it.  It has a line FISH, then its rate, names and
+# numbers with a bar between.
+mkdir -p src/stream bin
+sed 's/^    row(delimited)$/    row(delimited) \\\n    row(fish)/' "$SRC/src/stream/format.h" > src/stream/format.h
+diff "$SRC/src/stream/format.h" src/stream/format.h | grep -c '^> ' || true
+cat > src/stream/fish.c <<'C'
+#include <stdlib.h>
+#include <string.h>
+#include "stream/format.h"
+#include "stream/reader.h"
+
+static ss_status
+read_fish(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    char *line;
+    size_t length;
+    while (*n < max) {
+        ss_status st = ss_input_line(&reader->in, &line, &length, err);
+        if (st != SS_OK || line == NULL)
+            return st;
+        for (size_t c = 0; c < reader->head->n_columns; c++) {
+            char *end;
+            rows[*n * reader->head->n_columns + c] = ss_number_parse(line, &end);
+            line = end + (*end == '|');
+        }
+        ++*n;
+    }
+    return SS_OK;
+}
+
+static ss_status
+open_fish(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+{
+    char *line, *end;
+    size_t length;
+    (void)opts;
+    ss_status st = ss_input_line(&reader->in, &line, &length, err);
+    if (st == SS_OK)
+        st = ss_input_line(&reader->in, &line, &length, err);
+    if (st != SS_OK || line == NULL)
+        return st;
+    reader->head->rate = ss_number_parse(line, &end);
+    for (char *name = strtok(end, "|"); name != NULL; name = strtok(NULL, "|"))
+        ss_header_add_column(reader->head, name, NULL);
+    reader->rows = read_fish;
+    return SS_OK;
+}
+
+static ss_status
+begin_fish(FILE *out, const ss_header *head, const char *magic)
+{
+    char rate[SS_NUMBER_MAX];
+    (void)magic;
+    ss_number_format(rate, head->rate);
+    fprintf(out, "FISH\n%s", rate);
+    for (size_t c = 0; c < head->n_columns; c++)
+        fprintf(out, "|%s", head->column[c].name);
+    fputc('\n', out);
+    return SS_OK;
+}
+
+static size_t
+put_fish(char *to, double x, int last)
+{
+    size_t n = ss_number_format(to, x);
+    to[n] = last ? '\n' : '|';
+    return n + 1;
+}
+
+const struct format ss_format_fish = {
+    .name = "fish", .magic = "FISH", .open = open_fish,
+    .begin = begin_fish, .number = put_fish, .separator = '|'
+};
+C
+for file in "$SRC"/src/stream/*.c src/stream/fish.c; do
+    # shellcheck disable=SC2086  # flags are a list
+    $CC -std=c11 -D_XOPEN_SOURCE=700 -Isrc -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$file"
+done
+for tool in cat features morlet plot noise rank trade sim signal sweep; do
+    # shellcheck disable=SC2086
+    $CCLD -o "bin/ss-$tool" "$BUILD/tools/ss-$tool.o" "$BUILD/tools/common.o" "$BUILD/tools/files.o" ./*.o "$BUILD/libstickslip.a" $LIBS
+done
+PATH=$PWD/bin:$PATH
+
+echo '-- what writes signals'
+ss-signal ringdown --duration 4 --rate 500 --frequency 20 -o ring.fish
+ss-signal ringdown --duration 4 --rate 500 --frequency 20 > ring.tsv
+head -n 3 ring.fish
+ss-cat ring.fish --format fish | cmp - ring.fish
+ss-sim -s duration=0.01 coulomb --format fish | head -n 2
+echo '-- what reads them: the same as of text'
+for command in ss-cat 'ss-noise --rms 1' ss-morlet ss-plot 'ss-features -q' 'ss-rank -q'; do
+    $command ring.tsv | grep -v -e '^# signal' > one
+    $command ring.fish | grep -v -e '^# signal' > two
+    cmp one two && echo "$command: $(wc -l < two) lines"
+done
+ss-trade -q -b 0.01 ring.fish | grep '^# compared'
+echo '-- what writes rows'
+ss-morlet --voices 1 --format fish ring.fish | head -n 2 | tail -n 1
+ss-features ring.fish -o features.fish && head -n 1 features.fish
+ss-sim --events -s settle=0 -s duration=0.5 coulomb -o events.fish && head -n 2 events.fish
+ss-sweep coulomb --vary friction=0.5:1:2 --measure stops -o sweep.fish && cat sweep.fish
