@@ -55,18 +55,40 @@ typedef struct ss_transition {
     double from, to;            /* the span fitted [s], NaN if none was */
 } ss_transition;
 
+/* A slip of a force that one stick after the other loads; times [s]. */
+typedef struct ss_loading {
+    double t;                   /* of the maximum, from the first sample */
+    ss_value slope;             /* of the loading before it [unit/s] */
+    ss_value stiffness;         /* the same against the displacement [unit/m], where there is a column */
+    double drop;                /* from the maximum to the minimum behind it [unit] */
+    double duration;            /* of its middle, from 10 to 90 % */
+    double recurrence;          /* since the maximum before; NaN of the first */
+    double stick;               /* that the force follows the line of the slope */
+} ss_loading;
+
+/* The median of many, its standard error, and the standard deviation of the many by their median
+ * deviation from it. */
+typedef struct ss_median {
+    double value, error, scatter;
+} ss_median;
+
 typedef struct ss_features {
     size_t n;
     ss_transition *transition;  /* in time order */
+    ss_loading *loading;        /* as many, where transitions are falls of a force; else NULL */
+    ss_median slope, stiffness, drop, duration, recurrence, stick;      /* of these */
     size_t n_maxima;
     ss_maximum *maximum;        /* all local maxima above the threshold, in time order */
-    ss_spikes *spikes;    /* of the whole record; none of it is claimed unless conclusive */
+    ss_spikes *spikes;          /* of the whole record; none of it is claimed unless conclusive */
     double noise;               /* rms of white noise of the level at the shortest scales */
     size_t recurring;           /* transitions that have a local maximum */
 
-    size_t slips;               /* macroscopic slips that begin in the record: the ends of transitions */
-    ss_value slip_rate;         /* [1/s]; NaN where the signal repeats itself faster than they come */
-    ss_value forcing_frequency; /* [Hz] at which the signal repeats itself */
+    ss_value slips;             /* macroscopic slips that begin in the record; the error, where it is
+                                   known: of those near the height that counts as a fall */
+    ss_value slip_rate;         /* [1/s] */
+    ss_value repetition_frequency;      /* [Hz] at which the signal repeats itself */
+    const char *why_slips;      /* they are not known, or how they were counted; else NULL */
+    const char *why_repetition, *why_ringing;   /* it is not known; else NULL.  No text is to be freed */
     ss_value frequency_raw;     /* [Hz] the paper's reading: label of the local maxima */
     ss_value frequency;         /* [Hz] damped, one for all transitions */
     ss_value damping_ratio;

@@ -1,11 +1,21 @@
 /* drops.c -- how often and how far a force drops: a sawtooth of stick and slip, read by height.
  *
- * Turning points are those that the signal leaves by RELOAD of the height asked for; falls between
+ * Turning points are those that the signal leaves by DROPS_RELOAD of the height asked for; falls between
  * them that are higher than it are drops, so that no slow drift adds up to one.  They are read
  * behind a running median, which takes single wrong samples away and leaves edges as they are.  Its
  * width follows from the noise: extremes of what it leaves (3 standard deviations at either end)
  * may change a height by ERROR of the one asked for; but it is no wider than half a fall, so that
- * it does not flatten the turning points. */
+ * it does not flatten the turning points.
+ *
+ * The height need not be asked for where falls have one.  Falls above h, between turning points left
+ * by h, have a median M(h).  A signal without a scale of its own has M = c h at all h: c is 1.7 for a
+ * random walk (falls beyond h are exponential with mean h) and less for white noise.  A sawtooth has
+ * falls of some size and none between that and the noise, so M / h rises as h is lowered.  The first
+ * h, from the largest on, with M = TYPICAL h is the height: exponentially distributed falls lose
+ * ln 2 / 3 of their mean there, a quarter of a median.  It must be above what noise makes behind the
+ * median of NARROWEST samples, 3 standard deviations at either end; else there is none. */
+#include "features/drops.h"
+
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
@@ -14,10 +24,10 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/gaps.h"
-#include <stickslip/spikes.h>
 
 #define ERROR 0.03
-#define RELOAD 0.25             /* rise, re the height asked for, that ends a fall */
+
+#define TYPICAL 4.0             /* M / h, see above */
 #define NARROWEST 5             /* samples: two wrong ones side by side do no harm */
 #define MAD 0.6744897501960817  /* of a Gaussian, re its standard deviation */
 
@@ -87,7 +97,8 @@ append(drop_list *list, const double *y, size_t high, size_t low, double rate)
 }
 
 static ss_status
-read_turning_points(drop_list *list, const double *y, size_t n, double rate, double height)
+read_turning_points(drop_list *list, const double *y, size_t n, double rate, double height,
+                    double reload)
 {
     size_t high = 0, low = 0;
     int falls = 0;
@@ -98,10 +109,10 @@ read_turning_points(drop_list *list, const double *y, size_t n, double rate, dou
             high = i;
         if (falls && y[i] < y[low])
             low = i;
-        if (!falls && y[high] - y[i] > RELOAD * height) {
+        if (!falls && y[high] - y[i] > reload) {
             falls = 1;
             low = i;
-        } else if (falls && y[i] - y[low] > RELOAD * height) {
+        } else if (falls && y[i] - y[low] > reload) {
             if (y[high] - y[low] > height)
                 st = append(list, y, high, low, rate);
             falls = 0;
@@ -123,12 +134,13 @@ fall_length(const drop_list *list, double rate, double *scratch)
 }
 
 static ss_status
-find(drop_list *list, const double *x, size_t n, double rate, double height, double *scratch)
+find(drop_list *list, const double *x, size_t n, double rate, double height, double reload,
+     double *scratch)
 {
     double *y = scratch, *window = scratch + n;
     size_t half = NARROWEST / 2;
     running_median(y, x, n, half, window);
-    ss_status st = read_turning_points(list, y, n, rate, height);
+    ss_status st = read_turning_points(list, y, n, rate, height, reload);
     if (st != SS_OK || list->n == 0)
         return st;
     /* the median of m Gaussians has pi/2 the variance of their mean */
@@ -139,7 +151,7 @@ find(drop_list *list, const double *x, size_t n, double rate, double height, dou
         return SS_OK;
     half = (size_t)(wide / 2);
     running_median(y, x, n, half, window);
-    return read_turning_points(list, y, n, rate, height);
+    return read_turning_points(list, y, n, rate, height, reload);
 }
 
 /* Falls over a gap: part of them is not known. */
@@ -155,9 +167,83 @@ leave_out(drop_list *list, const ss_span *gap, size_t n_gaps)
     list->n = kept;
 }
 
+/* --- the height that falls have ------------------------------------------------------------- */
+
+/* The turning points of y, in place; how many. */
+static size_t
+keep_turning_points(double *y, size_t n)
+{
+    size_t kept = 1;
+    for (size_t i = 1; i < n; i++)
+        if (i + 1 == n || (y[i] - y[kept - 1]) * (y[i + 1] - y[i]) < 0)
+            y[kept++] = y[i];
+    return kept;
+}
+
+/* How many falls leave a turning point by more than h, and their median; fall holds as many. */
+static size_t
+count_falls(const double *y, size_t n, double h, double *fall, double *median)
+{
+    size_t count = 0;
+    double high = y[0], low = y[0];
+    int falls = 0;
+    for (size_t i = 0; i < n; i++) {
+        high = falls ? high : fmax(high, y[i]);
+        low = falls ? fmin(low, y[i]) : y[i];
+        if (!falls && high - y[i] > h) {
+            falls = 1;
+            low = y[i];
+        } else if (falls && y[i] - low > h) {
+            fall[count++] = high - low;
+            falls = 0;
+            high = y[i];
+        }
+    }
+    *median = count > 0 ? gsl_stats_select(fall, 1, count, count / 2) : 0;
+    return count;
+}
+
+ss_status
+ss_drops_typical(const double *x, size_t n, ss_typical *out)
+{
+    enum { FEW = 3, STEPS = 4, OCTAVES = 16 };
+    *out = (ss_typical){ .height = 0 };
+    if (n < NARROWEST)
+        return SS_OK;
+    double *y = malloc((2 * n + NARROWEST) * sizeof *y), *fall = y + n, low, high, median;
+    if (y == NULL)
+        return SS_ENOMEM;
+    double noise = noise_rms(x, n, fall);
+    running_median(y, x, n, NARROWEST / 2, fall);
+    low = high = y[0];
+    for (size_t i = 0; i < n; i++)
+        low = fmin(low, y[i]), high = fmax(high, y[i]);
+    size_t turns = keep_turning_points(y, n);
+    double least = 6 * noise * sqrt(M_PI / 2 / NARROWEST), step = exp2(-1. / STEPS);
+    double h = 0.5 * (high - low);
+    for (int i = 0; i < STEPS * OCTAVES && h > least && out->height == 0; i++, h *= step) {
+        size_t count = count_falls(y, turns, h, fall, &median);
+        if (count >= FEW && median >= TYPICAL * h) {
+            out->height = h;
+            out->more = count_falls(y, turns, fmax(h / 2, least), fall, &median);
+            out->less = count_falls(y, turns, 2 * h, fall, &median);
+        }
+    }
+    free(y);
+    return SS_OK;
+}
+
 ss_status
 ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
               double height, const ss_span *gap, size_t n_gaps, ss_error *err)
+{
+    return ss_drops_find_reloaded(out, n_drops, x, n, rate, height, DROPS_RELOAD * height, gap, n_gaps, err);
+}
+
+ss_status
+ss_drops_find_reloaded(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
+                       double height, double reload, const ss_span *gap, size_t n_gaps,
+                       ss_error *err)
 {
     if (out == NULL || n_drops == NULL || x == NULL)
         return SS_FAIL_NULL(err);
@@ -179,7 +265,7 @@ ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double 
         double *bridged = scratch + 2 * n + NARROWEST + 1;
         memcpy(bridged, x, n * sizeof *x);
         ss_gaps_bridge(bridged, n, rate, gap, n_gaps);
-        st = find(&list, bridged, n, rate, height, scratch);
+        st = find(&list, bridged, n, rate, height, reload, scratch);
     }
     free(scratch);
     if (st == SS_OK)

@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "features/maxima.h"
-#include "features/period.h"
 #include "features/scale_rows.h"
 #include "features/search.h"
 #include "signal/gaps.h"
@@ -18,6 +17,10 @@ const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displace
 
 #define SPAN 80.0               /* [dB] of the paper's contours */
 #define SIGMAS 3.0
+#define JITTER 0.125            /* of a period, see slips_in_cycle */
+#define MOST 0.75
+#define OVERTONES 0.1           /* of the power: less makes no slip in a sinusoid */
+#define CONFIRMS 0.15           /* of the slip rate: a period so near to it is that of the slips */
 #define SLIGHT 0.5              /* [dB] maxima less prominent show no oscillation */
 
 /* --- maxima above the noise ------------------------------------------------------------------ */
@@ -84,20 +87,14 @@ keep_prominent(search *s)
 
 /* --- what transitions have in common --------------------------------------------------------- */
 
-/* From the times between the transitions; where the signal repeats itself, from how many of them
- * there are in a repetition, which leaves out none that is too weak to be seen.  Drops are counted as
- * they are: those below the height asked for are none.  Where a gap lies between two of them, there
- * may be more. */
-static void
-find_slip_rate(search *s)
+/* How many transitions a second, by the mean of the times between them; a gap between two may hide
+ * more. */
+static ss_value
+mean_rate(const search *s)
 {
-    ss_features *out = s->out;
-    size_t n = out->n;
-    double sum = 0, squares = 0, duration = (double)s->n / s->rate, m = 0;
-    out->slips = n;
-    for (size_t i = 0; i < s->n_gaps; i++)
-        duration -= s->gap[i].to - s->gap[i].from;
-    for (size_t i = 1; i < n; i++) {
+    const ss_features *out = s->out;
+    double sum = 0, squares = 0, m = 0;
+    for (size_t i = 1; i < out->n; i++) {
         double from = out->transition[i - 1].onset, interval = out->transition[i].onset - from;
         if (ss_gaps_near(s->gap, s->n_gaps, from + interval / 2, interval / 2))
             continue;
@@ -106,16 +103,95 @@ find_slip_rate(search *s)
         m++;
     }
     if (m < 2)
-        return;
+        return unknown;
     double mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
-    double each = round((double)n / duration / out->forcing_frequency.value);
-    out->slip_rate = (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
-    if (!(s->opts->drop > 0) && each >= 1 && fabs(1 / mean / out->forcing_frequency.value - each) < 0.25)
-        out->slip_rate = (ss_value){ each * out->forcing_frequency.value,
-                                     each * out->forcing_frequency.error };
-    else if (!(s->opts->drop > 0)
-             && out->forcing_frequency.value - 1 / mean > out->slip_rate.error)
-        out->slip_rate = unknown;       /* repetitions without any: it is not all that were found */
+    return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
+}
+
+/* How many transitions make a cycle: that many later a period has passed, for MOST of them, give or
+ * take JITTER of it.  0: they do not repeat with the cycle. */
+static size_t
+slips_in_cycle(const search *s, double rate)
+{
+    const ss_features *out = s->out;
+    double period = 1 / out->repetition_frequency.value, each = round(rate * period);
+    size_t step = each >= 1 && each < (double)out->n ? (size_t)each : 0, good = 0, all = 0;
+    for (size_t i = 0; step > 0 && i + step < out->n; i++) {
+        double from = out->transition[i].onset, passed = out->transition[i + step].onset - from;
+        if (ss_gaps_near(s->gap, s->n_gaps, from + passed / 2, passed / 2))
+            continue;
+        all++;
+        good += fabs(passed / period - 1) <= JITTER;
+    }
+    return all >= 2 && (double)good >= MOST * (double)all ? step : 0;
+}
+
+static void
+forget_ringing(ss_features *out)
+{
+    for (size_t i = 0; i < out->n; i++)
+        out->transition[i].frequency = out->transition[i].damping_ratio = unknown;
+    out->frequency_raw = out->frequency = out->damping_ratio = unknown;
+    out->why_ringing = "the slips are not known";
+}
+
+/* What is sharp does not repeat with the cycle.  A cycle of dry friction has a slip all the same: one,
+ * unless its second half mirrors the first, as then it has as many either way; a sinusoid need not
+ * have any. */
+static void
+count_cycles(search *s)
+{
+    ss_features *out = s->out;
+    int more = (double)out->n > (double)s->cycles.n;
+    forget_ringing(out);
+    if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE
+        && s->cycles.overtones > OVERTONES) {
+        out->n = out->recurring = 0;
+        out->slips.value = (double)s->cycles.n;
+        out->slip_rate = out->repetition_frequency;
+        out->why_slips = "counted as one a cycle, as nothing sharp repeats with it";
+    } else
+        out->why_slips = more ? "there are more sharp events than slips that could repeat with the cycle"
+            : "there are fewer sharp events than cycles";
+}
+
+/* Each slip of a force that falls ends a cycle, so its period needs no other proof. */
+static void
+confirm_repetition(search *s)
+{
+    ss_features *out = s->out;
+    if (isnan(out->repetition_frequency.value)
+        && fabs(out->slip_rate.value / (s->rate * s->cycles.frequency.value) - 1) <= CONFIRMS) {
+        out->repetition_frequency = (ss_value){ s->rate * s->cycles.frequency.value,
+                                                s->rate * s->cycles.frequency.error };
+        out->why_repetition = NULL;
+    }
+}
+
+static void
+find_slip_rate(search *s)
+{
+    ss_features *out = s->out;
+    if (out->why_slips != NULL) {
+        out->slips.value = NAN;
+        return;
+    }
+    out->slips.value = (double)out->n;
+    out->slip_rate = mean_rate(s);
+    if (out->loading != NULL) {
+        confirm_repetition(s);
+        return;
+    }
+    if (isnan(out->repetition_frequency.value) || isnan(out->slip_rate.value))
+        return;
+    size_t each = slips_in_cycle(s, out->slip_rate.value);
+    out->slip_rate = (ss_value){ (double)each * out->repetition_frequency.value,
+                                 (double)each * out->repetition_frequency.error };
+    if (each == 0) {
+        out->slips.value = NAN;
+        out->slip_rate = unknown;
+        count_cycles(s);
+    }
 }
 
 /* --- stiffness and damping ----------------------------------------------------------------- */
@@ -217,15 +293,27 @@ find_maxima(search *s)
 }
 
 static ss_status
+find_repetition(search *s)
+{
+    ss_features *out = s->out;
+    ss_status st = ss_cycles_find(s->x, s->n, CYCLES_ALIKE, &s->cycles);
+    out->why_repetition = s->cycles.why;
+    if (st != SS_OK || s->cycles.why != NULL)
+        return st;
+    if (s->cycles.likeness >= CYCLES_LIKE)
+        out->repetition_frequency = (ss_value){ s->rate * s->cycles.frequency.value,
+                                                s->rate * s->cycles.frequency.error };
+    else
+        out->why_repetition = "a cycle does not resemble the next one enough";
+    return SS_OK;
+}
+
+static ss_status
 find_all(search *s)
 {
-    ss_value period;
-    ss_status st = ss_period_find(s->x, s->n, &period);
+    ss_status st = find_repetition(s);
     if (st != SS_OK)
         return st;
-    if (!isnan(period.value))
-        s->out->forcing_frequency = (ss_value){ s->rate / period.value, s->rate * period.error
-                                                / (period.value * period.value) };
     ss_spike_opts sharp = ss_spike_defaults;
     sharp.gap = s->gap;
     sharp.n_gaps = s->n_gaps;
@@ -295,7 +383,9 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
     }
     ss_gaps_bridge(s.x, s.n, s.rate, s.gap, s.n_gaps);
-    s.out->slip_rate = s.out->forcing_frequency = s.out->frequency_raw = s.out->frequency
+    s.quantity = ss_quantity_of(&signal->head->column[column]);
+    s.out->slips = (ss_value){ 0, NAN };
+    s.out->slip_rate = s.out->repetition_frequency = s.out->frequency_raw = s.out->frequency
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
         = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
     st = s.n > 0 ? transform(&s, column, err) : SS_ESCALE;
@@ -323,6 +413,7 @@ ss_features_free(ss_features *features)
     if (features == NULL)
         return;
     free(features->transition);
+    free(features->loading);
     free(features->maximum);
     ss_spikes_free(features->spikes);
     free(features);

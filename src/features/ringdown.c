@@ -704,6 +704,23 @@ fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value 
 }
 
 ss_status
+ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
+                     const ss_window *gap, size_t n_gaps, ss_window *window, ss_value value[2],
+                     ss_value *each)
+{
+    work k = { .n = n, .n_gaps = n_gaps, .gap = gap };
+    clear(anchor, n_anchors, window, value, each);
+    ss_status st = ss_varpro_init(&k.fit, x, (size_t)ceil(4 * LEAST * M_PI / w) + 2 * VARPRO_COLUMNS);
+    ss_varpro_start(&k.fit, w, START * w, 0);
+    if (st == SS_OK)
+        st = fit_rough(&k, anchor, n_anchors, window, each);
+    if (st == SS_OK)
+        st = take_median(window, n_anchors, each, value);
+    ss_varpro_free(&k.fit);
+    return st;
+}
+
+ss_status
 ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors, double w,
                 double forcing, double white, const ss_window *gap, size_t n_gaps,
                 ss_window *window, ss_value value[2], ss_value *each)

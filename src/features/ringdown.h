@@ -18,4 +18,11 @@ ss_status ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_
                           double w, double forcing, double white, const ss_window *gap,
                           size_t n_gaps, ss_window *window, ss_value value[2], ss_value *each);
 
+/* The same for windows of two periods that begin up to two before an anchor or one behind it, each
+ * fitted by itself beside a line and kept if nine tenths of what is left of the line are the
+ * oscillation's: value is the median of these, its error from their scatter; NaN for under four. */
+ss_status ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, size_t n_anchors,
+                               double w, const ss_window *gap, size_t n_gaps, ss_window *window,
+                               ss_value value[2], ss_value *each);
+
 #endif

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stddef.h>
 #include <stickslip/features.h>
+#include "features/cycles.h"
+#include "features/quantity.h"
 
 #define CENTER 6.0              /* of the wavelet */
 
@@ -22,12 +24,17 @@ typedef struct search {
     ss_coefficients *coef;
     ss_maximum *found;          /* maxima, slight ones too */
     size_t n_found;
+    ss_quantity quantity;
+    ss_cycles cycles;
     int spiked;                 /* transitions end with their last spike, anywhere before the next */
     ss_features *out;
 } search;
 
+/* Room for n transitions of which nothing is known, in place of those before. */
+ss_status ss_transitions_new(ss_features *out, size_t n);
+
 /* The transitions, in time order, and, where they ring, the frequency and damping that they have in
- * common, into s->out, which has spikes and forcing_frequency.  None found: s->out->n is 0. */
+ * common, into s->out, which has spikes and repetition_frequency.  None found: s->out->n is 0. */
 ss_status ss_transitions_find(search *s);
 
 #endif

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include "features/extent.h"
+#include "features/fold.h"
+#include "features/force.h"
 #include "base/list.h"
 #include "features/ringdown.h"
 #include "features/scale_rows.h"
@@ -12,10 +14,13 @@
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 #define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
-#define STRONG 20.0             /* [dB] below the strongest: spikes that begin a transition */
+#define STRONG 20.0             /* [dB] below the strongest: spikes that begin or end a transition */
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
+#define PRECISE 10.0            /* a frequency is this many of its standard errors, at least */
+#define SHARPER 1.5             /* than the oscillation, in frequency: an event within it */
+#define POSITIVE 3.0            /* standard errors by which a damping ratio is more than 0 */
 #define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
 
 static size_t
@@ -39,7 +44,7 @@ same_kind(const ss_maximum *m, double f)
 static double
 find_recurrent(const search *s, double prominence)
 {
-    double best = 0, best_level = 0, slowest = s->out->forcing_frequency.value;
+    double best = 0, best_level = 0, slowest = s->out->repetition_frequency.value;
     size_t most = FEW - 1;
     for (size_t i = 0; i < s->n_found; i++) {
         double level = 0;
@@ -81,8 +86,8 @@ earlier(const void *a, const void *b)
     return (p->onset > q->onset) - (p->onset < q->onset);
 }
 
-static ss_status
-new_transitions(ss_features *out, size_t n)
+ss_status
+ss_transitions_new(ss_features *out, size_t n)
 {
     free(out->transition);
     out->n = 0;
@@ -188,9 +193,12 @@ earlier_window(const void *a, const void *b)
     return (p->first > q->first) - (p->first < q->first);
 }
 
-/* What no stick reaches over: gaps, and strong jumps, which have no samples of their own. */
+typedef enum bars { BAR_GAPS, BAR_JUMPS, BAR_EVENTS } bars;
+
+/* What no stick reaches over: gaps, and strong jumps, or jumps and kinks, which have no samples of
+ * their own. */
 static ss_status
-find_bars(const search *s, int jumps, ss_window **bar, size_t *n)
+find_bars(const search *s, bars which, ss_window **bar, size_t *n)
 {
     const ss_spikes *found = s->out->spikes;
     *bar = malloc((s->n_gaps + found->n + 1) * sizeof **bar);
@@ -198,8 +206,9 @@ find_bars(const search *s, int jumps, ss_window **bar, size_t *n)
         return SS_ENOMEM;
     for (*n = 0; *n < s->n_gaps; ++*n)
         ss_gap_rows(&s->gap[*n], s->rate, &(*bar)[*n].first, &(*bar)[*n].end);
-    for (size_t i = 0; i < found->n && jumps; i++)
-        if (found->spike[i].kind == SS_SPIKE_JUMP && found->spike[i].level >= -STRONG) {
+    for (size_t i = 0; i < found->n && which != BAR_GAPS; i++)
+        if ((which == BAR_EVENTS ? is_event(&found->spike[i])
+             : found->spike[i].kind == SS_SPIKE_JUMP) && found->spike[i].level >= -STRONG) {
             size_t at = (size_t)ceil(fmax(found->spike[i].t * s->rate, 0));
             (*bar)[(*n)++] = (ss_window){ at, at };
         }
@@ -214,14 +223,14 @@ static ss_status
 fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
     ss_value *each)
 {
-    double turn = 2 * M_PI / s->rate, forcing = s->out->forcing_frequency.value;
+    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
     ss_status st = SS_OK;
     all[0].value = NAN;
-    for (int jumps = 0; jumps < 2 && st == SS_OK && isnan(all[0].value); jumps++) {
+    for (bars which = BAR_GAPS; which <= BAR_JUMPS && st == SS_OK && isnan(all[0].value); which++) {
         ss_window *bar = NULL;
         size_t n_bars = 0;
-        st = find_bars(s, jumps, &bar, &n_bars);
-        if (st == SS_OK && (jumps == 0 || n_bars > s->n_gaps))
+        st = find_bars(s, which, &bar, &n_bars);
+        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps))
             st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f,
                                  isnan(forcing) ? 0 : turn * forcing, s->out->noise, bar, n_bars,
                                  window, all, each);
@@ -230,37 +239,170 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
     return st;
 }
 
+/* Where the transitions are known already, each stick by itself, as they need not be alike. */
+static ss_status
+fit_singly(const search *s, const size_t *anchor, size_t n, double f, ss_window *window,
+           ss_value all[2], ss_value *each)
+{
+    ss_window *bar = NULL;
+    size_t n_bars = 0;
+    ss_status st = find_bars(s, BAR_EVENTS, &bar, &n_bars);
+    if (st == SS_OK)
+        st = ss_ringdown_fit_each(s->x, s->n, anchor, n, 2 * M_PI / s->rate * f, bar, n_bars, window,
+                                  all, each);
+    free(bar);
+    return st;
+}
+
+/* Does a strong jump or kink lie between the two, by more than the scale that shows it?  At scales
+ * that see no more than the oscillation of frequency f itself, its own crests pass for kinks. */
+static int
+crosses_event(const ss_spikes *found, double from, double to, double f)
+{
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
+    for (; i < found->n && found->spike[i].t < to; i++) {
+        double a = ROW_CENTER / (2 * M_PI * found->spike[i].f), t = found->spike[i].t;
+        if (is_event(&found->spike[i]) && found->spike[i].level >= -STRONG
+            && found->spike[i].f > SHARPER * f && t > from + a && t < to - a)
+            return 1;
+    }
+    return 0;
+}
+
+/* How many of the windows cross an event, of the record or of its mean cycle. */
+static ss_status
+count_crossings(const search *s, const ss_window *window, size_t n, double f, size_t *used,
+                size_t *crossed)
+{
+    double period;
+    ss_spikes *folded = NULL;
+    ss_status st = ss_fold_spikes(s, &folded, &period);
+    *used = *crossed = 0;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        double from = (double)window[i].first / s->rate, to = (double)window[i].end / s->rate;
+        if (from == to)
+            continue;
+        ++*used;
+        if (crosses_event(s->out->spikes, from, to, f)) {
+            ++*crossed;
+        } else if (folded != NULL) {
+            double shift = period * (1 - floor(from / period));
+            *crossed += (size_t)crosses_event(folded, from + shift, to + shift, f);
+        }
+    }
+    ss_spikes_free(folded);
+    return st;
+}
+
+/* Why what was fitted is no ringing; NULL if it is. */
+static const char *
+judge_fit(const ss_value all[2], size_t used, size_t crossed)
+{
+    if (isnan(all[0].value))
+        return "what recurs lasts under 2 periods or is no damped oscillation";
+    if (2 * crossed > used)
+        return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
+    if (!(all[1].value > 0))
+        return "what recurs does not decay";
+    if (!(all[0].error < all[0].value / PRECISE))
+        return "the transitions do not agree on a frequency";
+    return NULL;
+}
+
+static void
+forget_fit(const size_t *anchor, size_t n, ss_window *window, ss_value all[2], ss_value *each)
+{
+    all[0] = all[1] = unknown;
+    for (size_t i = 0; i < n; i++) {
+        window[i] = (ss_window){ anchor[i], anchor[i] };
+        each[2 * i] = each[2 * i + 1] = unknown;
+    }
+}
+
+/* Fit an oscillation of about f to every transition, each about a time [s], and judge it. */
+static ss_status
+fit_and_judge(search *s, const double *about, double f, int singly, ss_window *window)
+{
+    ss_features *out = s->out;
+    size_t n = out->n, used = 0, crossed = 0;
+    size_t *anchor = malloc((n + 1) * sizeof *anchor);
+    ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
+    ss_status st = SS_ENOMEM;
+    if (anchor != NULL && each != NULL) {
+        for (size_t i = 0; i < n; i++)
+            anchor[i] = (size_t)(about[i] * s->rate);
+        st = (singly ? fit_singly : fit)(s, anchor, n, f, window, all, each);
+    }
+    if (st == SS_OK && !singly)
+        st = count_crossings(s, window, n, f, &used, &crossed);
+    if (st == SS_OK && (out->why_ringing = judge_fit(all, used, crossed)) != NULL)
+        forget_fit(anchor, n, window, all, each);
+    if (st == SS_OK) {
+        set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
+        if (!(out->damping_ratio.value > POSITIVE * out->damping_ratio.error))
+            out->damping_ratio = unknown;
+        for (size_t i = 0; i < n; i++) {
+            ss_transition *tr = &out->transition[i];
+            set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
+            if (window[i].end > window[i].first) {
+                tr->from = (double)window[i].first / s->rate;
+                tr->to = (double)window[i].end / s->rate;
+            }
+        }
+    }
+    free(anchor);
+    free(each);
+    return st;
+}
+
+/* Where a swell is all that is known of a transition: from what is fitted, or the swell, to the jumps
+ * and kinks beside. */
 static ss_status
 refine(search *s, const ss_maximum *swell, double f)
 {
     ss_features *out = s->out;
-    size_t n = out->n;
-    size_t *anchor = malloc((n + 1) * sizeof *anchor);
-    ss_window *window = malloc((n + 1) * sizeof *window);
-    ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
+    double *about = malloc((out->n + 1) * sizeof *about);
+    ss_window *window = malloc((out->n + 1) * sizeof *window);
     ss_status st = SS_ENOMEM;
-    if (anchor != NULL && window != NULL && each != NULL) {
-        for (size_t i = 0; i < n; i++)
-            anchor[i] = (size_t)(swell[i].t * s->rate);
-        st = fit(s, anchor, n, f, window, all, each);
+    if (about != NULL && window != NULL) {
+        for (size_t i = 0; i < out->n; i++)
+            about[i] = swell[i].t;
+        st = fit_and_judge(s, about, f, 0, window);
     }
-    if (st == SS_OK) {
-        set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
-        for (size_t i = 0; i < n; i++) {
-            ss_transition *tr = &out->transition[i];
-            tr->onset = tr->end = swell[i].t;
-            set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
-            if (window[i].end > window[i].first) {
-                tr->onset = tr->from = (double)window[i].first / s->rate;
-                tr->end = tr->to = (double)window[i].end / s->rate;
-            }
-            snap_to_spikes(s, tr, 1 / f);
-        }
+    for (size_t i = 0; st == SS_OK && i < out->n; i++) {
+        ss_transition *tr = &out->transition[i];
+        tr->onset = isnan(tr->from) ? swell[i].t : tr->from;
+        tr->end = isnan(tr->to) ? swell[i].t : tr->to;
+        snap_to_spikes(s, tr, 1 / f);
     }
-    free(anchor);
+    free(about);
     free(window);
-    free(each);
     return st;
+}
+
+static void
+forget_transitions(ss_features *out)
+{
+    free(out->transition);
+    out->transition = NULL;
+    out->n = out->recurring = 0;
+}
+
+/* Noise in a band swells too: but slowly, where a slip sets off its ringing at once.  So swells of a
+ * signal that does not repeat itself are transitions only if half of them begin with a jump or kink. */
+static int
+begin_sharply(const search *s, const ss_maximum *swell, double f)
+{
+    const ss_spikes *found = s->out->spikes;
+    size_t sharp = 0, n = s->out->n;
+    for (size_t i = 0; i < n; i++) {
+        double t = swell[i].t - 1 / f;          /* a swell is highest about a period behind its onset */
+        size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, t - 1.5 / f);
+        while (k < found->n && found->spike[k].t <= t + 1.5 / f && !is_event(&found->spike[k]))
+            k++;
+        sharp += k < found->n && found->spike[k].t <= t + 1.5 / f;
+    }
+    return 2 * sharp >= n;
 }
 
 /* Transitions that ring: at each swell of |W| along the row of the frequency that recurs. */
@@ -273,13 +415,11 @@ find_ringing(search *s, double label)
     ss_status st = ss_maxima_along(&swell, &n, s->coef, row_of(s->coef, label), RANGE,
                              s->opts->threshold);
     if (st == SS_OK)
-        st = new_transitions(out, n);
+        st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
-    if (ringing < FEW || 2 * ringing < out->n) {        /* that is chance */
-        free(out->transition);
-        out->transition = NULL;
-        out->n = out->recurring = 0;
-    }
+    if (ringing < FEW || 2 * ringing < out->n           /* that is chance */
+        || (isnan(out->repetition_frequency.value) && !begin_sharply(s, swell, label)))
+        forget_transitions(out);
     if (st == SS_OK && out->recurring > 0)
         st = read_raw(s);
     if (st == SS_OK && out->n > 0)
@@ -306,8 +446,8 @@ find_spiked(search *s)
 {
     ss_features *out = s->out;
     const ss_spikes *found = out->spikes;
-    double apart = isnan(out->forcing_frequency.value) ? 0 : 0.125 / out->forcing_frequency.value;
-    ss_status st = new_transitions(out, found->n);
+    double apart = isnan(out->repetition_frequency.value) ? 0 : 0.125 / out->repetition_frequency.value;
+    ss_status st = ss_transitions_new(out, found->n);
     if (st != SS_OK)
         return st;
     out->n = 0;
@@ -352,7 +492,7 @@ find_single(search *s)
 {
     ss_bursts *found = NULL;
     ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
-    if (st == SS_OK && (st = new_transitions(s->out, found->n)) == SS_OK)
+    if (st == SS_OK && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];
             size_t at = (size_t)round(found->burst[i].t * s->rate);
@@ -370,19 +510,77 @@ find_single(search *s)
     return st;
 }
 
-static ss_status
-find_dropped(search *s)
+/* --- ringing behind transitions that are known ----------------------------------------------- */
+
+#define SETTLED 1.0             /* periods behind the onset that are not looked at: its own jump */
+#define LOOKED 5.0              /* periods behind it up to which the band is looked for */
+#define LEFT 2.0                /* periods before the end that are not looked at */
+
+/* The mean square of |W| over the root of the scale, which is that of the amplitude, over LOOKED less
+ * SETTLED periods behind the onsets; 0: fewer than half of the transitions last so long. */
+static double
+power_behind(const search *s, const ss_scale *scale)
 {
-    ss_drop *drop = NULL;
-    size_t n = 0;
-    ss_status st = ss_drops_find(&drop, &n, s->x, s->n, s->rate, s->opts->drop / s->largest,
-                                 s->gap, s->n_gaps, NULL);
-    if (st == SS_OK && (st = new_transitions(s->out, n)) == SS_OK)
-        for (size_t i = 0; i < n; i++) {
-            s->out->transition[i].onset = drop[i].t;
-            s->out->transition[i].end = drop[i].end;
+    const ss_features *out = s->out;
+    double sum = 0, period = 1 / scale->f;
+    size_t used = 0;
+    for (size_t i = 0; i < out->n; i++) {
+        const ss_transition *tr = &out->transition[i];
+        double from = tr->onset + SETTLED * period, to = tr->onset + LOOKED * period, one = 0;
+        size_t first = (size_t)ceil(from / (scale->b_num / scale->b_den)), k = first;
+        if (to > tr->end - LEFT * period || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
+                                                         0.5 * (to - from) + ROW_REACH * scale->a))
+            continue;
+        for (; k < scale->n && ss_scale_b(scale, k) <= to; k++) {
+            const double *w = s->coef->w + 2 * (scale->offset + k);
+            one += w[0] * w[0] + w[1] * w[1];
         }
-    free(drop);
+        if (k == first)
+            continue;
+        sum += one / (double)(k - first);
+        used++;
+    }
+    return 2 * used > out->n ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
+}
+
+/* The label of the strongest band that is a band: with less power on either side.  0: none. */
+static double
+strongest_band(const search *s)
+{
+    const ss_coefficients *coef = s->coef;
+    double before = 0, at = 0, best = 0, f = 0;
+    for (size_t i = 0; i < coef->n_scales; i++) {
+        double next = power_behind(s, &coef->scale[i]);
+        if (before > 0 && at > before && at > next && next > 0 && at > best) {
+            best = at;
+            f = coef->scale[i - 1].f;
+        }
+        before = at;
+        at = next;
+    }
+    return f;
+}
+
+/* The oscillation of the strongest band is fitted; what is finer resolved but weaker is none. */
+static ss_status
+find_ringing_behind(search *s)
+{
+    ss_features *out = s->out;
+    double label = out->n < FEW ? 0 : strongest_band(s), f = true_frequency(s, label);
+    if (!(label > 0)) {
+        out->why_ringing = "no band of frequencies stands out behind the transitions";
+        return SS_OK;
+    }
+    double *about = malloc((out->n + 1) * sizeof *about);
+    ss_window *window = malloc((out->n + 1) * sizeof *window);
+    ss_status st = SS_ENOMEM;
+    if (about != NULL && window != NULL) {
+        for (size_t i = 0; i < out->n; i++)
+            about[i] = fmin(out->transition[i].onset + 2 / f, (double)(s->n - 1) / s->rate);
+        st = fit_and_judge(s, about, f, 1, window);
+    }
+    free(about);
+    free(window);
     return st;
 }
 
@@ -420,7 +618,7 @@ static ss_status
 find_transitions(search *s)
 {
     ss_features *out = s->out;
-    int spiked = out->spikes->conclusive && !isnan(out->forcing_frequency.value)
+    int spiked = out->spikes->conclusive && !isnan(out->repetition_frequency.value)
         && has_strong_event(out->spikes);
     ss_status st = SS_OK;
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
@@ -442,7 +640,14 @@ find_transitions(search *s)
 ss_status
 ss_transitions_find(search *s)
 {
-    ss_status st = s->opts->drop > 0 ? find_dropped(s) : find_transitions(s);
+    int decided;
+    ss_status st = ss_force_find(s, &decided);
+    if (st == SS_OK && !decided)
+        st = find_transitions(s);
+    else if (st == SS_OK && s->out->loading != NULL)
+        s->out->why_ringing = "it is not looked for behind the falls of a force";
+    else if (st == SS_OK)
+        st = find_ringing_behind(s);
     if (st == SS_OK)
         count_spikes(s);
     return st;

@@ -142,7 +142,15 @@ write_transition(struct rows *rows, const ss_transition *tr, double start, int c
         ss_rows_number(rows, NAN);
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
         ss_rows_number(rows, cells[i]);
-    ss_rows_end(rows);
+}
+
+static void
+write_loading(struct rows *rows, const ss_loading *l)
+{
+    const double cells[] = { l->slope.value, l->slope.error, l->stiffness.value, l->stiffness.error,
+                             l->drop, l->duration, l->recurrence, l->stick };
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+        ss_rows_number(rows, cells[i]);
 }
 
 static void
@@ -165,37 +173,47 @@ write_value(struct rows *rows, const char *key, ss_value v)
                  ss_number_text(error, v.error));
 }
 
-/* Three of them have a rate, unless the signal repeats itself faster. */
-static int
-is_missing_slips(const ss_features *f)
+/* Median, its standard error, and the standard deviation of the many. */
+static void
+write_median(struct rows *rows, const char *key, ss_median m)
 {
-    return f->n > 2 && isnan(f->slip_rate.value) && !isnan(f->forcing_frequency.value);
+    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX], scatter[SS_NUMBER_MAX];
+    ss_rows_note(rows, "%s: %s %s %s", key, ss_number_text(value, m.value),
+                 ss_number_text(error, m.error), ss_number_text(scatter, m.scatter));
 }
 
-/* Why there is no frequency; NULL where there is one, or too few transitions to look for it. */
-static const char *
-why_no_fit(const ss_features *f)
+static void
+write_medians(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
 {
-    if (f->n < 3 || !isnan(f->frequency.value))
-        return NULL;
-    return f->recurring > 0
-        ? "none: what recurs lasts under 2 periods or is no damped oscillation; try a part of the record"
-        : "none: no local maximum of |W| recurs, as ringing makes them if jumps do not hide it";
+    write_median(rows, "loading_slope", f->slope);
+    if (opts->displacement >= 0)
+        write_median(rows, "loading_stiffness", f->stiffness);
+    write_median(rows, "drop", f->drop);
+    write_median(rows, "drop_duration", f->duration);
+    write_median(rows, "recurrence_time", f->recurrence);
+    write_median(rows, "stick_time", f->stick);
+}
+
+static void
+write_reason(struct rows *rows, const char *key, const char *why)
+{
+    if (why != NULL)
+        ss_rows_note(rows, "%s: %s", key, why);
 }
 
 static void
 write_summary(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
 {
     ss_rows_note(rows, "spikes: %s", ss_spikes_verdict(f->spikes));
-    if (why_no_fit(f) != NULL)
-        ss_rows_note(rows, "fit: %s", why_no_fit(f));
-    if (is_missing_slips(f))
-        ss_rows_note(rows, "slip_rate_not_known: fewer transitions than repetitions of the signal; "
-                     "try the falls of a force");
+    write_reason(rows, "about_slips", f->why_slips);
+    write_reason(rows, "about_repetition", f->why_repetition);
+    write_reason(rows, "about_ringing", f->why_ringing);
     ss_rows_note(rows, "transitions: %zu -", f->n);
-    ss_rows_note(rows, "slips: %zu -", f->slips);
+    write_value(rows, "slips", f->slips);
     write_value(rows, "slip_rate", f->slip_rate);
-    write_value(rows, "forcing_frequency", f->forcing_frequency);
+    if (f->loading != NULL)
+        write_medians(rows, f, opts);
+    write_value(rows, "repetition_frequency", f->repetition_frequency);
     write_value(rows, "transition_frequency_raw", f->frequency_raw);
     write_value(rows, "transition_frequency", f->frequency);
     write_value(rows, "damping_ratio", f->damping_ratio);
@@ -217,7 +235,11 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         { "onset", "s" }, { "end", "s" }, { "spikes", "" }, { "time", "s" }, { "frequency", "Hz" },
         { "prominence", "dB" }, { "transition_frequency", "Hz" },
         { "transition_frequency_error", "Hz" }, { "damping_ratio", "" },
-        { "damping_ratio_error", "" } };
+        { "damping_ratio_error", "" },
+        /* of falls of a force only */
+        { "slope", "" }, { "slope_error", "" }, { "stiffness", "" }, { "stiffness_error", "" },
+        { "drop", "" }, { "duration", "s" }, { "recurrence", "s" }, { "stick", "s" } };
+    enum { ALL = sizeof columns / sizeof *columns, OF_LOADING = 8 };
     struct rows rows;
     char threshold[SS_NUMBER_MAX];
     if (f == NULL || signal == NULL || column >= signal->head->n_columns || opts == NULL || out == NULL
@@ -231,9 +253,13 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
     if (ss_header_find_note(head, "gaps") != NULL)
         ss_rows_note(&rows, "near_gaps: nothing is claimed: no spike within 12 scales, no event "
                      "within 6, no local maximum within sqrt(2), no fit over one");
-    ss_rows_columns(&rows, columns, sizeof columns / sizeof *columns);
-    for (size_t i = 0; i < f->n; i++)
+    ss_rows_columns(&rows, columns, f->loading != NULL ? ALL : ALL - OF_LOADING);
+    for (size_t i = 0; i < f->n; i++) {
         write_transition(&rows, &f->transition[i], head->start, f->spikes->conclusive);
+        if (f->loading != NULL)
+            write_loading(&rows, &f->loading[i]);
+        ss_rows_end(&rows);
+    }
     write_spikes(&rows, f->spikes, head->start);
     write_summary(&rows, f, opts);
     return ss_output_flush(out);

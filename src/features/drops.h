@@ -1,0 +1,23 @@
+/* drops.h -- the height that the falls of a force have. */
+#ifndef DROPS_H
+#define DROPS_H
+
+#include <stddef.h>
+#include <stickslip/spikes.h>
+
+#define DROPS_RELOAD 0.25       /* rise, re the height asked for, that ends a fall of ss_drops_find */
+
+typedef struct ss_typical {
+    double height;              /* that separates falls from noise; 0: they have no typical height */
+    size_t more, less;          /* falls above half of it, or above the noise, and above twice it */
+} ss_typical;
+
+/* Of the n samples of x. */
+ss_status ss_drops_typical(const double *x, size_t n, ss_typical *out);
+
+/* ss_drops_find where a fall ends when x has risen by reload. */
+ss_status ss_drops_find_reloaded(ss_drop **out, size_t *n_drops, const double *x, size_t n,
+                                 double rate, double height, double reload, const ss_span *gap,
+                                 size_t n_gaps, ss_error *err);
+
+#endif

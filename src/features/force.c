@@ -1,0 +1,198 @@
+/* force.c -- the slips of a force, read from the force itself.
+ *
+ * Friction has the sign of the slip.  So a force that never changes its sign belongs to motion in one
+ * direction: each stick loads it, and each slip is a fall.  A force that changes its sign in every
+ * cycle, whose second half mirrors the first, belongs to motion to and fro: it breaks away once after
+ * each reversal, and whatever chatters until the next one is of the same slip.
+ *
+ * Falls need a height (drops.c), else they are not told from the noise.  Reversals are counted with a
+ * hysteresis of half the level at which the force stays, so that ramps in which nothing breaks away
+ * are none. */
+#include "features/force.h"
+
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "features/drops.h"
+#include "features/loading.h"
+#include "signal/gaps.h"
+
+#define OUTLIERS 0.02           /* of the samples at either end may be wrong */
+#define LEVEL 0.5               /* of the level: less is no half-cycle */
+#define RETREAT 0.05            /* of the level: a fall by which the force has broken away */
+
+/* The quantile of n samples, by a copy. */
+static double
+quantile(const double *x, size_t n, double part, double *copy)
+{
+    memcpy(copy, x, n * sizeof *x);
+    return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
+}
+
+/* 1 or -1: the sign that nearly all samples have; 0: both are there. */
+static int
+one_sign(const double *x, size_t n, double *copy)
+{
+    return quantile(x, n, OUTLIERS, copy) > 0 ? 1 : quantile(x, n, 1 - OUTLIERS, copy) < 0 ? -1 : 0;
+}
+
+/* --- falls ----------------------------------------------------------------------------------- */
+
+static ss_status
+set_falls(search *s, const ss_drop *drop, size_t n)
+{
+    ss_status st = ss_transitions_new(s->out, n);
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        s->out->transition[i].onset = drop[i].t;
+        s->out->transition[i].end = drop[i].end;
+    }
+    return st;
+}
+
+/* Without the column's name, falls must be quicker than what loads them, as slips are: by the sign
+ * test at three standard deviations. */
+static int
+falls_are_quick(const ss_drop *drop, size_t n)
+{
+    double quick = 0, all = 0;
+    for (size_t i = 1; i < n; i++, all++)
+        quick += drop[i].end - drop[i].t < drop[i].t - drop[i - 1].end;
+    return quick - all / 2 > 1.5 * sqrt(all);
+}
+
+static ss_status
+find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
+{
+    ss_drop *drop = NULL;
+    size_t n = 0;
+    ss_status st = ss_drops_find_reloaded(&drop, &n, x, s->n, s->rate, height, reload, s->gap,
+                                          s->n_gaps, NULL);
+    *decided = st == SS_OK && (named || falls_are_quick(drop, n));
+    if (*decided)
+        st = set_falls(s, drop, n);
+    if (*decided && st == SS_OK)
+        st = ss_loading_find(s, x, drop, n);
+    free(drop);
+    return st;
+}
+
+/* Falls of x, which is the signal or its negative, of the height that they have. */
+static ss_status
+find_typical_falls(search *s, const double *x, int *decided)
+{
+    ss_typical typical;
+    int named = s->quantity == QUANTITY_FORCE;
+    ss_status st = ss_drops_typical(x, s->n, &typical);
+    if (st != SS_OK || typical.height == 0) {
+        *decided = st == SS_OK && named;
+        if (*decided)
+            s->out->why_slips = "the falls of the force have no typical height above its noise";
+        return st;
+    }
+    st = find_falls(s, x, typical.height, typical.height, named, decided);
+    if (st == SS_OK && *decided)
+        s->out->slips.error = 0.5 * fabs((double)typical.more - (double)typical.less);
+    return st;
+}
+
+/* --- reversals ------------------------------------------------------------------------------- */
+
+/* The level at which the force stays: the median of what is above half of its largest. */
+static double
+level_of(const double *x, size_t n, double *copy)
+{
+    size_t high = 0;
+    for (size_t i = 0; i < n; i++)
+        copy[i] = fabs(x[i]);
+    double half = 0.5 * gsl_stats_select(copy, 1, n, (size_t)((1 - OUTLIERS) * (double)(n - 1)));
+    for (size_t i = 0; i < n; i++)
+        if (fabs(x[i]) > half)
+            copy[high++] = fabs(x[i]);
+    return high > 0 ? gsl_stats_select(copy, 1, high, high / 2) : 0;
+}
+
+/* From sample i on, the first maximum of |x| that it leaves by retreat, before end. */
+static size_t
+break_away(const double *x, size_t i, size_t end, double retreat)
+{
+    size_t top = i;
+    for (; i < end && fabs(x[i]) > fabs(x[top]) - retreat; i++)
+        top = fabs(x[i]) > fabs(x[top]) ? i : top;
+    return top;
+}
+
+/* One that the record begins in has broken away before.  A half-cycle reaches from where x passes half
+ * of the level, to either side of the middle, to where it does so for the last time before the other
+ * side: ringing may go farther. */
+static ss_status
+find_reversals(search *s, const double *x, double level)
+{
+    ss_features *out = s->out;
+    ss_status st = ss_transitions_new(out, s->n / 2 + 1);
+    int sign = 0, open = 0;
+    size_t last = 0;
+    out->n = 0;
+    for (size_t i = 0; st == SS_OK && i < s->n; i++) {
+        int side = x[i] > LEVEL * level ? 1 : x[i] < -LEVEL * level ? -1 : 0;
+        if (side != 0 && side == sign)
+            last = i;
+        if (side == 0 || side == sign)
+            continue;
+        if (open)
+            out->transition[out->n++].end = (double)last / s->rate;
+        size_t at = break_away(x, i, s->n, RETREAT * level);
+        open = i > 0 && !ss_gaps_near(s->gap, s->n_gaps, (double)at / s->rate, 1 / s->rate);
+        out->transition[out->n].onset = (double)at / s->rate;
+        sign = side;
+        last = i;
+    }
+    if (open)
+        out->transition[out->n++].end = (double)last / s->rate;
+    return st;
+}
+
+/* --- all of it ------------------------------------------------------------------------------- */
+
+static ss_status
+find_by_itself(search *s, double *x, int *decided)
+{
+    int sign = one_sign(s->x, s->n, x);
+    for (size_t i = 0; i < s->n; i++)
+        x[i] = sign * s->x[i];
+    if (sign != 0)
+        return find_typical_falls(s, x, decided);
+    if (s->quantity != QUANTITY_FORCE)
+        return SS_OK;
+    *decided = 1;
+    if (isnan(s->cycles.period.value)
+        || s->cycles.likeness < CYCLES_LIKE || s->cycles.symmetry > -CYCLES_ALIKE) {
+        s->out->why_slips = "the force changes its sign, but not in mirrored half-cycles that repeat";
+        return SS_OK;
+    }
+    double middle = 0.5 * (quantile(s->x, s->n, OUTLIERS, x) + quantile(s->x, s->n, 1 - OUTLIERS, x));
+    double *y = malloc(s->n * sizeof *y);
+    if (y == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < s->n; i++)
+        y[i] = s->x[i] - middle;
+    ss_status st = find_reversals(s, y, level_of(y, s->n, x));
+    free(y);
+    return st;
+}
+
+ss_status
+ss_force_find(search *s, int *decided)
+{
+    *decided = 0;
+    if (s->opts->drop > 0) {
+        double height = s->opts->drop / s->largest;
+        return find_falls(s, s->x, height, DROPS_RELOAD * height, 1, decided);
+    }
+    if (s->quantity == QUANTITY_MOTION || s->n < 8)
+        return SS_OK;
+    double *x = malloc(s->n * sizeof *x);
+    ss_status st = x != NULL ? find_by_itself(s, x, decided) : SS_ENOMEM;
+    free(x);
+    return st;
+}
