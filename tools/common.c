@@ -398,7 +398,7 @@ tool_column(const ss_header *head, const char *path, const char *name)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
                  head->column[i].name);
     if (name == NULL)
-        tool_die("%s: which column? choose with --column from %s", tool_input_name(path), list);
+        tool_die("%s: choose a column with --column from %s", tool_input_name(path), list);
     tool_die("%s: no column '%s', there are %s", tool_input_name(path), name, list);
 }
 
@@ -437,7 +437,7 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     for (int i = TOOL_H5; i < TOOL_STREAM; i++)
         if ((allowed & 1u << i) && is_name(list, sizeof list, ending[i], wanted))
             return (tool_kind)i;
-    tool_usage("--output: the ending of '%s' picks the form and must be one of%s", path, list);
+    tool_usage("--output: the ending of '%s' gives the form and must be one of%s", path, list);
 }
 
 /* What it cost, gnuplot with it; memory at most, of whichever took more. */

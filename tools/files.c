@@ -284,7 +284,7 @@ tool_output_kept(const char *path)
     if (fd < 0 || fstat(fd, &st) != 0)
         tool_die("%s: %s", path, strerror(errno));
     if (!S_ISREG(st.st_mode))
-        tool_die("%s: not a regular file, which alone can be continued", path);
+        tool_die("%s: not a regular file, which --resume needs", path);
     tool_writes(path);
     if (fcntl(fd, F_SETLK, &whole) != 0)
         tool_die("%s: %s", path, errno == EACCES || errno == EAGAIN

@@ -8,18 +8,18 @@
 static const char usage[] =
 "usage: ss-cat [options] [FILE[:/dataset]]\n"
 "Read a signal in any supported form, write it as a signal stream.\n"
-"  -c, --column=NAME|N  take this column (repeatable, in this order), default all\n"
+"  -c, --column=NAME|N  write this column (repeatable, in order), default all\n"
 "  -t, --time=NAME|N    delimited text: the column of time\n"
-"  -r, --rate=HZ        input without a clock: the sample rate\n"
-"      --gaps=HOW       samples that are missing: refuse (default), split (0 for\n"
-"                       them), interpolate (a straight line over them)\n"
-"      --resample=HZ    to a clock of this rate, also from uneven time stamps\n"
+"  -r, --rate=HZ        the sample rate of input without a clock\n"
+"      --gaps=HOW       missing samples: refuse (default), split (write 0),\n"
+"                       interpolate (linearly)\n"
+"      --resample=HZ    resample to this rate; time stamps may be uneven\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time, excluded [s]\n"
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
 "      --format=FORM    on standard output: tsv (default) or au\n"
 "  -q, --quiet          no warnings\n"
-"  -v, --verbose        say what was read\n"
+"  -v, --verbose        report the input\n"
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
@@ -57,7 +57,7 @@ static void
 need_rows(size_t n)
 {
     if (n == 0 && (from > -DBL_MAX || to < DBL_MAX))
-        tool_die("%s: no samples in the time asked for", tool_input_name(path));
+        tool_die("%s: no samples between --from and --to", tool_input_name(path));
 }
 
 /* The rows asked for of a whole signal: HDF5 is not read or written piece by piece. */
@@ -70,7 +70,7 @@ copy_whole(tool_kind kind, const ss_read_opts *opts)
         if (signal->n < 2)
             tool_die("%s: one row cannot be resampled", tool_input_name(path));
         if (signal->head->rate > opts->resample)
-            tool_warn("%s: what is above %g Hz in it folds down", tool_input_name(path),
+            tool_warn("%s: frequencies above %g Hz fold down", tool_input_name(path),
                       opts->resample / 2);
         tool_check(ss_signal_resample(&chosen, signal, opts->resample), NULL);
         ss_signal_free(signal);
@@ -111,7 +111,7 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
     ss_status st = ss_writer_new(&writer, tool_output(output), tool_stream(kind),
                                  chosen);
     if (st == SS_EINVAL)
-        tool_die("AU is limited to 4096 columns and a header of 1 MiB; take fewer with --column");
+        tool_die("AU is limited to 4096 columns and a header of 1 MiB; choose fewer with --column");
     tool_check(st, NULL);
     while (row < end) {
         size_t kept = 0;

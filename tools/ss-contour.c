@@ -10,13 +10,13 @@
 static const char usage[] =
 "usage: ss-contour [options] [FILE] | gnuplot -p\n"
 "Draw wavelet coefficients: contours of |W| in dB below the largest, over time\n"
-"and frequency, under the signal that an HDF5 file has beside them.\n"
+"and frequency, below the signal if the HDF5 file has it.\n"
 "      --levels=N       contour lines (18)\n"
-"      --span=DB        that they span below the largest |W| (80)\n"
+"      --span=DB        their range below the largest |W| (80)\n"
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
-"      --features=FILE  draw what ss-features writes: maxima, spikes, transitions\n"
+"      --features=FILE  draw maxima, spikes, transitions, as of ss-features\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
@@ -24,7 +24,7 @@ static const char usage[] =
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
-"  -v, --verbose        say what was read\n"
+"  -v, --verbose        report the input\n"
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
@@ -181,7 +181,7 @@ main(int argc, char *argv[])
     open_coefficients(&d, path);
     ss_signal *signal = find_signal(&d, path, signal_path, column);
     if (column != NULL && signal == NULL)
-        tool_usage("--column chooses from a signal, and there is none; give it with --signal");
+        tool_usage("--column needs a signal; give one with --signal");
     if (events != NULL)
         read_events(&d, events);
     if (features != NULL)

@@ -10,7 +10,7 @@
 
 static const char usage[] =
 "usage: ss-morlet [options] [FILE] > coefficients\n"
-"Morlet wavelet coefficients of a signal, from FILE or standard input.\n"
+"Compute Morlet wavelet coefficients of a signal, from FILE or standard input.\n"
 "  -c, --column=NAME|N    column to transform (a, or the only one)\n"
 "      --center=WC        omega_c, angular centre frequency of the wavelet (6)\n"
 "      --voices=V         scales an octave (16)\n"
@@ -24,14 +24,14 @@ static const char usage[] =
 "      --norm=l2|l1       a^-1/2 or 1/a (l2)\n"
 "      --admissible       keep the second term of the wavelet\n"
 "      --detrend=NAME     subtract none, mean or linear first (none)\n"
-"      --force            also scales that the record does not resolve\n"
+"      --force            scales that the record does not resolve, too\n"
 "      --threads=N        work on N scales at a time (1)\n"
-"      --stream           give coefficients as they are complete; needs --fmin\n"
+"      --stream           write coefficients as they are complete; needs --fmin\n"
 "      --inverse          read coefficients, write the signal that has them\n"
-"      --wisdom=FILE      measure the fastest FFTs; FILE keeps them\n"
-"      --check            compare with the other method, say what differs\n"
+"      --wisdom=FILE      let FFTW measure the fastest FFTs, keep them in FILE\n"
+"      --check            compare with the other method, report the difference\n"
 "  -o, --output=FILE      .tsv, .au, .h5 with the signal; --format=tsv|au if none\n"
-"  -q, --quiet            no warnings; -v, --verbose: what was done\n"
+"  -q, --quiet            no warnings; -v, --verbose: report choices and cost\n"
 "  -h, --help             show this text; --version: show the version\n";
 
 enum {
@@ -150,9 +150,9 @@ check_request(request *req)
     if (req->stream && opts->fmin == 0 && !opts->octaves)
         tool_usage("--stream needs --fmin, as the length of the record is not known");
     if (req->stream && opts->detrend != SS_DETREND_NONE)
-        tool_usage("--stream excludes --detrend: a mean or a line is that of the whole record");
+        tool_usage("--stream excludes --detrend, which needs the whole record");
     if (req->stream && req->check)
-        tool_usage("--stream excludes --check, which takes the whole record");
+        tool_usage("--stream excludes --check, which needs the whole record");
     req->kind = tool_output_kind(req->output, TOOL_SIGNALS, req->kind);
 }
 
@@ -180,7 +180,7 @@ read_wisdom(const char *path)
     ss_error err = { "" };
     struct stat st;
     if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
-        tool_die("%s: not a regular file, which alone can keep wisdom", path);
+        tool_die("%s: not a regular file, which --wisdom needs", path);
     FILE *in = fopen(path, "r");
     if (in == NULL && errno == ENOENT)
         return;

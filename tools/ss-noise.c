@@ -8,19 +8,19 @@
 
 static const char usage[] =
 "usage: ss-noise [options] --snr=DB|--rms=VALUE|--bits=N --range=R [FILE]\n"
-"Add Gaussian white noise to a signal, or round it as a converter does, or first\n"
-"the one and then the other; write it to standard output.\n"
-"      --snr=DB         noise this far below the variance of each column [dB]\n"
+"Add Gaussian white noise to a signal, or round it as an analog-to-digital\n"
+"converter does, or both in this order; write it to standard output.\n"
+"      --snr=DB         signal-to-noise ratio of each column [dB]\n"
 "      --rms=VALUE      noise of this standard deviation, in each column's unit\n"
 "      --band=LO:HI     noise of these frequencies only [Hz], default all\n"
-"      --seed=N         of the generator, default 1\n"
-"      --bits=N         of a converter that rounds and clips each column\n"
-"      --range=R        it spans -R to R, in each column's unit\n"
+"      --seed=N         seed of the generator, default 1\n"
+"      --bits=N         round and clip each column to N bits\n"
+"      --range=R        the converter spans -R to R, in each column's unit\n"
 "  -c, --column=NAME|N  only this column (repeatable), default all\n"
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
 "      --format=FORM    on standard output: tsv (default) or au\n"
 "  -q, --quiet          no warnings\n"
-"  -v, --verbose        say how much noise was added\n"
+"  -v, --verbose        report the noise that was added\n"
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 

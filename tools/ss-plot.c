@@ -14,18 +14,18 @@ static const char usage[] =
 "map of a sweep.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
-"      --map=X,Y,Z[,Z]  what ss-sweep wrote, over two keys: a column of few\n"
+"      --map=X,Y,Z[,Z]  rows of ss-sweep over two keys: a column of few\n"
 "                       values as regions, another as lines of equal value\n"
 "      --line=FILE      a line over the map: x and y in rows\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 "      --from=S         from this time on the source's clock [s]\n"
 "      --to=S           up to this time [s]\n"
-"  -r, --rate=HZ        input without a clock: the sample rate\n"
+"  -r, --rate=HZ        the sample rate of input without a clock\n"
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings\n"
-"  -v, --verbose        say what was read\n"
+"  -v, --verbose        report the input\n"
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
@@ -51,7 +51,7 @@ find_signal_column(const drawing *d, const char *path, const char *name)
 {
     const ss_header *head = d->signal->head;
     if ((strcmp(name, "t") == 0 || strcmp(name, "time") == 0) && ss_header_column(head, name) < 0)
-        tool_die("%s: time is no column but the clock%s", tool_input_name(path), d->xy
+        tool_die("%s: time is the clock, not a column%s", tool_input_name(path), d->xy
                  ? "; --column Y draws Y over it" : ", which every panel has as its axis");
     return tool_column(head, path, name);
 }
@@ -209,9 +209,9 @@ main(int argc, char *argv[])
     if (opts.from >= opts.to)
         tool_usage("--from does not lie before --to");
     if (map != NULL && (d.xy || d.n > 0 || !isnan(opts.from) || !isnan(opts.to)))
-        tool_usage("--map stands alone: --xy, --column, --from and --to are for signals");
+        tool_usage("--map excludes --xy, --column, --from and --to");
     if (line != NULL && map == NULL)
-        tool_usage("--line is drawn over a --map");
+        tool_usage("--line needs --map");
     if (map != NULL) {
         check_map(map);
         draw_map(path, map, line, output, &opts);

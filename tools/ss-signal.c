@@ -24,7 +24,7 @@ static const char usage[] =
 "      --seed=N         noise: default 1\n"
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
 "      --format=FORM    on standard output: tsv (default) or au\n"
-"  -q, --quiet          no warnings; -v, --verbose: what was written\n"
+"  -q, --quiet          no warnings; -v, --verbose: report the length\n"
 "  -h, --help           show this text; --version: show the version\n";
 
 enum { OPT_TO = TOOL_OPT_FIRST, OPT_DAMPING, OPT_AT, OPT_SEED };
@@ -55,7 +55,7 @@ check_sense(ss_wave wave, const ss_wave_opts *o, unsigned used)
         tool_warn("%g Hz is above half the rate, %g Hz, and folds down", highest, o->rate / 2);
     if (wave == SS_IMPULSE && (used & 1u << AT) && !(o->at * o->rate > -0.5
                                                      && round(o->at * o->rate) < n))
-        tool_usage("--at %g: the record goes from 0 to %g s, no sample is nearest", o->at,
+        tool_usage("--at %g: the record goes from 0 to %g s, so no sample is nearest", o->at,
                    (n - 1) / o->rate);
 }
 
@@ -99,11 +99,11 @@ main(int argc, char *argv[])
         }
     }
     if (optind == argc)
-        tool_usage("which kind of signal? sine, impulse, step, chirp, ringdown or noise");
+        tool_usage("KIND is missing: sine, impulse, step, chirp, ringdown or noise");
     ss_wave wave = (ss_wave)tool_choice("KIND", tool_input(argc, argv, optind), kinds);
     for (int i = 0; i < N_ONLY; i++)
         if ((used & 1u << i) && !(only[i].kinds & SET(wave)))
-            tool_usage("%s: a signal of kind %s has none", only[i].name, kinds[wave]);
+            tool_usage("%s does not apply to kind %s", only[i].name, kinds[wave]);
     check_sense(wave, &opts, used);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
 

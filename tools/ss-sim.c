@@ -10,21 +10,21 @@ static const char usage[] =
 "usage: ss-sim [options] SCENE\n"
 "Simulate an oscillator with dry friction.  SCENE is a file, - for standard\n"
 "input, or the name of a shipped scene; the record goes to standard output.\n"
-"  -s, --set=KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
+"  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
 "  -c, --columns=LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
 "  -m, --method=NAME     a GSL step type, or exact: closed form (default rk8pd;\n"
-"                        bsimp where friction with a state is stiff)\n"
-"  -t, --tol=TOL         relative local error a step (default 1e-12)\n"
-"  -a, --accuracy=TOL    global error of x over max|x| instead: finds --tol and,\n"
+"                        bsimp for a stiff state-variable scene)\n"
+"  -t, --tol=TOL         relative local error of a step (default 1e-12)\n"
+"  -a, --accuracy=TOL    global error of x over max|x|: chooses --tol and,\n"
 "                        if none is given, --method\n"
-"      --max-steps=N     give up after N integration steps\n"
+"      --max-steps=N     stop after N integration steps\n"
 "  -l, --list            list the shipped scenes and the methods; with SCENE, all\n"
 "                        its keys and values, a scene to edit\n"
-"  -o, --output=FILE     .tsv, .au or .h5; whole or absent (default: stdout)\n"
+"  -o, --output=FILE     .tsv, .au or .h5; complete or absent (default: stdout)\n"
 "      --format=FORM     of standard output: tsv (default) or au\n"
 "  -q, --quiet           no warnings, no progress\n"
-"  -v, --verbose         what was done and its cost\n"
+"  -v, --verbose         report the method, the work and the cost\n"
 "  -h, --help            show this text; --version: show the version\n";
 
 enum { OPT_MAX_STEPS = TOOL_OPT_FIRST };
@@ -225,7 +225,7 @@ parse(request *req, int argc, char *argv[])
     if (optind == argc && req->list)
         list();
     if (optind == argc)
-        tool_usage("which scene? give a file, or one of those that --list shows");
+        tool_usage("SCENE is missing: give a file, or a name that --list shows");
     req->scene_path = tool_input(argc, argv, optind);
     if (req->list)
         return;
@@ -233,7 +233,7 @@ parse(request *req, int argc, char *argv[])
     if (req->events && !ss_format_has_words(tool_stream(req->kind)))
         tool_usage("--events are text, and this --format holds numbers only");
     if (req->accuracy > 0 && opts->tol > 0)
-        tool_usage("--accuracy finds the tolerance: --tol does not go with it");
+        tool_usage("--accuracy and --tol exclude each other");
 }
 
 /* Put what the run has made where it belongs. */

@@ -15,20 +15,20 @@ static const char usage[] =
 "                        (repeatable; the last varies fastest)\n"
 "  -m, --measure=LIST    of stops,stick,amplitude,x_max,v_max,a_max,energy,\n"
 "                        period,cycles,microslips,transition,x_phase,v_phase,\n"
-"                        floquet,floquet2,floquet_angle (default: what the\n"
-"                        model has of stops ... period without x_max)\n"
-"  -s, --set=KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
-"      --shoot           Newton's method instead of waiting for the end\n"
+"                        floquet,floquet2,floquet_angle (default: stops ...\n"
+"                        period without x_max, where the model has them)\n"
+"  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
+"      --shoot           find the period by Newton's method, not by simulation\n"
 "  -t, --tol=TOL         how near to periodic, see the manual (default 1e-9)\n"
-"      --max-period=N    sub-harmonics looked for (8)\n"
-"      --max-cycles=N    after so many it is called aperiodic (10000)\n"
+"      --max-period=N    longest period, in cycles of the forcing (8)\n"
+"      --max-cycles=N    cycles after which a motion is aperiodic (10000)\n"
 "      --max-steps=N     integration steps of a point (1e7)\n"
-"      --settle-cycles=N simulate so many cycles instead of looking for the end\n"
+"      --settle-cycles=N simulate N cycles instead of looking for the limit\n"
 "      --method=NAME     of ss-sim (default exact where there is one)\n"
 "  -j, --threads=N       work on N points at a time (1)\n"
 "      --shard=I/N       every N-th point only: index I modulo N\n"
-"  -r, --resume=FILE     append to FILE what it lacks, or begin it\n"
-"  -o, --output=FILE     .tsv, whole or absent (default: standard output)\n"
+"  -r, --resume=FILE     append to FILE the rows that it lacks, or begin it\n"
+"  -o, --output=FILE     .tsv, complete or absent (default: standard output)\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_PERIOD, OPT_CYCLES, OPT_STEPS, OPT_SETTLE, OPT_METHOD,
@@ -57,7 +57,7 @@ pick_measure(request *req, const char *name, size_t length)
         if (strlen(known) != length || strncmp(known, name, length) != 0)
             continue;
         if (req->opts.steady.measures & 1u << m)
-            tool_usage("--measure: '%s' is there twice", known);
+            tool_usage("--measure: '%s' is repeated", known);
         req->opts.steady.measures |= 1u << m;
         req->pick[req->n_picks++] = m;
         return;
@@ -159,13 +159,13 @@ parse(request *req, int argc, char *argv[])
         default: tool_option(c);
         }
     if (optind == argc)
-        tool_usage("which scene? give a file, or a shipped one by its name");
+        tool_usage("SCENE is missing: give a file, or the name of a shipped scene");
     req->scene_path = tool_input(argc, argv, optind);
     req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, TOOL_TSV));
     if (req->resume != NULL && strcmp(req->resume, "-") == 0)
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
     if (req->resume != NULL && req->path != NULL)
-        tool_usage("--resume FILE is where the rows go: --output does not go with it");
+        tool_usage("--resume and --output exclude each other");
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */
@@ -258,7 +258,7 @@ main(int argc, char *argv[])
     if (st == SS_STOP && !tool_stopping())
         tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
-    tool_note("%zu points, %zu of them with something missing", req.rows, req.failed);
+    tool_note("%zu points, %zu of them incomplete", req.rows, req.failed);
     free(req.settings);
     free(req.axis);
     tool_end();

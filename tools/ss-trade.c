@@ -11,20 +11,20 @@
 static const char usage[] =
 "usage: ss-trade [options] SCENE|SIGNAL\n"
 "Simulate a scene, or transform a signal, with every method at tolerances 1e-2\n"
-"... 1e-13, here and now, and write one row each: errors, cost, and whether\n"
-"nothing else is both faster and more accurate.  A file whose first line that is\n"
-"no comment reads KEY = VALUE is a scene, and so is the name of a shipped one;\n"
+"... 1e-13 on this machine, and write one row each: errors, cost, and whether no\n"
+"other row is both faster and more accurate.  A file whose first line that is not\n"
+"a comment is KEY = VALUE is a scene, and so is the name of a shipped one;\n"
 "- is standard input.\n"
-"  -s, --set=KEY=VALUE   put VALUE in place of the scene's own (repeatable)\n"
-"  -c, --column=NAME|N   of the signal (a, or the only one)\n"
-"      --dense           transform to a coefficient a sample at every scale\n"
-"  -b, --budget=S        CPU time of a row at most [s] (default 10); a longer one\n"
-"                        has its estimated time and no errors\n"
-"  -t, --target=TOL      write instead the options of ss-sim, or of ss-morlet,\n"
-"                        that are the fastest to keep x, or W, within TOL\n"
+"  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
+"  -c, --column=NAME|N   column of the signal (a, or the only one)\n"
+"      --dense           one coefficient a sample at every scale\n"
+"  -b, --budget=S        at most this CPU time a row [s] (default 10); a longer\n"
+"                        row has an estimated time and no errors\n"
+"  -t, --target=TOL      write the fastest options of ss-sim, or of ss-morlet,\n"
+"                        that keep x, or W, within TOL\n"
 "  -o, --output=FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
 "                        or .pdf (default: rows on standard output)\n"
-"  -q, --quiet           no progress; -v, --verbose: what was measured\n"
+"  -q, --quiet           no progress; -v, --verbose: report the measurement\n"
 "  -h, --help            show this text; --version: show the version\n";
 
 static void
@@ -33,7 +33,7 @@ write_options(FILE *out, const ss_trade *trade, double target)
     const ss_trade_row *row = ss_trade_cheapest(trade, target);
     char tol[SS_NUMBER_MAX];
     if (row == NULL)
-        tool_die("no method was seen to keep %s within %g of its maximum",
+        tool_die("no method kept %s within %g of its maximum",
                  trade->transform ? "W" : "x", target);
     fprintf(out, "--method %s", row->method);
     if (row->tol > 0) {
@@ -126,7 +126,7 @@ measure_scene(request *req)
     ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
     tool_name_scene(req->name, sizeof req->name, req->path, req->settings, req->n_settings);
     tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
-    tool_note("%zu rows against %s, which knows x within %.2g of its maximum", trade->n,
+    tool_note("%zu rows against %s, whose x is known within %.2g of its maximum", trade->n,
               trade->reference, trade->known_x);
     return trade;
 }
@@ -177,7 +177,7 @@ main(int argc, char *argv[])
         default: tool_option(c);
         }
     if (optind == argc)
-        tool_usage("of what? give a scene, a shipped one by its name, or a signal");
+        tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
     if (optind + 1 != argc)
         tool_usage("unexpected argument '%s'", argv[optind + 1]);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, TOOL_TSV);
