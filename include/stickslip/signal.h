@@ -147,7 +147,8 @@ void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flu
 ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format);
 
 /* A copy at another rate [Hz], by the cubic spline through each column: what lies above half the new
- * rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate. */
+ * rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate; SS_ERANGE: the
+ * spline exceeds what a double holds. */
 ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate);
 
 /* --- making and changing ------------------------------------------------------------------- */
@@ -174,7 +175,7 @@ typedef struct ss_wave_opts {
 extern const ss_wave_opts ss_wave_defaults;     /* 2000 Hz, 10 s, A = 1, f = 10, seed 1 */
 
 /* A benchmark signal of one column, a, without unit.  Phases are exact to 1e-15 cycles in a record of
- * any length. */
+ * any length.  SS_ERANGE: a value or a phase exceeds what a double holds. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
 /* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the

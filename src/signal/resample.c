@@ -114,9 +114,12 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate)
     }
     ss_header_free(new_head);
     free(t);
-    if (done)
+    double zero = 0;                    /* NaN once a value is not finite */
+    for (size_t i = 0; done && i < n_out * head->n_columns; i++)
+        zero += 0 * (*out)->values[i];
+    if (done && zero == 0)
         return SS_OK;
     ss_signal_free(*out);
     *out = NULL;
-    return SS_ENOMEM;
+    return done ? SS_ERANGE : SS_ENOMEM;
 }

@@ -132,7 +132,14 @@ ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *e
         *out = NULL;
         return ss_fail(err, st, "%s", ss_strerror(st));
     }
-    for (size_t i = 0; wave != SS_NOISE && i < (*out)->n; i++)
+    double zero = 0;                    /* NaN once a value is not finite */
+    for (size_t i = 0; wave != SS_NOISE && i < (*out)->n; i++) {
         (*out)->values[i] = sample(wave, opts, i);
-    return SS_OK;
+        zero += 0 * (*out)->values[i];
+    }
+    if (zero == 0)
+        return SS_OK;
+    ss_signal_free(*out);
+    *out = NULL;
+    return ss_fail(err, SS_ERANGE, "%s", ss_strerror(SS_ERANGE));
 }

@@ -14,6 +14,10 @@ ss-signal sine --amplitude 1e308 > huge.tsv
 try ss-noise --snr 10 huge.tsv
 try ss-noise --rms 1e308 huge.tsv
 try ss-noise --rms 1e308 --band 1:1000 -o x.h5 huge.tsv
+try ss-signal chirp --rate 1e308 --duration 1e-307
+awk 'BEGIN { print "# stickslip signal 1\n# rate: 10\n# columns: t/s a"
+    for (i = 0; i < 20; i++) print i / 10 "\t" (i % 2 ? "" : "-") "1.7e308" }' > jumps.tsv
+try ss-cat --resample 20 jumps.tsv
 
 echo "noise is in proportion to its signal, however large"
 for amplitude in 1e-300 1 1e300; do
