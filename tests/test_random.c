@@ -1,6 +1,6 @@
 /* test_random.c -- random scenes, drawn from the ranges that the library says it supports.
  *
- * Log-uniform in each of ss_scene_ranges, from a fixed seed; SCENES=N in the environment sets how
+ * Log-uniform in each ss_model_range, from a fixed seed; SCENES=N in the environment sets how
  * many (tests/long/random-scenes-*.sh: 10000), FIRST=N with which one to begin. */
 #include <float.h>
 #include <setjmp.h>

@@ -4,8 +4,9 @@
  * inside a step is read off the polynomial of degree 9 that has the state and four derivatives at
  * both ends (Hermite).  With the cap of motion.h, w h = 2 pi / 40, it is off by
  * (w h)^10 / 10! / 4^5 = 2e-18 of the amplitude: rounding is all that it adds, whatever the method.
- * The state variable, which may be stiff and has no such cap, is stepped again from the step's
- * start by one-step methods; multistep ones, whose memory that would spoil, land on every sample. */
+ * A model that does not know them, such as a stiff one without such a cap, is stepped again from the
+ * step's start by one-step methods; multistep ones, whose memory that would spoil, land on every
+ * sample. */
 #include "motion/engine.h"
 
 #include <gsl/gsl_errno.h>

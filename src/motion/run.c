@@ -2,8 +2,7 @@
  *
  * The steps know nothing of the samples: an engine steps freely, capped by the mode's own fastest
  * period, and samples are read off inside its steps.  So the events are the same, to the last digit,
- * whatever the rate.  (Only multistep methods on the state variable, which has no events, land on
- * the samples.) */
+ * whatever the rate.  (Only multistep methods on a model without events land on the samples.) */
 #include <stickslip/sim.h>
 
 #include <stdint.h>
