@@ -24,6 +24,7 @@
 #include <stickslip/rank.h>
 #include <stickslip/store.h>
 #include <stickslip/overlay.h>
+#include <stickslip/table.h>
 #include <stickslip/plot.h>
 
 #endif

@@ -431,6 +431,16 @@ writers_of_rows_refuse_null(void **state)
     assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU), SS_EINVAL);
+    ss_table *table = NULL;
+    ss_error e = { "" };
+    assert_refused(ss_table_read(NULL, out, "out", "events", &e), &e);
+    assert_refused(ss_table_read(&table, NULL, "out", "events", &e), &e);
+    assert_refused(ss_table_read(&table, out, NULL, "events", &e), &e);
+    assert_refused(ss_table_read(&table, out, "out", NULL, &e), &e);
+    assert_null(ss_table_note(NULL, "scene"));
+    assert_int_equal(ss_table_column(NULL, "t"), -1);
+    assert_true(isnan(ss_table_number(NULL, 0, 0)));
+    ss_table_free(NULL);
     assert_null(ss_spikes_verdict(NULL));
     assert_int_equal(ss_format_find(NULL, "tsv"), 0);
     assert_int_equal(ss_format_find(&(ss_format){ SS_TSV }, NULL), 0);

@@ -499,6 +499,19 @@ read_sweeps(int variant)
 }
 
 static ss_status
+read_tables(int variant)
+{
+    static char rows[] = "# stickslip events 1\n# scene: s\n# columns: t/s kind\n0.5\tslip\n";
+    ss_table *table = NULL;
+    FILE *in = fmemopen(rows, sizeof rows - 1, "r");
+    (void)variant;
+    ss_status st = ss_table_read(&table, in, "in", "events", &err);
+    fclose(in);
+    ss_table_free(table);
+    return st;
+}
+
+static ss_status
 read_overlays(int variant)
 {
     static char features[] = "# stickslip features 1\n# spike: 1 jump 0 0\n0\t1\t2\t0.5\t40\n",
@@ -612,7 +625,7 @@ static const struct row {
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 },
-    { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 5, 30 },
+    { "reading tables", read_tables, 1, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 5, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
     { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },
 };

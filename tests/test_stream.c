@@ -606,6 +606,74 @@ refuses_streams_that_are_cut_or_changed(void **state)
     free(text);
 }
 
+static ss_table *
+read_table(FILE *text, const char *form)
+{
+    ss_table *table = NULL;
+    ss_error err = { "" };
+    rewind(text);
+    if (ss_table_read(&table, text, "in", form, &err) != SS_OK)
+        fail_msg("%s: %s", form, err.text);
+    return table;
+}
+
+static void
+reads_back_the_events_that_it_writes(void **state)
+{
+    static const ss_event event[] = { { 0, -1e-3, 0.1, SS_SLIP, 1 },
+                                      { 0.1, 1.0 / 3, -0.25, SS_REVERSE, -1 } };
+    FILE *text = tmpfile();
+    ss_header *head = ss_header_new(1, 0);
+    ss_event_writer *writer = NULL;
+    (void)state;
+    assert_int_equal(ss_header_note(head, "scene", "mine"), SS_OK);
+    assert_int_equal(ss_event_writer_new(&writer, text, SS_TSV, head), SS_OK);
+    for (size_t i = 0; i < 2; i++)
+        assert_int_equal(ss_event_writer_row(writer, &event[i]), SS_OK);
+    assert_int_equal(ss_event_writer_flush(writer), SS_OK);
+    ss_event_writer_free(writer);
+    ss_table *t = read_table(text, "events");
+    assert_int_equal(t->n, 2);
+    assert_int_equal(t->n_columns, 5);
+    assert_string_equal(ss_table_note(t, "scene"), "mine");
+    assert_null(ss_table_note(t, "scen"));
+    assert_string_equal(t->column[3].name, "v");
+    assert_string_equal(t->column[3].unit, "m/s");
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(ss_table_number(t, i, 0) == event[i].t && ss_table_number(t, i, 2) == event[i].x);
+        assert_true(ss_table_number(t, i, (size_t)ss_table_column(t, "direction"))
+                    == event[i].direction);
+    }
+    assert_string_equal(t->cell[5 + 1], "reverse");
+    assert_true(isnan(ss_table_number(t, 1, 1)));
+    ss_table_free(t);
+    ss_header_free(head);
+    fclose(text);
+}
+
+static void
+refuses_tables_that_are_malformed(void **state)
+{
+    static const struct { const char *text, *why; } bad[] = {
+        { "", "in:1: not rows of trade, which begin '# stickslip trade 1'" },
+        { "# stickslip trade 1\n", "in: no '# columns:' line in the header" },
+        { "# stickslip trade 1\n1\t2\n", "in:2: no '# columns:' line in the header" },
+        { "# stickslip trade 1\n# columns: a b\n1\t2\n1\n", "in:4: expected 2 columns, found 1" },
+        { "# stickslip trade 1\n# columns: a b\n# columns: a\n", "in:3: columns are named twice" } };
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        FILE *in = tmpfile();
+        ss_table *table = NULL;
+        ss_error err = { "" };
+        fputs(bad[i].text, in);
+        rewind(in);
+        assert_int_equal(ss_table_read(&table, in, "in", "trade", &err), SS_EDATA);
+        assert_string_equal(err.text, bad[i].why);
+        assert_null(table);
+        fclose(in);
+    }
+}
+
 static void
 names_each_format_that_is_written(void **state)
 {
@@ -625,6 +693,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_each_format_that_is_written),
+        cmocka_unit_test(reads_back_the_events_that_it_writes),
+        cmocka_unit_test(refuses_tables_that_are_malformed),
         cmocka_unit_test(keeps_the_record_s_bound_whatever_comes_together),
         cmocka_unit_test(keeps_the_bound_from_window_to_window),
         cmocka_unit_test(quiet_beginning_is_as_accurate_as_by_itself),

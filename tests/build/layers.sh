@@ -35,7 +35,7 @@ awk -v list="$list" '
         sub(/^stickslip\/sim$/, "motion/", file)
         sub(/^stickslip\/(rank|sweep|trade)$/, "study/", file)
         sub(/^stickslip\/spikes$/, "features/", file)
-        sub(/^stickslip\/overlay$/, "stream/", file)
+        sub(/^stickslip\/(overlay|table)$/, "stream/", file)
         sub(/^stickslip\/(status|number)$/, "base/", file)
         sub(/^stickslip\//, "", file)
         sub(/\/.*/, "", file)

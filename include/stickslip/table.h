@@ -1,0 +1,34 @@
+/* stickslip/table.h -- rows of words and numbers under notes, as the tools write events, features,
+ * rankings, trades and sweeps, read back as they stand. */
+#ifndef STICKSLIP_TABLE_H
+#define STICKSLIP_TABLE_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/signal.h>
+#include <stickslip/status.h>
+
+SS_BEGIN_DECLARATIONS
+
+typedef struct ss_table {
+    size_t n_notes;
+    char **note;                /* "key: value", in the order of the text; a key may come again */
+    size_t n_columns;
+    ss_column *column;
+    size_t n;                   /* rows */
+    char **cell;                /* of row i and column c: cell[i * n_columns + c] */
+} ss_table;
+
+/* Read text that begins '# stickslip FORM 1', such as form "events", "features", "ranking", "trade" or
+ * "sweep".  SS_EDATA with file and line: another form, no columns, a row of more or fewer cells; SS_EIO. */
+ss_status ss_table_read(ss_table **out, FILE *in, const char *name, const char *form, ss_error *err);
+/* The value of the first note with this key; NULL if there is none. */
+const char *ss_table_note(const ss_table *table, const char *key);
+/* The index of the column of this name; -1 if there is none. */
+int ss_table_column(const ss_table *table, const char *name);
+/* A cell as a number; NaN for a word, for "-", and where there is no such cell. */
+double ss_table_number(const ss_table *table, size_t row, size_t column);
+void ss_table_free(ss_table *table);            /* NULL is allowed */
+
+SS_END_DECLARATIONS
+#endif
