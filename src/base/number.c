@@ -111,7 +111,7 @@ digits_of(uint64_t d, char digit[20], int *n, int *exponent)
 }
 
 static char *
-put(char *to, const char *from, int n)
+append(char *to, const char *from, int n)
 {
     memcpy(to, from, (size_t)n);
     return to + n;
@@ -127,7 +127,7 @@ lay_out(char *p, const char *digit, int n, int point)
         *p++ = digit[0];
         if (n > 1) {
             *p++ = '.';
-            p = put(p, digit + 1, n - 1);
+            p = append(p, digit + 1, n - 1);
         }
         *p++ = 'e';
         *p++ = e < 0 ? '-' : '+';
@@ -137,16 +137,16 @@ lay_out(char *p, const char *digit, int n, int point)
         *p++ = (char)('0' + e / 10 % 10);
         *p++ = (char)('0' + e % 10);
     } else if (point <= 0) {
-        p = put(p, "0.", 2);
-        p = put(p, zeros, -point);
-        p = put(p, digit, n);
+        p = append(p, "0.", 2);
+        p = append(p, zeros, -point);
+        p = append(p, digit, n);
     } else if (point >= n) {
-        p = put(p, digit, n);
-        p = put(p, zeros, point - n);
+        p = append(p, digit, n);
+        p = append(p, zeros, point - n);
     } else {
-        p = put(p, digit, point);
+        p = append(p, digit, point);
         *p++ = '.';
-        p = put(p, digit + point, n - point);
+        p = append(p, digit + point, n - point);
     }
     return p;
 }
@@ -167,7 +167,7 @@ ss_number_format(char text[SS_NUMBER_MAX], double x)
     if (bits >> 63)
         *p++ = '-';
     if (biased == 0x7ff) {
-        p = put(p, "inf", 3);
+        p = append(p, "inf", 3);
     } else if (biased == 0 && fraction == 0) {
         *p++ = '0';
     } else {

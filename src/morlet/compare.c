@@ -35,7 +35,7 @@ recompute(compare *cmp, size_t i)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
     double most = 0;
-    if (ss_fft_takes(cmp->plan->fft, i) || !ss_fft_takes(cmp->other->fft, i))
+    if (ss_fft_covers(cmp->plan->fft, i) || !ss_fft_covers(cmp->other->fft, i))
         return ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
     ss_fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, (span){ 0, scale->n }, 1,
                  &most, cmp->row);
@@ -87,7 +87,7 @@ prepare(compare *cmp, ss_morlet **other, ss_error *err)
     if (cmp->b == NULL || cmp->k == NULL || cmp->want == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < plan->n_scales; i++)
-        if (!ss_fft_takes(plan->fft, i) && ss_fft_takes(cmp->other->fft, i)
+        if (!ss_fft_covers(plan->fft, i) && ss_fft_covers(cmp->other->fft, i)
             && plan->scale[i].n > longest)
             longest = plan->scale[i].n;
     if (longest == 0)
@@ -117,7 +117,7 @@ ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_
         st = compare_scale(&cmp, i, w, &worst, err);
     if (st == SS_OK)
         *difference = worst;
-    ss_fft_release(&cmp.spectra);
+    ss_spectra_free(&cmp.spectra);
     if (cmp.scratch != NULL)
         ss_fft_scratch_free(cmp.scratch);
     free(cmp.row);

@@ -175,8 +175,8 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
 
 /* Groups g <= ... < end of ROWS rows; most[...] become the largest |W|^2 for factor 1 of the first
  * row of each. */
-typedef void put_groups(const weights *d, const void *series, size_t g, size_t end,
-                        const carrier *turning, double factor, double *w, double most[2 * LANES]);
+typedef void write_groups(const weights *d, const void *series, size_t g, size_t end,
+                          const carrier *turning, double factor, double *w, double most[2 * LANES]);
 
 #define SWAP_2 { x[1], x[0] }
 #define SWAP_4 { x[1], x[0], x[3], x[2] }
@@ -228,7 +228,7 @@ typedef void put_groups(const weights *d, const void *series, size_t g, size_t e
 #include "morlet/dense_loop.h"
 #endif
 
-static put_groups *
+static write_groups *
 best_loop(int single)
 {
 #ifdef HAVE_TARGETS
@@ -248,23 +248,23 @@ ss_dense_room(size_t n)
 }
 
 double
-ss_dense_put(const weights *d, const void *series, size_t turns, size_t circle, size_t first,
-             size_t n, double factor, double *spare, double *w)
+ss_dense_write(const weights *d, const void *series, size_t turns, size_t circle, size_t first,
+               size_t n, double factor, double *spare, double *w)
 {
     carrier turning;
     size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
     double of_places = d->single ? 1 : factor, most[2 * LANES], largest = 0;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
-    put_groups *put = best_loop(d->single);
+    write_groups *write = best_loop(d->single);
     ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
     const char *from = (const char *)series
         + 2 * point * (ptrdiff_t)(d->single ? sizeof(float) : sizeof(double));
     make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, of_places, aligned(spare));
-    put(d, from, 0, whole, &turning, factor, w, most);
+    write(d, from, 0, whole, &turning, factor, w, most);
     for (size_t l = 0; l < 2 * LANES; l++)
         largest = fmax(largest, most[l]);
     if (rest > 0) {
-        put(d, from, whole, whole + 1, &turning, factor, last, most);
+        write(d, from, whole, whole + 1, &turning, factor, last, most);
         memcpy(w + 2 * whole * group, last, 2 * rest * sizeof *w);
     }
     for (size_t i = 0; i < rest; i++) {

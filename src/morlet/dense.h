@@ -24,7 +24,7 @@ size_t ss_dense_room(size_t n);
  * points; first is a multiple of phases; turns, circle < 2^32.  v is of double or float, as weights
  * were made for.  Returns the largest |W|^2 for factor 1 of some of them, none of which is further
  * than 3 points and 3 blocks of 8 from others. */
-double ss_dense_put(const weights *d, const void *v, size_t turns, size_t circle, size_t first,
-                    size_t n, double factor, double *spare, double *w);
+double ss_dense_write(const weights *d, const void *v, size_t turns, size_t circle, size_t first,
+                      size_t n, double factor, double *spare, double *w);
 
 #endif

@@ -18,7 +18,7 @@ LOOP_JOIN(LOOP, _swap)(VECTOR x)
 
 /* WIDTH/2 coefficients. */
 TARGET static inline void
-LOOP_JOIN(LOOP, _put)(VECTOR x, double factor, double *w)
+LOOP_JOIN(LOOP, _store)(VECTOR x, double factor, double *w)
 {
     if (sizeof x == WIDTH * sizeof *w) {
         memcpy(w, &x, sizeof x);
@@ -90,8 +90,8 @@ LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *
                         memcpy(&place[1], of_places + 2 * LANES + p * WIDTH, sizeof place[1]);
                         x = LOOP_JOIN(LOOP, _turn)(x, c, s);
                         x = LOOP_JOIN(LOOP, _turn)(x, place[0], place[1]);
-                        LOOP_JOIN(LOOP, _put)(x, factor,
-                                              to + 2 * (first + i) * blocks * LANES + p * WIDTH);
+                        LOOP_JOIN(LOOP, _store)(x, factor,
+                                                to + 2 * (first + i) * blocks * LANES + p * WIDTH);
                     }
                 }
             }

@@ -10,81 +10,81 @@
 #include "base/progress.h"
 #include "morlet/plan.h"
 
-typedef struct job {
+typedef struct shared_input {
     const ss_morlet *plan;
     record rec;
     spectra spectra;
-} job;
+} shared_input;
 
 /* A thread's. */
-typedef struct lane {
-    const job *job;
+typedef struct worker {
+    const shared_input *shared;
     size_t scale;
     double *w, *scratch;        /* scratch: NULL if no scale needs it */
     ss_status status;
     ss_error error;
-} lane;
+} worker;
 
 static void
 compute(void *user)
 {
-    lane *l = user;
-    const job *j = l->job;
+    worker *w = user;
+    const shared_input *in = w->shared;
     double most = 0;
-    l->error.text[0] = '\0';
-    l->status = ss_morlet_part(j->plan, l->scale, &j->rec, &j->spectra, l->scratch, NULL,
-                               (span){ 0, j->plan->scale[l->scale].n }, &most, l->w, &l->error);
+    w->error.text[0] = '\0';
+    w->status = ss_morlet_part(in->plan, w->scale, &in->rec, &in->spectra, w->scratch, NULL,
+                               (span){ 0, in->plan->scale[w->scale].n }, &most, w->w, &w->error);
 }
 
 static ss_status
-give(const lane *l, ss_coefficient_sink *sink, void *user, size_t *done, ss_error *err)
+send_scale(const worker *w, ss_coefficient_sink *sink, void *user, size_t *done, ss_error *err)
 {
-    const ss_morlet *plan = l->job->plan;
-    const ss_scale *scale = &plan->scale[l->scale];
-    if (l->status != SS_OK) {
+    const ss_morlet *plan = w->shared->plan;
+    const ss_scale *scale = &plan->scale[w->scale];
+    if (w->status != SS_OK) {
         if (err != NULL)
-            *err = l->error;
-        return l->status;
+            *err = w->error;
+        return w->status;
     }
-    if (sink(scale, 0, scale->n, l->w, plan->n, user) != 0)
+    if (sink(scale, 0, scale->n, w->w, plan->n, user) != 0)
         return SS_STOP;
     *done += scale->n;
     return ss_progress_at(&plan->opts.progress, (double)*done / (double)plan->total);
 }
 
 static ss_status
-all_scales(lane *l, size_t lanes, ss_coefficient_sink *sink, void *user, ss_error *err)
+all_scales(worker *w, size_t workers, ss_coefficient_sink *sink, void *user, ss_error *err)
 {
-    const ss_morlet *plan = l->job->plan;
+    const ss_morlet *plan = w->shared->plan;
     ss_status st = SS_OK;
     size_t done = 0;
-    for (size_t first = 0; st == SS_OK && first < plan->n_scales; first += lanes) {
-        size_t left = plan->n_scales - first, n = left < lanes ? left : lanes;
+    for (size_t first = 0; st == SS_OK && first < plan->n_scales; first += workers) {
+        size_t left = plan->n_scales - first, n = left < workers ? left : workers;
         for (size_t t = 0; t < n; t++)
-            l[t].scale = first + t;
-        ss_pool_run(compute, l, sizeof *l, n);
+            w[t].scale = first + t;
+        ss_pool_run(compute, w, sizeof *w, n);
         for (size_t t = 0; st == SS_OK && t < n; t++)
-            st = give(&l[t], sink, user, &done, err);
+            st = send_scale(&w[t], sink, user, &done, err);
     }
     return st;
 }
 
 static ss_status
-prepare(job *j, lane *l, size_t lanes)
+prepare(shared_input *in, worker *w, size_t workers)
 {
-    const ss_morlet *plan = j->plan;
+    const ss_morlet *plan = in->plan;
     size_t most = 0;
     for (size_t i = 0; i < plan->n_scales; i++)
         most = plan->scale[i].n > most ? plan->scale[i].n : most;
-    for (size_t t = 0; t < lanes; t++) {
-        l[t].job = j;
-        l[t].w = most <= SIZE_MAX / (2 * sizeof(double)) ? malloc(2 * most * sizeof(double)) : NULL;
+    for (size_t t = 0; t < workers; t++) {
+        w[t].shared = in;
+        w[t].w = most <= SIZE_MAX / (2 * sizeof(double)) ? malloc(2 * most * sizeof(double)) : NULL;
         if (plan->fft != NULL)
-            l[t].scratch = ss_fft_scratch(plan->fft);
-        if (l[t].w == NULL || (plan->fft != NULL && l[t].scratch == NULL))
+            w[t].scratch = ss_fft_scratch(plan->fft);
+        if (w[t].w == NULL || (plan->fft != NULL && w[t].scratch == NULL))
             return SS_ENOMEM;
     }
-    return plan->fft != NULL ? ss_fft_forward(plan->fft, &j->rec, &j->spectra) : SS_OK;
+    return plan->fft != NULL ? ss_fft_forward(plan->fft, &in->rec, &in->spectra) : SS_OK;
 }
 
 ss_status
@@ -93,23 +93,23 @@ ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink
 {
     if (plan == NULL || x == NULL || sink == NULL)
         return SS_FAIL_NULL(err);
-    job j = { .plan = plan };
-    size_t lanes = (size_t)plan->opts.threads;
-    lanes = lanes < plan->n_scales ? lanes : plan->n_scales;
-    ss_status st = ss_morlet_record(&j.rec, x, plan->n, plan->opts.detrend, err);
+    shared_input in = { .plan = plan };
+    size_t workers = (size_t)plan->opts.threads;
+    workers = workers < plan->n_scales ? workers : plan->n_scales;
+    ss_status st = ss_morlet_record(&in.rec, x, plan->n, plan->opts.detrend, err);
     if (st != SS_OK)
         return st;
-    lane *l = calloc(lanes, sizeof *l);
-    st = l != NULL ? prepare(&j, l, lanes) : SS_ENOMEM;
+    worker *w = calloc(workers, sizeof *w);
+    st = w != NULL ? prepare(&in, w, workers) : SS_ENOMEM;
     if (st == SS_OK)
-        st = all_scales(l, lanes, sink, user, err);
-    for (size_t t = 0; l != NULL && t < lanes; t++) {
-        if (l[t].scratch != NULL)
-            ss_fft_scratch_free(l[t].scratch);
-        free(l[t].w);
+        st = all_scales(w, workers, sink, user, err);
+    for (size_t t = 0; w != NULL && t < workers; t++) {
+        if (w[t].scratch != NULL)
+            ss_fft_scratch_free(w[t].scratch);
+        free(w[t].w);
     }
-    free(l);
-    ss_fft_release(&j.spectra);
-    free(j.rec.x);
+    free(w);
+    ss_spectra_free(&in.spectra);
+    free(in.rec.x);
     return st;
 }

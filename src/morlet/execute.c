@@ -32,7 +32,7 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
     factor = ldexp(factor, rec->exponent);
     int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
     factor = fits ? factor : 1;
-    if (s != NULL && ss_fft_takes(plan->fft, i)) {
+    if (s != NULL && ss_fft_covers(plan->fft, i)) {
         if (scratch == NULL)
             return SS_ENOMEM;
         ss_fft_scale(plan, i, rec, s, scratch, part, factor, most, w);
@@ -48,7 +48,7 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
         : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
 }
 
-typedef struct work {
+typedef struct scale_queue {
     const ss_morlet *plan;
     record rec;
     spectra spectra;
@@ -59,48 +59,48 @@ typedef struct work {
     size_t failed;              /* the longest scale that failed, how and why */
     ss_status status;
     ss_error error;
-} work;
+} scale_queue;
 
 static ss_status
-one_scale(const work *job, size_t i, double *scratch, ss_error *err)
+one_scale(const scale_queue *queue, size_t i, double *scratch, ss_error *err)
 {
-    const ss_scale *scale = &job->plan->scale[i];
+    const ss_scale *scale = &queue->plan->scale[i];
     double most = 0;
-    return ss_morlet_part(job->plan, i, &job->rec, &job->spectra, scratch, NULL,
-                          (span){ 0, scale->n }, &most, job->w + 2 * scale->offset, err);
+    return ss_morlet_part(queue->plan, i, &queue->rec, &queue->spectra, scratch, NULL,
+                          (span){ 0, scale->n }, &most, queue->w + 2 * scale->offset, err);
 }
 
 /* A thread: scales until none is left, the expensive short ones first. */
 static void
-work_on(void *user)
+compute_scales(void *user)
 {
-    work *job = user;
-    const ss_morlet_opts *opts = &job->plan->opts;
-    double *scratch = job->plan->fft != NULL ? ss_fft_scratch(job->plan->fft) : NULL;
-    pthread_mutex_lock(&job->lock);
-    if (scratch == NULL && job->plan->fft != NULL) {
-        job->next = job->failed = 0;
-        job->status = SS_ENOMEM;
+    scale_queue *queue = user;
+    const ss_morlet_opts *opts = &queue->plan->opts;
+    double *scratch = queue->plan->fft != NULL ? ss_fft_scratch(queue->plan->fft) : NULL;
+    pthread_mutex_lock(&queue->lock);
+    if (scratch == NULL && queue->plan->fft != NULL) {
+        queue->next = queue->failed = 0;
+        queue->status = SS_ENOMEM;
     }
-    while (job->next > 0) {
-        size_t i = --job->next;
+    while (queue->next > 0) {
+        size_t i = --queue->next;
         ss_error err = { "" };
-        pthread_mutex_unlock(&job->lock);
-        ss_status st = one_scale(job, i, scratch, &err);
-        pthread_mutex_lock(&job->lock);
-        if (st != SS_OK && (job->status == SS_OK || i < job->failed)) {
-            job->failed = i;
-            job->status = st;
-            job->error = err;
+        pthread_mutex_unlock(&queue->lock);
+        ss_status st = one_scale(queue, i, scratch, &err);
+        pthread_mutex_lock(&queue->lock);
+        if (st != SS_OK && (queue->status == SS_OK || i < queue->failed)) {
+            queue->failed = i;
+            queue->status = st;
+            queue->error = err;
         }
-        job->done += job->plan->scale[i].n;
-        if (job->status == SS_OK)
-            job->status = ss_progress_at(&opts->progress,
-                                         (double)job->done / (double)job->plan->total);
-        if (job->status == SS_STOP)
-            job->next = 0;
+        queue->done += queue->plan->scale[i].n;
+        if (queue->status == SS_OK)
+            queue->status = ss_progress_at(&opts->progress,
+                                           (double)queue->done / (double)queue->plan->total);
+        if (queue->status == SS_STOP)
+            queue->next = 0;
     }
-    pthread_mutex_unlock(&job->lock);
+    pthread_mutex_unlock(&queue->lock);
     if (scratch != NULL)
         ss_fft_scratch_free(scratch);
 }
@@ -110,19 +110,21 @@ ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *e
 {
     if (plan == NULL || x == NULL || w == NULL)
         return SS_FAIL_NULL(err);
-    work job = { .plan = plan, .w = w, .next = plan->n_scales };
-    ss_status st = ss_morlet_record(&job.rec, x, plan->n, plan->opts.detrend, err);
+    scale_queue queue = { .plan = plan, .w = w, .next = plan->n_scales };
+    ss_status st = ss_morlet_record(&queue.rec, x, plan->n, plan->opts.detrend, err);
     if (st != SS_OK)
         return st;
-    if (plan->fft == NULL || (st = ss_fft_forward(plan->fft, &job.rec, &job.spectra)) == SS_OK) {
+    if (plan->fft != NULL)
+        st = ss_fft_forward(plan->fft, &queue.rec, &queue.spectra);
+    if (st == SS_OK) {
         size_t threads = (size_t)plan->opts.threads;
-        pthread_mutex_init(&job.lock, NULL);
-        ss_pool_run(work_on, &job, 0, threads < plan->n_scales ? threads : plan->n_scales);
-        pthread_mutex_destroy(&job.lock);
-        if ((st = job.status) != SS_OK && err != NULL)
-            *err = job.error;
+        pthread_mutex_init(&queue.lock, NULL);
+        ss_pool_run(compute_scales, &queue, 0, threads < plan->n_scales ? threads : plan->n_scales);
+        pthread_mutex_destroy(&queue.lock);
+        if ((st = queue.status) != SS_OK && err != NULL)
+            *err = queue.error;
     }
-    ss_fft_release(&job.spectra);
-    free(job.rec.x);
+    ss_spectra_free(&queue.spectra);
+    free(queue.rec.x);
     return st;
 }

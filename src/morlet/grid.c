@@ -45,7 +45,7 @@ usable(size_t n, double rate, const ss_morlet_opts *opts)
 }
 
 static range
-asked(size_t n, double rate, const ss_morlet_opts *opts, range use)
+requested_range(size_t n, double rate, const ss_morlet_opts *opts, range use)
 {
     double per_f = opts->center / (2 * M_PI);   /* a = per_f / f */
     if (opts->octaves)
@@ -185,7 +185,7 @@ ss_status
 ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                const ss_morlet_opts *opts, ss_error *err)
 {
-    range use = usable(n, rate, opts), ask = asked(n, rate, opts, use);
+    range use = usable(n, rate, opts), ask = requested_range(n, rate, opts, use);
     ss_status st = check_request(ask, use, n, rate, opts, err);
     if (st != SS_OK)
         return st;
@@ -266,7 +266,7 @@ ss_morlet_engine(const ss_morlet *plan, size_t i)
 {
     if (plan == NULL || i >= plan->n_scales)
         return SS_ENGINE_AUTO;
-    return ss_fft_takes(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+    return ss_fft_covers(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
 }
 
 size_t

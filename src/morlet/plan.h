@@ -87,7 +87,7 @@ ss_status ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, con
  * prepare for them: plan->fft, NULL if there are none. */
 ss_status ss_fft_new(ss_morlet *plan);
 void ss_fft_free(struct fft *fft);                     /* NULL is allowed */
-int ss_fft_takes(const struct fft *fft, size_t i);     /* scale i */
+int ss_fft_covers(const struct fft *fft, size_t i);     /* scale i */
 
 /* The record's spectra, which threads share, and the same for scale i. */
 typedef struct spectra {
@@ -95,7 +95,7 @@ typedef struct spectra {
     double *size[2];        /* sums of their sizes, in steps; NULL: not needed */
 } spectra;
 ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out);
-void ss_fft_release(spectra *s);
+void ss_spectra_free(spectra *s);
 void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                   double *scratch, span part, double factor, double *most, double *w);
 /* How many times a scale has been computed in single precision. */

@@ -192,7 +192,7 @@ release(window *win)
     const ss_stream *s = win->stream;
     if (win->rec.x != s->x + (win->start - s->origin))
         free(win->rec.x);
-    ss_fft_release(&win->spectra);
+    ss_spectra_free(&win->spectra);
     for (int t = 0; t < s->opts.threads; t++) {
         if (s->lane[t].scratch != NULL)
             ss_fft_scratch_free(s->lane[t].scratch);
@@ -302,7 +302,7 @@ cheaper_by_sum(const ss_stream *s, const group *g, ptrdiff_t limit)
         return 0;
     for (size_t i = 0; i < g->plan->n_scales; i++) {
         const row *r = &s->row[g->first + i];
-        size_t n = ss_fft_takes(g->plan->fft, i) ? ready(s, g->first + i, limit) : 0;
+        size_t n = ss_fft_covers(g->plan->fft, i) ? ready(s, g->first + i, limit) : 0;
         if (n > 0)
             sum += (double)n * r->place + (r->wave == NULL ? r->table : 0);
     }

@@ -120,16 +120,16 @@ typedef struct line_sink {
 } line_sink;
 
 static void
-put_point(const line_sink *sink, const double point[2])
+write_point(const line_sink *sink, const double point[2])
 {
     const ss_scale *scale = sink->c->scale;
     double range = sink->span->to - sink->span->from;
     size_t row = (size_t)fmin(point[1], (double)(sink->c->n_scales - 2));
     double part = point[1] - (double)row;
     double f = scale[row].f * pow(scale[row + 1].f / scale[row].f, part);
-    ss_script_put(sink->out, sink->span->from + point[0] / COLUMNS * range,
-                  ss_script_decimals(range), " ");
-    ss_script_put(sink->out, f, 3 - (int)floor(log10(f)), "");
+    ss_script_write(sink->out, sink->span->from + point[0] / COLUMNS * range,
+                    ss_script_decimals(range), " ");
+    ss_script_write(sink->out, f, 3 - (int)floor(log10(f)), "");
     fprintf(sink->out, " %d\n", sink->level);
 }
 
@@ -149,16 +149,16 @@ is_straight(const double (*point)[2], size_t first, size_t last, double row)
 }
 
 static void
-put_line(const double (*point)[2], size_t n, void *user)
+write_line(const double (*point)[2], size_t n, void *user)
 {
     line_sink *sink = user;
     double row = (double)ROWS / (double)(sink->c->n_scales - 1);    /* pixels */
-    put_point(sink, point[0]);
+    write_point(sink, point[0]);
     for (size_t first = 0, last; first < n - 1; first = last) {
         for (last = first + 1; last + 1 < n && last - first < 64
              && is_straight(point, first, last + 1, row); last++)
             ;
-        put_point(sink, point[last]);
+        write_point(sink, point[last]);
     }
     putc('\n', sink->out);
     sink->lines++;
@@ -167,8 +167,8 @@ put_line(const double (*point)[2], size_t n, void *user)
 /* A datablock of time, frequency and number of the level, a blank line after each line and two after
  * each level, and which levels have lines; *any is 1 if one has. */
 static ss_status
-put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
-             const script_span *span, const double *level, int *any)
+write_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
+               const script_span *span, const double *level, int *any)
 {
     char drawn[LEVELS * sizeof " 100"] = "";
     line_sink sink = { out, c, span, 0, 0 };
@@ -178,7 +178,7 @@ put_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     for (int k = 1; status == SS_OK && k <= contour->levels; k++) {
         sink.level = k;
         sink.lines = 0;
-        status = ss_isolines(&map, -k * contour->span / contour->levels, put_line, &sink);
+        status = ss_isolines(&map, -k * contour->span / contour->levels, write_line, &sink);
         if (sink.lines > 0) {
             putc('\n', out);
             snprintf(drawn + strlen(drawn), sizeof drawn - strlen(drawn), " %d", k);
@@ -201,8 +201,8 @@ decimals_of(double f)
 /* One side of a shaded area: from lo to hi Hz the times that are sqrt(2) a after t, or before it where
  * the sign is -1, but not beyond stop. */
 static void
-put_side(FILE *out, const script_span *span, double t, int sign, double stop, double center,
-         const double band[2])
+write_side(FILE *out, const script_span *span, double t, int sign, double stop, double center,
+           const double band[2])
 {
     enum { POINTS = 100 };
     int decimals = ss_script_decimals(span->to - span->from);
@@ -211,8 +211,8 @@ put_side(FILE *out, const script_span *span, double t, int sign, double stop, do
         double f = band[0] * pow(band[1] / band[0], part);
         double edge = t + sign * sqrt(2) * center / (2 * M_PI * f);
         edge = sign > 0 ? fmin(edge, stop) : fmax(edge, stop);
-        ss_script_put(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
-        ss_script_put(out, f, decimals_of(f), "\n");
+        ss_script_write(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
+        ss_script_write(out, f, decimals_of(f), "\n");
     }
 }
 
@@ -220,19 +220,19 @@ put_side(FILE *out, const script_span *span, double t, int sign, double stop, do
  * closed curves, two blank lines between them.  Each is drawn for itself: gnuplot 5.2 draws the way
  * from one to the next, too. */
 static void
-put_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
+write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
 {
     double start = c->head->start, end = start + (double)(c->n - 1) / c->head->rate;
     fputs("$cone << EOD\n", out);
-    put_side(out, span, start, 1, start + (end - start) / 2, c->center, band);
-    put_side(out, span, -INFINITY, -1, start, c->center, band);
+    write_side(out, span, start, 1, start + (end - start) / 2, c->center, band);
+    write_side(out, span, -INFINITY, -1, start, c->center, band);
     fputs("\n\n", out);
-    put_side(out, span, end, -1, end - (end - start) / 2, c->center, band);
-    put_side(out, span, INFINITY, 1, end, c->center, band);
+    write_side(out, span, end, -1, end - (end - start) / 2, c->center, band);
+    write_side(out, span, INFINITY, 1, end, c->center, band);
     for (size_t i = 0; i < c->n_gaps; i++) {
         fputs("\n\n", out);
-        put_side(out, span, c->gap[i].to, 1, end, c->center, band);
-        put_side(out, span, c->gap[i].from, -1, start, c->center, band);
+        write_side(out, span, c->gap[i].to, 1, end, c->center, band);
+        write_side(out, span, c->gap[i].from, -1, start, c->center, band);
     }
     fputs("EOD\n", out);
 }
@@ -240,7 +240,7 @@ put_cone(FILE *out, const ss_coefficients *c, const script_span *span, const dou
 /* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
  * where those would not fit, and at every digit where there are few. */
 static void
-put_frequency_tics(FILE *out, double lo, double hi)
+write_frequency_tics(FILE *out, double lo, double hi)
 {
     int sparse = hi / lo > 2e4, dense = hi / lo < 8;
     double fine = hi / lo < 2 ? 10 : 1;         /* tics a digit */
@@ -260,13 +260,13 @@ put_frequency_tics(FILE *out, double lo, double hi)
 }
 
 static void
-put_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
+write_events(FILE *out, const ss_contour_opts *contour, const script_span *span)
 {
     int decimals = ss_script_decimals(span->to - span->from);
     fputs("$events << EOD\n", out);
     for (size_t i = 0; i < contour->n_events; i++)
         for (int end = 0; end < 2; end++) {
-            ss_script_put(out, contour->event[i], decimals, end == 0 ? " 0\n" : " 1\n\n");
+            ss_script_write(out, contour->event[i], decimals, end == 0 ? " 0\n" : " 1\n\n");
             if (contour->event[i] < span->from || contour->event[i] > span->to)
                 break;                          /* half a line draws nothing */
         }
@@ -286,7 +286,7 @@ typedef struct visible {
 
 /* Spans, cut at the ends, spikes, and maxima with their frequencies. */
 static visible
-put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
+write_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
 {
     int decimals = ss_script_decimals(span->to - span->from);
     visible seen = { 0, 0, 0 };
@@ -297,21 +297,21 @@ put_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
         double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
         if (!(from <= to))
             continue;
-        ss_script_put(out, from, decimals, " ");
-        ss_script_put(out, to, decimals, "\n");
+        ss_script_write(out, from, decimals, " ");
+        ss_script_write(out, to, decimals, "\n");
         seen.spans++;
     }
     fputs("EOD\n$spikes << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spikes; i++)
         if (is_inside(span, overlay->spike[i])) {
-            ss_script_put(out, overlay->spike[i], decimals, "\n");
+            ss_script_write(out, overlay->spike[i], decimals, "\n");
             seen.spikes++;
         }
     fputs("EOD\n$maxima << EOD\n", out);
     for (size_t i = 0; i < overlay->n_maxima; i++)
         if (is_inside(span, overlay->maximum[i][0])) {
-            ss_script_put(out, overlay->maximum[i][0], decimals, " ");
-            ss_script_put(out, overlay->maximum[i][1], decimals_of(overlay->maximum[i][1]), "\n");
+            ss_script_write(out, overlay->maximum[i][0], decimals, " ");
+            ss_script_write(out, overlay->maximum[i][1], decimals_of(overlay->maximum[i][1]), "\n");
             seen.maxima++;
         }
     fputs("EOD\n", out);
@@ -352,7 +352,7 @@ static const char panel_b[] =
 
 /* Bars and marks in the rims of the panel; rings in white and colour, to be seen on any ground. */
 static void
-put_features(FILE *out, const visible *seen)
+write_features(FILE *out, const visible *seen)
 {
     if (seen->spans > 0)
         fputs(", \\\n    $spans using 1:(rim(0.02)):($2-$1):(0) with vectors nohead lw 3 "
@@ -374,20 +374,20 @@ typedef struct panel {
 /* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
  * read from them.  A colour a level: of lines with a colour a point, gnuplot 6.0 loses some. */
 static void
-put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, const panel *a,
-           int lines, const visible *seen)
+write_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, const panel *a,
+             int lines, const visible *seen)
 {
     fputs(around, out);
     if (contour->signal != NULL) {
-        ss_script_put_tics(out, "ytics", a->range, 5);
+        ss_script_write_tics(out, "ytics", a->range, 5);
         fputs(panel_a, out);
-        ss_script_put_side_label(out, 2, &a->label);
+        ss_script_write_side_label(out, 2, &a->label);
         fputs(panel_a_plot, out);
     }
     fputs(contour->signal != NULL ? "bottom = 0.12; top_b = 0.68\n"
                                   : "bottom = 0.16; top_b = 0.925\n", out);
     fputs(panel_b, out);
-    put_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
+    write_frequency_tics(out, c->scale[0].f, c->scale[c->n_scales - 1].f);
     if (contour->signal == NULL)
         fputs("unset label 1\n", out);
     fprintf(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
@@ -398,7 +398,7 @@ put_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, 
     if (lines)
         fputs(", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines lw 1 "
               "lc palette cb -word(drawn,i)*step", out);
-    put_features(out, seen);
+    write_features(out, seen);
     fputs("\nunset multiplot\n", out);
 }
 
@@ -472,8 +472,8 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 }
 
 static ss_status
-put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, panel *a,
-           ss_error *err)
+write_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, panel *a,
+             ss_error *err)
 {
     const ss_signal *signal = contour->signal;
     const double *x = signal->values + contour->column * signal->n;
@@ -483,7 +483,7 @@ put_signal(FILE *out, const ss_contour_opts *contour, const ss_plot_opts *opts, 
         return status;
     int exponent = ss_script_exponent(x + span.first, span.n);
     ss_script_make_label(&a->label, &signal->head->column[contour->column], exponent, ROOM);
-    a->range = ss_script_put_trace(out, "$signal", x, signal->head, &span, exponent);
+    a->range = ss_script_write_trace(out, "$signal", x, signal->head, &span, exponent);
     return SS_OK;
 }
 
@@ -494,7 +494,7 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     ss_status status = ss_script_begin(out, opts, contour->signal != NULL ? 8.5 : 6.5, err);
     if (status != SS_OK)
         return status;
-    ss_script_put_title(out, opts, c->head, NULL);
+    ss_script_write_title(out, opts, c->head, NULL);
     double fmin = c->scale[0].f, fmax = c->scale[c->n_scales - 1].f;
     panel a = { .range = 0 };
     int lines = 0;
@@ -502,30 +502,30 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
     drawn.from = span.from;
     drawn.to = span.to;
-    ss_script_put_span(out, &span);
+    ss_script_write_span(out, &span);
     fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ", contour->levels);
-    ss_script_put(out, contour->span, 6,
-                  "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
+    ss_script_write(out, contour->span, 6,
+                    "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
     fputs("fmin = ", out);
-    ss_script_put(out, fmin, decimals_of(fmin), "    # Hz\nfmax = ");
-    ss_script_put(out, fmax, decimals_of(fmax), "  # Hz\n");
+    ss_script_write(out, fmin, decimals_of(fmin), "    # Hz\nfmax = ");
+    ss_script_write(out, fmax, decimals_of(fmax), "  # Hz\n");
     fputs("colours = \"0 '#7ad151', 0.3 '#22a884', 0.55 '#2a788e', 0.8 '#414487', 1 '#440154'\"\n"
           "cone_colour = '#e4e4e4'; event_colour = '#d55e00'\n", out);
     if (contour->signal != NULL)
-        status = put_signal(out, contour, &drawn, &a, err);
+        status = write_signal(out, contour, &drawn, &a, err);
     if (status != SS_OK)
         return status;
-    put_cone(out, c, &span, (const double[2]){ fmin, fmax });
+    write_cone(out, c, &span, (const double[2]){ fmin, fmax });
     if (contour->n_events > 0)
-        put_events(out, contour, &span);
+        write_events(out, contour, &span);
     if (contour->overlay != NULL) {
         fputs("feature_colour = '#cc3311'; rim(part) = fmin*(fmax/fmin)**part\n", out);
-        seen = put_overlay(out, contour->overlay, &span);
+        seen = write_overlay(out, contour->overlay, &span);
     }
-    status = put_contours(out, c, contour, &span, level, &lines);
+    status = write_contours(out, c, contour, &span, level, &lines);
     if (status != SS_OK)
         return status;
-    put_panels(out, c, contour, &a, lines, &seen);
+    write_panels(out, c, contour, &a, lines, &seen);
     return ss_script_end(out);
 }
 

@@ -17,10 +17,10 @@ typedef struct tracer {
 } tracer;
 
 /* The sides of cell (i, j) are numbered around it: 0 below, 1 right, 2 above, 3 left. */
-typedef struct place {
+typedef struct cell_side {
     size_t i, j;
     int side;
-} place;
+} cell_side;
 
 static double
 height(const tracer *t, size_t i, size_t j)
@@ -30,7 +30,7 @@ height(const tracer *t, size_t i, size_t j)
 
 /* The ends of a side: from (i, j) to its neighbour on the right, or above it. */
 static void
-side_ends(place p, size_t from[2], size_t to[2])
+side_ends(cell_side p, size_t from[2], size_t to[2])
 {
     from[0] = p.i + (p.side == 1);
     from[1] = p.j + (p.side == 2);
@@ -39,7 +39,7 @@ side_ends(place p, size_t from[2], size_t to[2])
 }
 
 static size_t
-side_index(const tracer *t, place p)
+side_index(const tracer *t, cell_side p)
 {
     size_t from[2], to[2];
     side_ends(p, from, to);
@@ -47,7 +47,7 @@ side_index(const tracer *t, place p)
 }
 
 static int
-is_crossed(const tracer *t, place p)
+is_crossed(const tracer *t, cell_side p)
 {
     size_t from[2], to[2];
     side_ends(p, from, to);
@@ -55,7 +55,7 @@ is_crossed(const tracer *t, place p)
 }
 
 static void
-cross(tracer *t, place p, size_t n)
+cross(tracer *t, cell_side p, size_t n)
 {
     size_t from[2], to[2];
     side_ends(p, from, to);
@@ -68,11 +68,11 @@ cross(tracer *t, place p, size_t n)
 
 /* The side through which a line leaves the cell that it came into through p.side. */
 static int
-way_out(const tracer *t, place p)
+exit_side(const tracer *t, cell_side p)
 {
     int crossed = 0, other = p.side;
     for (int side = 0; side < 4; side++)
-        if (is_crossed(t, (place){ p.i, p.j, side })) {
+        if (is_crossed(t, (cell_side){ p.i, p.j, side })) {
             crossed++;
             other = side != p.side ? side : other;
         }
@@ -86,24 +86,24 @@ way_out(const tracer *t, place p)
 
 /* Into the cell beyond the side; 0 if that is the border. */
 static int
-step_over(const tracer *t, place *p)
+step_over(const tracer *t, cell_side *p)
 {
     static const int dx[] = { 0, 1, 0, -1 }, dy[] = { -1, 0, 1, 0 };
     size_t i = p->i + (size_t)dx[p->side], j = p->j + (size_t)dy[p->side];
     if (i >= t->map->nx - 1 || j >= t->map->ny - 1)     /* SIZE_MAX for one below 0, too */
         return 0;
-    *p = (place){ i, j, (p->side + 2) % 4 };
+    *p = (cell_side){ i, j, (p->side + 2) % 4 };
     return 1;
 }
 
 /* Trace the line that comes into a cell through p.side, to its end or round to its start. */
 static void
-trace(tracer *t, place p, isoline_sink *sink, void *user)
+trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {
     size_t n = 0;
     cross(t, p, n++);
     do {
-        p.side = way_out(t, p);
+        p.side = exit_side(t, p);
         if (t->passed[side_index(t, p)]) {
             t->point[n][0] = t->point[0][0];
             t->point[n][1] = t->point[0][1];
@@ -116,7 +116,7 @@ trace(tracer *t, place p, isoline_sink *sink, void *user)
 }
 
 static void
-start_at(tracer *t, place p, isoline_sink *sink, void *user)
+start_at(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {
     if (is_crossed(t, p) && !t->passed[side_index(t, p)])
         trace(t, p, sink, user);
@@ -129,16 +129,16 @@ ss_isolines(const isoline_map *map, double level, isoline_sink *sink, void *user
     tracer t = { map, level, calloc(sides, 1), malloc((sides + 2) * sizeof *t.point) };
     ss_status status = t.passed != NULL && t.point != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; status == SS_OK && i + 1 < map->nx; i++) {
-        start_at(&t, (place){ i, 0, 0 }, sink, user);
-        start_at(&t, (place){ i, map->ny - 2, 2 }, sink, user);
+        start_at(&t, (cell_side){ i, 0, 0 }, sink, user);
+        start_at(&t, (cell_side){ i, map->ny - 2, 2 }, sink, user);
     }
     for (size_t j = 0; status == SS_OK && j + 1 < map->ny; j++) {
-        start_at(&t, (place){ 0, j, 3 }, sink, user);
-        start_at(&t, (place){ map->nx - 2, j, 1 }, sink, user);
+        start_at(&t, (cell_side){ 0, j, 3 }, sink, user);
+        start_at(&t, (cell_side){ map->nx - 2, j, 1 }, sink, user);
     }
     for (size_t j = 0; status == SS_OK && j + 1 < map->ny; j++)
         for (size_t i = 0; i + 1 < map->nx; i++)
-            start_at(&t, (place){ i, j, 0 }, sink, user);   /* a closed line crosses one of these */
+            start_at(&t, (cell_side){ i, j, 0 }, sink, user);   /* every closed line crosses one */
     free(t.passed);
     free(t.point);
     return status;

@@ -51,7 +51,8 @@ is_log(const axis *a)
         r[0] = fmin(r[0], ratio);
         r[1] = fmax(r[1], ratio);
     }
-    return a->n > 2 && a->value[0] > 0 && isfinite(a->value[a->n - 1] / a->value[0]) && d[1] > d[0] * (1 + 1e-6) && r[1] / r[0] < d[1] / d[0];
+    return a->n > 2 && a->value[0] > 0 && isfinite(a->value[a->n - 1] / a->value[0])
+        && d[1] > d[0] * (1 + 1e-6) && r[1] / r[0] < d[1] / d[0];
 }
 
 static ss_status
@@ -136,13 +137,13 @@ border(const axis *a, double i)
 }
 
 static void
-put_level(FILE *out, double level)
+write_level(FILE *out, double level)
 {
     fprintf(out, "%.6g\n", level);
 }
 
 static void
-put(FILE *out, const axis *a, double x, char behind)
+write_coordinate(FILE *out, const axis *a, double x, char behind)
 {
     fprintf(out, "%.*g%c", a->digits, x, behind);
 }
@@ -185,7 +186,7 @@ same(double a, double b)
 
 /* The boxes of the points at which the column has this value, NaN where it has none. */
 static void
-put_boxes(FILE *out, const grid *g, const double *column, double value)
+write_boxes(FILE *out, const grid *g, const double *column, double value)
 {
     for (size_t j = 0; j < g->y.n; j++)
         for (size_t i = 0, end; i < g->x.n; i = end) {
@@ -195,19 +196,20 @@ put_boxes(FILE *out, const grid *g, const double *column, double value)
                 end++;
                 continue;
             }
-            put(out, &g->x, border(&g->x, (double)i), ' ');
-            put(out, &g->x, border(&g->x, (double)end), ' ');
-            put(out, &g->y, border(&g->y, (double)j), ' ');
-            put(out, &g->y, border(&g->y, (double)(j + 1) + (j + 1 < g->y.n ? 0.25 : 0)), '\n');
+            write_coordinate(out, &g->x, border(&g->x, (double)i), ' ');
+            write_coordinate(out, &g->x, border(&g->x, (double)end), ' ');
+            write_coordinate(out, &g->y, border(&g->y, (double)j), ' ');
+            double top = (double)(j + 1) + (j + 1 < g->y.n ? 0.25 : 0);
+            write_coordinate(out, &g->y, border(&g->y, top), '\n');
         }
 }
 
 static void
-put_regions(FILE *out, const grid *g, const double *column, const regions *r)
+write_regions(FILE *out, const grid *g, const double *column, const regions *r)
 {
     for (size_t i = 0; i < r->n; i++) {
         fprintf(out, "$region%zu << EOD\n", i);
-        put_boxes(out, g, column, r->value[i]);
+        write_boxes(out, g, column, r->value[i]);
         fputs("EOD\n", out);
     }
 }
@@ -215,23 +217,23 @@ put_regions(FILE *out, const grid *g, const double *column, const regions *r)
 /* --- lines --------------------------------------------------------------------------------- */
 
 /* A piece of a line, all corners of its cells known. */
-typedef struct piece {
+typedef struct line_piece {
     size_t first, n;                /* of the points */
     double level, length;           /* [widths of the map] */
     int longest;                    /* of its level */
-} piece;
+} line_piece;
 
-typedef struct line_sink {
+typedef struct map_lines {
     FILE *out;
     const grid *g;
     const double *column;
     double level;
     double (*point)[2];             /* of all pieces, in units of the grid */
-    piece *piece;
+    line_piece *piece;
     size_t n_points, n_pieces;
     size_t points_room, pieces_room;
     int no_memory;
-} line_sink;
+} map_lines;
 
 /* Where x stands on the axis: 0 to 1. */
 static double
@@ -242,16 +244,16 @@ place_on(const axis *a, double at)
 }
 
 static void
-put_point(FILE *out, const grid *g, const double point[2], double level)
+write_point(FILE *out, const grid *g, const double point[2], double level)
 {
-    put(out, &g->x, along(&g->x, point[0]), ' ');
-    put(out, &g->y, along(&g->y, point[1]), ' ');
-    put_level(out, level);
+    write_coordinate(out, &g->x, along(&g->x, point[0]), ' ');
+    write_coordinate(out, &g->y, along(&g->y, point[1]), ' ');
+    write_level(out, level);
 }
 
 /* Are all corners of the cell around a point known? */
 static int
-is_known(const line_sink *s, const double point[2])
+is_known(const map_lines *s, const double point[2])
 {
     double sum = 0;
     for (int k = 0; k < 4; k++)
@@ -261,9 +263,9 @@ is_known(const line_sink *s, const double point[2])
 }
 
 static void
-keep_piece(line_sink *s, const double (*point)[2], size_t n)
+append_piece(map_lines *s, const double (*point)[2], size_t n)
 {
-    piece p = { s->n_points, n, s->level, 0, 0 };
+    line_piece p = { s->n_points, n, s->level, 0, 0 };
     void *points = ss_list_grow(s->point, &s->points_room, s->n_points + n, sizeof *s->point);
     s->point = points != NULL ? points : s->point;
     void *pieces = ss_list_room(s->piece, &s->pieces_room, s->n_pieces, sizeof *s->piece);
@@ -280,16 +282,16 @@ keep_piece(line_sink *s, const double (*point)[2], size_t n)
 }
 
 static void
-put_line(const double (*point)[2], size_t n, void *user)
+write_line(const double (*point)[2], size_t n, void *user)
 {
-    line_sink *s = user;
+    map_lines *s = user;
     for (size_t first = 0, end; first < n; first = end + 1) {
         for (end = first; end < n && is_known(s, point[end]); end++)
-            put_point(s->out, s->g, point[end], s->level);
+            write_point(s->out, s->g, point[end], s->level);
         if (end == first)
             continue;
         putc('\n', s->out);
-        keep_piece(s, point + first, end - first);
+        append_piece(s, point + first, end - first);
     }
 }
 
@@ -325,7 +327,7 @@ clearance(const labels *l, const double at[2], double width)
 /* Label a piece in its middle, or else where it has room nearest to that; if it has nowhere and must
  * have a label, where that covers least. */
 static void
-put_label_on(FILE *out, labels *l, const line_sink *s, const piece *p, int must)
+write_label_on(FILE *out, labels *l, const map_lines *s, const line_piece *p, int must)
 {
     const double (*point)[2] = (const double (*)[2])s->point + p->first, *best = NULL;
     double most = must ? 0 : 1 - 1e-9, width = label_width(p->level);
@@ -343,7 +345,7 @@ put_label_on(FILE *out, labels *l, const line_sink *s, const piece *p, int must)
     }
     if (best == NULL)
         return;
-    put_point(out, s->g, best, p->level);
+    write_point(out, s->g, best, p->level);
     l->width[l->n++] = width;
 }
 
@@ -351,7 +353,7 @@ put_label_on(FILE *out, labels *l, const line_sink *s, const piece *p, int must)
 static int
 by_need(const void *a, const void *b)
 {
-    const piece *p = a, *q = b;
+    const line_piece *p = a, *q = b;
     if (p->longest != q->longest)
         return q->longest - p->longest;
     int order = (p->length > q->length) - (p->length < q->length);
@@ -361,7 +363,7 @@ by_need(const void *a, const void *b)
 }
 
 static void
-put_line_labels(FILE *out, line_sink *s)
+write_line_labels(FILE *out, map_lines *s)
 {
     labels l = { .n = 0 };
     for (size_t i = 0, end; i < s->n_pieces; i = end) {
@@ -375,7 +377,7 @@ put_line_labels(FILE *out, line_sink *s)
     fputs("$label << EOD\n", out);
     for (size_t i = 0; i < s->n_pieces; i++)
         if (s->piece[i].longest || s->piece[i].length >= LONG)
-            put_label_on(out, &l, s, &s->piece[i], s->piece[i].longest);
+            write_label_on(out, &l, s, &s->piece[i], s->piece[i].longest);
     fputs("EOD\n", out);
 }
 
@@ -422,12 +424,12 @@ fill_heights(double *height, double *known, size_t *n_known, const grid *g, cons
 }
 
 static ss_status
-put_lines(FILE *out, const grid *g, const double *column, ss_error *err)
+write_lines(FILE *out, const grid *g, const double *column, ss_error *err)
 {
     size_t cells = g->x.n * g->y.n, n_known;
     double *height = malloc(cells * sizeof *height), *known = malloc(cells * sizeof *known);
     double level[LEVELS_MAX];
-    line_sink sink = { .out = out, .g = g, .column = column };
+    map_lines sink = { .out = out, .g = g, .column = column };
     ss_status st = height != NULL && known != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK) {
         fill_heights(height, known, &n_known, g, column);
@@ -436,10 +438,10 @@ put_lines(FILE *out, const grid *g, const double *column, ss_error *err)
         fputs("$line << EOD\n", out);
         for (size_t i = 0; st == SS_OK && i < levels; i++) {
             sink.level = level[i];
-            st = ss_isolines(&map, level[i], put_line, &sink);
+            st = ss_isolines(&map, level[i], write_line, &sink);
         }
         fputs("EOD\n", out);
-        put_line_labels(out, &sink);
+        write_line_labels(out, &sink);
         st = sink.no_memory ? SS_ENOMEM : st;
     }
     free(sink.point);
@@ -452,13 +454,13 @@ put_lines(FILE *out, const grid *g, const double *column, ss_error *err)
 /* --- the script ---------------------------------------------------------------------------- */
 
 static void
-put_curve(FILE *out, const ss_map_opts *map, const grid *g)
+write_curve(FILE *out, const ss_map_opts *map, const grid *g)
 {
     fputs("$curve << EOD\n", out);
     for (size_t i = 0; i < map->n_curve; i++)
         if (isfinite(map->curve[2 * i]) && isfinite(map->curve[2 * i + 1])) {
-            put(out, &g->x, map->curve[2 * i], ' ');
-            put(out, &g->y, map->curve[2 * i + 1], '\n');
+            write_coordinate(out, &g->x, map->curve[2 * i], ' ');
+            write_coordinate(out, &g->y, map->curve[2 * i + 1], '\n');
         } else {
             putc('\n', out);
         }
@@ -466,11 +468,11 @@ put_curve(FILE *out, const ss_map_opts *map, const grid *g)
 }
 
 static void
-put_axis(FILE *out, const char *name, const axis *a)
+write_axis(FILE *out, const char *name, const axis *a)
 {
     fprintf(out, "set %srange [", name);
-    put(out, a, a->value[0], ':');
-    put(out, a, a->value[a->n - 1], ']');
+    write_coordinate(out, a, a->value[0], ':');
+    write_coordinate(out, a, a->value[a->n - 1], ']');
     fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
 }
 
@@ -485,7 +487,7 @@ make_label(script_label *label, const ss_sweep_table *t, size_t column)
 }
 
 static void
-put_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
+write_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
 {
     const char *comma = "plot ";
     for (size_t i = 0; i < r->n; i++, comma = ", \\\n     ") {
@@ -528,32 +530,32 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
     make_label(&y_label, t, map->y);
     if (has_lines)
         make_label(&line_label, t, line);
-    ss_script_put_title(out, &titled, NULL, has_lines ? &line_label : NULL);
+    ss_script_write_title(out, &titled, NULL, has_lines ? &line_label : NULL);
     fputs("set xlabel ", out);
-    ss_script_put_label(out, &x_label);
+    ss_script_write_label(out, &x_label);
     fputs(" noenhanced offset 0,0.4\n", out);
-    ss_script_put_side_label(out, 1, &y_label);
+    ss_script_write_side_label(out, 1, &y_label);
     fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
           "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "
           "'8')\n", out);
     if (has_region)
-        put_regions(out, g, t->value + region * t->n, r);
+        write_regions(out, g, t->value + region * t->n, r);
     if (r->missing) {
         fputs("$missing << EOD\n", out);
-        put_boxes(out, g, t->value + (has_region ? region : line) * t->n, NAN);
+        write_boxes(out, g, t->value + (has_region ? region : line) * t->n, NAN);
         fputs("EOD\n", out);
     }
     if (map->n_curve > 0)
-        put_curve(out, map, g);
+        write_curve(out, map, g);
     if (has_lines)
-        st = put_lines(out, g, t->value + line * t->n, err);
+        st = write_lines(out, g, t->value + line * t->n, err);
     if (st != SS_OK)
         return st;
     fprintf(out, "set lmargin at screen 0.14; set tmargin at screen %s; "
             "set bmargin at screen 0.14\n", has_lines && titled.title[0] != '\0' ? "0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", has_region || r->missing ? "0.835" : "0.965");
-    put_axis(out, "x", &g->x);
-    put_axis(out, "y", &g->y);
+    write_axis(out, "x", &g->x);
+    write_axis(out, "y", &g->y);
     fputs("set tics nomirror out scale 0.6; set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     if (has_region || r->missing)
@@ -566,7 +568,7 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
         ss_script_quote(out, t->name[region]);
         fputs(" noenhanced font fine\n", out);
     }
-    put_plot(out, map, r, has_lines);
+    write_plot(out, map, r, has_lines);
     return ss_script_end(out);
 }
 

@@ -23,10 +23,10 @@ static const char layout[] =
     "unset key\n";
 
 /* What is known of a panel when its trace is written. */
-typedef struct panel {
+typedef struct trace_scale {
     double range;
     int exponent;
-} panel;
+} trace_scale;
 
 ss_status
 ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
@@ -54,19 +54,19 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         status = ss_script_begin(out, opts, height, err);
     if (status != SS_OK)
         return status;
-    panel *panel_of = malloc(panels * sizeof *panel_of);
-    if (panel_of == NULL)
+    trace_scale *scale_of = malloc(panels * sizeof *scale_of);
+    if (scale_of == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
-    ss_script_put_title(out, opts, head, NULL);
-    ss_script_put_span(out, &span);
+    ss_script_write_title(out, opts, head, NULL);
+    ss_script_write_span(out, &span);
     fputs("colour = '#0072b2'\n", out);
     for (size_t i = 0; i < panels; i++) {
         size_t c = n > 0 ? column[i] : i;
         const double *x = signal->values + c * signal->n;
         char name[32];
         snprintf(name, sizeof name, "$panel%zu", i + 1);
-        panel_of[i].exponent = ss_script_exponent(x + span.first, span.n);
-        panel_of[i].range = ss_script_put_trace(out, name, x, head, &span, panel_of[i].exponent);
+        scale_of[i].exponent = ss_script_exponent(x + span.first, span.n);
+        scale_of[i].range = ss_script_write_trace(out, name, x, head, &span, scale_of[i].exponent);
     }
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
             1 - TITLE / height, panels);
@@ -78,15 +78,15 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
                 "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < panels));
         script_label label;
         ss_script_make_label(&label, &head->column[n > 0 ? column[i - 1] : i - 1],
-                             panel_of[i - 1].exponent, ROOM);
+                             scale_of[i - 1].exponent, ROOM);
         fputs("unset label 1; ", out);
-        ss_script_put_side_label(out, 1, &label);
-        ss_script_put_tics(out, "ytics", panel_of[i - 1].range, 5);
+        ss_script_write_side_label(out, 1, &label);
+        ss_script_write_tics(out, "ytics", scale_of[i - 1].range, 5);
         fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
         if (i == 1)
             fputs("unset title\n", out);
     }
-    free(panel_of);
+    free(scale_of);
     fputs("unset multiplot\n", out);
     return ss_script_end(out);
 }
@@ -106,11 +106,11 @@ range(const double *x, size_t n, double unit)
 
 /* A point nearer than half a pixel to the last one written is left out. */
 static void
-put_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, double y_unit)
+write_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, double y_unit)
 {
     double x_range = range(x, n, x_unit), y_range = range(y, n, y_unit);
-    ss_script_put_tics(out, "xtics", x_range, 6);
-    ss_script_put_tics(out, "ytics", y_range, 6);
+    ss_script_write_tics(out, "xtics", x_range, 6);
+    ss_script_write_tics(out, "ytics", y_range, 6);
     double near_x = x_range / (2 * SCRIPT_COLUMNS), near_y = y_range / (2 * SCRIPT_COLUMNS);
     size_t last = 0;
     fputs("$path << EOD\n", out);
@@ -118,8 +118,8 @@ put_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, d
         if (i > 0 && i + 1 < n && fabs(x[i] - x[last]) / x_unit <= near_x
             && fabs(y[i] - y[last]) / y_unit <= near_y)
             continue;
-        ss_script_put(out, x[i] / x_unit, ss_script_decimals(x_range), " ");
-        ss_script_put(out, y[i] / y_unit, ss_script_decimals(y_range), "\n");
+        ss_script_write(out, x[i] / x_unit, ss_script_decimals(x_range), " ");
+        ss_script_write(out, y[i] / y_unit, ss_script_decimals(y_range), "\n");
         last = i;
     }
     fputs("EOD\n", out);
@@ -152,15 +152,15 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     script_label x_label, y_label;
     ss_script_make_label(&x_label, &head->column[x], exponent[0], XY_ROOM);
     ss_script_make_label(&y_label, &head->column[y], exponent[1], XY_ROOM);
-    ss_script_put_title(out, opts, head, NULL);
+    ss_script_write_title(out, opts, head, NULL);
     fputs("set xlabel ", out);
-    ss_script_put_label(out, &x_label);
+    ss_script_write_label(out, &x_label);
     fputs(" noenhanced offset 0,0.3", out);
-    ss_script_put_font(out, &x_label);
+    ss_script_write_font(out, &x_label);
     putc('\n', out);
-    ss_script_put_side_label(out, 1, &y_label);
+    ss_script_write_side_label(out, 1, &y_label);
     fputs("colour = '#0072b2'\n", out);
-    put_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
+    write_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
     fputs("unset key\n"
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
           "set tmargin at screen 0.91; set bmargin at screen 0.16\n"

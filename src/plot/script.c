@@ -21,7 +21,7 @@ const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN, SS_PAPER };
 /* --- numbers and text ---------------------------------------------------------------------- */
 
 void
-ss_script_put(FILE *out, double x, int decimals, const char *behind)
+ss_script_write(FILE *out, double x, int decimals, const char *behind)
 {
     char text[SS_NUMBER_MAX];
     double unit = pow(10, decimals < 0 ? -decimals : decimals);
@@ -48,7 +48,7 @@ ss_script_decimals(double range)
  * makes a byte again when it has found the end of the string.  It reads all octal digits that
  * follow, not three: a digit behind such a byte is written so, too.  Is the last byte so written? */
 static int
-put_bytes(FILE *out, const char *bytes, size_t n, int escaped)
+write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
 {
     static const char plain[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
                                 " ()+,-./:=_";
@@ -77,17 +77,17 @@ is_drawable(const char *text, size_t at, size_t n)
 
 /* Text between double quotes: what cannot be drawn is a blank, what is no character is U+FFFD. */
 static void
-put_text(FILE *out, const char *text, size_t n)
+write_text(FILE *out, const char *text, size_t n)
 {
     int escaped = 0;
     for (size_t i = 0, length; i < n; i += length > 0 ? length : 1) {
         length = ss_utf8_length(text + i);
         if (length == 0)
-            escaped = put_bytes(out, "\xef\xbf\xbd", 3, escaped);
+            escaped = write_bytes(out, "\xef\xbf\xbd", 3, escaped);
         else if (is_drawable(text, i, length))
-            escaped = put_bytes(out, text + i, length, escaped);
+            escaped = write_bytes(out, text + i, length, escaped);
         else
-            escaped = put_bytes(out, " ", 1, escaped);
+            escaped = write_bytes(out, " ", 1, escaped);
     }
 }
 
@@ -95,7 +95,7 @@ void
 ss_script_quote(FILE *out, const char *text)
 {
     putc('"', out);
-    put_text(out, text, strlen(text));
+    write_text(out, text, strlen(text));
     putc('"', out);
 }
 
@@ -126,14 +126,14 @@ ss_script_exponent(const double *x, size_t n)
 }
 
 void
-ss_script_put_tics(FILE *out, const char *axis, double range, int intervals)
+ss_script_write_tics(FILE *out, const char *axis, double range, int intervals)
 {
     double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
     int step = share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10;
     if (range > 0)
         fprintf(out, "set %s ", axis);
     if (range > 0)
-        ss_script_put(out, step * power, power < 1 ? (int)round(-log10(power)) : 0, "\n");
+        ss_script_write(out, step * power, power < 1 ? (int)round(-log10(power)) : 0, "\n");
     else
         fprintf(out, "set %s autofreq\n", axis);
 }
@@ -241,17 +241,17 @@ ss_script_make_label(script_label *l, const ss_column *column, int exponent, dou
 }
 
 void
-ss_script_put_label(FILE *out, const script_label *l)
+ss_script_write_label(FILE *out, const script_label *l)
 {
     putc('"', out);
-    put_text(out, l->text, l->second);
+    write_text(out, l->text, l->second);
     fputs(l->second > 0 ? "\\n" : "", out);
-    put_text(out, l->text + l->second, l->n - l->second);
+    write_text(out, l->text + l->second, l->n - l->second);
     putc('"', out);
 }
 
 void
-ss_script_put_font(FILE *out, const script_label *l)
+ss_script_write_font(FILE *out, const script_label *l)
 {
     if (l->font < 1)
         fprintf(out, " font ','.(exists('font') ? sprintf('%%.1f', %.2f*word(substr(font, 6, 9), 1)) "
@@ -259,12 +259,12 @@ ss_script_put_font(FILE *out, const script_label *l)
 }
 
 void
-ss_script_put_side_label(FILE *out, int n, const script_label *l)
+ss_script_write_side_label(FILE *out, int n, const script_label *l)
 {
     fprintf(out, "set label %d ", n);
-    ss_script_put_label(out, l);
+    ss_script_write_label(out, l);
     fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.018" : "0.03");
-    ss_script_put_font(out, l);
+    ss_script_write_font(out, l);
     putc('\n', out);
 }
 
@@ -283,15 +283,15 @@ terminal(const char *format)
 }
 
 static void
-put_terminal(FILE *out, const char *format, const char *output, double width, double height)
+write_terminal(FILE *out, const char *format, const char *output, double width, double height)
 {
     int pdf = strcmp(format, "pdf") == 0;
     double per_cm = pdf ? 1 : PIXELS_PER_CM;
     const char *unit = pdf ? " cm" : "";
     fputs("width = ", out);
-    ss_script_put(out, pdf ? width : round(width * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    ss_script_write(out, pdf ? width : round(width * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
-    ss_script_put(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    ss_script_write(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
     fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
             terminal(format), unit, unit, pdf ? "0.6" : "2",
@@ -299,7 +299,7 @@ put_terminal(FILE *out, const char *format, const char *output, double width, do
     if (output != NULL) {
         /* gnuplot starts a program for '|' and has a meaning for '~' at the beginning of a name. */
         fprintf(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
-        put_bytes(out, output, strlen(output), 0);
+        write_bytes(out, output, strlen(output), 0);
         fputs("\"\n", out);
     }
 }
@@ -316,7 +316,7 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
     double scale = opts->style == SS_SCREEN ? SCREEN : 1;
     fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
     if (format != NULL)
-        put_terminal(out, format, opts->output, scale * WIDTH, scale * height);
+        write_terminal(out, format, opts->output, scale * WIDTH, scale * height);
     else
         fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
@@ -325,8 +325,8 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
 }
 
 void
-ss_script_put_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
-                    const script_label *lines)
+ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
+                      const script_label *lines)
 {
     const char *title = opts->title;
     if (title == NULL && head != NULL)
@@ -336,22 +336,22 @@ ss_script_put_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
     if (title == NULL)
         title = "";
     fputs("set title \"", out);
-    put_text(out, title, strlen(title));
+    write_text(out, title, strlen(title));
     if (lines != NULL) {
         fputs(title[0] != '\0' ? "\\nlines: " : "lines: ", out);
-        put_text(out, lines->text, lines->n);
+        write_text(out, lines->text, lines->n);
     }
     fputs("\" noenhanced offset 0,-0.5\n", out);
 }
 
 void
-ss_script_put_span(FILE *out, const script_span *span)
+ss_script_write_span(FILE *out, const script_span *span)
 {
     int decimals = ss_script_decimals(span->to - span->from);
     fputs("from = ", out);
-    ss_script_put(out, span->from, decimals, "         # s\n");
+    ss_script_write(out, span->from, decimals, "         # s\n");
     fputs("to = ", out);
-    ss_script_put(out, span->to, decimals, "           # s\n");
+    ss_script_write(out, span->to, decimals, "           # s\n");
 }
 
 ss_status
@@ -387,16 +387,16 @@ ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss
 }
 
 static void
-put_sample(FILE *out, const double *x, size_t i, const ss_header *head, const int decimals[2],
-           double unit)
+write_sample(FILE *out, const double *x, size_t i, const ss_header *head, const int decimals[2],
+             double unit)
 {
-    ss_script_put(out, head->start + (double)i / head->rate, decimals[0], " ");
-    ss_script_put(out, x[i] / unit, decimals[1], "\n");
+    ss_script_write(out, head->start + (double)i / head->rate, decimals[0], " ");
+    ss_script_write(out, x[i] / unit, decimals[1], "\n");
 }
 
 double
-ss_script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
-                    const script_span *span, int exponent)
+ss_script_write_trace(FILE *out, const char *name, const double *x, const ss_header *head,
+                      const script_span *span, int exponent)
 {
     double unit = pow(10, exponent), lo = INFINITY, hi = -INFINITY;
     size_t end = span->first + span->n;
@@ -415,9 +415,9 @@ ss_script_put_trace(FILE *out, const char *name, const double *x, const ss_heade
             min = x[i] < x[min] ? i : min;
             max = x[i] > x[max] ? i : max;
         }
-        put_sample(out, x, min < max ? min : max, head, decimals, unit);
+        write_sample(out, x, min < max ? min : max, head, decimals, unit);
         if (min != max)
-            put_sample(out, x, min < max ? max : min, head, decimals, unit);
+            write_sample(out, x, min < max ? max : min, head, decimals, unit);
     }
     fputs("EOD\n", out);
     return hi - lo;

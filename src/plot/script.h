@@ -25,7 +25,7 @@ ss_status ss_script_check(const char *column, const double *x, size_t n, ss_erro
 /* Top of the script: terminal and size; the title and the caller's own variables follow. */
 ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err);
 /* The named variables from and to, in the lines at the top. */
-void ss_script_put_span(FILE *out, const script_span *span);
+void ss_script_write_span(FILE *out, const script_span *span);
 /* Lines of script: tics of time at 1, 2 or 5 times a power of ten, with labels that tell them apart,
  * six intervals at most and as many as have room for these, also when from and to are changed.
  * letters is the length of a label. */
@@ -42,7 +42,7 @@ void ss_script_put_span(FILE *out, const script_span *span);
 /* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
 void ss_script_quote(FILE *out, const char *text);
 /* A number rounded to so many decimals, whatever the locale, and what stands behind it. */
-void ss_script_put(FILE *out, double x, int decimals, const char *behind);
+void ss_script_write(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that tell apart a tenth of a pixel column in a picture of this range. */
 int ss_script_decimals(double range);
 
@@ -59,22 +59,22 @@ typedef struct script_label {
 void ss_script_make_label(script_label *label, const ss_column *column, int exponent,
                           double room);     /* [ems] */
 /* The label as a string constant. */
-void ss_script_put_label(FILE *out, const script_label *label);
+void ss_script_write_label(FILE *out, const script_label *label);
 /* The font of the label, behind it; nothing for the usual size. */
-void ss_script_put_font(FILE *out, const script_label *label);
+void ss_script_write_font(FILE *out, const script_label *label);
 /* Set the title: that of opts, or else scene or model of the header, unless it is NULL; and under it
  * "lines: " and the label, unless it is NULL. */
-void ss_script_put_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
-                         const script_label *lines);
+void ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
+                           const script_label *lines);
 /* Set label number n beside the vertical axis: further out in two lines, that tics have their room. */
-void ss_script_put_side_label(FILE *out, int n, const script_label *label);
+void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 
 /* set AXIS STEP: so many intervals at most over the range, of 1, 2 or 5 times a power of ten. */
-void ss_script_put_tics(FILE *out, const char *axis, double range, int intervals);
+void ss_script_write_tics(FILE *out, const char *axis, double range, int intervals);
 
 /* A datablock of time and x 10^-exponent: the smallest and largest of each pixel column, so that
  * no spike is lost.  span as found; x points at the whole record.  The range of what was put. */
-double ss_script_put_trace(FILE *out, const char *name, const double *x, const ss_header *head,
+double ss_script_write_trace(FILE *out, const char *name, const double *x, const ss_header *head,
                       const script_span *span, int exponent);
 
 /* SS_EIO if a write failed. */

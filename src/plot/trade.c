@@ -13,20 +13,20 @@ static const int point[] = { 7, 5, 9, 13, 4 };
 enum { COLOURS = sizeof colour / sizeof *colour, POINTS = sizeof point / sizeof *point };
 
 static void
-put_point(FILE *out, const ss_trade_row *row, double fastest)
+write_point(FILE *out, const ss_trade_row *row, double fastest)
 {
     fprintf(out, "%.4g %.3g\n", row->seconds / fastest, row->error_x);
 }
 
 /* The points of one method as datablock number k, from row i on; what follows the last of them. */
 static size_t
-put_method(FILE *out, const ss_trade *trade, size_t i, size_t k, double fastest)
+write_method(FILE *out, const ss_trade *trade, size_t i, size_t k, double fastest)
 {
     const char *method = trade->row[i].method;
     fprintf(out, "$method%zu << EOD\n", k);
     for (; i < trade->n && strcmp(trade->row[i].method, method) == 0; i++)
         if (trade->row[i].status == SS_OK)
-            put_point(out, &trade->row[i], fastest);
+            write_point(out, &trade->row[i], fastest);
     fputs("EOD\n", out);
     return i;
 }
@@ -41,7 +41,7 @@ next_method(const ss_trade *trade, size_t i)
 }
 
 static void
-put_plot(FILE *out, const ss_trade *trade)
+write_plot(FILE *out, const ss_trade *trade)
 {
     fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '#000000' title 'frontier'", out);
     for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
@@ -74,15 +74,15 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     ss_status st = ss_script_begin(out, opts, 9, err);
     if (st != SS_OK)
         return st;
-    ss_script_put_title(out, opts, NULL, NULL);
+    ss_script_write_title(out, opts, NULL, NULL);
     fprintf(out, "fastest = %.3g        # s of CPU time\n", fastest);
     for (size_t i = 0, k = 0; i < trade->n; k++)
-        i = trade->row[i].status == SS_OK ? put_method(out, trade, i, k, fastest)
+        i = trade->row[i].status == SS_OK ? write_method(out, trade, i, k, fastest)
             : next_method(trade, i);
     fputs("$frontier << EOD\n", out);
     for (size_t i = 0; i < trade->n; i++)
         if (trade->row[i].frontier)
-            put_point(out, &trade->row[i], fastest);
+            write_point(out, &trade->row[i], fastest);
     fputs("EOD\n"
           "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
           "set logscale xy; set format x '%g'; set format y '%.0e'\n"
@@ -94,6 +94,6 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "noenhanced\n", out);
     fprintf(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
             trade->transform ? "W / largest |W| of its scale" : "x / max|x|");
-    put_plot(out, trade);
+    write_plot(out, trade);
     return ss_script_end(out);
 }

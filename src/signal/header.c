@@ -216,7 +216,7 @@ lower(char c)
 
 /* The only column whose name is the one asked for, cleaned, in whatever case if fold; else -1. */
 static int
-find_asked(const ss_header *head, const char *asked, int fold)
+find_cleaned(const ss_header *head, const char *asked, int fold)
 {
     int found = -1;
     for (size_t i = 0; i < head->n_columns; i++) {
@@ -246,8 +246,8 @@ ss_header_column(const ss_header *head, const char *name)
     unsigned long number = *name >= '0' && *name <= '9' ? strtoul(name, &end, 10) : 0;
     if (number >= 1 && *end == '\0')
         return number <= head->n_columns ? (int)(number - 1) : -1;
-    c = find_asked(head, name, 0);
-    return c >= 0 || strlen(name) < 2 ? c : find_asked(head, name, 1);
+    c = find_cleaned(head, name, 0);
+    return c >= 0 || strlen(name) < 2 ? c : find_cleaned(head, name, 1);
 }
 
 size_t
@@ -378,7 +378,7 @@ ss_split_label(char *label, char **name, char **unit)
 }
 
 static ss_status
-take_columns(ss_header *head, char *p, const char **reason)
+read_columns(ss_header *head, char *p, const char **reason)
 {
     head->has_time = 0;
     for (int first = 1; *(p += strspn(p, " \t")) != '\0'; first = 0) {
@@ -410,7 +410,7 @@ take_columns(ss_header *head, char *p, const char **reason)
 }
 
 ss_status
-ss_header_take(ss_header *head, char *line, const char **reason)
+ss_header_read_line(ss_header *head, char *line, const char **reason)
 {
     char *key = line + 1, *colon = strchr(line, ':'), *end;
     if (colon == NULL)
@@ -433,7 +433,7 @@ ss_header_take(ss_header *head, char *line, const char **reason)
     }
     if (strcmp(key, "columns") == 0) {
         *reason = "columns are named twice";
-        return head->n_columns > 0 ? SS_EDATA : take_columns(head, value, reason);
+        return head->n_columns > 0 ? SS_EDATA : read_columns(head, value, reason);
     }
     *reason = "more than 4096 notes";
     if (head->n_notes == MAX_NOTES)

@@ -12,7 +12,7 @@ enum { MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
 /* The lines of a header, to be freed, or NULL if there is no memory. */
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 /* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
-ss_status ss_header_take(ss_header *head, char *line, const char **reason);
+ss_status ss_header_read_line(ss_header *head, char *line, const char **reason);
 /* Write " name", " name/unit" or " name/(unit)". */
 void ss_write_label(FILE *out, const char *name, const char *unit);
 /* "name", "name/unit", "name/(unit)" into its two parts, in place. */

@@ -46,7 +46,7 @@ read_annotation(ss_header **out, const char *magic, char *text)
         size_t length = strcspn(line, "\n");
         next = line + length + (line[length] == '\n');
         line[length] = '\0';
-        st = ss_header_take(head, line, &reason);
+        st = ss_header_read_line(head, line, &reason);
     }
     if (st != SS_OK) {
         ss_header_free(head);

@@ -133,7 +133,7 @@ open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         st = ss_input_line(in, &line, &length, err);
         if (st != SS_OK)
             break;
-        st = ss_header_take(reader->head, line, &reason);
+        st = ss_header_read_line(reader->head, line, &reason);
         if (st != SS_OK)
             return ss_fail(err, st, "%s:%lu: %s", in->name, in->line,
                            st == SS_EDATA ? reason : ss_strerror(st));

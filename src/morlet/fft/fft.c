@@ -144,9 +144,9 @@ terms(const struct fft *f, const route *r, const band *b, const double *x, ptrdi
 
 /* ANYWHERE: each coefficient at its own b, tau samples after sample c. */
 static double
-put_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale *scale,
-             const kaiser *ker, const double *v, ptrdiff_t origin, span part, double factor,
-             double *w)
+write_anywhere(const struct fft *f, const route *r, const band *b, const ss_scale *scale,
+               const kaiser *ker, const double *v, ptrdiff_t origin, span part, double factor,
+               double *w)
 {
     const level *lev = &f->level[r->level];
     double per_sample = (double)r->length / (double)circle_of(lev), most = 0;
@@ -321,12 +321,12 @@ transform_back(const route *r, const band *b, ptrdiff_t origin, int single, doub
 
 /* Values of the series.  Returns the largest |w|^2 for factor 1. */
 static double
-put_points(const void *points, ptrdiff_t first, size_t n, int single, double factor, double *w)
+write_points(const void *points, ptrdiff_t first, size_t n, int single, double factor, double *w)
 {
     const double *v = points;
     const float *of_single = points;
-    return single ? put_lattice_single(of_single + 2 * first, n, factor, w)
-        : put_lattice(v + 2 * first, n, factor, w);
+    return single ? write_lattice_single(of_single + 2 * first, n, factor, w)
+        : write_lattice(v + 2 * first, n, factor, w);
 }
 
 /* One pass over part of a scale.  Returns the largest |W|; *rounding is what single precision may
@@ -353,17 +353,17 @@ pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span p
     if (r->kind == LATTICE) {
         double before = rint((double)rec->origin / step_of(lev, r));
         ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
-        return unit * sqrt(put_points(points, first, part.n, single, factor, w));
+        return unit * sqrt(write_points(points, first, part.n, single, factor, w));
     }
     if (single)
         close_circle_single(points, r->length);
     else
         close_circle(points, r->length);
     if (r->kind == ANYWHERE)
-        return sqrt(put_anywhere(f, r, &b, scale, ker, v, rec->origin, part, factor, w));
-    return unit * sqrt(ss_dense_put(r->weights[how], v, (size_t)b.mid, circle_of(lev),
-                                    (size_t)((ptrdiff_t)part.first - rec->origin), part.n, factor,
-                                    terms_of(f, v) + 2 * APART, w));
+        return sqrt(write_anywhere(f, r, &b, scale, ker, v, rec->origin, part, factor, w));
+    return unit * sqrt(ss_dense_write(r->weights[how], v, (size_t)b.mid, circle_of(lev),
+                                      (size_t)((ptrdiff_t)part.first - rec->origin), part.n, factor,
+                                      terms_of(f, v) + 2 * APART, w));
 }
 
 void
@@ -499,7 +499,7 @@ ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 }
 
 void
-ss_fft_release(spectra *s)
+ss_spectra_free(spectra *s)
 {
     for (int i = 0; i < 2; i++) {
         fftw_free(s->level[i]);

@@ -531,7 +531,7 @@ ss_fft_singles(const struct fft *fft)
 }
 
 int
-ss_fft_takes(const struct fft *fft, size_t i)
+ss_fft_covers(const struct fft *fft, size_t i)
 {
     return fft != NULL && fft->route[i].kind != BY_SUM;
 }

@@ -46,7 +46,7 @@ NAMED(close_circle)(REAL *v, size_t length)
 
 /* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
 VERSIONS static double
-NAMED(put_lattice)(const REAL *restrict v, size_t n, double factor, double *restrict w)
+NAMED(write_lattice)(const REAL *restrict v, size_t n, double factor, double *restrict w)
 {
     REAL most[LANES] = { 0 };
     size_t i = 0;
