@@ -1,9 +1,9 @@
-/* grid.c -- which scales and translations a transform computes, and which it refuses.
+/* grid.c -- the scales and translations of a transform, and the ones that it refuses.
  *
- * Scales are numbered: a = 2^(j/V).  Whatever limits them (a frequency, octaves, the sampling, the
- * record's length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale
- * includes it, and then of integers j; so a request is refused for a scale that it contains, not
- * for the frequency it is worded in. */
+ * Scales are numbered: a = 2^(j/V).  Every limit (a frequency, octaves, the sampling, the record's
+ * length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale includes it,
+ * and then a range of integers j.  So a request is refused for a scale that it contains, not for the
+ * frequency that it names. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -80,11 +80,13 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
     }
     if (!opts->force && n == 0 && ask.lo < use.lo)
         return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within "
-                       "accuracy %g, not %.6g Hz", rate, label(use.lo, opts), opts->accuracy, label(ask.lo, opts));
+                       "accuracy %g, not %.6g Hz", rate, label(use.lo, opts), opts->accuracy,
+                       label(ask.lo, opts));
     if (!opts->force && (ask.lo < use.lo || ask.hi > use.hi))
         return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz "
-                       "within accuracy %g, not from %.6g to %.6g Hz", n, rate, label(use.hi, opts), label(use.lo, opts),
-                       opts->accuracy, label(ask.hi, opts), label(ask.lo, opts));
+                       "within accuracy %g, not from %.6g to %.6g Hz", n, rate,
+                       label(use.hi, opts), label(use.lo, opts), opts->accuracy,
+                       label(ask.hi, opts), label(ask.lo, opts));
     if (ask.lo > ask.hi)
         return ss_fail(err, SS_EINVAL, "no scale lies between these limits of frequency; %d voices "
                        "an octave are next to them at %.6g and %.6g Hz", opts->voices,

@@ -2,11 +2,11 @@
  *
  * Weighted by the grid's share of the integral over a and b, da db/a^2, coefficients on a fine grid
  * are nearly a tight frame: the transform's adjoint nearly inverts it, up to a constant, for what the
- * scales reach.  Conjugate gradients (Hestenes and Stiefel 1952, in the form for least squares, CGLS)
- * take it from there, whatever the grid; on one that is far from tight they need many passes, and
- * coefficients of no signal are found by a residual that stays.  What a signal has at the edge of the
- * scales and beyond comes slowly: the residual then falls about as the passes to the power -1/2 to -1,
- * without end. */
+ * scales reach.  From there conjugate gradients (Hestenes and Stiefel 1952, in the form for least
+ * squares, CGLS) converge on any grid; on one that is far from tight they need many passes, and a
+ * residual that stays shows that the coefficients are those of no signal.  Frequencies at the edge of
+ * the scales and beyond converge slowly: the residual then falls about as the passes to the power
+ * -1/2 to -1, without end. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ typedef struct solver {
     ss_morlet *plan;
     wavelet **wave;                 /* a scale's */
     double *x, *gradient, *step;
-    double *w, *rest;               /* coefficients of step; those that x does not explain yet */
+    double *w, *rest;               /* coefficients of step; the part that x does not explain */
     int exponent;                   /* all of these are times 2^exponent */
     double bounds;                  /* upper frame bound over the lower one */
 } solver;
@@ -106,7 +106,7 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     double slope = norm2(s->gradient, n), then = left;
     int pass = 0, mark = STALL_FROM, stays = 0;
     for (; left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
-        /* what is left falls by about the same factor every pass */
+        /* the rest falls by about the same factor every pass */
         double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
         if ((st = ss_stretch_at(&s->progress, fmax(0, done))) != SS_OK
             || (st = ss_morlet_execute(s->plan, s->step, s->w, err)) != SS_OK)
