@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "morlet/plan.h"
 #include "base/progress.h"
+#include "base/range.h"
 
 /* A residual that STALL_FROM or more passes, doubled, lower by less than STALL stays. */
 enum { PASSES = 500, STALL_FROM = 16 };
@@ -277,9 +278,9 @@ ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double t
     solver s = { .coef = coefficients, .progress = { progress, 0, 1 } };
     double residual = 0;
     *out = NULL;
-    if (!(tol >= 1e-12 && tol <= 0.1))
-        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-12 ... 0.1", tol);
-    ss_status st = make_plan(&s, err);
+    ss_status st = ss_range_check(tol, ss_morlet_ranges.inverse_accuracy, "accuracy", err);
+    if (st == SS_OK)
+        st = make_plan(&s, err);
     if (st == SS_OK)
         find_bounds(&s);
     if (st == SS_OK && !(s.bounds <= BOUNDS_MAX))

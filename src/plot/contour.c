@@ -12,6 +12,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/range.h"
 
 #define COLUMNS 700             /* pixels that panel (b) is wide, about */
 #define ROWS 580                /* and high */
@@ -19,6 +20,7 @@
 #define BLUR 0.2                /* pixels by which a line may move if points are left out */
 #define FLOOR 1000.0            /* [dB] below the largest |W|: the level of |W| = 0 */
 
+const ss_range ss_contour_levels = { 1, LEVELS }, ss_contour_spans = { 1e-3, 1000 };
 const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80 };
 
 /* --- the map ------------------------------------------------------------------------------- */
@@ -448,11 +450,11 @@ check_overlays(const ss_contour_opts *contour, ss_error *err)
 static ss_status
 check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 {
-    if (contour->levels < 1 || contour->levels > LEVELS)
-        return ss_fail(err, SS_EINVAL, "levels: %d is out of range 1 ... %d", contour->levels,
-                       LEVELS);
-    if (!(contour->span > 0 && contour->span <= 10000))
-        return ss_fail(err, SS_EINVAL, "span: more than 0 and at most 10000 dB are needed");
+    ss_status st = ss_range_check(contour->levels, ss_contour_levels, "levels", err);
+    if (st == SS_OK)
+        st = ss_range_check(contour->span, ss_contour_spans, "span [dB]", err);
+    if (st != SS_OK)
+        return st;
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", contour->column + 1,
                        contour->signal->head->n_columns);
