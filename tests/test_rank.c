@@ -135,15 +135,15 @@ static void
 the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
 {
     ss_scene literal = shipped(STATE);
-    double x[400], y[400], most = 0, off = 0;
+    double x[400], y[400], most = 0, off = 0, steps = 0;
     (void)state;
     literal.law = SS_LAW_LITERAL;
     literal.duration = 0.2;
     candidate c = ss_candidate_of(&literal, SS_ACCELERATION, 1);
     c.scene.duration = 0.2;
     assert_int_equal(c.scene.law, SS_LAW_SCALED);
-    assert_int_equal(ss_candidate_run(&literal, SS_ACCELERATION, x, 400), SS_OK);
-    assert_int_equal(ss_candidate_run(&c.scene, SS_ACCELERATION, y, 400), SS_OK);
+    assert_int_equal(ss_candidate_run(&literal, SS_ACCELERATION, x, 400, &steps), SS_OK);
+    assert_int_equal(ss_candidate_run(&c.scene, SS_ACCELERATION, y, 400, &steps), SS_OK);
     for (size_t i = 0; i < 400; i++)
         most = fmax(most, fabs(x[i])), off = fmax(off, fabs(x[i] - y[i]));
     assert_true(off <= 1e-3 * most);            /* 1e-4 each is what the method keeps */

@@ -67,6 +67,7 @@ typedef struct ss_ranking {
  * the signal's mean cycle within the spread, run for the signal's span at its rate with white
  * noise of the signal's own level and its gaps, and compared; what lies within the reach of a gap
  * is left out of both, as ss_features_find does.  That nothing can be told is an answer: SS_OK.
+ * SS_EBUDGET for a scene that takes more than 1e7 integration steps to be adjusted.
  * opts may be NULL. To be freed with ss_ranking_free. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
@@ -96,7 +97,8 @@ typedef struct ss_fit {
  * of SI units, whose values must be finite; m, k and the release rule are taken from the scene.
  * Samples in gaps are left out.
  * Errors are those of white noise of the residual's size.  That nothing can be told is an answer:
- * SS_OK. opts may be NULL; its spread is not used.  SS_EINVAL for another model. */
+ * SS_OK. opts may be NULL; its spread is not used.  SS_EINVAL for another model, SS_EBUDGET
+ * where the scenes to be tried take more than 1e7 steps or the fit more than 1e8. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 

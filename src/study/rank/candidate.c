@@ -111,29 +111,32 @@ take(const ss_sample *s, size_t n, void *user)
 /* The closed form where there is one.  Else rkck at 1e-5 keeps 1e-4 of the largest acceleration,
  * -80 dB, at a hundredth of the cost of the default. */
 ss_status
-ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n)
+ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n, double *steps)
 {
     taken t = { pick, 0, n, value };
     int is_linear = ss_model_is_linear(scene->model);
-    ss_sim_opts opts = { .method = is_linear ? "exact" : "rkck", .tol = 1e-5, .max_steps = 10000000,
+    ss_sim_opts opts = { .method = is_linear ? "exact" : "rkck", .tol = 1e-5,
+                         .max_steps = (unsigned long)(CANDIDATE_STEPS / 10),
                          .samples = take, .user = &t };
-    ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
+    ss_sim_stats stats = { 0 };
+    ss_status st = ss_sim_run(scene, &opts, &stats, NULL);
+    *steps += (double)stats.steps;
     return st == SS_OK && t.n != n ? SS_EDATA : st;
 }
 
 typedef struct problem {
-    const candidate *c;
+    candidate *c;
     const cycle *goal;
     const ss_stretch *progress;
     double runs, expected;      /* so far, and about how many there will be */
-    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop; all
-                                   others are a bad fit */
+    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop,
+                                   SS_EBUDGET after too many steps; all others are a bad fit */
 } problem;
 
 static double
 misfit(problem *p, const double key[], double *size, double *shift)
 {
-    const candidate *c = p->c;
+    candidate *c = p->c;
     const cycle *goal = p->goal;
     double value[CYCLE_MOST];
     ss_scene s = scene_of(c, key, goal->period);
@@ -142,9 +145,11 @@ misfit(problem *p, const double key[], double *size, double *shift)
     *size = *shift = 0;
     if (p->status == SS_OK)
         p->status = ss_stretch_at(p->progress, fmin(p->runs++ / p->expected, 1));
+    if (p->status == SS_OK && c->steps > CANDIDATE_STEPS)
+        p->status = SS_EBUDGET;
     if (p->status != SS_OK)
         return goal->power;
-    ss_status st = ss_candidate_run(&s, c->pick, value, goal->n);
+    ss_status st = ss_candidate_run(&s, c->pick, value, goal->n, &c->steps);
     if (st == SS_ENOMEM)
         p->status = SS_ENOMEM;
     if (st != SS_OK)

@@ -40,6 +40,7 @@ enum { STARTS = 96, KEEP = 6, STEPS = 150 };
 enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 enum { PASSES = 40 };
 enum { RUNS = 1000 };                  /* of the scene in one fit, about */
+#define FIT_STEPS 1e8                   /* of all runs, 10 times the usual */
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
 #define FAR 10.0
 /* Who leaves more of the rms than this, and than MARGIN times its noise, is another model's. */
@@ -64,7 +65,9 @@ typedef struct match {
     double x_unit, v_unit, y_unit;
     ss_stretch progress;
     double runs, expected;              /* so far, and how many there will be at most */
-    ss_status status;                   /* SS_ENOMEM once a run lacked memory, SS_STOP when told to */
+    double steps;                       /* of all runs */
+    ss_status status;                   /* SS_ENOMEM once a run lacked memory, SS_STOP when told to,
+                                           SS_EBUDGET after too many steps */
 } match;
 
 /* Run a scene into m->motion; 0 if it cannot be run. */
@@ -73,9 +76,11 @@ run(match *m, const ss_scene *s)
 {
     if (m->status == SS_OK)
         m->status = ss_stretch_at(&m->progress, fmin(m->runs++ / m->expected, 1));
+    if (m->status == SS_OK && m->steps > FIT_STEPS)
+        m->status = SS_EBUDGET;
     if (m->status != SS_OK)
         return 0;
-    ss_status st = ss_candidate_run(s, m->pick, m->motion, m->n);
+    ss_status st = ss_candidate_run(s, m->pick, m->motion, m->n, &m->steps);
     if (st == SS_ENOMEM)
         m->status = st;
     return st == SS_OK;
@@ -302,7 +307,8 @@ residual_of(double *residual, const ss_scene *scene, int pick, const double *x,
     if (y == NULL)
         return SS_ENOMEM;
     *residual = NAN;
-    ss_status st = ss_candidate_run(scene, pick, y, n);
+    double steps = 0;
+    ss_status st = ss_candidate_run(scene, pick, y, n, &steps);
     for (size_t i = 0; st == SS_OK && i < n; i++)
         y[i] -= x[i];
     if (st == SS_OK)
@@ -448,6 +454,8 @@ fit_signal(ss_fit *fit, const ss_signal *signal, size_t column, const cycle *goa
     if (st == SS_OK)
         st = fit_record(fit, &c, goal, x, missing, signal->n, signal->head->rate,
                         ss_stretch_part(&whole, SEARCHED, 1));
+    if (st == SS_EBUDGET)
+        return ss_fail(err, st, "scenes like it take too many steps to be fitted");
     if (st == SS_OK)
         judge(fit, noise / sqrt(variance(x, missing, signal->n)));
     return st;

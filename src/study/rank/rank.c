@@ -278,6 +278,9 @@ rank_scene(ss_rank_row *row, const work *w, const ss_scene *scene, const ss_stre
     look l;
     candidate c = ss_candidate_of(scene, (int)w->quantity, (1 + w->spread) / (1 - w->spread));
     ss_status st = ss_candidate_search(&c, &w->goal, STARTS, KEEP, STEPS, progress);
+    if (st == SS_EBUDGET)
+        return ss_fail(err, st, "scene %zu takes more than %.0e integration steps to be adjusted: it "
+                       "is too stiff to be ranked", row->scene + 1, CANDIDATE_STEPS);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     row->adjusted = ss_candidate_scene(&c, &w->goal);
