@@ -1,14 +1,14 @@
 /* quadrature.c -- wavelet coefficients by their definition, the sum over samples.
  *
- * The trapezoidal rule needs no more care than that for a Gaussian window; what needs care is where
- * to cut the window and how to spend little on a tap.
+ * The trapezoidal rule is exact enough for a Gaussian window; the difficulties are the cut of the
+ * window and a low cost of a tap.
  *
  * Cut.  In units of a^1/2 max|x| the taps with |u| >= R, u = (n/rate - b)/a, contribute at most
  *     tail(R) = 2 pi^-1/4 (d exp(-R^2/2) + sqrt(pi/2) erfc(R/sqrt 2)),   d = 1/(a rate),
  * the outermost tap of each side and the integral that bounds the rest.  A scale is first computed
  * with tail(R) = TOL/10, which suffices if the largest |W| found is not small beside max|x|.  Then
  * the promise is checked: max|W| - tail(R) is below the true maximum, and if tail(R) exceeds TOL
- * times that + TAIL_FLOOR, the taps out to the R which keeps this are added.  So two passes do, R
+ * times that + TAIL_FLOOR, the taps out to the R which keeps this are added.  So two passes suffice, R
  * stays below 8.3, and no tap is computed twice.  TAIL_FLOOR is 4 eps; of the 16 eps promised the
  * other 12 are for rounding, of which tests/bench/bench_morlet finds 3.5 at most.
  *
@@ -45,7 +45,7 @@ typedef struct kernel {
     struct answer {
         double bound;
         size_t n, taps;                 /* taps 0: none yet */
-    } last[2];                          /* what taps_for answered to each pass */
+    } last[2];                          /* results of taps_for for each pass */
 } kernel;
 
 static kernel
@@ -64,7 +64,7 @@ kernel_of(const ss_morlet_opts *opts, double a, double rate)
     return ker;
 }
 
-/* omega_c k d, less whole turns. */
+/* omega_c k d, minus whole turns. */
 static double
 phase(const kernel *ker, double k)
 {
@@ -94,7 +94,7 @@ tail(const kernel *ker, double r)
         * (ker->d * exp(-r * r / 2) + sqrt(M_PI / 2) * erfc(r / sqrt(2)));
 }
 
-/* How many taps |k| < taps make the tail at most bound; n, which leaves out nothing, at most. */
+/* The number of taps |k| < taps for a tail of at most bound; at most n, which omits nothing. */
 static size_t
 taps_for(const kernel *ker, double bound, size_t n)
 {
@@ -105,7 +105,7 @@ taps_for(const kernel *ker, double bound, size_t n)
     return taps < (double)n ? (size_t)taps : n;
 }
 
-/* The same, with the last answer of each pass kept: a stream asks for one coefficient after the other,
+/* The same, with the last result of each pass kept: a stream computes one coefficient after the other,
  * nearly always with the same bound. */
 static size_t
 taps_of_pass(kernel *ker, int pass, double bound, size_t n)
@@ -146,7 +146,7 @@ add(double *sum, double *low, double y)
     *sum = s;
 }
 
-/* Where a coefficient stands: tau samples after sample c. */
+/* The centre of a coefficient: tau samples after sample c. */
 typedef struct place {
     ptrdiff_t c;
     double tau, q;                      /* q = tau d^2 */
@@ -188,7 +188,7 @@ locate(place *at, const kernel *ker, double b, double rate, size_t width)
     }
 }
 
-/* Add to w, in units of a^1/2, what the taps from <= |k| < to contribute to the coefficient at b. */
+/* Add to w, in units of a^1/2, the taps from <= |k| < to of the coefficient at b. */
 static void
 add_taps(const kernel *ker, const record *rec, double rate, double b, size_t from, size_t to,
          double w[2])
@@ -200,9 +200,9 @@ add_taps(const kernel *ker, const record *rec, double rate, double b, size_t fro
     at.c -= rec->origin;
     ptrdiff_t first = -at.c, last = (ptrdiff_t)rec->n - 1 - at.c, out = (ptrdiff_t)to - 1;
     ptrdiff_t lo = first > -out ? first : -out, hi = last < out ? last : out;
-    ptrdiff_t in = (ptrdiff_t)from - 1; /* |k| <= in is there already */
+    ptrdiff_t in = (ptrdiff_t)from - 1; /* |k| <= in is in w already */
 
-    /* to the left of what is there, or all at once; then to the right of it */
+    /* to the left of those in w, or all at once; then to the right */
     ptrdiff_t cut = from == 0 ? hi : hi < -in - 1 ? hi : -in - 1;
     wing(&at, x, ker->re, ker->im, lo, cut, sum);
     if (ker->second > 0)
@@ -354,7 +354,7 @@ ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wav
     }
 }
 
-/* Taps of a wavelet on one side, as far as is tried first. */
+/* Taps of a wavelet on one side in the first pass. */
 static double
 taps_tried(const ss_morlet *plan, const ss_scale *scale)
 {

@@ -1,17 +1,17 @@
 /* stream.c -- the transform of a signal that has no end yet, window by window.
  *
- * Scales of like length form a group, which has a plan for windows of a fixed length, at least twice
- * what its longest wavelet covers.  A window begins where the first coefficient that is still to come
- * needs it to, and gives all those of the group whose wavelets lie inside; the next one overlaps it
- * by what the longest wavelet covers.  So there is nothing to carry over but samples.
+ * Scales of similar length form a group, which has a plan for windows of a fixed length, at least
+ * twice the length of its longest wavelet.  A window begins where the next coefficient needs it to,
+ * and yields all coefficients of the group whose wavelets lie inside; the next window overlaps it by
+ * the length of the longest wavelet.  So only samples are carried over.
  *
- * Within REACH a around b all samples are there, so a window adds to the error of its engine no more
- * than exp(-REACH^2/2), as far as the promise goes nothing.  The engines hold TOL against the largest
- * |W| that a scale has had so far, which is at most the record's.
+ * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to the
+ * error of its engine, nothing compared with the promise.  The engines hold TOL against the largest
+ * |W| of a scale so far, which is at most the record's.
  *
- * A window that is full goes the way its plan found cheapest.  One that is not, because what is
- * complete is wanted at once or because the signal has ended, goes by the definition where that is
- * cheaper for the few coefficients it gives. */
+ * A full window is computed by the engine that its plan found cheapest.  A window that is not full,
+ * because the signal has ended or because complete coefficients are wanted at once, is computed by
+ * the definition where that is cheaper for its few coefficients. */
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -27,24 +27,24 @@ enum {
     SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
     OCTAVES = 5,                /* of scales in the others */
     LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
-    PIECE = 1 << 14,            /* samples taken at a time, at most */
-    GIVEN = 1 << 17,            /* coefficients given at a time */
+    PIECE = 1 << 14,            /* samples processed at a time, at most */
+    GIVEN = 1 << 17,            /* coefficients passed to the sink at a time */
     TABLES = 32 << 20,          /* bytes of wavelets kept */
     WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone */
     LANES = 8
 };
 
-/* What is known of a scale. */
-typedef struct row {
-    size_t next;                /* its first translation to come */
+/* The state of a scale. */
+typedef struct scale_state {
+    size_t next;                /* its next translation */
     ptrdiff_t due;              /* the samples that it needs, from the first on */
     size_t count;               /* in the record; SIZE_MAX until that has ended */
     ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
     double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
     int exponent;
     wavelet *wave;              /* NULL: made when needed */
-    double place, table;        /* what the definition costs: a coefficient, the wavelet [s] */
-} row;
+    double place, table;        /* cost by the definition: a coefficient, the wavelet [s] */
+} scale_state;
 
 typedef struct group {
     ss_morlet *plan;            /* its n is the length of a window */
@@ -52,11 +52,11 @@ typedef struct group {
     ptrdiff_t unit;             /* a window begins at a multiple of this */
 } group;
 
-/* A thread's. */
+/* The work of one thread. */
 typedef struct lane {
     double *w, *scratch;        /* scratch: of the group at work, NULL if it needs none */
     size_t scale;
-    span part;                  /* to compute; those from skip on are to be given */
+    span part;                  /* to compute; those from skip on go to the sink */
     size_t skip;
     ss_status status;
     ss_error error;
@@ -71,7 +71,7 @@ struct ss_stream {
     size_t n_scales, n_groups, samples;
     size_t full;                /* no window is full before there are so many samples */
     ss_scale *scale;
-    row *row;
+    scale_state *state;
     group *group;
     lane *lane;                 /* as many as threads */
     double *x, x_max;           /* the last samples, and max|x| of all */
@@ -82,7 +82,7 @@ struct ss_stream {
     ss_error error;
 };
 
-/* A group's samples from start on, those there are. */
+/* The samples of a group from start on that have arrived. */
 typedef struct window {
     ss_stream *stream;
     const group *group;
@@ -92,7 +92,7 @@ typedef struct window {
     int by_sum;
 } window;
 
-/* --- where the windows lie -------------------------------------------------------------------- */
+/* --- positions of windows -------------------------------------------------------------------- */
 
 /* The sample at translation k or before it, 2^60 if it is that far away. */
 static ptrdiff_t
@@ -109,11 +109,11 @@ places_of(const group *g, size_t i)
     return g->plan->fft != NULL ? (ptrdiff_t)ss_fft_places(g->plan->fft, i - g->first) : 1;
 }
 
-/* A scale goes on at this translation. */
+/* Continue a scale at this translation. */
 static void
 go_on(ss_stream *s, size_t i, size_t next)
 {
-    row *r = &s->row[i];
+    scale_state *r = &s->state[i];
     r->next = next;
     r->due = place_of(s, i, next) + r->reach;
 }
@@ -125,13 +125,13 @@ round_down(ptrdiff_t x, ptrdiff_t unit)
     return x - (rest < 0 ? rest + unit : rest);
 }
 
-/* Where a group's next window begins; PTRDIFF_MAX if all has been given. */
+/* The start of a group's next window; PTRDIFF_MAX if none is left. */
 static ptrdiff_t
 start_of(const ss_stream *s, const group *g)
 {
     ptrdiff_t start = PTRDIFF_MAX;
     for (size_t i = g->first; i < g->first + g->plan->n_scales; i++) {
-        const row *r = &s->row[i];
+        const scale_state *r = &s->state[i];
         if (r->next >= r->count)
             continue;
         ptrdiff_t from = r->due - 2 * r->reach - places_of(g, i);
@@ -140,11 +140,11 @@ start_of(const ss_stream *s, const group *g)
     return start < PTRDIFF_MAX ? round_down(start, g->unit) : start;
 }
 
-/* The translations of scale i to come that need no sample from limit on. */
+/* The next translations of scale i that need no sample from limit on. */
 static size_t
 ready(const ss_stream *s, size_t i, ptrdiff_t limit)
 {
-    const row *r = &s->row[i];
+    const scale_state *r = &s->state[i];
     ptrdiff_t last = limit - r->reach;
     if (last < 0 || limit < r->due)
         return 0;
@@ -153,7 +153,7 @@ ready(const ss_stream *s, size_t i, ptrdiff_t limit)
     return count > r->next ? count - r->next : 0;
 }
 
-/* What lies within a window at start and is known. */
+/* The samples of a window at start that have arrived. */
 static ptrdiff_t
 limit_of(const ss_stream *s, const group *g, ptrdiff_t start)
 {
@@ -165,7 +165,7 @@ limit_of(const ss_stream *s, const group *g, ptrdiff_t start)
 
 /* The samples of a window, of a size whose squares neither overflow nor underflow. */
 static ss_status
-take_samples(window *win)
+fill_record(window *win)
 {
     const ss_stream *s = win->stream;
     ptrdiff_t there = (ptrdiff_t)s->samples - win->start;
@@ -206,7 +206,7 @@ compute(void *user)
 {
     lane *l = *(lane **)user;
     window *win = l->window;
-    row *r = &win->stream->row[l->scale];
+    scale_state *r = &win->stream->state[l->scale];
     int exponent = win->rec.exponent;
     double most = ldexp(r->most, r->exponent - exponent);
     l->status = ss_morlet_part(win->group->plan, l->scale - win->group->first, &win->rec,
@@ -216,13 +216,13 @@ compute(void *user)
     r->exponent = exponent;
 }
 
-/* What a lane has to compute next of its scale; 0 if there is nothing left. */
+/* The next part of its scale for a lane; 0 if nothing is left. */
 static int
 next_part(lane *l, ptrdiff_t limit)
 {
     const window *win = l->window;
     const ss_stream *s = win->stream;
-    size_t first = s->row[l->scale].next, n = ready(s, l->scale, limit);
+    size_t first = s->state[l->scale].next, n = ready(s, l->scale, limit);
     size_t places = (size_t)places_of(win->group, l->scale);
     n = n < GIVEN ? n : GIVEN;
     l->skip = win->by_sum ? 0 : (size_t)((ptrdiff_t)first - win->start) % places;
@@ -231,7 +231,7 @@ next_part(lane *l, ptrdiff_t limit)
 }
 
 static ss_status
-give(ss_stream *s, lane *l, ss_error *err)
+send_part(ss_stream *s, lane *l, ss_error *err)
 {
     size_t n = l->part.n - l->skip;
     if (l->status != SS_OK) {
@@ -239,7 +239,7 @@ give(ss_stream *s, lane *l, ss_error *err)
             *err = l->error;
         return l->status;
     }
-    go_on(s, l->scale, s->row[l->scale].next + n);
+    go_on(s, l->scale, s->state[l->scale].next + n);
     int stop = s->sink(&s->scale[l->scale], l->part.first + l->skip, n, l->w + 2 * l->skip,
                        s->samples, s->user);
     return stop ? SS_STOP : SS_OK;
@@ -268,13 +268,13 @@ compute_parts(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limit
     else
         ss_pool_run(compute, work, sizeof *work, parts);
     for (size_t t = 0; st == SS_OK && t < parts; t++)
-        st = give(s, work[t], err);
+        st = send_part(s, work[t], err);
     *busy += parts;
     return st;
 }
 
-/* All that the scales of a window give: a part of each, then the next of each, so that their order
- * does not depend on the number of lanes. */
+/* All coefficients of the scales of a window: a part of each, then the next of each, so that their
+ * order does not depend on the number of lanes. */
 static ss_status
 compute_scales(ss_stream *s, window *win, ptrdiff_t limit, ss_error *err)
 {
@@ -291,7 +291,7 @@ compute_scales(ss_stream *s, window *win, ptrdiff_t limit, ss_error *err)
     return st;
 }
 
-/* Is the definition cheaper for what a window gives? */
+/* Is the definition cheaper for the coefficients of a window? */
 static int
 cheaper_by_sum(const ss_stream *s, const group *g, ptrdiff_t limit)
 {
@@ -301,7 +301,7 @@ cheaper_by_sum(const ss_stream *s, const group *g, ptrdiff_t limit)
     if (s->opts.engine == SS_ENGINE_FFT)
         return 0;
     for (size_t i = 0; i < g->plan->n_scales; i++) {
-        const row *r = &s->row[g->first + i];
+        const scale_state *r = &s->state[g->first + i];
         size_t n = ss_fft_covers(g->plan->fft, i) ? ready(s, g->first + i, limit) : 0;
         if (n > 0)
             sum += (double)n * r->place + (r->wave == NULL ? r->table : 0);
@@ -309,7 +309,7 @@ cheaper_by_sum(const ss_stream *s, const group *g, ptrdiff_t limit)
     return sum < ss_fft_cost(g->plan->fft);
 }
 
-/* All that a window at start gives. */
+/* All coefficients of a window at start. */
 static ss_status
 transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
 {
@@ -317,7 +317,7 @@ transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
     window win = { .stream = s, .group = g, .start = start,
                    .by_sum = cheaper_by_sum(s, g, limit) };
     size_t lanes = (size_t)s->opts.threads;
-    ss_status st = take_samples(&win);
+    ss_status st = fill_record(&win);
     if (st == SS_OK && !win.by_sum)
         st = ss_fft_forward(g->plan->fft, &win.rec, &win.spectra);
     for (size_t t = 0; st == SS_OK && !win.by_sum && t < lanes; t++)
@@ -331,7 +331,7 @@ transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
 
 /* --- samples ---------------------------------------------------------------------------------- */
 
-/* Have room for n samples more, in place of those that no window needs any more. */
+/* Make room for n more samples, in place of those that no window needs any more. */
 static void
 make_room(ss_stream *s, size_t n)
 {
@@ -348,7 +348,7 @@ make_room(ss_stream *s, size_t n)
     s->origin = keep;
 }
 
-/* The largest of |x| and most; infinity or a NaN, which is lost on the way, shows in *sum. */
+/* The largest of |x| and most.  It may miss a NaN; *sum shows infinity and NaN. */
 VERSIONS static double
 largest(const double *x, size_t n, double most, double *sum)
 {
@@ -374,8 +374,8 @@ largest(const double *x, size_t n, double most, double *sum)
     return most;
 }
 
-/* Give what full windows there are, and say when to look again: a window goes with its last sample,
- * so what it gives does not depend on how the samples came. */
+/* Compute the full windows, and set the number of samples for the next: a window is computed with its
+ * last sample, so its coefficients do not depend on how the samples arrived. */
 static ss_status
 transform_full(ss_stream *s, ss_error *err)
 {
@@ -394,7 +394,7 @@ transform_full(ss_stream *s, ss_error *err)
 }
 
 static ss_status
-take(ss_stream *s, const double *x, size_t n, ss_error *err)
+append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
     double sum, most = largest(x, n, s->x_max, &sum);
     size_t good = n;
@@ -414,7 +414,7 @@ take(ss_stream *s, const double *x, size_t n, ss_error *err)
     return st;
 }
 
-/* Remember a failure, or tell of the one before. */
+/* Keep a failure, or report the earlier one. */
 static ss_status
 keep(ss_stream *s, ss_status st, const ss_error *why, ss_error *err)
 {
@@ -439,7 +439,7 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
     while (st == SS_OK && n > 0) {
         size_t piece = s->full - s->samples < PIECE ? s->full - s->samples : PIECE;
         piece = n < piece ? n : piece;
-        st = take(s, x, piece, &why);
+        st = append_samples(s, x, piece, &why);
         x += piece;
         n -= piece;
     }
@@ -475,7 +475,7 @@ ss_stream_end(ss_stream *s, ss_error *err)
         st = ss_fail(&why, SS_EINVAL, "the record is empty");
     if (st == SS_OK && !s->ended)
         for (size_t i = 0; i < s->n_scales; i++)
-            s->row[i].count = ss_scale_count(&s->scale[i], (double)(s->samples - 1) / s->rate);
+            s->state[i].count = ss_scale_count(&s->scale[i], (double)(s->samples - 1) / s->rate);
     s->ended = 1;
     for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
         ptrdiff_t start;
@@ -493,25 +493,25 @@ reach_of(double a, double rate)
     return (ptrdiff_t)fmin(ceil(REACH * a * rate) + 1, 0x1p50);
 }
 
-/* How many scales from first on go together. */
+/* The number of scales from first on that form a group. */
 static size_t
 scales_together(const ss_stream *s, size_t first)
 {
     size_t n = 1;
-    if (s->row[first].reach <= SHORT)
+    if (s->state[first].reach <= SHORT)
         return s->n_scales - first;
-    while (first + n < s->n_scales && s->row[first + n].reach > SHORT
+    while (first + n < s->n_scales && s->state[first + n].reach > SHORT
            && s->scale[first].a < s->scale[first + n].a * (1 << OCTAVES))
         n++;
     return n;
 }
 
-/* The plan of a group, its scales with as many translations as a window gives. */
+/* The plan of a group, its scales with as many translations as a window yields. */
 static ss_status
 plan_group(const ss_stream *s, group *g, size_t first)
 {
-    double reach = (double)s->row[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
-    if (s->row[first].reach <= SHORT)
+    double reach = (double)s->state[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
+    if (s->state[first].reach <= SHORT)
         n = exp2(ceil(log2(fmax(n, BASE))));
     size_t n_scales = scales_together(s, first);
     *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
@@ -550,7 +550,7 @@ plan_groups(ss_stream *s)
     return SS_OK;
 }
 
-/* What the definition costs, and the wavelets for it that are kept: the short ones. */
+/* The cost by the definition, and its wavelets that are kept: the short ones. */
 static ss_status
 plan_rows(ss_stream *s)
 {
@@ -558,7 +558,7 @@ plan_rows(ss_stream *s)
     for (size_t i = s->n_groups; i-- > 0;) {
         const ss_morlet *plan = s->group[i].plan;
         for (size_t k = plan->n_scales; k-- > 0;) {
-            row *r = &s->row[s->group[i].first + k];
+            scale_state *r = &s->state[s->group[i].first + k];
             const ss_scale *sc = &plan->scale[k];
             r->place = ss_quadrature_cost(plan, sc, 1);
             r->table = ss_wavelet_cost(plan, sc);
@@ -605,12 +605,12 @@ prepare(ss_stream *s, ss_error *err)
     ss_status st = ss_morlet_grid(&s->scale, &s->n_scales, 0, s->rate, &s->opts, err);
     if (st != SS_OK)
         return st;
-    s->row = calloc(s->n_scales, sizeof *s->row);
-    if (s->row == NULL)
+    s->state = calloc(s->n_scales, sizeof *s->state);
+    if (s->state == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < s->n_scales; i++) {
-        s->row[i].reach = reach_of(s->scale[i].a, s->rate);
-        s->row[i].count = SIZE_MAX;
+        s->state[i].reach = reach_of(s->scale[i].a, s->rate);
+        s->state[i].count = SIZE_MAX;
         go_on(s, i, 0);
     }
     if ((st = plan_groups(s)) == SS_OK && (st = plan_rows(s)) == SS_OK)
@@ -684,12 +684,12 @@ ss_stream_free(ss_stream *s)
         return;
     for (size_t i = 0; i < s->n_groups; i++)
         ss_morlet_free(s->group[i].plan);
-    for (size_t i = 0; s->row != NULL && i < s->n_scales; i++)
-        ss_wavelet_free(s->row[i].wave);
+    for (size_t i = 0; s->state != NULL && i < s->n_scales; i++)
+        ss_wavelet_free(s->state[i].wave);
     for (int t = 0; s->lane != NULL && t < s->opts.threads; t++)
         free(s->lane[t].w);
     free(s->group);
-    free(s->row);
+    free(s->state);
     free(s->scale);
     free(s->lane);
     free(s->x);
