@@ -9,6 +9,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
+#include "foreign.h"
 #include "shipped.h"
 #include "study/rank/candidate.h"
 #include "study/rank/cycle.h"
@@ -122,13 +123,15 @@ a_lighter_mass_is_the_nearest_explanation(void **state)
     ss_scene scene = shipped(LIGHT);
     candidate c = ss_candidate_of(&scene, SS_ACCELERATION, 1.5);
     (void)state;
-    assert_true(ss_candidate_distance(&c) == 0);
-    c.best[0] += 0.2, c.best[2] += 0.2, c.best[3] += 0.2;
+    double key[CANDIDATE_KEYS];
+    memcpy(key, c.own, sizeof key);
+    assert_true(ss_candidate_distance(&c, key) == 0);
+    key[0] += 0.2, key[2] += 0.2, key[3] += 0.2;
     /* mass by -mu: 3 (0.2 - mu)^2 + mu^2 is least at mu = 0.15, where it is 0.03 */
-    assert_true(fabs(ss_candidate_distance(&c) - sqrt(0.03 / 5)) <= 1e-12);
-    c = ss_candidate_of(&scene, SS_ACCELERATION, 1.5);
-    c.best[1] += 0.3;
-    assert_true(fabs(ss_candidate_distance(&c) - sqrt(0.09 / 5)) <= 1e-12);
+    assert_true(fabs(ss_candidate_distance(&c, key) - sqrt(0.03 / 5)) <= 1e-12);
+    memcpy(key, c.own, sizeof key);
+    key[1] += 0.3;
+    assert_true(fabs(ss_candidate_distance(&c, key) - sqrt(0.09 / 5)) <= 1e-12);
 }
 
 static void
@@ -142,8 +145,8 @@ the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
     candidate c = ss_candidate_of(&literal, SS_ACCELERATION, 1);
     c.scene.duration = 0.2;
     assert_int_equal(c.scene.law, SS_LAW_SCALED);
-    assert_int_equal(ss_candidate_run(&literal, SS_ACCELERATION, x, 400, &steps), SS_OK);
-    assert_int_equal(ss_candidate_run(&c.scene, SS_ACCELERATION, y, 400, &steps), SS_OK);
+    assert_int_equal(ss_candidate_run(&literal, SS_ACCELERATION, x, NULL, 400, &steps), SS_OK);
+    assert_int_equal(ss_candidate_run(&c.scene, SS_ACCELERATION, y, NULL, 400, &steps), SS_OK);
     for (size_t i = 0; i < 400; i++)
         most = fmax(most, fabs(x[i])), off = fmax(off, fabs(x[i] - y[i]));
     assert_true(off <= 1e-3 * most);            /* 1e-4 each is what the method keeps */
@@ -159,7 +162,7 @@ shipped_scenes_rank_themselves_first(void **state)
         ss_scene scene = shipped(i);
         ss_signal *signal = record_of(&scene, i % 2 ? 20 : 40);
         ss_ranking *r = rank(signal);
-        if (!r->told || (int)r->row[0].scene != i)
+        if (r->verdict != SS_NAMED || (int)r->row[0].scene != i)
             fail_msg("%s: %s first; %s", ss_shipped_scenes[i].name,
                      ss_shipped_scenes[r->row[0].scene].name, r->why);
         assert_true(fabs(r->forcing_frequency / 2.5 - 1) <= 0.002);
@@ -183,14 +186,14 @@ size_sign_and_offset_do_not_matter(void **state)
     for (size_t i = 0; i < signal->n; i++)
         signal->values[i] = 4e8 - 9.81e6 * signal->values[i];
     ss_ranking *r = rank(signal);
-    assert_true(r->told && r->row[0].scene == LIGHT);
+    assert_true(r->verdict == SS_NAMED && r->row[0].scene == LIGHT);
     assert_true(r->row[0].distance[SS_BY_FREQUENCY] <= 0.02);
     ss_ranking_free(r);
     ss_signal_free(signal);
 }
 
 static void
-what_has_no_transitions_is_not_told(void **state)
+what_has_no_transitions_is_not_named(void **state)
 {
     static const struct { const char *what; double constant, rms, sine, ramp; } row[] = {
         { "nothing", 0, 0, 0, 0 }, { "a constant", 3, 0, 0, 0 }, { "noise", 0, 1, 0, 0 },
@@ -204,29 +207,72 @@ what_has_no_transitions_is_not_told(void **state)
                                 + row[k].sine * sin(2 * M_PI * 2.5 * (double)i / 2000);
         ss_noise_add_once(signal->values, signal->n, row[k].rms, 11);
         ss_ranking *r = rank(signal);
-        if (r->told || r->why[0] == '\0')
-            fail_msg("%s: told", row[k].what);
+        if (r->verdict == SS_NAMED || r->why[0] == '\0')
+            fail_msg("%s: named", row[k].what);
         ss_ranking_free(r);
     }
     ss_signal_free(signal);
 }
 
-/* The stick of this one is a fifth of a period of the contact's oscillation. */
+/* A rig whose contact is neither: one in sixteen kinds of what no scene is, see foreign.h, at 40 dB.  A
+ * scene may be named only where it leaves no more than twice the noise that was added. */
 static void
-compliant_contacts_are_not_told_apart_without_their_oscillation(void **state)
+what_no_scene_explains_is_not_named(void **state)
 {
-    ss_scene scene = shipped(LIGHT);
+    static const int kinds[] = { 0, 2, 5, 7, 12 };      /* those that were named once */
+    ss_scene scene = shipped(COULOMB);
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     (void)state;
-    scene.friction *= 0.6;
-    ss_signal *signal = record_of(&scene, 40);
-    ss_ranking *r = rank(signal);
-    assert_true(isnan(r->value[SS_BY_DAMPING]) && !r->told && r->why[0] != '\0');
-    ss_ranking_free(r);
-    ss_signal_free(signal);
+    assert_non_null(rng);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        ss_signal *signal = record_of(&scene, 300);
+        foreign_signal(kinds[i], signal->values, signal->n, signal->head->rate, rng);
+        double noise = ss_noise_rms(signal->values, signal->n, 40);
+        double power = pow(ss_noise_rms(signal->values, signal->n, 0), 2);
+        ss_noise_add_once(signal->values, signal->n, noise, 3);
+        ss_ranking *r = rank(signal);
+        double left = power * pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10);
+        if (r->verdict == SS_NAMED && left > 2 * noise * noise)
+            fail_msg("%s: named, though %.3g times the noise is left", foreign_names[kinds[i]],
+                     left / noise / noise);
+        ss_ranking_free(r);
+        ss_signal_free(signal);
+    }
+    gsl_rng_free(rng);
+}
+
+/* Displacement of one model beside the acceleration of another. */
+static void
+columns_that_contradict_each_other_are_not_named(void **state)
+{
+    ss_scene scene[2] = { shipped(COULOMB), shipped(STATE) };
+    const size_t column[2] = { SS_DISPLACEMENT, SS_ACCELERATION };
+    ss_signal *all = NULL, *other = NULL, *both = NULL;
+    ss_rank_opts opts = ss_rank_defaults;
+    (void)state;
+    assert_int_equal(ss_sim_signal(&all, &scene[0], NULL), SS_OK);
+    assert_int_equal(ss_sim_signal(&other, &scene[1], NULL), SS_OK);
+    assert_int_equal(ss_signal_select(&both, all, column, 2, 0, all->n), SS_OK);
+    for (size_t c = 0; c < 2; c++)
+        ss_noise_add_once(both->values + c * both->n, both->n,
+                          ss_noise_rms(both->values + c * both->n, both->n, 40), 4);
+    opts.also[SS_DISPLACEMENT] = 0;
+    for (int alien = 0; alien < 2; alien++) {
+        ss_ranking *r = NULL;
+        if (alien)
+            memcpy(both->values, other->values + SS_DISPLACEMENT * all->n, all->n * sizeof(double));
+        assert_int_equal(ss_ranking_new(&r, both, 1, scene, 2, &opts, NULL), SS_OK);
+        assert_int_equal(r->verdict, alien ? SS_UNDECIDED : SS_NAMED);
+        assert_int_equal(strstr(r->why, "column x") != NULL, alien);
+        ss_ranking_free(r);
+    }
+    ss_signal_free(both);
+    ss_signal_free(other);
+    ss_signal_free(all);
 }
 
 static void
-short_records_are_not_told(void **state)
+short_records_are_not_named(void **state)
 {
     static const double duration[] = { 0, 0.0005, 0.01, 0.39 };
     (void)state;
@@ -235,7 +281,7 @@ short_records_are_not_told(void **state)
         scene.duration = duration[k];
         ss_signal *signal = record_of(&scene, 300);
         ss_ranking *r = rank(signal);
-        assert_true(!r->told && isnan(r->forcing_frequency) && r->n == MODELS);
+        assert_true(r->verdict == SS_UNDECIDED && isnan(r->forcing_frequency) && r->n == MODELS);
         ss_ranking_free(r);
         ss_signal_free(signal);
     }
@@ -325,8 +371,9 @@ finds_the_parameters_of_a_compliant_signal(void **state)
         start.contact_stiffness *= 2, start.contact_damping *= 3, start.friction = 1;
         start.base_amplitude = 0.001;
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
-        assert_true(fit.told);
-        assert_true(fabs(fit.friction.value / truth.friction - 1) <= row[k].force);
+        assert_true(fit.conclusive);
+        if (!(fabs(fit.friction.value / truth.friction - 1) <= row[k].force))
+            fail_msg("%s at %g dB: f_k %.3g off", ss_shipped_scenes[row[k].scene].name, row[k].snr, fit.friction.value / truth.friction - 1);
         assert_true(fabs(fit.base_amplitude.value / truth.base_amplitude - 1) <= row[k].force);
         assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1)
                     <= row[k].stiffness);
@@ -355,11 +402,11 @@ gaps_do_not_matter(void **state)
             x[first + i] = line ? left + (right - left) * (double)(i + 1) / (double)(many + 1) : 0;
         assert_int_equal(ss_header_note(signal->head, "gaps", "1.09:1.12"), SS_OK);
         ss_ranking *r = rank(signal);
-        assert_true(r->told && r->row[0].scene == LIGHT);
+        assert_true(r->verdict == SS_NAMED && r->row[0].scene == LIGHT);
         assert_true(r->row[0].value[SS_BY_RESIDUAL] <= -20);
         ss_ranking_free(r);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &truth, NULL, NULL), SS_OK);
-        assert_true(fit.told && fit.residual_started <= 1e-8);
+        assert_true(fit.conclusive && fit.residual_started <= 1e-8);
         assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1) <= 1e-8);
         assert_true(fabs(fit.friction.value / truth.friction - 1) <= 1e-8);
         ss_signal_free(signal);
@@ -417,7 +464,7 @@ does_not_fit_what_is_not_compliant(void **state)
             ss_noise_add_once(signal->values, signal->n, 1, 2);
         }
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
-        assert_true(!fit.told && fit.why[0] != '\0');
+        assert_true(!fit.conclusive && fit.why[0] != '\0');
         ss_signal_free(signal);
     }
 }
@@ -441,9 +488,10 @@ main(void)
         cmocka_unit_test(the_literal_law_is_ranked_as_the_scaled_one_that_equals_it),
         cmocka_unit_test(shipped_scenes_rank_themselves_first),
         cmocka_unit_test(size_sign_and_offset_do_not_matter),
-        cmocka_unit_test(what_has_no_transitions_is_not_told),
-        cmocka_unit_test(compliant_contacts_are_not_told_apart_without_their_oscillation),
-        cmocka_unit_test(short_records_are_not_told),
+        cmocka_unit_test(what_has_no_transitions_is_not_named),
+        cmocka_unit_test(what_no_scene_explains_is_not_named),
+        cmocka_unit_test(columns_that_contradict_each_other_are_not_named),
+        cmocka_unit_test(short_records_are_not_named),
         cmocka_unit_test(refuses_what_is_out_of_range),
         cmocka_unit_test(scores_are_distances_over_thresholds_up_to_three),
         cmocka_unit_test(a_threshold_that_moves_can_change_the_order),

@@ -100,6 +100,15 @@ quantity_of_ending(const char *name)
     return -1;
 }
 
+static int
+quantity_of_name(const char *name)
+{
+    for (int i = 0; quantities[i] != NULL; i++)
+        if (strcmp(name, quantities[i]) == 0)
+            return i;
+    return strcmp(name, "F") == 0 ? SS_FORCE : quantity_of_word(name);
+}
+
 /* And by what that is known. */
 static ss_quantity
 quantity_of(const ss_column *column, const char *as, const char **by)
@@ -109,12 +118,7 @@ quantity_of(const ss_column *column, const char *as, const char **by)
     if (as != NULL)
         return (ss_quantity)tool_choice("--as", as, quantities);
     *by = "its name";
-    for (int i = 0; quantities[i] != NULL; i++)
-        if (strcmp(column->name, quantities[i]) == 0)
-            return (ss_quantity)i;
-    if (strcmp(column->name, "F") == 0)
-        return SS_FORCE;
-    if ((found = quantity_of_word(column->name)) >= 0)
+    if ((found = quantity_of_name(column->name)) >= 0)
         return (ss_quantity)found;
     *by = "its unit";
     if ((found = quantity_of_unit(column->unit)) >= 0)
@@ -127,6 +131,17 @@ quantity_of(const ss_column *column, const char *as, const char **by)
     return SS_ACCELERATION;
 }
 
+/* The other columns whose names say what they are of: the first of each quantity. */
+static void
+find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
+{
+    for (size_t i = head->n_columns; i-- > 0;) {
+        int of = i != column ? quantity_of_name(head->column[i].name) : -1;
+        if (of >= 0)
+            also[of] = (int)i;
+    }
+}
+
 /* --- rows ---------------------------------------------------------------------------------- */
 
 static void
@@ -137,6 +152,34 @@ put(FILE *out, double x, const char *behind)
     else
         fprintf(out, "%.4g", x);
     fputs(behind, out);
+}
+
+/* A part of the signal's power in per cent, so that two digits of the rest are seen: 99.98. */
+static void
+put_explained(FILE *out, double part)
+{
+    double left = fmax(1 - part, 1e-9);
+    int digits = (int)fmax(ceil(-log10(left)) - 2, 0) + 1;
+    fprintf(out, "%.*f %%", digits, 100 * (1 - left));
+}
+
+static void
+write_answer(FILE *out, const ss_ranking *r, char *const name[])
+{
+    const ss_rank_row *best = &r->row[0];
+    for (size_t i = 1; i < r->n; i++)
+        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
+            best = &r->row[i];
+    if (r->verdict == SS_NAMED)
+        fprintf(out, "# answer: %s explains ", name[best->scene]);
+    else
+        fprintf(out, "# answer: %s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell",
+                r->why);
+    if (r->verdict != SS_NAMED && !isnan(r->forcing_frequency))
+        fprintf(out, "; %s explains most, ", name[best->scene]);
+    if (!isnan(r->forcing_frequency))
+        put_explained(out, best->explained);
+    fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
 }
 
 static void
@@ -154,10 +197,9 @@ write_head(FILE *out, const ss_ranking *r, const char *column, ss_quantity quant
         fprintf(out, "%s %s ", i > SS_BY_MAXIMUM ? "," : "", ss_criterion_rules[i].name);
         put(out, r->value[i], "");
     }
-    if (r->told)
-        fprintf(out, "\n# answer: %s\n", name[r->row[0].scene]);
-    else
-        fprintf(out, "\n# answer: cannot tell: %s\n", r->why);
+    fputs("\n# noise: ", out);
+    put(out, 100 * r->noise, " % of the power, at most\n");
+    write_answer(out, r, name);
 }
 
 /* Where a threshold 20 % lower or higher changes the order, the order that it gives. */
@@ -197,7 +239,7 @@ write_rows(FILE *out, const ss_ranking *r, char *const name[])
     for (size_t i = 0; i < r->n; i++) {
         const ss_rank_row *row = &r->row[i];
         int compared = !isnan(r->forcing_frequency);
-        if (r->told)
+        if (r->verdict == SS_NAMED)
             fprintf(out, "%zu\t%s\t", i + 1, name[row->scene]);
         else
             fprintf(out, "-\t%s\t", name[row->scene]);
@@ -221,16 +263,17 @@ note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
         tool_note("no period found, so no scene was adjusted: %s", r->why);
         return;
     }
-    tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the mean cycle within %.3g %%",
+    tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the signal within %.3g %%",
               r->forcing_frequency, opts->forcing_frequency > 0 ? "as given" : "found", r->n,
               r->n == 1 ? "" : "s", 100 * opts->spread);
     for (size_t i = 0; i < r->n; i++)
-        tool_note("%s: total %.4g, leaves %.3g %% of the cycle's power", name[r->row[i].scene],
-                  r->row[i].total, 100 * pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10));
+        tool_note("%s: total %.4g, leaves %.3g %% of the signal's power, %.3g times the noise",
+                  name[r->row[i].scene], r->row[i].total,
+                  100 * pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10), r->row[i].excess);
     if (r->n > 1)
         tool_note("%s is ahead of %s by %.3g thresholds%s%s", name[r->row[0].scene],
                   name[r->row[1].scene], r->row[1].total - r->row[0].total,
-                  r->told ? "" : ", but ", r->why);
+                  r->verdict == SS_NAMED ? "" : ", but ", r->why);
 }
 
 static void
@@ -274,9 +317,9 @@ fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *op
     ss_fit f;
     ss_error err = { "" };
     tool_check(ss_scene_fit(&f, signal, column, &start, opts, &err), &err);
-    if (!f.told)
+    if (!f.conclusive)
         tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);
-    const struct { const char *key; ss_value v; } told[] = {
+    const struct { const char *key; ss_value v; } found[] = {
         { "friction", f.friction }, { "base_amplitude", f.base_amplitude },
         { "base_frequency", f.base_frequency }, { "contact_stiffness", f.contact_stiffness },
         { "contact_damping", f.contact_damping } };
@@ -284,10 +327,10 @@ fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *op
     fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness and release rule\n"
             "# are those given; standard errors:\n", signal_name(j->signal_path),
             signal->head->column[column].name);
-    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
-        fprintf(out, "#   %-17s %.2g %%\n", told[i].key, 100 * told[i].v.error / told[i].v.value);
-    fprintf(out, "# Left of the signal: %.3g %%, and %.3g %% if the motion need not be settled.\n",
-            100 * f.residual, 100 * f.residual_started);
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++)
+        fprintf(out, "#   %-17s %.2g %%\n", found[i].key, 100 * found[i].v.error / found[i].v.value);
+    fprintf(out, "# Left of the signal: %.3g %%, and %.3g %% if the motion need not be settled; its noise\n"
+            "# is %.3g %%.\n", 100 * f.residual, 100 * f.residual_started, 100 * f.noise);
     if (ss_scene_write(&f.scene, out) != SS_OK)
         tool_die("write failed");
 }
@@ -339,6 +382,7 @@ main(int argc, char *argv[])
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
               signal->n, signal->head->column[column].name, quantities[j.opts.quantity],
               j.known_by);
+    find_others(j.opts.also, signal->head, column);
     j.opts.progress = (ss_progress){ tool_progress, &j };
     (fits ? fit : rank)(&j, signal, column, &j.opts);
     ss_signal_free(signal);

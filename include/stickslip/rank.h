@@ -37,38 +37,51 @@ typedef struct ss_criterion_rule {
 extern const ss_criterion_rule ss_criterion_rules[SS_CRITERIA];
 #define SS_SCORE_MOST 3
 
+enum { SS_QUANTITIES = SS_FORCE + 1 };
+
 typedef struct ss_rank_opts {
     ss_quantity quantity;       /* that the column is of */
     double spread;              /* the parameters of the rig are within a factor 1 -+ spread
                                    of those of the scene  0 <= spread < 1 */
     double forcing_frequency;   /* [Hz]; 0: found from what repeats */
+    int also[SS_QUANTITIES];    /* other columns of the same recording, by what they are of, that the
+                                   answer must explain too; -1: none */
     ss_progress progress;
 } ss_rank_opts;
-extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found */
+extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found, no others */
 
 typedef struct ss_rank_row {
     size_t scene;               /* its index among those given */
-    ss_scene adjusted;          /* within the spread, of the signal's rate, span, size and phase */
+    ss_scene adjusted;          /* within the spread; it moves as the compared cycles of the signal do */
+    double explained;           /* part of the signal's power about its mean that it explains */
+    double excess;              /* mean square of what it leaves, over that of the noise */
     double value[SS_CRITERIA];      /* of the adjusted scene; NaN where it has none */
     double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one has a value */
     double total;
 } ss_rank_row;
 
+typedef enum ss_verdict {
+    SS_UNDECIDED,               /* why says why */
+    SS_NAMED,                   /* the first row's scene explains the signal: what it leaves is noise;
+                                   and no scene of another model does it as well */
+    SS_NONE_FITS                /* each scene leaves more than the noise; why says how much */
+} ss_verdict;
+
 typedef struct ss_ranking {
-    int told;                   /* 1: the first row is the answer; 0: cannot tell */
-    char why[256];              /* why not, or by how much */
+    ss_verdict verdict;
+    char why[256];              /* empty if one is named */
     double value[SS_CRITERIA];  /* of the signal; NaN where it has none */
     double forcing_frequency;   /* [Hz]; NaN: nothing repeats, rows are as given without values */
+    double noise;               /* power of the noise over that of the signal, at most; NaN: see there */
     size_t n;
     ss_rank_row *row;           /* best first */
 } ss_ranking;
 
-/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Each is adjusted to
- * the signal's mean cycle within the spread, run for the signal's span at its rate with white
- * noise of the signal's own level and its gaps, and compared; what lies within the reach of a gap
- * is left out of both, as ss_features_find does.  That nothing can be told is an answer: SS_OK.
- * SS_EBUDGET for a scene that takes more than 1e7 integration steps to be adjusted.
- * opts may be NULL. To be freed with ss_ranking_free. */
+/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Each is adjusted within
+ * the spread to the signal's mean cycle and then to the samples of some cycles, run with white noise
+ * of the signal's own level and its gaps, and compared; what lies within the reach of a gap is left
+ * out of both, as ss_features_find does.  Noise is what is neither slow nor repeated, see ss-rank(1).
+ * That none fits or nothing can be decided is an answer: SS_OK.  opts may be NULL. To be freed with ss_ranking_free. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
@@ -82,7 +95,7 @@ int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double f
 /* --- the scene that fits ------------------------------------------------------------------- */
 
 typedef struct ss_fit {
-    int told;                   /* 0: cannot tell, the scene is the one given */
+    int conclusive;             /* 0: the parameters cannot be told, the scene is the one given */
     char why[256];              /* why not */
     ss_scene scene;             /* settled, in step with the record from its first sample */
     ss_value friction, base_amplitude;              /* with standard errors */
@@ -91,14 +104,16 @@ typedef struct ss_fit {
     double residual;            /* rms of record less scene over the record about its mean */
     double residual_started;    /* the same if the motion may start from any state: what is left
                                    then is noise, or not this model */
+    double noise;               /* rms of the noise in the record over its own, at most */
 } ss_fit;
 
 /* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column
  * of SI units, whose values must be finite; m, k and the release rule are taken from the scene.
  * Samples in gaps are left out.
- * Errors are those of white noise of the residual's size.  That nothing can be told is an answer:
- * SS_OK. opts may be NULL; its spread is not used.  SS_EINVAL for another model, SS_EBUDGET
- * where the scenes to be tried take more than 1e7 steps or the fit more than 1e8. */
+ * Errors are those of white noise of the residual's size.  It is conclusive if what is left is no more
+ * than noise, no other scene leaves as little, and its sticks last long enough.  That it is not is an
+ * answer: SS_OK.  opts may be NULL; its spread and other columns are not used.  SS_EINVAL for another
+ * model. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 

@@ -19,6 +19,7 @@
 #include "scene/model.h"
 
 enum { STARTS_MOST = 256 };
+#define SAME 0.02               /* of a key: what one descent reaches from both */
 
 static double *
 own(const candidate *c, ss_scene *s, size_t i)
@@ -44,7 +45,7 @@ ss_candidate_check(const ss_scene *scene, ss_error *err)
 candidate
 ss_candidate_of(const ss_scene *scene, int pick, double factor)
 {
-    candidate c = { .model = ss_model_of(scene), .scene = *scene, .pick = pick };
+    candidate c = { .model = ss_model_of(scene), .scene = *scene, .pick = pick, .budget = INFINITY };
     ss_scene *s = &c.scene;
     if (c.model->normalise != NULL)
         c.model->normalise(s);
@@ -57,7 +58,6 @@ ss_candidate_of(const ss_scene *scene, int pick, double factor)
         c.own[i] = log(fmax(key[i], 1e-300));
         c.lo[i] = c.own[i] - log(factor);
         c.hi[i] = c.own[i] + log(factor);
-        c.best[i] = c.own[i];
     }
     if (c.lo[CANDIDATE_RATIO] < 0)            /* f_k > k Z_e: nothing slips */
         c.hi[CANDIDATE_RATIO] = fmin(c.hi[CANDIDATE_RATIO], 0);
@@ -70,9 +70,8 @@ ss_candidate_of(const ss_scene *scene, int pick, double factor)
     return c;
 }
 
-/* The scene of some keys with the drive of c->scene. */
-static ss_scene
-scene_of(const candidate *c, const double key[CANDIDATE_KEYS], double period)
+ss_scene
+ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double period)
 {
     ss_scene s = c->scene;
     double drive = drive_of(&s);
@@ -89,10 +88,12 @@ scene_of(const candidate *c, const double key[CANDIDATE_KEYS], double period)
 
 /* --- misfit -------------------------------------------------------------------------------- */
 
+enum { STEPS_MOST = 1000000 };          /* of one run */
+
 typedef struct taken {
     int pick;
     size_t n, room;
-    double *value;
+    double *value, *clear, rate;
 } taken;
 
 static int
@@ -108,19 +109,36 @@ take(const ss_sample *s, size_t n, void *user)
     return 0;
 }
 
-/* The closed form where there is one.  Else rkck at 1e-5 keeps 1e-4 of the largest acceleration,
- * -80 dB, at a hundredth of the cost of the default. */
-ss_status
-ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n, double *steps)
+static int
+clear_event(const ss_event *e, void *user)
 {
-    taken t = { pick, 0, n, value };
-    int is_linear = ss_model_is_linear(scene->model);
-    ss_sim_opts opts = { .method = is_linear ? "exact" : "rkck", .tol = 1e-5,
-                         .max_steps = (unsigned long)(CANDIDATE_STEPS / 10),
-                         .samples = take, .user = &t };
-    ss_sim_stats stats = { 0 };
+    taken *t = user;
+    double at = e->t * t->rate, first = fmax(ceil(at - CANDIDATE_REACH), 0);
+    for (double i = first; i < (double)t->room && i <= at + CANDIDATE_REACH; i++)
+        t->clear[(size_t)i] = fmin(t->clear[(size_t)i], fabs(i - at));
+    return 0;
+}
+
+int
+ss_candidate_exact(const candidate *c)
+{
+    return c->model->linear;
+}
+
+/* The closed form where there is one.  Else rkck at 1e-7 keeps 1e-6 of the largest acceleration
+ * at a twentieth of the cost of the default. */
+ss_status
+ss_candidate_run(const ss_scene *scene, int pick, double *value, double *clear, size_t n,
+                 double *steps)
+{
+    taken t = { pick, 0, n, value, clear, scene->rate };
+    ss_sim_opts opts = { .method = ss_model_is_linear(scene->model) ? "exact" : "rkck", .tol = 1e-7, .max_steps = STEPS_MOST,
+                         .samples = take, .events = clear != NULL ? clear_event : NULL, .user = &t };
+    ss_sim_stats stats = { .steps = 0 };
+    for (size_t i = 0; clear != NULL && i < n; i++)
+        clear[i] = INFINITY;
     ss_status st = ss_sim_run(scene, &opts, &stats, NULL);
-    *steps += (double)stats.steps;
+    *steps += st == SS_EBUDGET ? STEPS_MOST : (double)stats.steps;
     return st == SS_OK && t.n != n ? SS_EDATA : st;
 }
 
@@ -129,8 +147,8 @@ typedef struct problem {
     const cycle *goal;
     const ss_stretch *progress;
     double runs, expected;      /* so far, and about how many there will be */
-    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop,
-                                   SS_EBUDGET after too many steps; all others are a bad fit */
+    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop; all
+                                   others are a bad fit */
 } problem;
 
 static double
@@ -139,17 +157,15 @@ misfit(problem *p, const double key[], double *size, double *shift)
     candidate *c = p->c;
     const cycle *goal = p->goal;
     double value[CYCLE_MOST];
-    ss_scene s = scene_of(c, key, goal->period);
+    ss_scene s = ss_candidate_scene(c, key, goal->period);
     s.duration = goal->period;
     s.rate = (double)goal->n / goal->period;
     *size = *shift = 0;
     if (p->status == SS_OK)
         p->status = ss_stretch_at(p->progress, fmin(p->runs++ / p->expected, 1));
-    if (p->status == SS_OK && c->steps > CANDIDATE_STEPS)
-        p->status = SS_EBUDGET;
     if (p->status != SS_OK)
         return goal->power;
-    ss_status st = ss_candidate_run(&s, c->pick, value, goal->n, &c->steps);
+    ss_status st = ss_candidate_run(&s, c->pick, value, NULL, goal->n, &c->steps);
     if (st == SS_ENOMEM)
         p->status = SS_ENOMEM;
     if (st != SS_OK)
@@ -173,6 +189,8 @@ height(const gsl_vector *u, void *user)
 {
     problem *p = user;
     double key[CANDIDATE_KEYS], size, shift;
+    if (p->c->steps > p->c->budget)
+        return 0;
     keys_of(p->c, u->data, key);
     return log(misfit(p, key, &size, &shift) / p->goal->power + 1e-12);
 }
@@ -230,6 +248,24 @@ descend(start *s, size_t free, size_t steps, problem *p)
     return p->status;
 }
 
+/* Append to c->start, unless one is there that is the same to SAME in every key. */
+static void
+keep_start(problem *p, const double *u)
+{
+    candidate *c = p->c;
+    candidate_start *s = &c->start[c->n_starts];
+    keys_of(c, u, s->key);
+    for (size_t i = 0; i < c->n_starts; i++) {
+        double farthest = 0;
+        for (size_t k = 0; k < c->n; k++)
+            farthest = fmax(farthest, fabs(s->key[k] - c->start[i].key[k]));
+        if (farthest < SAME)
+            return;
+    }
+    s->misfit = misfit(p, s->key, &s->size, &s->shift);
+    c->n_starts++;
+}
+
 ss_status
 ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep, size_t steps,
                     const ss_stretch *progress)
@@ -248,34 +284,32 @@ ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
             st = descend(&s[i], free, steps, &p);
         qsort(s, keep, sizeof *s, lower_first);
     }
-    if (st != SS_OK)
-        return st;
-    keys_of(c, s[0].u, c->best);
-    c->misfit = misfit(&p, c->best, &c->size, &c->shift);
-    return p.status;
+    for (size_t i = 0; st == SS_OK && i < (free > 0 ? keep : 1); i++) {
+        keep_start(&p, s[i].u);
+        st = p.status;
+    }
+    return st;
 }
 
 ss_scene
-ss_candidate_scene(const candidate *c, const cycle *goal)
+ss_candidate_resized(const candidate *c, ss_scene s, double size)
 {
-    ss_scene s = scene_of(c, c->best, goal->period);
-    if (c->size > 0) {
-        s.friction *= c->size;
-        s.base_amplitude *= c->size;
-        for (size_t i = 0; i < c->model->n_parameters; i++)
-            if (c->model->parameter[i].by_speed)
-                *own(c, &s, i) /= c->size;
-    }
-    s.phase = -2 * M_PI * c->shift;     /* the cycle begins so much before the settled one */
+    s.friction *= size;
+    s.base_amplitude *= size;
+    s.x0 *= size;
+    s.v0 *= size;
+    for (size_t i = 0; i < c->model->n_parameters; i++)
+        if (c->model->parameter[i].by_speed)
+            *own(c, &s, i) /= size;
     return s;
 }
 
 double
-ss_candidate_distance(const candidate *c)
+ss_candidate_distance(const candidate *c, const double key[CANDIDATE_KEYS])
 {
     double sum = 0, of_mass = 0, squares = 0;
     for (size_t i = 0; i < c->n; i++) {
-        double d = c->best[i] - c->own[i];
+        double d = key[i] - c->own[i];
         int by_mass = i == CANDIDATE_STIFFNESS
                       || (i >= CANDIDATE_OWN && c->model->parameter[i - CANDIDATE_OWN].by_mass);
         sum += by_mass ? d : 0;

@@ -11,7 +11,13 @@
 
 enum { CANDIDATE_STIFFNESS, CANDIDATE_RATIO, CANDIDATE_OWN, CANDIDATE_KEYS = CANDIDATE_OWN + PARAMETERS };
 enum { CANDIDATE_SETTLE = 6 };      /* cycles from rest to the one compared */
-#define CANDIDATE_STEPS 1e7         /* of all runs of a search, 10 times the usual: some 6 s of CPU time */
+enum { CANDIDATE_KEPT = 8 };        /* starts for what follows, at most */
+
+/* Where a search ended: the scene of the keys leaves so much of the cycle, see ss_cycle_misfit. */
+typedef struct candidate_start {
+    double key[CANDIDATE_KEYS];
+    double misfit, size, shift;
+} candidate_start;
 
 /* Its keys: the stiffness k (at the same k Z_e), f_k / (k Z_e), and the parameters that the model
  * says.  The mass is left alone, as no motion tells it: what counts is the ratios
@@ -23,30 +29,36 @@ typedef struct candidate {
     size_t n;                   /* keys that the model has */
     double own[CANDIDATE_KEYS];             /* the scene's, as logarithms */
     double lo[CANDIDATE_KEYS], hi[CANDIDATE_KEYS];  /* of the search; the same for what is fixed */
-    double best[CANDIDATE_KEYS];
-    double misfit;              /* mean square that it leaves of the cycle */
-    double size, shift;         /* see ss_cycle_misfit */
-    double steps;               /* of all runs so far: the cost of the search */
+    candidate_start start[CANDIDATE_KEPT];          /* the best first, no two the same */
+    size_t n_starts;
+    double steps;               /* of all runs so far: what they cost */
+    double budget;              /* of steps: the search ends when it is used up */
 } candidate;
 
 /* SS_OK for a scene in range whose base moves. */
 ss_status ss_candidate_check(const ss_scene *scene, ss_error *err);
 /* What the scene says, and each key free within a factor, >= 1. */
 candidate ss_candidate_of(const ss_scene *scene, int pick, double factor);
-/* Find c->best and what follows: starts points all over the range, and the keep best of them each
- * improved by steps at most.  SS_OK also where none of them moves: then all is left; SS_STOP if told
- * to stop; SS_EBUDGET once the runs have taken CANDIDATE_STEPS. */
+/* Find c->start: starts points all over the range, and the keep <= CANDIDATE_KEPT best of them each
+ * improved by at most so many steps.  SS_OK also where none of them moves: then all is left; SS_STOP
+ * if the progress function stops it. */
 ss_status ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
                               size_t steps, const ss_stretch *progress);
-/* The scene of the best keys, driven at the cycle's period; its sizes are those of the cycle, and
- * at phase 0 it stands where the cycle begins. */
-ss_scene ss_candidate_scene(const candidate *c, const cycle *goal);
-/* How far the best keys are from the scene's own: the root mean square of their logarithms, and of
- * the mass's, for that mass which makes it least. */
-double ss_candidate_distance(const candidate *c);
+/* The scene of some keys with the drive k Z_e of c->scene, settled from rest at phase 0. */
+ss_scene ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double period);
+/* The scene whose motion is so many times that of s. */
+ss_scene ss_candidate_resized(const candidate *c, ss_scene s, double size);
+/* How far keys are from the scene's own: the root mean square of their logarithms, and of the
+ * mass's, for that mass which makes it least. */
+double ss_candidate_distance(const candidate *c, const double key[CANDIDATE_KEYS]);
+/* 1 if its motion is exact, so that differences over small changes of a key are too. */
+int ss_candidate_exact(const candidate *c);
 
-/* The n samples of a scene's record, of the quantity pick, in at most CANDIDATE_STEPS / 10;
- * *steps grows by their number.  As ss_sim_run, or SS_EDATA. */
-ss_status ss_candidate_run(const ss_scene *scene, int pick, double *value, size_t n, double *steps);
+enum { CANDIDATE_REACH = 18 };      /* samples */
+/* The n samples of a scene's record, of the quantity pick; clear, unless it is NULL, becomes the
+ * distance of each to the nearest event, in samples, if that is at most CANDIDATE_REACH, else
+ * infinite.  *steps grows by what it cost.  As ss_sim_run, or SS_EDATA. */
+ss_status ss_candidate_run(const ss_scene *scene, int pick, double *value, double *clear, size_t n,
+                           double *steps);
 
 #endif

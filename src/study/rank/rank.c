@@ -1,11 +1,13 @@
-/* rank.c -- which scene explains a signal: its mean cycle, and what its contours show.
+/* rank.c -- which scene explains a signal: its samples, and what its contours show.
  *
  * A scene stands for all rigs within the spread of its parameters.  So each is first adjusted to
- * the signal's mean cycle (candidate.c), then run for as long and with as much noise as the signal
- * has, and from then on both are treated alike: the same features, the same transform, the same
- * phase. The residual of the mean cycle tells most, as every sample of a signal of known period
- * takes part in it; but a model of a real rig is wrong in details that this sees too, and the
- * other criteria then say which model shows what the signal shows. */
+ * the signal's mean cycle (candidate.c), then to its samples (match.c), and run for as long and with
+ * as much noise as the signal has; from then on both are treated alike: the same features, the same
+ * transform, the same phase.
+ *
+ * A scene is named only if what it leaves of the samples is no more than the noise: whatever else
+ * moved there, no criterion makes up for that.  A model of a real rig is wrong in details that this
+ * sees too, and the other criteria then say which model shows what the signal shows. */
 #include <stickslip/rank.h>
 
 #include <math.h>
@@ -17,8 +19,8 @@
 #include <stickslip/spikes.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "scene/model.h"
 #include "study/rank/candidate.h"
+#include "study/rank/match.h"
 #include "signal/gaps.h"
 
 /* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the
@@ -38,20 +40,19 @@ const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
 };
 
-const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3 };
+const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
+                                        .also = { -1, -1, -1, -1 } };
 
-enum { STARTS = 32, KEEP = 2, STEPS = 60 };     /* of the search: more find nothing better */
+enum { STARTS = 32, KEEP = 4, STEPS = 80 };      /* of the search */
+#define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
-#define DOUBTFUL 0.5                    /* a lead by less than half a threshold is none */
-#define UNEXPLAINED 0.1                 /* of the cycle's power: a best that leaves more is none */
-#define SELDOM 0.5                      /* a half cycle: less is no transition */
+#define DECISIVE 25                     /* twice a logarithm of likelihood: five standard errors */
 #define SPAN 80.0                       /* [dB] of a contour map */
 
 /* --- what a signal shows ------------------------------------------------------------------- */
 
 typedef struct look {
     double value[SS_CRITERIA];
-    double noise;                       /* rms */
     int countable;                      /* spikes can be counted */
     int has_slope;                      /* there are columns for df/dx */
     ss_coefficients *map;
@@ -143,7 +144,6 @@ look_at_transitions(look *l, const ss_signal *signal, size_t column, double half
     if (st != SS_OK)
         return st;
     double halves = floor((double)signal->n / signal->head->rate / half);
-    l->noise = f->noise;
     l->has_slope = opts.displacement >= 0 && opts.force >= 0;
     l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / halves, 1);
     l->value[SS_BY_FREQUENCY] = f->frequency.value;
@@ -239,65 +239,99 @@ compare(ss_rank_row *row, const look *signal, const look *model)
 
 typedef struct work {
     const ss_signal *signal;            /* the window */
+    const char *missing;                /* of its samples; NULL: none */
     size_t column;
-    ss_quantity quantity;
-    double spread;
+    const ss_rank_opts *opts;
     ss_span *gap;                       /* of the window [s] */
     size_t n_gaps;
     cycle goal;
     double from;                        /* start of the window in the record [s] */
+    double noise;                       /* variance, at most */
     look look;                          /* of the signal */
 } work;
+
+/* A scene's best match, which is kept for the answer. */
+typedef struct found {
+    match match;
+    candidate candidate;
+} found;
+
+static match_record
+record_of(const work *w, size_t column)
+{
+    return (match_record){ .x = w->signal->values + column * w->signal->n, .missing = w->missing,
+                           .n = w->signal->n, .rate = w->signal->head->rate, .from = w->from };
+}
 
 /* The adjusted scene as the signal's window would show it, its gaps included. */
 static ss_status
 look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long seed, ss_error *err)
 {
     ss_signal *run = NULL;
+    size_t column = (size_t)w->opts->quantity;
     const char *gaps = ss_header_find_note(w->signal->head, "gaps");
     ss_status st = ss_sim_signal(&run, adjusted, err);
     if (st != SS_OK)
         return st;
-    double *x = run->values + (size_t)w->quantity * run->n;
+    double *x = run->values + column * run->n;
     run->head->start = w->signal->head->start;
     st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
     if (st == SS_OK)
-        st = ss_noise_add_once(x, run->n, w->look.noise, seed);
+        st = ss_noise_add_once(x, run->n, sqrt(w->noise), seed);
     for (size_t c = 0; c < run->head->n_columns; c++)
         ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)
-        st = look_at(l, run, (size_t)w->quantity, w->goal.period, err);
+        st = look_at(l, run, column, w->goal.period, err);
     ss_signal_free(run);
     return st;
 }
 
+/* The best of the matches from each start of the search. */
 static ss_status
-rank_scene(ss_rank_row *row, const work *w, const ss_scene *scene, const ss_stretch *progress,
-           ss_error *err)
+match_scene(found *f, const work *w, const ss_stretch *progress)
+{
+    candidate *c = &f->candidate;
+    const match_record record = record_of(w, w->column);
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < c->n_starts; i++) {
+        const ss_stretch part = ss_stretch_part(progress, (double)i / (double)c->n_starts,
+                                                (double)(i + 1) / (double)c->n_starts);
+        match m;
+        if (i > 0 && ss_match_explains(&f->match, w->noise))
+            break;
+        st = ss_match_find(&m, c, &c->start[i], w->goal.period, &record, &part);
+        if (i == 0 || m.left < f->match.left)
+            f->match = m;
+    }
+    return st;
+}
+
+static ss_status
+rank_scene(ss_rank_row *row, found *f, const work *w, const ss_scene *scene,
+           const ss_stretch *progress, ss_error *err)
 {
     look l;
-    candidate c = ss_candidate_of(scene, (int)w->quantity, (1 + w->spread) / (1 - w->spread));
-    ss_status st = ss_candidate_search(&c, &w->goal, STARTS, KEEP, STEPS, progress);
-    if (st == SS_EBUDGET)
-        return ss_fail(err, st, "scene %zu takes more than %.0e integration steps to be adjusted: it "
-                       "is too stiff to be ranked", row->scene + 1, CANDIDATE_STEPS);
+    double spread = w->opts->spread;
+    const ss_stretch search = ss_stretch_part(progress, 0, 0.5);
+    const ss_stretch matching = ss_stretch_part(progress, 0.5, 1);
+    f->candidate = ss_candidate_of(scene, (int)w->opts->quantity, (1 + spread) / (1 - spread));
+    f->candidate.budget = BUDGET;
+    ss_status st = ss_candidate_search(&f->candidate, &w->goal, STARTS, KEEP, STEPS, &search);
+    if (st == SS_OK)
+        st = match_scene(f, w, &matching);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
-    row->adjusted = ss_candidate_scene(&c, &w->goal);
-    row->adjusted.phase = remainder(row->adjusted.phase + 2 * M_PI * w->from / w->goal.period,
-                                    2 * M_PI);
-    row->adjusted.duration = (double)w->signal->n / w->signal->head->rate;
-    row->adjusted.rate = w->signal->head->rate;
+    const match *m = &f->match;
+    row->adjusted = m->scene;
     st = look_at_scene(&l, w, &row->adjusted, 1, err);
     if (st != SS_OK)
         return st;
     compare(row, &w->look, &l);
     look_away(&l);
-    /* what noise leaves is not the model's fault */
-    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(c.misfit, 1e-12 * w->goal.power) / w->goal.power);
-    row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&c);
-    row->distance[SS_BY_ADJUSTMENT] = w->spread > 0
-        ? row->value[SS_BY_ADJUSTMENT] / log(1 + w->spread) : 0;
+    row->explained = 1 - m->left_all / m->power;
+    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(m->left, 1e-12 * m->power) / m->power);
+    row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&f->candidate, m->key);
+    row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? row->value[SS_BY_ADJUSTMENT] / log(1 + spread) : 0;
     return SS_OK;
 }
 
@@ -352,47 +386,119 @@ ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double facto
     return changed;
 }
 
-/* Why the first row is no answer; nothing if it is. */
-static void
-doubt(ss_ranking *r)
+/* By how much, in standard errors squared, what a scene leaves is more than what another does. */
+static double
+lead_of(const match *m, const match *over, double noise)
 {
-    double lead = r->n > 1 ? r->row[1].total - r->row[0].total : INFINITY;
-    double left = pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10), least = left;
-    for (size_t i = 1; i < r->n; i++)
-        least = fmin(least, pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10));
-    if (r->value[SS_BY_SPIKES] < SELDOM && r->value[SS_BY_MAXIMUM] < SELDOM)
-        snprintf(r->why, sizeof r->why, "no transitions: neither spikes nor local maxima in most "
-                 "half cycles");
-    else if (least > UNEXPLAINED)
-        snprintf(r->why, sizeof r->why, "no scene explains the signal: each leaves %.3g %% of "
-                 "its cycle's power%s", 100 * least, least < 0.9995 ? " or more" : "");
-    else if (left > UNEXPLAINED)
-        snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the cycle's "
-                 "power, and another, which leaves %.3g %%, shows other transitions", 100 * left,
-                 100 * least);
-    else if (lead < DOUBTFUL)
-        snprintf(r->why, sizeof r->why, "the best two scenes differ by %.2g, less than half a "
-                 "threshold", lead);
-    else if (ss_model_of(&r->row[0].adjusted)->has_contact && isnan(r->value[SS_BY_DAMPING]))
-        snprintf(r->why, sizeof r->why, "no oscillation in the sticks, by which compliant contacts "
-                 "are known");
+    return (double)m->compared * (ss_match_excess(over, noise) - ss_match_excess(m, noise));
 }
 
+/* A motion without transitions, as any linear rig has it. */
+static int
+is_sinusoid(const work *w, const match *m)
+{
+    const match_record record = record_of(w, w->column);
+    match sinusoid = *m;
+    sinusoid.left = ss_match_sinusoid(&record, m->scene.base_frequency);
+    return ss_match_explains(&sinusoid, w->noise);
+}
+
+/* What the verdict is, by what the scenes leave of the column. */
 static void
-settle(ss_ranking *r, const work *w)
+judge(ss_ranking *r, const work *w, const found *f)
+{
+    const ss_rank_row *first = &r->row[0];
+    const match *m = &f[first->scene].match;
+    size_t least = first->scene, fit = 0;
+    r->verdict = SS_UNDECIDED;
+    for (size_t i = 0; i < r->n; i++) {
+        least = f[i].match.left < f[least].match.left ? i : least;
+        fit += ss_match_explains(&f[i].match, w->noise);
+        if (f[i].candidate.steps > f[i].candidate.budget && !ss_match_explains(&f[i].match, w->noise)) {
+            snprintf(r->why, sizeof r->why, "scene %zu takes too many steps to be adjusted", i + 1);
+            return;
+        }
+    }
+    const match *best = &f[least].match;
+    if (fit == 0) {
+        r->verdict = SS_NONE_FITS;
+        snprintf(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
+                 "%.3g times the noise", 100 * best->left / best->power,
+                 ss_match_excess(best, w->noise));
+    } else if (is_sinusoid(w, m)) {
+        snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no transitions");
+    } else if (lead_of(best, m, w->noise) > DECISIVE) {
+        snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
+                 "power, and another, which leaves %.3g %%, shows other transitions",
+                 100 * m->left / m->power, 100 * best->left / best->power);
+    } else {
+        r->verdict = SS_NAMED;
+    }
+    for (size_t i = 1; r->verdict == SS_NAMED && i < r->n; i++)
+        if (r->row[i].adjusted.model != first->adjusted.model
+            && ss_match_explains(&f[r->row[i].scene].match, w->noise)
+            && lead_of(m, &f[r->row[i].scene].match, w->noise) < DECISIVE) {
+            r->verdict = SS_UNDECIDED;
+            snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
+                     ss_model_name(first->adjusted.model), ss_model_name(r->row[i].adjusted.model));
+        }
+}
+
+/* Does the scene that is named explain the other columns too?  Its model may do so with other
+ * parameters, as it could if it were asked for that column alone. */
+static ss_status
+ask_other_columns(ss_ranking *r, const work *w, const found *f)
+{
+    const found *named = &f[r->row[0].scene];
+    const ss_scene *s = &named->match.scene;
+    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
+    ss_status st = SS_OK;
+    for (int q = 0; st == SS_OK && q < SS_QUANTITIES; q++) {
+        if (w->opts->also[q] < 0 || (size_t)w->opts->also[q] == w->column)
+            continue;
+        candidate c = named->candidate;
+        match m;
+        double noise;
+        const match_record record = record_of(w, (size_t)w->opts->also[q]);
+        candidate_start start = { .size = 1 };
+        memcpy(start.key, named->match.key, sizeof start.key);
+        start.shift = s->base_frequency * (w->from - s->settle) - s->phase / (2 * M_PI);
+        c.pick = q;
+        st = ss_match_noise(&noise, &record, w->goal.period * record.rate);
+        if (st == SS_OK)
+            st = ss_match_find(&m, &c, &start, 1 / s->base_frequency, &record, &silent);
+        if (st != SS_OK || ss_match_explains(&m, noise))
+            continue;
+        r->verdict = SS_UNDECIDED;
+        snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
+                 "leaves %.3g %% of that, %.3g times the noise", ss_model_name(s->model),
+                 w->signal->head->column[w->column].name,
+                 w->signal->head->column[w->opts->also[q]].name, 100 * m.left / m.power,
+                 ss_match_excess(&m, noise));
+        break;
+    }
+    return st;
+}
+
+static ss_status
+settle(ss_ranking *r, work *w, const found *f)
 {
     double least = INFINITY;
-    for (size_t i = 0; i < r->n; i++)
+    for (size_t i = 0; i < r->n; i++) {
         least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
+        w->noise = fmin(w->noise, f[i].match.compared > 0 ? f[i].match.white : INFINITY);
+    }
+    r->noise = w->noise / f[0].match.power;
     for (size_t i = 0; i < r->n; i++) {
         r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
         r->row[i].total = total(&r->row[i], SS_BY_RESIDUAL, 1);
+        r->row[i].excess = ss_match_excess(&f[i].match, w->noise);
     }
     qsort(r->row, r->n, sizeof *r->row, less_first);
     for (size_t i = 0; i < SS_CRITERIA; i++)
         r->value[i] = w->look.value[i];
-    doubt(r);
-    r->told = r->why[0] == '\0';
+    judge(r, w, f);
+    return r->verdict == SS_NAMED ? ask_other_columns(r, w, f) : SS_OK;
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
@@ -411,9 +517,17 @@ check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts
     if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
         return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
                        opts->forcing_frequency);
-    for (size_t i = 0; i < signal->n; i++)
-        if (!isfinite(signal->values[column * signal->n + i]))
-            return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
+    for (int q = 0; q < SS_QUANTITIES; q++)
+        if (opts->also[q] >= 0 && (size_t)opts->also[q] >= signal->head->n_columns)
+            return ss_fail(err, SS_EINVAL, "there is no column %d", opts->also[q] + 1);
+    for (int q = -1; q < SS_QUANTITIES; q++) {
+        if (q >= 0 && opts->also[q] < 0)
+            continue;
+        const double *x = signal->values + (q < 0 ? column : (size_t)opts->also[q]) * signal->n;
+        for (size_t i = 0; i < signal->n; i++)
+            if (!isfinite(x[i]))
+                return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
+    }
     return SS_OK;
 }
 
@@ -431,31 +545,49 @@ rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
 }
 
 static ss_status
-rank_all(ss_ranking *r, const ss_signal *signal, const ss_scene *scene, work *w,
+rank_scenes(ss_ranking *r, found *f, const ss_scene *scene, work *w, const ss_stretch *progress,
+            ss_error *err)
+{
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
+        ss_stretch part = ss_stretch_part(progress, (double)(i + 1) / (double)(r->n + 1),
+                                          (double)(i + 2) / (double)(r->n + 1));
+        st = rank_scene(&r->row[i], &f[i], w, &scene[i], &part, err);
+    }
+    if (st == SS_OK)
+        st = settle(r, w, f);
+    return st;
+}
+
+static ss_status
+rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_scene *scene, work *w,
          const ss_stretch *progress, ss_error *err)
 {
     double rate = signal->head->rate, most = WINDOW * w->goal.period * rate;
     size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
     ss_signal *window = NULL;
-    ss_status st = rows_of(&window, signal, first, first + n);
-    if (st != SS_OK)
+    found *f = calloc(r->n, sizeof *f);
+    ss_status st = f != NULL ? rows_of(&window, signal, first, first + n) : SS_ENOMEM;
+    if (st != SS_OK) {
+        free(f);
         return ss_fail(err, st, "%s", ss_strerror(st));
+    }
     w->signal = window;
+    w->missing = missing != NULL ? missing + first : NULL;
     w->from = (double)first / rate;
     st = ss_gaps_of(&w->gap, &w->n_gaps, window->head, n);
     for (size_t c = 0; st == SS_OK && c < window->head->n_columns; c++)
         ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
     if (st == SS_OK)
         st = look_at(&w->look, window, w->column, w->goal.period, err);
-    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
-        ss_stretch part = ss_stretch_part(progress, (double)(i + 1) / (double)(r->n + 1),
-                                          (double)(i + 2) / (double)(r->n + 1));
-        st = rank_scene(&r->row[i], w, &scene[i], &part, err);
-    }
+    const match_record record = record_of(w, w->column);
     if (st == SS_OK)
-        settle(r, w);
+        st = ss_match_noise(&w->noise, &record, w->goal.period * rate);
+    if (st == SS_OK)
+        st = rank_scenes(r, f, scene, w, progress, err);
     look_away(&w->look);
     free(w->gap);
+    free(f);
     ss_signal_free(window);
     return st;
 }
@@ -485,7 +617,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     r->n = n;
     for (size_t i = 0; i < n; i++)
         r->row[i].scene = i;
-    *w = (work){ .column = column, .quantity = opts->quantity, .spread = opts->spread };
+    *w = (work){ .column = column, .opts = opts };
     const ss_stretch whole = { opts->progress, 0, 1 };
     const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(n + 1));
     char *missing = NULL;
@@ -494,10 +626,11 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
         st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
                            missing, signal->n, signal->head->rate, opts->forcing_frequency,
                            &reading);
-    free(missing);
     r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
+    r->noise = NAN;
     if (st == SS_OK && w->goal.period > 0)
-        st = rank_all(r, signal, scene, w, &whole, err);
+        st = rank_all(r, signal, missing, scene, w, &whole, err);
+    free(missing);
     free(w);
     if (st == SS_OK)
         *out = r;

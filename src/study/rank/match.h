@@ -1,0 +1,53 @@
+/* match.h -- the scene that moves as a record does, sample by sample, from any start. */
+#ifndef MATCH_H
+#define MATCH_H
+
+#include <stddef.h>
+#include <stickslip/status.h>
+#include "base/progress.h"
+#include "study/rank/candidate.h"
+
+/* What is adjusted: the keys of the candidate, then these; all but FREQUENCY ... V0 stand in a
+ * covariance as logarithms, which is where errors are read. */
+enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_SIZE, MATCH_OFFSET,
+       MATCH_UNKNOWNS };
+
+typedef struct match_record {
+    const double *x;            /* n samples */
+    const char *missing;        /* 1 for those left out; NULL: none */
+    size_t n;
+    double rate;                /* [Hz] */
+    double from;                /* time of the first in the record whose cycle was searched [s] */
+} match_record;
+
+typedef struct match {
+    ss_scene scene;             /* its record is the one matched, but for the offset and what is left */
+    double key[CANDIDATE_KEYS];
+    double offset;
+    double left;                /* mean square of what is left of the samples away from events */
+    double left_all;            /* and of all that are not missing */
+    double power;               /* of these about their mean */
+    double white;               /* variance of the white noise that what is left can hold at most */
+    size_t compared;            /* samples away from events */
+    double covariance[MATCH_UNKNOWNS][MATCH_UNKNOWNS];  /* for noise of variance 1; NaN: no fit */
+} match;
+
+/* Adjust the scene of one start of a candidate, its keys within their ranges, to a record.  Where
+ * the scene does not slip, cannot be run, or the candidate's budget is used up, all is left.
+ * SS_STOP if the progress function stops it. */
+ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
+                        const match_record *record, const ss_stretch *progress);
+
+/* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:
+ * no more than what is there. */
+ss_status ss_match_noise(double *variance, const match_record *record, double samples);
+
+/* What a sinusoid of this frequency [Hz] and an offset leave of a record: its mean square. */
+double ss_match_sinusoid(const match_record *record, double frequency);
+
+/* What a match leaves over the noise of this variance, or less if what is left is not white. */
+double ss_match_excess(const match *m, double noise);
+/* 1 if that is no more than noise and what is not known of it. */
+int ss_match_explains(const match *m, double noise);
+
+#endif
