@@ -1,0 +1,215 @@
+/* test_signal_tables.c -- delimited text as recorders write it, and the clock behind its stamps. */
+#include <math.h>
+#include "signal_text.h"
+
+static const struct table_case {
+    const char *what, *text;
+    const char *time;
+    double rate;                                /* of the options */
+    const char *names;                          /* name[unit], ... */
+    double hz, start, last;                     /* last: of the last column and row */
+} table[] = {
+    { "comma", "t,x,y\n0,1,2\n0.1,3,4\n", NULL, 0, "x[] y[]", 10, 0, 4 },
+    { "semicolon, decimal comma, CRLF, mark, units row", "\xef\xbb\xbfZeit;Kraft;Weg\r\ns;kN;mm\r\n"
+      "0,00;1,5;2\r\n0,01;-2,5E-3;7,25\r\n", NULL, 0, "Kraft[kN] Weg[mm]", 100, 0, 7.25 },
+    { "tab, decimal comma", "t\tx\n0,5\t1,5\n0,75\t2,5\n", NULL, 0, "x[]", 4, 0.5, 2.5 },
+    { "tab, decimal point", "Time (s)\tx (m/s^2)\n0\t1\n0.5\t2", NULL, 0, "x[m/s^2]", 2, 0, 2 },
+    { "blanks", "  t   x\n  0   1 \n  1   2 \n", NULL, 0, "x[]", 1, 0, 2 },
+    { "commented names", "# t x\n0 1\n1 2\n", NULL, 0, "x[]", 1, 0, 2 },
+    { "units in brackets", "t [ms],x [m/s],y/N,z/(N s)\n0,1,2,3\n2,1,2,5\n", NULL, 0,
+      "x[m/s] y[N] z[N s]", 500, 0, 5 },
+    { "units row in brackets", "t,x\n[ms],[m/s]\n1,2\n3,4\n", NULL, 0, "x[m/s]", 500, 0.001, 4 },
+    { "units row with an empty cell", "t,mu,a\ns,,m/s\xc2\xb2\n1,2,3\n3,4,5\n", NULL, 0,
+      "mu[] a[m/s\xc2\xb2]", 0.5, 1, 5 },
+    { "words above", "Recorder;ACME\nRate;100\n\nA long line of words\nt;x\n0;1\n0,01;2\n", NULL, 0, "x[]", 100,
+      0, 2 },
+    { "quotes", "\"t\",\"force, \"\"raw\"\" (N)\"\n\"0\",\"1\"\n1,2\n", NULL, 0, "force,_\"raw\"[N]",
+      1, 0, 2 },
+    { "separators at the ends of lines", "t,x,\n0,1,\n1,2,\n", NULL, 0, "x[]", 1, 0, 2 },
+    { "time is not the first", "x,Time (us)\n7,0\n8,10\n", NULL, 0, "x[]", 100000, 0, 8 },
+    { "time by name", "x,t,clock\n7,0,3\n8,1,5\n", "clock", 0, "x[] t[]", 0.5, 3, 1 },
+    { "time by number", "x,t,clock\n7,0,3\n8,1,5\n", "3", 0, "x[] t[]", 0.5, 3, 1 },
+    { "time in its name", "time_ms,x\n0,1\n1,2\n", NULL, 0, "x[]", 1000, 0, 2 },
+    { "time in minutes", "t [min],x\n0,1\n1,2\n", NULL, 0, "x[]", 1. / 60, 0, 2 },
+    { "first column in seconds", "when (s),x\n0.25,1\n0.5,2\n0.75,3\n", NULL, 0, "x[]", 4, 0.25, 3 },
+    { "no names", "0,1\n0.1,2\n", NULL, 0, "ch2[]", 10, 0, 2 },
+    { "a rate given", "x,y\n5,1\n3,2\n4,9\n", NULL, 250, "x[] y[]", 250, 0, 9 },
+    { "a rate given beats stamps", "t,y\n5,1\n3,2\n4,9\n", NULL, 250, "t[] y[]", 250, 0, 9 },
+    { "one column", "Force (N)\n1.5\n\n2.5\n", NULL, 10, "Force[N]", 10, 0, 2.5 },
+    { "comments and empty lines between", "t,x\n0,1\n# hello\n\n1,2\n", NULL, 0, "x[]", 1, 0, 2 },
+    { "LabVIEW", "LabVIEW Measurement\nSeparator\tTab\nMulti_Headings\tNo\n***End_of_Header***\t\n\t\n"
+      "Channels\t2\t\t\nY_Unit_Label\tNewton\tm/s^2\t\nX_Dimension\tTime\tTime\t\n"
+      "X0\t0.0E+0\t0.0E+0\t\nDelta_X\t0.001\t0.001\t\n***End_of_Header***\t\t\t\n"
+      "X_Value\tforce\taccel\tComment\r\n0.000\t1.5\t2.5\r\n0.001\t1.25\t2.25\r\n", NULL, 0,
+      "force[] accel[]", 1000, 0, 2.25 },
+    { "LabVIEW with a row of units", "X_Value\tforce\taccel\tcomment\ns\tN\tm/s^2\tComment\n0\t1\t2\n"
+      "0.5\t3\t4\n", NULL, 0, "force[N] accel[m/s^2]", 2, 0, 4 },
+    { "one empty name more", "t;x;\ns;mm;\n0;1\n0,5;2\n", NULL, 0, "x[mm]", 2, 0, 2 },
+    { "Latin-1", "t/s;Weg/\xb5m;K\xfc" "bel (m/s\xb2)\n0;1;2\n1;2;3\n", NULL, 0,
+      "Weg[\xc2\xb5m] K\xc3\xbc" "bel[m/s\xc2\xb2]", 1, 0, 3 },
+    { "Latin-1 units row", "Zeit;Weg;\xe9t\xe9\ns;\xb5m;m/s\xb2\n0;1;2\n1;2;3\n", NULL, 0,
+      "Weg[\xc2\xb5m] \xc3\xa9t\xc3\xa9[m/s\xc2\xb2]", 1, 0, 3 },
+    { "UTF-8 of two to four bytes", "t,\xc2\xb5\xe2\x82\xac\xf0\x9f\x98\x80\n0,1\n1,2\n", NULL, 0,
+      "\xc2\xb5\xe2\x82\xac\xf0\x9f\x98\x80[]", 1, 0, 2 },
+    { "nearly UTF-8", "t,\xc0\xaf\xed\xa0\x80\n0,1\n1,2\n", NULL, 0,
+      "\xc3\x80\xc2\xaf\xc3\xad\xc2\xa0\xc2\x80[]", 1, 0, 2 },
+    { "the same name twice", "t,x,x\n0,1,2\n1,2,3\n", NULL, 0, "x[] x_2[]", 1, 0, 3 },
+};
+
+static void
+reads_tables_as_recorders_write_them(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const struct table_case *c = &table[i];
+        ss_read_opts opts = { .time = c->time, .rate = c->rate };
+        ss_signal *s = read_text(c->text, &opts);
+        char names[256] = "";
+        for (size_t k = 0; k < s->head->n_columns; k++)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s[%s]", k > 0 ? " " : "",
+                     s->head->column[k].name, s->head->column[k].unit);
+        if (strcmp(names, c->names) != 0)
+            fail_msg("%s: columns %s, not %s", c->what, names, c->names);
+        if (s->head->rate != c->hz || s->head->start != c->start)
+            fail_msg("%s: %.17g Hz from %.17g s", c->what, s->head->rate, s->head->start);
+        if (s->values[s->head->n_columns * s->n - 1] != c->last)
+            fail_msg("%s: last value %.17g", c->what, s->values[s->head->n_columns * s->n - 1]);
+        ss_signal_free(s);
+    }
+}
+
+/* Stamps start + i / rate in the given printf format, each moved by a wobble in sample periods. */
+static ss_status
+read_stamps(double *hz, double rate, double start, size_t n, const char *format, double wobble)
+{
+    FILE *f = tmpfile();
+    ss_signal *s;
+    ss_error err;
+    fputs("t,x\n", f);
+    for (size_t i = 0; i < n; i++) {
+        fprintf(f, format, start + ((double)i + (i % 2 ? wobble : -wobble)) / rate);
+        fputs(",0\n", f);
+    }
+    rewind(f);
+    ss_status st = ss_signal_read(&s, f, "in", NULL, &err);
+    fclose(f);
+    if (st == SS_OK) {
+        *hz = s->head->rate;
+        ss_signal_free(s);
+    }
+    return st;
+}
+
+static void
+finds_the_exact_rate_behind_rounded_stamps(void **state)
+{
+    static const struct { double rate, start; size_t n; const char *format; } row[] = {
+        { 1024, 0, 10241, "%.7g" }, { 1024, 0, 10241, "%.17g" }, { 50000, 91.181303, 10000, "%.6f" },
+        { 2000, 94, 120000, "%.4f" }, { 44100, 0, 50000, "%.6f" }, { 1 / 0.003, 0, 3000, "%.4f" },
+        { 1 / 0.007, 1e6, 3000, "%.3f" }, { 3, 0, 1000, "%.3f" }, { 1e6, 0, 1000, "%.9f" },
+        { 0.001, 0, 100, "%g" }, { 25600, 0, 25600, "%.17g" }, { 1 / 60., 0, 50, "%.1f" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        double hz = 0;
+        assert_int_equal(read_stamps(&hz, row[i].rate, row[i].start, row[i].n, row[i].format, 0), SS_OK);
+        if (hz != row[i].rate)
+            fail_msg("%.17g Hz in %s: %.17g Hz", row[i].rate, row[i].format, hz);
+    }
+}
+
+static void
+allows_stamps_a_tenth_of_a_period_off(void **state)
+{
+    double hz;
+    (void)state;
+    assert_int_equal(read_stamps(&hz, 100, 0, 1000, "%.17g", 0.099), SS_OK);
+    assert_true(fabs(hz - 100) <= 100 * 2 * 0.1 / 999);        /* what the wobble leaves open */
+    assert_int_equal(read_stamps(&hz, 100, 0, 1000, "%.17g", 0.101), SS_EUNEVEN);
+}
+
+static void
+refuses_options_that_a_clock_excludes(void **state)
+{
+    ss_signal *s;
+    ss_error err = { "" };
+    const char *text = HEAD "0\t1\t2\n";
+    (void)state;
+    ss_read_opts rate = { .rate = 20 }, time = { .time = "x" }, same = { .rate = 10 };
+    assert_int_equal(read_bytes(&s, text, strlen(text), &rate, &err), SS_EDATA);
+    assert_int_equal(read_bytes(&s, text, strlen(text), &time, &err), SS_EDATA);
+    ss_signal_free(read_text(text, &same));
+    ss_signal_free(read_text("# stickslip signal 1\n# columns: x\n1\n", &same));
+}
+
+/* Copied from the README beside the recordings. */
+static void
+reads_the_measured_recordings(void **state)
+{
+    static const struct { const char *name; double rate, start; size_t n, columns; } row[] = {
+        { "band_friction_damper_1hz_20lb.csv", 1024, 0, 10241, 3 },
+        { "paper_friction_k168_v42.csv", 2000, 94, 120000, 1 },
+        { "paper_friction_k168_v4300.csv", 2000, 0.9395, 7521, 1 },
+        { "rock_labquake_fb03-087_event043.csv", 50000, 91.181303, 10000, 2 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char path[128];
+        ss_signal *s;
+        ss_error err = { "" };
+        snprintf(path, sizeof path, "../shared/data/measured/%s", row[i].name);
+        FILE *f = fopen(path, "r");
+        if (f == NULL) {
+            print_message("skipped: no ../shared/data/measured\n");
+            skip();
+        }
+        if (ss_signal_read(&s, f, path, NULL, &err) != SS_OK)
+            fail_msg("%s", err.text);
+        assert_true(s->head->rate == row[i].rate && s->head->start == row[i].start);
+        assert_true(s->n == row[i].n && s->head->n_columns == row[i].columns);
+        ss_signal_free(s);
+        fclose(f);
+    }
+}
+
+static void
+interpolates_uneven_stamps_to_a_uniform_clock(void **state)
+{
+    (void)state;
+    /* Stamps i + 0.4 sin(i) periods; natural ends spoil a few steps there (by a factor 0.27 a step).
+     * Error of a cubic spline: 5/384 h^4 of x's fourth derivative, for the widest step, here of under 1.8 periods. */
+    enum { N = 2000 };
+    const double rate = 1000, w = 2 * M_PI * 20, h = 1.8 / rate, bound = 5. / 384 * pow(h * w, 4);
+    const ss_read_opts opts = { .resample = 800 };
+    FILE *f = tmpfile();
+    ss_signal *s;
+    fputs("t,x\n", f);
+    for (int i = 0; i < N; i++) {
+        double t = (i + 0.4 * sin(i)) / rate;
+        fprintf(f, "%.17g,%.17g\n", t, sin(w * t));
+    }
+    rewind(f);
+    assert_int_equal(ss_signal_read(&s, f, "in", &opts, NULL), SS_OK);
+    fclose(f);
+    assert_true(s->head->rate == 800 && s->head->start == 0);
+    assert_int_equal(s->n, 1600);
+    for (size_t i = 20; i < s->n - 20; i++)
+        if (!(fabs(s->values[i] - sin(w * (double)i / 800)) <= bound))
+            fail_msg("sample %zu is off by %g", i, s->values[i] - sin(w * (double)i / 800));
+    assert_null(ss_header_find_note(s->head, "gaps"));
+    ss_signal_free(s);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reads_tables_as_recorders_write_them),
+        cmocka_unit_test(finds_the_exact_rate_behind_rounded_stamps),
+        cmocka_unit_test(allows_stamps_a_tenth_of_a_period_off),
+        cmocka_unit_test(refuses_options_that_a_clock_excludes),
+        cmocka_unit_test(reads_the_measured_recordings),
+        cmocka_unit_test(interpolates_uneven_stamps_to_a_uniform_clock),
+    };
+    return cmocka_run_group_tests_name("signal tables", tests, NULL, NULL);
+}

@@ -1,0 +1,381 @@
+/* test_store_hostile.c -- a damaged or hostile file is refused, or does no harm. */
+#include "store_file.h"
+
+/* Every prefix of a file must be refused or read, never crash. */
+static void
+a_truncated_file_is_refused(void **state)
+{
+    ss_signal *signal = new_signal(100);
+    ss_coefficients *c = transform(signal, 0);
+    size_t size;
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+    char *bytes = read_bytes(&size);
+    for (size_t cut = 0; cut < size; cut += 997) {
+        ss_coefficients *back = NULL;
+        ss_error err = { "" };
+        assert_int_equal(truncate(path, (off_t)(size - 1 - cut)), 0);
+        assert_int_not_equal(ss_store_read_coefficients(&back, path, &err), SS_OK);
+        assert_null(back);
+        assert_non_null(strstr(err.text, path));
+    }
+    free(bytes);
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+/* Each bit in turn of every 61st byte is another; HDF5 keeps checksums of some parts only. */
+static void
+flipped_bits_are_refused_or_harmless(void **state)
+{
+    ss_signal *signal = new_signal(50);
+    ss_coefficients *c = transform(signal, 0);
+    unsigned char bytes[100000];
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal, .coefficients = c });
+    FILE *out = fopen(path, "rb+");
+    size_t size = fread(bytes, 1, sizeof bytes, out);
+    assert_true(feof(out));
+    fclose(out);
+    for (size_t i = 0; i < size; i += 61) {
+        ss_signal *read = NULL;
+        ss_coefficients *back = NULL;
+        ss_error err = { "" };
+        bytes[i] ^= (unsigned char)(1u << i / 61 % 8);
+        out = fopen(path, "wb");
+        assert_int_equal(fwrite(bytes, 1, size, out), size);
+        fclose(out);
+        if (ss_store_read_signal(&read, path, NULL, NULL, &err) != SS_OK)
+            assert_true(read == NULL && err.text[0] != '\0');
+        if (ss_store_read_coefficients(&back, path, &err) != SS_OK)
+            assert_true(back == NULL && err.text[0] != '\0');
+        /* what HDF5 says at exit, "infinite loop closing library", is of memory of its own */
+        assert_int_equal(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+        ss_signal_free(read);
+        ss_coefficients_free(back);
+        bytes[i] ^= (unsigned char)(1u << i / 61 % 8);
+    }
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+/* What LeakSanitizer asks for: HDF5 keeps memory of its own after a damaged file ("infinite loop closing
+ * library").  That nothing of ours is left open in it is tested above. */
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
+const char *
+__lsan_default_suppressions(void)
+{
+    return "leak:libhdf5";
+}
+
+/* A one-dimensional dataset of n values. */
+static void
+put_array(hid_t file, const char *name, hid_t type, hsize_t n, hid_t how)
+{
+    const hsize_t most = how != H5P_DEFAULT && H5Pget_layout(how) == H5D_CHUNKED ? H5S_UNLIMITED : n;
+    hid_t space = H5Screate_simple(1, &n, &most);
+    hid_t id = H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(id >= 0);
+    H5Dclose(id);
+    H5Sclose(space);
+}
+
+/* A file that leads to another, which is there, or claims what it does not hold. */
+static void
+write_hostile(const char *other)
+{
+    hsize_t chunk = 1000, huge_chunk = (hsize_t)1 << 28, n = 6;
+    hid_t space = H5Screate_simple(1, &n, NULL), wide = H5Tcopy(H5T_STD_I32LE);
+    hid_t how = H5Pcreate(H5P_DATASET_CREATE), raw = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t virtual = H5Pcreate(H5P_DATASET_CREATE), large = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(other, "/line", file, "external", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(other, "/", file, "signal", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(other, "/", file, "wavelet", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_soft("/loop", file, "loop", H5P_DEFAULT, H5P_DEFAULT);
+    H5Pset_external(raw, other, 0, 6);
+    H5Pset_virtual(virtual, space, other, "/line", space);
+    H5Pset_chunk(how, 1, &chunk);
+    H5Pset_chunk(large, 1, &huge_chunk);
+    H5Tset_size(wide, 64);
+    H5Tset_precision(wide, 512);                /* all of it: HDF5 1.14.5 makes no others */
+    put_array(file, "raw", H5T_STD_I8LE, 6, raw);
+    put_array(file, "virtual", H5T_STD_I16BE, 6, virtual);
+    put_array(file, "claims", H5T_IEEE_F64LE, 900000000, how);
+    put_array(file, "chunk", H5T_IEEE_F64LE, 6, large);
+    put_array(file, "wide", wide, 6, H5P_DEFAULT);
+    H5Fclose(file);
+    H5Pclose(how);
+    H5Pclose(raw);
+    H5Pclose(virtual);
+    H5Pclose(large);
+    H5Tclose(wide);
+    H5Sclose(space);
+}
+
+static void
+nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
+{
+    static const struct { const char *dataset, *words; } row[] = {
+        { "", ":/signal: not a group of this file" },
+        { "/external", ":/external: no such dataset" },
+        { "/loop", ":/loop: no such dataset" },
+        { "/raw", ":/raw: its values lie outside this file" },
+        { "/virtual", ":/virtual: its values lie outside this file" },
+        { "/claims", ":/claims: claims more values than a file of this size can hold" },
+        { "/chunk", ":/chunk: claims more values than a file of this size can hold" },
+        { "/wide", ":/wide: does not hold real numbers" },
+    };
+    static const ss_read_opts opts = { .rate = 1 };
+    char other[80];
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    (void)state;
+    write_foreign(0);
+    snprintf(other, sizeof other, "%s.other", path);
+    assert_int_equal(rename(path, other), 0);
+    write_hostile(other);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_signal *signal = NULL;
+        assert_int_equal(ss_store_read_signal(&signal, path, row[i].dataset, &opts, &err), SS_EDATA);
+        assert_null(signal);
+        assert_string_equal(err.text + strlen(path), row[i].words);
+    }
+    assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EDATA);
+    assert_string_equal(err.text + strlen(path), ":/wavelet: not a group of this file");
+    unlink(other);
+}
+
+/* A /signal of n values at 1 kHz, with a column t of no storage, tracked in the order of writing but
+ * without an index of it. */
+static hid_t
+open_signal_without_values(hid_t file, hsize_t n)
+{
+    const double one = 1;
+    static const char *const name[] = { "rate", "start", "has_time" };
+    hid_t how = H5Pcreate(H5P_GROUP_CREATE), scalar = H5Screate(H5S_SCALAR);
+    H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED);
+    hid_t group = H5Gcreate2(file, "signal", H5P_DEFAULT, how, H5P_DEFAULT);
+    for (size_t i = 0; i < 3; i++) {
+        hid_t id = H5Acreate2(group, name[i], H5T_NATIVE_DOUBLE, scalar, H5P_DEFAULT, H5P_DEFAULT);
+        H5Awrite(id, H5T_NATIVE_DOUBLE, &one);
+        H5Aclose(id);
+    }
+    hid_t space = H5Screate_simple(1, &n, NULL);
+    hid_t id = H5Dcreate2(group, "t", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dclose(id);
+    H5Sclose(space);
+    H5Sclose(scalar);
+    H5Pclose(how);
+    return group;
+}
+
+static void
+hard_links_do_not_multiply_what_a_file_may_claim(void **state)
+{
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    char name[32];
+    struct stat st;
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t group = open_signal_without_values(file, 1 << 24);
+    for (int i = 0; i < 12; i++) {
+        snprintf(name, sizeof name, "x%d", i);
+        H5Lcreate_hard(group, "t", group, name, H5P_DEFAULT, H5P_DEFAULT);
+    }
+    H5Gclose(group);
+    H5Fclose(file);
+    assert_int_equal(stat(path, &st), 0);
+    assert_true(st.st_size < 10000);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_null(signal);
+    assert_string_equal(err.text + strlen(path), ":/signal/x1: with those before, claims more values "
+                        "than a file of this size can hold");
+}
+
+/* In the order of writing, in a time that grows as their number does: one by one it were minutes. */
+static void
+many_columns_without_an_index_are_listed_at_once(void **state)
+{
+    enum { COLUMNS = 20000 };
+    ss_signal *signal = NULL;
+    char name[32];
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t group = open_signal_without_values(file, 3);
+    for (int i = COLUMNS; i > 0; i--) {
+        snprintf(name, sizeof name, "x%d", i);
+        H5Lcreate_hard(group, "t", group, name, H5P_DEFAULT, H5P_DEFAULT);
+    }
+    H5Gclose(group);
+    H5Fclose(file);
+    alarm(60);                          /* 4 s; with sanitizers more */
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, NULL), SS_OK);
+    alarm(0);
+    assert_int_equal(signal->head->n_columns, COLUMNS);
+    assert_string_equal(signal->head->column[0].name, "x20000");
+    assert_string_equal(signal->head->column[COLUMNS - 1].name, "x1");
+    ss_signal_free(signal);
+}
+
+/* HDF5 opens the sources of a virtual dataset when it is asked for an extent without limit: a FIFO
+ * that no one writes to would hold it for ever. */
+static void
+the_sources_of_a_virtual_dataset_are_not_opened(void **state)
+{
+    const hsize_t none = 0, one = 1, all = H5S_UNLIMITED;
+    static const ss_read_opts opts = { .rate = 1 };
+    char fifo[80];
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    (void)state;
+    snprintf(fifo, sizeof fifo, "%s.fifo", path);
+    assert_int_equal(mkfifo(fifo, 0600), 0);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &one, &all), how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, &none, NULL, &all, &one);
+    H5Pset_virtual(how, space, fifo, "/x", space);
+    H5Dclose(H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT));
+    H5Pclose(how);
+    H5Sclose(space);
+    H5Fclose(file);
+    alarm(20);
+    for (int named = 0; named < 2; named++)
+        assert_int_equal(ss_store_read_signal(&signal, path, named ? "/x" : NULL, &opts, &err), SS_EDATA);
+    alarm(0);
+    assert_string_equal(err.text + strlen(path), ":/x: its values lie outside this file");
+    unlink(fifo);
+}
+
+/* A dataset of one chunk of zeros through these filters; 0 ends them. */
+static void
+write_filtered(const H5Z_filter_t filter[])
+{
+    static const double zeros[1000];
+    const hsize_t n = 1000;
+    const unsigned level = 9;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &n, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(how, 1, &n);
+    for (int i = 0; filter[i] != 0; i++)
+        assert_true(H5Pset_filter(how, filter[i], H5Z_FLAG_OPTIONAL, filter[i] < 256, &level) >= 0);
+    hid_t id = H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros) >= 0);
+    H5Dclose(id);
+    H5Pclose(how);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+static void
+only_filters_that_bound_what_they_make_are_run(void **state)
+{
+    static const ss_read_opts opts = { .rate = 1 };
+    static const H5Z_filter_t plain[] = { H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32, 0 },
+        twice[] = { H5Z_FILTER_DEFLATE, H5Z_FILTER_DEFLATE, 0 }, other[] = { 32001, 0 };
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    unsigned before, after;
+    (void)state;
+    H5PLget_loading_state(&before);
+    write_filtered(plain);
+    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_OK);
+    ss_signal_free(signal);
+    for (int i = 0; i < 2; i++) {
+        H5E_BEGIN_TRY {
+            write_filtered(i == 0 ? twice : other);
+        } H5E_END_TRY
+        assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+        assert_string_equal(err.text + strlen(path), ":/x: is packed otherwise than by deflate, once; "
+                            "h5repack -f GZIP=1 makes it so");
+    }
+    H5PLget_loading_state(&after);
+    assert_int_equal(after, before);
+}
+
+/* Put a 1-D dataset of n zeros in the place of one. */
+static void
+put_zeros(const char *dataset, hsize_t n)
+{
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate_simple(1, &n, NULL);
+    H5Ldelete(file, dataset, H5P_DEFAULT);
+    hid_t id = H5Dcreate2(file, dataset, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(id >= 0);
+    H5Dclose(id);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+static void
+assert_refused(const char *words)
+{
+    ss_coefficients *c = NULL;
+    ss_error err = { "" };
+    assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EDATA);
+    assert_null(c);
+    if (strstr(err.text, words) == NULL)
+        fail_msg("'%s' does not say '%s'", err.text, words);
+}
+
+static void
+a_grid_that_is_not_one_is_refused(void **state)
+{
+    static const struct { const char *object, *name; double value; const char *words; } row[] = {
+        { "/wavelet", "scales", 0, ":/wavelet: attribute 'scales' is missing or out of range" },
+        { "/wavelet", "samples", 0, "attribute 'samples'" },
+        { "/wavelet", "samples", 400, ":/wavelet/scale000: the translations are not those" },
+        { "/wavelet", "rate", 0, "attribute 'rate'" },
+        { "/wavelet", "rate", -1, "attribute 'rate'" },
+        { "/wavelet", "rate", NAN, "attribute 'rate'" },
+        { "/wavelet", "rate", INFINITY, "attribute 'rate'" },
+        { "/wavelet", "rate", 1e200, "attribute 'rate'" },
+        { "/wavelet", "center", 7, "do not agree" },
+        { "/wavelet/scale001", "frequency", 1, ":/wavelet/scale001: scale, m and frequency do not" },
+        { "/wavelet/scale001", "scale", INFINITY, "attribute 'scale'" },
+        { "/wavelet/scale001", "m", 3, "do not agree" },
+        { "/wavelet/scale001", "b_num", 1e-9, "the translations are not those" },
+        { "/wavelet/scale001", "b_den", 1e9, "the translations are not those" },
+        { "/wavelet/scale001", "b_den", NAN, "attribute 'b_den'" },
+    };
+    ss_signal *signal = new_signal(500);
+    ss_coefficients *c = transform(signal, 0);
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        write_ok(&(ss_record){ .coefficients = c });
+        put_attribute(row[i].object, row[i].name, row[i].value);
+        assert_refused(row[i].words);
+    }
+    write_ok(&(ss_record){ .coefficients = c });
+    put_zeros("/wavelet/scale001/re", 0);
+    put_zeros("/wavelet/scale001/im", 0);
+    assert_refused(":/wavelet/scale001: the translations are not those");
+    ss_scale first = c->scale[0];
+    c->scale[0] = c->scale[1];                          /* the same scale twice */
+    write_ok(&(ss_record){ .coefficients = c });
+    assert_refused("the scales do not descend");
+    c->scale[0] = first;
+    ss_coefficients_free(c);
+    c = transform(signal, 1);
+    write_ok(&(ss_record){ .coefficients = c });
+    put_attribute("/wavelet", "b_num", 2);
+    assert_refused("the translations are not those");
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_truncated_file_is_refused),
+        cmocka_unit_test(flipped_bits_are_refused_or_harmless),
+        cmocka_unit_test(nothing_leads_out_of_a_file_or_claims_more_than_it_holds),
+        cmocka_unit_test(hard_links_do_not_multiply_what_a_file_may_claim),
+        cmocka_unit_test(many_columns_without_an_index_are_listed_at_once),
+        cmocka_unit_test(the_sources_of_a_virtual_dataset_are_not_opened),
+        cmocka_unit_test(only_filters_that_bound_what_they_make_are_run),
+        cmocka_unit_test(a_grid_that_is_not_one_is_refused),
+    };
+    return cmocka_run_group_tests_name("store hostile", tests, make_dir, remove_dir);
+}
