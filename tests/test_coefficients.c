@@ -123,7 +123,7 @@ static const struct damage {
     { "# stickslip coefficients 1", "# stickslip signal 1", "c.tsv: a signal, not wavelet coefficients" },
     { "# stickslip coefficients 1", "t,x,a", "c.tsv:1: not wavelet coefficients" },
     { "# rate: 2000", "# rate: fast", "rate 'fast' is not a number" },
-    { "# rate: 2000", "# rate: -1", "rate -1 Hz is out of range" },
+    { "# rate: 2000", "# rate: -1", "rate [Hz] -1 is out of range" },
     { "# samples: 300\n", "# a:b: c\n", "c.tsv:3: 'a:b' cannot be the key of a note" },
     { "# samples: 300\n", "# : x\n", "c.tsv:3: '' cannot be the key of a note" },
     { "# stickslip coefficients 1", "\211HDF\r", "c.tsv: HDF5 cannot be read from a stream" },

@@ -172,8 +172,8 @@ static const struct refusal {
     { "center 1", CONSTANT, 400, 1, 0, 2000, 1, "center 1 is out of range 2 ... 1000" },
     { "center 1001", CONSTANT, 400, 1, 0, 2000, 1001, "center 1001 is out of range 2 ... 1000" },
     { "center 1000 on a short record", CONSTANT, 400, 1, 0, 2000, 1000, "too short for any scale" },
-    { "no rate", CONSTANT, 400, 1, 0, 0, 6, "rate 0 Hz is out of range" },
-    { "a rate beyond all", CONSTANT, 400, 1, 0, 1e101, 6, "rate 1e+101 Hz is out of range" },
+    { "no rate", CONSTANT, 400, 1, 0, 0, 6, "rate [Hz] 0 is out of range" },
+    { "a rate beyond all", CONSTANT, 400, 1, 0, 1e101, 6, "rate [Hz] 1e+101 is out of range" },
 };
 
 static void

@@ -242,6 +242,12 @@ tool_number(const char *option, const char *text, double lo, double hi)
     return x;
 }
 
+double
+tool_number_in(const char *option, const char *text, ss_range range)
+{
+    return tool_number(option, text, range.from, range.to);
+}
+
 long
 tool_integer(const char *option, const char *text, long lo, long hi)
 {

@@ -33,6 +33,7 @@ extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 
 /* Values of options; wrong ones are wrong usage. */
 double tool_number(const char *option, const char *text, double lo, double hi);
+double tool_number_in(const char *option, const char *text, ss_range range);
 long tool_integer(const char *option, const char *text, long lo, long hi);
 /* Two numbers "A:B", lo <= A <= B <= hi; form is what the message says is wanted. */
 void tool_pair(const char *option, const char *text, const char *form, double lo, double hi,

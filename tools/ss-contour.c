@@ -158,8 +158,8 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-contour", usage);
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
-        case OPT_LEVELS: d.opts.levels = (int)tool_integer("--levels", optarg, 1, 100); break;
-        case OPT_SPAN: d.opts.span = tool_number("--span", optarg, 0.001, 1000); break;
+        case OPT_LEVELS: d.opts.levels = (int)tool_integer("--levels", optarg, 1, (long)ss_contour_levels.to); break;
+        case OPT_SPAN: d.opts.span = tool_number_in("--span", optarg, ss_contour_spans); break;
         case OPT_SIGNAL: signal_path = optarg; break;
         case 'c': column = optarg; break;
         case OPT_EVENTS: events = optarg; break;

@@ -84,7 +84,8 @@ static void
 parse_octaves(ss_morlet_opts *opts, const char *text)
 {
     double m[2];
-    tool_pair("--octaves", text, "M0:M1", -500, 500, m);
+    tool_pair("--octaves", text, "M0:M1", ss_morlet_ranges.octave.from,
+              ss_morlet_ranges.octave.to, m);
     opts->octaves = 1;
     opts->m0 = m[0];
     opts->m1 = m[1];
@@ -93,22 +94,23 @@ parse_octaves(ss_morlet_opts *opts, const char *text)
 static void
 set_option(request *req, int c)
 {
+    const struct ss_morlet_ranges *in = &ss_morlet_ranges;
     ss_morlet_opts *opts = &req->opts;
     req->grid |= c == OPT_VOICES || c == OPT_STEP || c == OPT_DENSE;
     req->accurate |= c == OPT_ACCURACY;
     req->transforms |= c >= OPT_COLUMN && c != OPT_ACCURACY && c != OPT_INVERSE;
     switch (c) {
     case OPT_COLUMN:     req->column = optarg; break;
-    case OPT_CENTER:     opts->center = tool_number("--center", optarg, 2, 1000); break;
-    case OPT_VOICES:     opts->voices = (int)tool_integer("--voices", optarg, 1, 1024); break;
-    case OPT_STEP:       opts->step = tool_number("--step", optarg, 1e-6, 1e6); break;
+    case OPT_CENTER:     opts->center = tool_number_in("--center", optarg, in->center); break;
+    case OPT_VOICES:     opts->voices = (int)tool_integer("--voices", optarg, 1, (long)in->voices.to); break;
+    case OPT_STEP:       opts->step = tool_number_in("--step", optarg, in->step); break;
     case OPT_DENSE:      opts->dense = 1; break;
     case OPT_DYADIC:     req->dyadic = 1; break;
-    case OPT_FMIN:       opts->fmin = tool_number("--fmin", optarg, 1e-100, 1e100); break;
-    case OPT_FMAX:       opts->fmax = tool_number("--fmax", optarg, 1e-100, 1e100); break;
+    case OPT_FMIN:       opts->fmin = tool_number_in("--fmin", optarg, in->frequency); break;
+    case OPT_FMAX:       opts->fmax = tool_number_in("--fmax", optarg, in->frequency); break;
     case OPT_OCTAVES:    parse_octaves(opts, optarg); break;
     case OPT_METHOD:     opts->engine = (ss_engine)tool_choice("--method", optarg, methods); break;
-    case OPT_ACCURACY:   opts->accuracy = tool_number("--accuracy", optarg, 1e-13, 0.1); break;
+    case OPT_ACCURACY:   opts->accuracy = tool_number_in("--accuracy", optarg, in->accuracy); break;
     case OPT_NORM:       opts->norm = (ss_norm)tool_choice("--norm", optarg, norms); break;
     case OPT_ADMISSIBLE: opts->admissible = 1; break;
     case OPT_DETREND:    opts->detrend = (ss_detrend)tool_choice("--detrend", optarg, detrends);

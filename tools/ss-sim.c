@@ -212,8 +212,8 @@ parse(request *req, int argc, char *argv[])
             break;
         case 'e': req->events = 1; break;
         case 'm': opts->method = tool_method(optarg); break;
-        case 't': opts->tol = tool_number("--tol", optarg, 1e-14, 1e-1); break;
-        case 'a': req->accuracy = tool_number("--accuracy", optarg, 1e-12, 1e-3); break;
+        case 't': opts->tol = tool_number_in("--tol", optarg, ss_sim_tolerances); break;
+        case 'a': req->accuracy = tool_number_in("--accuracy", optarg, ss_trade_accuracies); break;
         case OPT_MAX_STEPS:
             opts->max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, LONG_MAX);
             break;

@@ -142,7 +142,7 @@ parse(request *req, int argc, char *argv[])
         case 'm': pick_measures(req, optarg); break;
         case 's': req->settings[req->n_settings++] = optarg; break;
         case OPT_SHOOT: steady->shoot = 1; break;
-        case 't': steady->tol = tool_number("--tol", optarg, 1e-13, 1e-1); break;
+        case 't': steady->tol = tool_number_in("--tol", optarg, ss_steady_tolerances); break;
         case OPT_PERIOD:
             steady->max_period = (int)tool_integer("--max-period", optarg, 1, SS_PERIOD_MAX);
             break;

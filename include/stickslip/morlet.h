@@ -41,15 +41,15 @@ typedef enum ss_engine {
 typedef enum ss_planner { SS_PLANNER_ESTIMATE, SS_PLANNER_MEASURE, SS_PLANNER_PATIENT } ss_planner;
 
 typedef struct ss_morlet_opts {
-    double center;              /* omega_c  2 ... 1000 */
-    int voices;                 /* V, scales an octave  1 ... 1024 */
-    double step;                /* B_0, translation step in units of the scale  > 0; unused if dense */
+    double center;              /* omega_c */
+    int voices;                 /* V, scales an octave */
+    double step;                /* B_0, translation step in units of the scale; unused if dense */
     int dense;                  /* 1: one coefficient a sample at every scale */
     double fmin, fmax;          /* [Hz] scales labelled fmin to fmax; 0: the default, see below */
     int octaves;                /* 1: scales from 2^m0 to 2^m1 s instead */
-    double m0, m1;              /* -500 <= m0 <= m1 <= 500 */
+    double m0, m1;              /* m0 <= m1 */
     ss_engine engine;
-    double accuracy;            /* TOL  1e-13 ... 1e-1: the error of the sum is at most TOL x (largest
+    double accuracy;            /* TOL: the error of the sum is at most TOL x (largest
                                    |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x|, with the
                                    1/a norm 16 DBL_EPSILON max|x|; or the least step of a double,
                                    where that is more */
@@ -61,6 +61,11 @@ typedef struct ss_morlet_opts {
     ss_planner planner;
     ss_progress progress;       /* called after every scale of a whole record, by one thread at a time */
 } ss_morlet_opts;
+extern const struct ss_morlet_ranges {
+    ss_range rate;              /* [Hz] of the samples */
+    ss_range center, voices, step, frequency, octave, accuracy;
+    ss_range inverse_accuracy;  /* tol of ss_morlet_inverse */
+} ss_morlet_ranges;
 /* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6.  By default fmin is 4 cycles a record (or
  * the lowest usable frequency, if that is higher), fmax the highest usable one. */
 extern const ss_morlet_opts ss_morlet_defaults;

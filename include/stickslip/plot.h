@@ -37,8 +37,8 @@ ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
 typedef struct ss_contour_opts {
-    int levels;                 /* contour lines  1 ... 100 */
-    double span;                /* [dB] that they span below the largest |W|  > 0 */
+    int levels;                 /* contour lines */
+    double span;                /* [dB] that they span below the largest |W| */
     const ss_signal *signal;    /* for panel (a), or NULL */
     size_t column;              /* of that signal */
     const double *event;        /* [s] on the source's clock, marked by vertical lines, or NULL */
@@ -48,6 +48,8 @@ typedef struct ss_contour_opts {
     void *source_user;          /* handed to it */
     ss_progress progress;       /* called after every scale */
 } ss_contour_opts;
+extern const ss_range ss_contour_levels;
+extern const ss_range ss_contour_spans;         /* [dB] */
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
 
 /* Contours of L = 20 log10(|W| / max|W| where edge = 0) at -k span/levels, k = 1 ... levels. */

@@ -81,7 +81,8 @@ typedef struct ss_ranking {
  * the spread to the signal's mean cycle and then to the samples of some cycles, run with white noise
  * of the signal's own level and its gaps, and compared; what lies within the reach of a gap is left
  * out of both, as ss_features_find does.  Noise is what is neither slow nor repeated, see ss-rank(1).
- * That none fits or nothing can be decided is an answer: SS_OK.  opts may be NULL. To be freed with ss_ranking_free. */
+ * That none fits or nothing can be decided is an answer: SS_OK.  SS_EBUDGET for a scene that takes more
+ * than 2e7 integration steps to be adjusted.  opts may be NULL. To be freed with ss_ranking_free. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
@@ -113,7 +114,7 @@ typedef struct ss_fit {
  * Errors are those of white noise of the residual's size.  It is conclusive if what is left is no more
  * than noise, no other scene leaves as little, and its sticks last long enough.  That it is not is an
  * answer: SS_OK.  opts may be NULL; its spread and other columns are not used.  SS_EINVAL for another
- * model. */
+ * model, SS_EBUDGET where the scenes to be tried take more than 1e8 integration steps. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 

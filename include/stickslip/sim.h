@@ -25,6 +25,7 @@ typedef struct ss_sim_opts {
     void *user;                 /* handed to both, either of which may be NULL */
     ss_progress progress;       /* called every few hundred steps or samples */
 } ss_sim_opts;
+extern const ss_range ss_sim_tolerances;        /* of tol */
 extern const ss_sim_opts ss_sim_defaults;       /* the scene's method at 1e-12, no sinks */
 
 typedef struct ss_sim_stats {   /* what a run cost, from the start of settling */

@@ -50,6 +50,11 @@ typedef struct ss_error {
 
 enum { SS_THREADS_MAX = 256 };  /* that one call may be given */
 
+/* The values that an option may have, both ends included. */
+typedef struct ss_range {
+    double from, to;
+} ss_range;
+
 /* A function that long work calls with how far it is, from 0 to 1; a non-zero return ends the work
  * with SS_STOP.  { NULL, NULL }: there is none. */
 typedef struct ss_progress {

@@ -39,7 +39,7 @@ const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a numb
 
 typedef struct ss_steady_opts {
     unsigned measures;          /* wanted: a set of 1u << ss_measure */
-    double tol;                 /* 1e-13 ... 1e-1: see ss_steady_find */
+    double tol;                 /* see ss_steady_find */
     int max_period;             /* sub-harmonics looked for, 1 ... SS_PERIOD_MAX cycles */
     unsigned long max_cycles;   /* > 0: then it is called aperiodic */
     unsigned long settle;       /* > 0: simulate so many cycles instead of looking for the end */
@@ -50,6 +50,7 @@ typedef struct ss_steady_opts {
                                    each of them */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64 };
+extern const ss_range ss_steady_tolerances;     /* of tol */
 extern const ss_steady_opts ss_steady_defaults; /* 1e-9, 8, 10000, 0, simulation, 10^7 steps */
 
 typedef struct ss_steady {

@@ -42,6 +42,7 @@ typedef struct ss_trade_opts {
     double target;              /* > 0: give up rows slower than twice the fastest that reaches it */
     ss_progress progress;
 } ss_trade_opts;
+extern const ss_range ss_trade_accuracies;          /* that ss_trade_choose can keep */
 extern const ss_trade_opts ss_trade_defaults;       /* 10 s, no target */
 
 /* Run the scene with every method at tolerances 1e-2, 1e-3, ... 1e-13, here and now.  A record of
@@ -70,7 +71,7 @@ ss_status ss_trade_write(const ss_trade *trade, const char *name, FILE *out, ss_
  * NULL if there is none. */
 const ss_trade_row *ss_trade_cheapest(const ss_trade *trade, double accuracy);
 
-/* Fill in opts->tol so that the worst error of x in the record is at most accuracy, 1e-12 ... 1e-3,
+/* Fill in opts->tol so that the worst error of x in the record is at most accuracy, within ss_trade_accuracies,
  * times max|x|, by opts->method or, if that is NULL, by the cheapest.
  *
  * The scene is run against the reference of ss_trade, with at most 20000 samples in memory, from

@@ -1,4 +1,4 @@
-/* kind.c -- what a file is that is none of those wanted, by its first bytes. */
+/* kind.c -- the kind of a file that was not expected, by its first bytes. */
 #include <string.h>
 #include "base/error.h"
 
@@ -9,7 +9,7 @@
 
 static const struct kind {
     const char *magic, *what;
-    const char *remedy;         /* by other programs; may be NULL */
+    const char *remedy;         /* with other programs; may be NULL */
 } kinds[] = {
     { "# stickslip signal ", "a signal", NULL },
     { "# stickslip coefficients ", "wavelet coefficients", NULL },
@@ -35,7 +35,7 @@ static const struct kind {
     { "CDF\001", NETCDF }, { "CDF\002", NETCDF },
 };
 
-/* A scene mostly begins with its model, below comments. */
+/* Most scenes begin with their model, after comments. */
 static int
 is_scene(const char *p, const char *end)
 {
@@ -53,7 +53,7 @@ is_scene(const char *p, const char *end)
     return p < end && *p == '=';
 }
 
-/* No scene has a line that separates columns before any "=" and comment. */
+/* No line of a scene has a separator of columns before its "=" or comment. */
 static int
 is_table(const char *p, const char *end)
 {

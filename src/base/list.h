@@ -1,4 +1,4 @@
-/* list.h -- room in a list that grows, and places in one that is in order of time. */
+/* list.h -- a list that grows, and search in a list in order of time. */
 #ifndef LIST_H
 #define LIST_H
 
@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* The list, moved if need be, with room for need entries of size bytes each: it grows to twice that.
- * NULL: no memory; the list is as it was. */
+/* The list, possibly moved, with room for need entries of size bytes each: it grows to twice that.
+ * NULL: no memory; the list is unchanged. */
 static inline void *
 ss_list_grow(void *list, size_t *room, size_t need, size_t size)
 {
@@ -20,7 +20,7 @@ ss_list_grow(void *list, size_t *room, size_t need, size_t size)
     return longer;
 }
 
-/* The same with room for one more behind the n that there are. */
+/* The same with room for one entry after the first n. */
 static inline void *
 ss_list_room(void *list, size_t *room, size_t n, size_t size)
 {

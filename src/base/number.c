@@ -2,9 +2,9 @@
  *
  * Both ways multiply a 64-bit integer by a power of ten kept to 128 bits, which is enough to
  * decide the rounding: writing always (Giulietti, "The Schubfach way to render doubles", 2020),
- * reading but for a few inputs in 2^60 (Clinger 1990; Lemire, "Number parsing at a gigabyte per
+ * reading except for a few inputs in 2^60 (Clinger 1990; Lemire, "Number parsing at a gigabyte per
  * second", 2021).  Those, the subnormal and the overflowing ones are left to strtod.  Both ways
- * are exact: no error is made but the one rounding that reading cannot avoid. */
+ * are exact: the only error is the one rounding that reading cannot avoid. */
 #include <float.h>
 #include <locale.h>
 #include <math.h>
@@ -88,8 +88,8 @@ shortest(uint64_t c, int q, int irregular, int *exponent)
     return s + (v > 4 * s + 2 || (v == 4 * s + 2 && (s & 1)));
 }
 
-/* The n digits of d without its zeros at the end, which go into the exponent; they end at the end
- * of digit. */
+/* The n digits of d without trailing zeros, which the exponent counts; they end at the end of
+ * digit. */
 static const char *
 digits_of(uint64_t d, char digit[20], int *n, int *exponent)
 {
@@ -117,7 +117,7 @@ append(char *to, const char *from, int n)
     return to + n;
 }
 
-/* As %.17g lays them out: n digits 0.ddd x 10^point. */
+/* In the layout of %.17g: n digits 0.ddd x 10^point. */
 static char *
 lay_out(char *p, const char *digit, int n, int point)
 {

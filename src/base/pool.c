@@ -1,6 +1,6 @@
-/* pool.c -- threads that are made for one piece of work and joined at its end.
+/* pool.c -- threads that are made for one task and joined at its end.
  *
- * A thread costs some 10 us, and no piece of work here is shorter than some 100: keeping threads
+ * A thread costs some 10 us, and no task here is shorter than some 100: keeping threads
  * between calls would be state that somebody must free. */
 #include "base/pool.h"
 

@@ -1,13 +1,13 @@
-/* pool.h -- one piece of work done on several threads. */
+/* pool.h -- one function on several threads. */
 #ifndef POOL_H
 #define POOL_H
 
 #include <stddef.h>
 #include <stickslip/status.h>
 
-/* Call work with each of n <= SS_THREADS_MAX arguments, which lie one behind the other, size bytes each
- * (size 0: all calls get the same), on threads of their own, of which the caller's is one.  Returns
- * when all have returned.  Calls for which the system has no thread are made one after the other. */
+/* Call work with each of n <= SS_THREADS_MAX arguments, an array of elements of size bytes (size 0: all
+ * calls get the same argument), each on its own thread; the caller's thread is one of them.  Returns
+ * when all calls have returned.  Calls for which the system has no thread run one after the other. */
 void ss_pool_run(void (*work)(void *argument), void *arguments, size_t size, size_t n);
 
 #endif

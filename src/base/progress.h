@@ -1,18 +1,18 @@
-/* progress.h -- tell the caller how far a piece of the work is, as a part of the whole. */
+/* progress.h -- report progress of a part of the work, as a fraction of the whole. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
 #include <stddef.h>
 #include <stickslip/status.h>
 
-/* SS_STOP if the caller wants no more. */
+/* SS_STOP if the caller asks to stop. */
 static inline ss_status
 ss_progress_at(const ss_progress *p, double done)
 {
     return p->function != NULL && p->function(done, p->user) != 0 ? SS_STOP : SS_OK;
 }
 
-/* The part of the work from ... to of the whole, 0 ... 1. */
+/* The part of the work between the fractions from and to of the whole. */
 typedef struct ss_stretch {
     ss_progress progress;
     double from, to;

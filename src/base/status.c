@@ -34,8 +34,8 @@ ss_version(void)
     return SS_VERSION;
 }
 
-/* Names of files and pieces of input stand in these texts: what would break the line or reach into
- * the terminal is shown as a question mark. */
+/* These texts contain names of files and parts of input: a character that would break the line or
+ * control the terminal is shown as a question mark. */
 ss_status
 ss_fail(ss_error *err, ss_status status, const char *format, ...)
 {

@@ -4,10 +4,10 @@
 
 #include <stddef.h>
 
-/* Bytes of the UTF-8 character that text begins with; 0 if it begins with none. */
+/* Bytes of the UTF-8 character at the start of text; 0 if there is none. */
 size_t ss_utf8_length(const char *text);
-/* A copy to be freed, or NULL if there is no memory: text that is no valid UTF-8 is taken as Latin-1,
- * in which older systems export, and converted. */
+/* A copy to be freed, or NULL if there is no memory: text that is not valid UTF-8 is converted from
+ * Latin-1, in which older systems export. */
 char *ss_utf8_text(const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* coefficients.c -- coefficients with the grid they stand on. */
+/* coefficients.c -- coefficients with their grid. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +21,7 @@ ss_coefficients_free(ss_coefficients *coefficients)
     free(coefficients);
 }
 
-/* 1 if nearer to a gap than the cone of influence is wide. */
+/* 1 if within the width of the cone of influence of a gap. */
 static int
 near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
 {

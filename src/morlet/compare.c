@@ -1,8 +1,8 @@
 /* compare.c -- coefficients of a transform against the engine that did not compute them.
  *
- * What was done by FFT is done again by the definition, at a few translations of each scale that
- * are drawn at random; what was done by the definition is done again by FFT, where that is possible,
- * a whole scale at a time. */
+ * Scales that FFT computed are computed again by the definition, at a few translations drawn at
+ * random; scales that the definition computed are computed again by FFT, where possible, each as a
+ * whole. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* dense.c -- a coefficient a sample from the points of an oversampled series.
  *
- * Places between points repeat, and so do their weights: they are a table of LANES places side by
- * side, over the points that any of the LANES needs, with zeros where a place does not need one.
- * Weights stand there twice, for re and im, which lie side by side in the series as in the output.
+ * Positions between points repeat, and so do their weights: a table holds LANES positions side by
+ * side, over the points that any of the LANES needs, with zeros where a position does not need one.
+ * Each weight is there twice, for re and im, which are adjacent in the series and in the output.
  * The inner loop is then a product of that table with points, ROWS places of the pattern at once.
  * The carrier at a place is that at its place in the pattern times that of its row, a pattern's
  * length; for rows it is a product of two tables.
@@ -48,7 +48,7 @@ aligned(void *p)
     return (char *)p + (LINE - (uintptr_t)p % LINE) % LINE;
 }
 
-/* x becomes number i, in the precision that is used. */
+/* Set number i to x, in the precision in use. */
 static inline void
 store(void *to, int single, size_t i, double x)
 {

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include "morlet/kaiser.h"
 
-/* Weights of a kernel at places that repeat after so many. */
+/* Weights of a kernel at positions that repeat periodically. */
 typedef struct weights weights;
 
 /* For series in single precision, or in double.  NULL: no memory. */
@@ -17,7 +17,7 @@ enum {
     DENSE_MARGIN = 64           /* points before and after those of the circle that are read, too */
 };
 
-/* Doubles that put needs beside its output. */
+/* Doubles that ss_dense_write needs beside its output. */
 size_t ss_dense_room(size_t n);
 
 /* Coefficient c - first < n is factor exp(2 pi i turns c/circle) times the series v at c/phases

@@ -37,7 +37,7 @@ LOOP_JOIN(LOOP, _turn)(VECTOR x, VECTOR c, VECTOR s)
     return x * c + LOOP_JOIN(LOOP, _swap)(x) * s;
 }
 
-/* Sums, then what becomes of them, in one function: in several it was 5 % slower (gcc 12). */
+/* Sums and their output in one function: in several it was 5 % slower (gcc 12). */
 TARGET static void
 LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *turning,
      double factor, double *w, double most[2 * LANES])

@@ -1,7 +1,7 @@
-/* each.c -- a plan carried out scale by scale, for what does not need all coefficients at a time.
+/* each.c -- execute a plan scale by scale, for callers that do not need all coefficients at a time.
  *
- * As many scales as there are threads are computed together and then handed on, so that memory is
- * that of theirs; each is the same to the last bit as in execute.c. */
+ * As many scales as there are threads are computed together and then passed to the sink, so only
+ * their coefficients are in memory; each is the same to the last bit as in execute.c. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ typedef struct shared_input {
     spectra spectra;
 } shared_input;
 
-/* A thread's. */
+/* The work of one thread. */
 typedef struct worker {
     const shared_input *shared;
     size_t scale;

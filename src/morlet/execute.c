@@ -1,7 +1,7 @@
-/* execute.c -- a plan carried out: scales by their engine, on as many threads as asked for.
+/* execute.c -- execute a plan: each scale by its engine, on the number of threads in the options.
  *
- * Every scale is computed by one thread from what all share and nobody changes, so the result does
- * not depend on how many there are. */
+ * One thread computes a scale, from input that all threads share and none changes, so the result does
+ * not depend on the number of threads. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -53,8 +53,8 @@ typedef struct scale_queue {
     record rec;
     spectra spectra;
     double *w;
-    pthread_mutex_t lock;       /* of what follows */
-    size_t next;                /* scales below it are to do */
+    pthread_mutex_t lock;       /* of the following fields */
+    size_t next;                /* scales below it are left */
     size_t done;                /* coefficients */
     size_t failed;              /* the longest scale that failed, how and why */
     ss_status status;
@@ -70,7 +70,7 @@ one_scale(const scale_queue *queue, size_t i, double *scratch, ss_error *err)
                           (span){ 0, scale->n }, &most, queue->w + 2 * scale->offset, err);
 }
 
-/* A thread: scales until none is left, the expensive short ones first. */
+/* A thread: compute scales until none is left, the expensive short ones first. */
 static void
 compute_scales(void *user)
 {

@@ -1,13 +1,14 @@
-/* grid.c -- which scales and translations a transform computes, and which it refuses.
+/* grid.c -- the scales and translations of a transform, and the ones that it refuses.
  *
- * Scales are numbered: a = 2^(j/V).  Whatever limits them (a frequency, octaves, the sampling, the
- * record's length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale
- * includes it, and then of integers j; so a request is refused for a scale that it contains, not
- * for the frequency it is worded in. */
+ * Scales are numbered: a = 2^(j/V).  Every limit (a frequency, octaves, the sampling, the record's
+ * length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale includes it,
+ * and then a range of integers j.  So a request is refused for a scale that it contains, not for the
+ * frequency that it names. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/range.h"
 #include "morlet/plan.h"
 
 #define SLACK 1e-9          /* in j; rounding of V log2 a is below 1e-10 */
@@ -16,6 +17,12 @@ const ss_morlet_opts ss_morlet_defaults = {
     .center = 6, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
     .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE,
     .threads = 1
+};
+
+const struct ss_morlet_ranges ss_morlet_ranges = {
+    .rate = { 1e-100, 1e100 }, .center = { 2, 1000 }, .voices = { 1, 1024 }, .step = { 1e-6, 1e6 },
+    .frequency = { 1e-100, 1e100 }, .octave = { -500, 500 }, .accuracy = { 1e-13, 0.1 },
+    .inverse_accuracy = { 1e-12, 0.1 }
 };
 
 typedef struct range {
@@ -80,11 +87,13 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
     }
     if (!opts->force && n == 0 && ask.lo < use.lo)
         return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within "
-                       "accuracy %g, not %.6g Hz", rate, label(use.lo, opts), opts->accuracy, label(ask.lo, opts));
+                       "accuracy %g, not %.6g Hz", rate, label(use.lo, opts), opts->accuracy,
+                       label(ask.lo, opts));
     if (!opts->force && (ask.lo < use.lo || ask.hi > use.hi))
         return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz "
-                       "within accuracy %g, not from %.6g to %.6g Hz", n, rate, label(use.hi, opts), label(use.lo, opts),
-                       opts->accuracy, label(ask.hi, opts), label(ask.lo, opts));
+                       "within accuracy %g, not from %.6g to %.6g Hz", n, rate,
+                       label(use.hi, opts), label(use.lo, opts), opts->accuracy,
+                       label(ask.hi, opts), label(ask.lo, opts));
     if (ask.lo > ask.hi)
         return ss_fail(err, SS_EINVAL, "no scale lies between these limits of frequency; %d voices "
                        "an octave are next to them at %.6g and %.6g Hz", opts->voices,
@@ -99,24 +108,27 @@ ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err
 {
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "the record is empty");
-    if (!(rate >= 1e-100 && rate <= 1e100))
-        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
-    if (!(opts->center >= 2 && opts->center <= 1000))
-        return ss_fail(err, SS_EINVAL, "center %g is out of range 2 ... 1000", opts->center);
-    if (opts->voices < 1 || opts->voices > 1024)
-        return ss_fail(err, SS_EINVAL, "voices %d is out of range 1 ... 1024", opts->voices);
-    if (!opts->dense && !(opts->step > 0 && opts->step <= 1e100))
-        return ss_fail(err, SS_EINVAL, "step %g is not positive", opts->step);
-    if (!(opts->accuracy >= 1e-13 && opts->accuracy <= 0.1))
-        return ss_fail(err, SS_EINVAL, "accuracy %g is out of range 1e-13 ... 0.1",
-                       opts->accuracy);
-    if (!(opts->fmin >= 0 && opts->fmin <= 1e100 && opts->fmax >= 0 && opts->fmax <= 1e100)
+    const struct ss_morlet_ranges *in = &ss_morlet_ranges;
+    ss_status st = ss_range_check(rate, in->rate, "rate [Hz]", err);
+    if (st == SS_OK)
+        st = ss_range_check(opts->center, in->center, "center", err);
+    if (st == SS_OK)
+        st = ss_range_check(opts->voices, in->voices, "voices", err);
+    if (st == SS_OK && !opts->dense)
+        st = ss_range_check(opts->step, in->step, "step", err);
+    if (st == SS_OK)
+        st = ss_range_check(opts->accuracy, in->accuracy, "accuracy", err);
+    if (st != SS_OK)
+        return st;
+    if (!(opts->fmin >= 0 && opts->fmin <= in->frequency.to && opts->fmax >= 0
+          && opts->fmax <= in->frequency.to)
         || (opts->fmin > 0 && opts->fmax > 0 && opts->fmin > opts->fmax))
         return ss_fail(err, SS_EINVAL, "no frequencies between fmin %g and fmax %g Hz",
                        opts->fmin, opts->fmax);
-    if (opts->octaves && !(opts->m0 >= -500 && opts->m0 <= opts->m1 && opts->m1 <= 500))
-        return ss_fail(err, SS_EINVAL, "octaves %g:%g are not ascending in -500 ... 500",
-                       opts->m0, opts->m1);
+    if (opts->octaves && !(opts->m0 >= in->octave.from && opts->m0 <= opts->m1
+                           && opts->m1 <= in->octave.to))
+        return ss_fail(err, SS_EINVAL, "octaves %g:%g are not ascending in %g ... %g", opts->m0,
+                       opts->m1, in->octave.from, in->octave.to);
     if ((unsigned)opts->norm > SS_NORM_L1 || (unsigned)opts->detrend > SS_DETREND_LINEAR
         || (unsigned)opts->engine > SS_ENGINE_FFT || (unsigned)opts->planner > SS_PLANNER_PATIENT)
         return ss_fail(err, SS_EINVAL, "unknown norm, detrend, engine or planner");

@@ -2,17 +2,18 @@
  *
  * Weighted by the grid's share of the integral over a and b, da db/a^2, coefficients on a fine grid
  * are nearly a tight frame: the transform's adjoint nearly inverts it, up to a constant, for what the
- * scales reach.  Conjugate gradients (Hestenes and Stiefel 1952, in the form for least squares, CGLS)
- * take it from there, whatever the grid; on one that is far from tight they need many passes, and
- * coefficients of no signal are found by a residual that stays.  What a signal has at the edge of the
- * scales and beyond comes slowly: the residual then falls about as the passes to the power -1/2 to -1,
- * without end. */
+ * scales reach.  From there conjugate gradients (Hestenes and Stiefel 1952, in the form for least
+ * squares, CGLS) converge on any grid; on one that is far from tight they need many passes, and a
+ * residual that stays shows that the coefficients are those of no signal.  Frequencies at the edge of
+ * the scales and beyond converge slowly: the residual then falls about as the passes to the power
+ * -1/2 to -1, without end. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "morlet/plan.h"
 #include "base/progress.h"
+#include "base/range.h"
 
 /* A residual that STALL_FROM or more passes, doubled, lower by less than STALL stays. */
 enum { PASSES = 500, STALL_FROM = 16 };
@@ -24,7 +25,7 @@ typedef struct solver {
     ss_morlet *plan;
     wavelet **wave;                 /* a scale's */
     double *x, *gradient, *step;
-    double *w, *rest;               /* coefficients of step; those that x does not explain yet */
+    double *w, *rest;               /* coefficients of step; the part that x does not explain */
     int exponent;                   /* all of these are times 2^exponent */
     double bounds;                  /* upper frame bound over the lower one */
 } solver;
@@ -106,7 +107,7 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     double slope = norm2(s->gradient, n), then = left;
     int pass = 0, mark = STALL_FROM, stays = 0;
     for (; left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
-        /* what is left falls by about the same factor every pass */
+        /* the rest falls by about the same factor every pass */
         double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
         if ((st = ss_stretch_at(&s->progress, fmax(0, done))) != SS_OK
             || (st = ss_morlet_execute(s->plan, s->step, s->w, err)) != SS_OK)
@@ -277,9 +278,9 @@ ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double t
     solver s = { .coef = coefficients, .progress = { progress, 0, 1 } };
     double residual = 0;
     *out = NULL;
-    if (!(tol >= 1e-12 && tol <= 0.1))
-        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-12 ... 0.1", tol);
-    ss_status st = make_plan(&s, err);
+    ss_status st = ss_range_check(tol, ss_morlet_ranges.inverse_accuracy, "accuracy", err);
+    if (st == SS_OK)
+        st = make_plan(&s, err);
     if (st == SS_OK)
         find_bounds(&s);
     if (st == SS_OK && !(s.bounds <= BOUNDS_MAX))

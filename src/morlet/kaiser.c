@@ -174,7 +174,7 @@ correct(const kaiser *ker, double first, double step, double *restrict y)
         y[i] += c[i];
 }
 
-/* What is compiled for several kinds of machine would be seen from outside the library. */
+/* A function compiled for several kinds of machine would be visible outside the library. */
 void
 ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y)
 {

@@ -25,7 +25,7 @@ typedef struct kaiser {
 
 /* The shortest kernel that keeps |error| <= bound where the series has size 1; 0 if none does. */
 int ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
-/* Fill in what correct and weights use. */
+/* Fill in the fields that correct and weights use. */
 void ss_kaiser_prepare(kaiser *ker);
 /* y[i] -= log(response) at nu = (first + i) step, i < KAISER_AT_ONCE; nonsense beyond the edge. */
 void ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y);

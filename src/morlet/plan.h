@@ -1,4 +1,4 @@
-/* plan.h -- what the files of the wavelet transform share. */
+/* plan.h -- shared by the files of the wavelet transform. */
 #ifndef PLAN_H
 #define PLAN_H
 
@@ -7,7 +7,7 @@
 #include <stickslip/morlet.h>
 
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
-/* Of the 16 eps promised, what the parts of the wavelet that are left out may take. */
+/* The share of the promised 16 eps for the parts of the wavelet that are left out. */
 #define TAIL_FLOOR (4 * DBL_EPSILON)
 #define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */
 
@@ -48,7 +48,7 @@ ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int expo
 /* SS_OK if every option lies in its range and n samples at this rate are a record. */
 ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err);
 
-/* The scales that opts ask for, long to short, to be freed.  n = 0: the length is not known, and
+/* The scales of opts, long to short, to be freed.  n = 0: the length is not known, and
  * translations are not counted. */
 ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
@@ -98,7 +98,7 @@ ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 void ss_spectra_free(spectra *s);
 void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                   double *scratch, span part, double factor, double *most, double *w);
-/* How many times a scale has been computed in single precision. */
+/* The number of scales computed in single precision so far. */
 size_t ss_fft_singles(const struct fft *fft);
 double *ss_fft_scratch(const struct fft *fft);         /* for one thread; NULL: no memory */
 void ss_fft_scratch_free(double *scratch);

@@ -1,5 +1,5 @@
-/* record.c -- the samples as both engines take them: checked, detrended and of a size that neither
- * overflows nor underflows. */
+/* record.c -- the input of both engines: samples that are checked, detrended and scaled so that
+ * nothing overflows or underflows. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

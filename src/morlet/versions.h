@@ -1,4 +1,4 @@
-/* versions.h -- hot loops for what the machine has, decided when the program starts. */
+/* versions.h -- hot loops for the machine's instructions, chosen when the program starts. */
 #ifndef VERSIONS_H
 #define VERSIONS_H
 

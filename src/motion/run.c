@@ -9,8 +9,10 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/range.h"
 #include "motion/engine.h"
 
+const ss_range ss_sim_tolerances = { 1e-14, 0.1 };
 const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
 
 const char *
@@ -330,8 +332,8 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
 
-    if (!(opts->tol >= 1e-14 && opts->tol <= 1e-1))
-        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-14 ... 0.1", opts->tol);
+    if ((st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err)) != SS_OK)
+        return st;
     int slips = ss_motion_start(&m);
     st = check_length(&r, &m.now, exact, err);
     if (st != SS_OK)

@@ -1,9 +1,9 @@
-/* contour.c -- contours of |W| in decibels over time and frequency, under the signal.
+/* contour.c -- contours of |W| in decibels over time and frequency, below the signal.
  *
- * |W| is brought onto a rectangle as wide as the picture, one row a scale.  Translations that
- * share a column give it their largest |W|, so that a spike is never lost; between translations
- * farther apart |W| is interpolated linearly.  The lines of equal level on it go into the script,
- * as few points of them as keep them within a fraction of a pixel. */
+ * |W| is mapped to a rectangle as wide as the picture, one row a scale.  A column has the largest
+ * |W| of its translations, so that no spike is lost; between translations farther apart |W| is
+ * interpolated linearly.  The script contains the lines of equal level, with the fewest points that
+ * keep them within a fraction of a pixel. */
 #include "plot/isoline.h"
 #include "plot/script.h"
 
@@ -12,13 +12,15 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/range.h"
 
 #define COLUMNS 700             /* pixels that panel (b) is wide, about */
 #define ROWS 580                /* and high */
 #define LEVELS 100              /* at most */
-#define BLUR 0.2                /* pixels that a line may be off by leaving points out */
-#define FLOOR 1000.0            /* [dB] below the largest |W|: where |W| is 0; nothing is as far above */
+#define BLUR 0.2                /* pixels by which a line may move if points are left out */
+#define FLOOR 1000.0            /* [dB] below the largest |W|: the level of |W| = 0 */
 
+const ss_range ss_contour_levels = { 1, LEVELS }, ss_contour_spans = { 1e-3, 1000 };
 const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80 };
 
 /* --- the map ------------------------------------------------------------------------------- */
@@ -45,8 +47,8 @@ in_column(const ss_scale *scale, const double *w, double lo, double hi)
     return level;
 }
 
-/* The largest |W| of scale i, of those outside the cone of influence and of all; 0 if one of them is
- * not finite. */
+/* The largest |W| of scale i, outside the cone of influence and anywhere; returns 0 if a |W| is not
+ * finite. */
 static int
 find_largest(const ss_coefficients *c, size_t i, const double *w, double most[2])
 {
@@ -61,7 +63,7 @@ find_largest(const ss_coefficients *c, size_t i, const double *w, double most[2]
     return 1;
 }
 
-/* |W|, COLUMNS + 1 of them a scale, and what find_largest finds. */
+/* |W|, COLUMNS + 1 of them a scale, and the results of find_largest. */
 static ss_status
 fill_map(double *map, const ss_coefficients *c, const ss_contour_opts *contour,
          const script_span *span, double *own, double most[2], ss_error *err)
@@ -85,7 +87,7 @@ fill_map(double *map, const ss_coefficients *c, const ss_contour_opts *contour,
     return SS_OK;
 }
 
-/* Levels in decibels re the largest |W|, to be freed. */
+/* Levels in decibels relative to the largest |W|, to be freed. */
 static ss_status
 make_map(double **out, const ss_coefficients *c, const ss_contour_opts *contour,
          const script_span *span, ss_error *err)
@@ -189,7 +191,7 @@ write_contours(FILE *out, const ss_coefficients *c, const ss_contour_opts *conto
     return status;
 }
 
-/* --- what stands around it ----------------------------------------------------------------- */
+/* --- axes, cone, marks ---------------------------------------------------------------------- */
 
 /* Decimals of a frequency: six digits at least. */
 static int
@@ -216,9 +218,9 @@ write_side(FILE *out, const script_span *span, double t, int sign, double stop, 
     }
 }
 
-/* The cone of influence, nearer than sqrt(2) a to an end of the record, and the like around gaps:
- * closed curves, two blank lines between them.  Each is drawn for itself: gnuplot 5.2 draws the way
- * from one to the next, too. */
+/* The cone of influence, within sqrt(2) a of an end of the record, and the same around gaps: closed
+ * curves, two blank lines between them.  Each has a plot command of its own, since gnuplot 5.2 draws
+ * a line from one to the next. */
 static void
 write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
 {
@@ -279,7 +281,7 @@ is_inside(const script_span *span, double t)
     return t >= span->from && t <= span->to;
 }
 
-/* What of an overlay lies in the span drawn: gnuplot takes an empty block for a mistake. */
+/* The part of an overlay in the drawn span: an empty block is an error for gnuplot. */
 typedef struct visible {
     size_t spans, spikes, maxima;
 } visible;
@@ -292,7 +294,7 @@ write_overlay(FILE *out, const ss_overlay *overlay, const script_span *span)
     visible seen = { 0, 0, 0 };
     fputs("$spans << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spans; i++) {
-        double shortest = (span->to - span->from) / COLUMNS * 2;        /* to be seen at all */
+        double shortest = (span->to - span->from) / COLUMNS * 2;        /* that is visible */
         double from = fmax(overlay->span[i][0], span->from);
         double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
         if (!(from <= to))
@@ -350,7 +352,7 @@ static const char panel_b[] =
     "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
     "set colorbox user origin screen right + 0.02, screen bottom size screen 0.025, screen top_b - bottom\n";
 
-/* Bars and marks in the rims of the panel; rings in white and colour, to be seen on any ground. */
+/* Bars and marks in the rims of the panel; rings in white and colour, visible on any ground. */
 static void
 write_features(FILE *out, const visible *seen)
 {
@@ -365,14 +367,14 @@ write_features(FILE *out, const visible *seen)
               "    $maxima using 1:2 with points pt 6 ps 0.9 lw 1.5 lc rgb feature_colour", out);
 }
 
-/* What the script is told of panel (a). */
+/* Panel (a) in the script. */
 typedef struct panel {
     double range;               /* of the signal, as drawn */
     script_label label;
 } panel;
 
-/* Events first, so that they stand behind the lines; then the cone, then the contours, then what was
- * read from them.  A colour a level: of lines with a colour a point, gnuplot 6.0 loses some. */
+/* Events first, so that they lie behind the lines; then the cone, the contours, and the features.
+ * Each level has one colour: gnuplot 6.0 loses some lines that have a colour for each point. */
 static void
 write_panels(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, const panel *a,
              int lines, const visible *seen)
@@ -415,7 +417,7 @@ check_scales(const ss_coefficients *c, ss_error *err)
     return SS_OK;
 }
 
-/* NULL if all of an overlay has its place, else the part that has not. */
+/* NULL if every entry of an overlay can be drawn, else the name of the first that cannot. */
 static const char *
 find_unplaced(const ss_overlay *overlay)
 {
@@ -448,11 +450,11 @@ check_overlays(const ss_contour_opts *contour, ss_error *err)
 static ss_status
 check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 {
-    if (contour->levels < 1 || contour->levels > LEVELS)
-        return ss_fail(err, SS_EINVAL, "levels: %d is out of range 1 ... %d", contour->levels,
-                       LEVELS);
-    if (!(contour->span > 0 && contour->span <= 10000))
-        return ss_fail(err, SS_EINVAL, "span: more than 0 and at most 10000 dB are needed");
+    ss_status st = ss_range_check(contour->levels, ss_contour_levels, "levels", err);
+    if (st == SS_OK)
+        st = ss_range_check(contour->span, ss_contour_spans, "span [dB]", err);
+    if (st != SS_OK)
+        return st;
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", contour->column + 1,
                        contour->signal->head->n_columns);
@@ -503,7 +505,8 @@ write_script(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour
     drawn.from = span.from;
     drawn.to = span.to;
     ss_script_write_span(out, &span);
-    fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ", contour->levels);
+    fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ",
+            contour->levels);
     ss_script_write(out, contour->span, 6,
                     "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
     fputs("fmin = ", out);

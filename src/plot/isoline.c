@@ -1,9 +1,9 @@
 /* isoline.c -- lines of equal height on a rectangle of heights, traced from cell to cell.
  *
- * Where a line crosses the side of a cell follows from linear interpolation along it; in a cell
- * that all four sides of are crossed (a saddle) the mean of its corners says which are joined.
+ * Linear interpolation gives the point at which a line crosses the side of a cell.  If all four
+ * sides of a cell are crossed (a saddle), the mean of its corners decides which are joined.
  * Every crossed side belongs to one line and is passed once, so all lines of a level cost one
- * look at every side and one step a crossing.  (gnuplot's own contouring looks for each new line
+ * test of every side and one step a crossing.  (gnuplot's own contouring searches for each new line
  * from the start of a list: 4 s for a clean signal, 10 s and more for noise.) */
 #include "plot/isoline.h"
 
@@ -12,7 +12,7 @@
 typedef struct tracer {
     const isoline_map *map;
     double level;
-    unsigned char *passed;      /* sides, numbered as side_index has it */
+    unsigned char *passed;      /* sides, numbered by side_index */
     double (*point)[2];         /* of the line being traced */
 } tracer;
 
@@ -66,7 +66,7 @@ cross(tracer *t, cell_side p, size_t n)
     t->passed[side_index(t, p)] = 1;
 }
 
-/* The side through which a line leaves the cell that it came into through p.side. */
+/* The side through which a line leaves the cell that it entered through p.side. */
 static int
 exit_side(const tracer *t, cell_side p)
 {
@@ -84,19 +84,19 @@ exit_side(const tracer *t, cell_side p)
     return (mean >= t->level) == (corner >= t->level) ? p.side ^ 1 : 3 - p.side;
 }
 
-/* Into the cell beyond the side; 0 if that is the border. */
+/* Step into the cell beyond the side; 0 at the border. */
 static int
 step_over(const tracer *t, cell_side *p)
 {
     static const int dx[] = { 0, 1, 0, -1 }, dy[] = { -1, 0, 1, 0 };
     size_t i = p->i + (size_t)dx[p->side], j = p->j + (size_t)dy[p->side];
-    if (i >= t->map->nx - 1 || j >= t->map->ny - 1)     /* SIZE_MAX for one below 0, too */
+    if (i >= t->map->nx - 1 || j >= t->map->ny - 1)     /* -1 is SIZE_MAX here */
         return 0;
     *p = (cell_side){ i, j, (p->side + 2) % 4 };
     return 1;
 }
 
-/* Trace the line that comes into a cell through p.side, to its end or round to its start. */
+/* Trace the line that enters a cell through p.side, to its end or back to its start. */
 static void
 trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {

@@ -13,7 +13,7 @@ typedef struct isoline_map {
 /* One line of n >= 2 points in units of the grid; a closed one ends where it began. */
 typedef void isoline_sink(const double (*point)[2], size_t n, void *user);
 
-/* Hand every line at this level to the sink, those that end at the border first. */
+/* Pass every line at this level to the sink, those that end at the border first. */
 ss_status ss_isolines(const isoline_map *map, double level, isoline_sink *sink, void *user);
 
 #endif

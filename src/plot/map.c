@@ -1,9 +1,9 @@
 /* map.c -- a sweep over two parameters: regions of equal count, lines of equal value.
  *
  * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and
- * each a quarter of a row high into the next, so that no seams show.  Lines are traced through the
- * grid as isoline.c does.  Each level has its value on one line at least: those with least choice of
- * place are labelled first; the other lines of some length carry it where it covers no other. */
+ * each overlaps the next row by a quarter, so that no seams show.  isoline.c traces the lines.  Each
+ * level has a label on at least one line: lines with the least choice of place are labelled first;
+ * other long lines have a label where it covers no other. */
 #include "plot/isoline.h"
 #include "plot/script.h"
 
@@ -17,7 +17,7 @@
 
 enum { REGIONS_MAX = 10, LEVELS_MAX = 40, LABELS_MAX = 80 };
 #define LONG 0.15                       /* a line worth a second label: in widths of the map */
-#define RIM 0.04                        /* where no label stands, if it can be helped */
+#define RIM 0.04                        /* where labels are avoided */
 
 /* Light to dark, in equal steps of lightness, from pale yellow to violet: the order is seen by all
  * kinds of colour vision, in print without colour too. */
@@ -78,7 +78,7 @@ make_axis(axis *a, const ss_sweep_table *t, size_t column, ss_error *err)
     return SS_OK;
 }
 
-/* Where x stands among the values, as it is one of them. */
+/* The index of x among the values; x is one of them. */
 static size_t
 find(const axis *a, double x)
 {
@@ -156,8 +156,8 @@ typedef struct regions {
     int missing;                    /* there are points without one */
 } regions;
 
-/* 1 if the column holds few different values, or few whole ones: a count.  In a grid, not even an
- * amplitude that is 0 here and there is that. */
+/* 1 if the column holds few different values, or few whole ones: a count.  An amplitude that is 0 at
+ * some points of a grid is none. */
 static int
 find_regions(regions *r, const grid *g, const double *column)
 {
@@ -235,7 +235,7 @@ typedef struct map_lines {
     int no_memory;
 } map_lines;
 
-/* Where x stands on the axis: 0 to 1. */
+/* The position of x on the axis, 0 to 1. */
 static double
 place_on(const axis *a, double at)
 {
@@ -309,7 +309,7 @@ label_width(double level)
     return 0.02 + 0.022 * snprintf(text, sizeof text, "%g", level);
 }
 
-/* How far a label is from the next and from the rim, 1 if it just touches none. */
+/* The distance of a label from the next and from the rim, 1 if it just touches none. */
 static double
 clearance(const labels *l, const double at[2], double width)
 {
@@ -324,8 +324,8 @@ clearance(const labels *l, const double at[2], double width)
     return nearest;
 }
 
-/* Label a piece in its middle, or else where it has room nearest to that; if it has nowhere and must
- * have a label, where that covers least. */
+/* Label a piece in its middle, or at the nearest point that has room; if no point has room and the
+ * piece must have a label, at the point where the label covers least. */
 static void
 write_label_on(FILE *out, labels *l, const map_lines *s, const line_piece *p, int must)
 {
@@ -349,7 +349,7 @@ write_label_on(FILE *out, labels *l, const map_lines *s, const line_piece *p, in
     l->width[l->n++] = width;
 }
 
-/* The longest of each level first, and of these the shortest; then from the longest on. */
+/* The longest piece of each level first, the shortest of these before; then the longer before. */
 static int
 by_need(const void *a, const void *b)
 {
@@ -409,7 +409,8 @@ choose_levels(double level[LEVELS_MAX], double *sorted, size_t n)
     return count;
 }
 
-/* Heights for the tracing: where there is none, its neighbour's; no line is drawn there. */
+/* Heights for the tracing; an unknown height is replaced by its neighbour's, and no line is drawn
+ * there. */
 static void
 fill_heights(double *height, double *known, size_t *n_known, const grid *g, const double *column)
 {
@@ -572,7 +573,7 @@ write_map(FILE *out, const ss_sweep_table *t, const grid *g, const regions *r, s
     return ss_script_end(out);
 }
 
-/* A sweep may lack values, which are NaN; the others have the bounds of what is drawn elsewhere. */
+/* Missing values of a sweep are NaN; the others have the bounds of all drawn values. */
 static ss_status
 check_column(const ss_sweep_table *t, size_t column, ss_error *err)
 {

@@ -11,8 +11,8 @@
 #define ROOM 6.8                /* for the label of a panel [ems] */
 #define XY_ROOM 17.0            /* and for those of one column over another */
 
-/* Margins in the script's own terms: panel i of n stands in its share of the height between rims,
- * its left edge where that of all others is. */
+/* Margins in the script's own variables: panel i of n has its share of the height between the rims,
+ * and all panels have the same left edge. */
 static const char layout[] =
     "set multiplot\n"
     SCRIPT_TIME_TICS
@@ -22,7 +22,7 @@ static const char layout[] =
     "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
     "unset key\n";
 
-/* What is known of a panel when its trace is written. */
+/* The scale of a panel, known when its trace is written. */
 typedef struct trace_scale {
     double range;
     int exponent;

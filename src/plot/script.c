@@ -1,4 +1,4 @@
-/* script.c -- what all gnuplot scripts have in common: terminal, size, text that draws and does not
+/* script.c -- the common parts of all gnuplot scripts: terminal, size, text that is drawn and never
  * run, numbers that no locale changes, lines thinned to the picture's width.
  *
  * A picture on paper is as wide as a journal's column, 8.5 cm, its letters 6 points high. */
@@ -14,7 +14,7 @@
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
 #define SCREEN 1.5              /* how much wider and higher on a screen */
-#define LARGEST 1e300           /* of what is drawn: differences and powers of ten stay finite */
+#define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
 const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN, SS_PAPER };
 
@@ -43,10 +43,10 @@ ss_script_decimals(double range)
 }
 
 /* Bytes in a string constant between double quotes.  gnuplot replaces @name and `command` in a line
- * before it looks for strings, so that nothing that it knows may stand in the line at all: letters,
+ * before it looks for strings, so no character with a meaning may appear in the line at all: letters,
  * digits and signs without a meaning are written as they are, all others as \ooo, which gnuplot
- * makes a byte again when it has found the end of the string.  It reads all octal digits that
- * follow, not three: a digit behind such a byte is written so, too.  Is the last byte so written? */
+ * decodes after it has found the end of the string.  It reads all octal digits that follow, not only
+ * three, so a digit after such a byte is written as \ooo, too.  Returns 1 if the last byte was. */
 static int
 write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
 {
@@ -75,7 +75,7 @@ is_drawable(const char *text, size_t at, size_t n)
         : n == 3 ? p[0] != 0xef || p[1] != 0xbf || p[2] < 0xbe : 1;
 }
 
-/* Text between double quotes: what cannot be drawn is a blank, what is no character is U+FFFD. */
+/* Text between double quotes: a control character becomes a blank, an invalid byte U+FFFD. */
 static void
 write_text(FILE *out, const char *text, size_t n)
 {
@@ -184,7 +184,7 @@ add_unit(script_label *l, const char *unit)
     }
 }
 
-/* About how wide text is, in ems of a sans serif; beyond ASCII stand superscripts. */
+/* The approximate width of text, in ems of a sans serif; non-ASCII characters are superscripts. */
 static double
 text_width(const char *text, size_t n)
 {
@@ -200,8 +200,8 @@ text_width(const char *text, size_t n)
     return width;
 }
 
-/* Where a label wider than the room goes on in a second line, so that the wider of them is least:
- * behind a blank, underscore or slash; 0 if it need or can not.  *width is then what it takes. */
+/* The start of the second line of a label that is wider than the room: after a blank, underscore or
+ * slash, so that the wider line is as narrow as possible; 0 for one line.  *width: of the label. */
 static size_t
 line_break(const script_label *l, double room, double *width)
 {
@@ -297,7 +297,7 @@ write_terminal(FILE *out, const char *format, const char *output, double width, 
             terminal(format), unit, unit, pdf ? "0.6" : "2",
             pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
-        /* gnuplot starts a program for '|' and has a meaning for '~' at the beginning of a name. */
+        /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
         fprintf(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
         write_bytes(out, output, strlen(output), 0);
         fputs("\"\n", out);

@@ -1,4 +1,4 @@
-/* script.h -- what all gnuplot scripts have in common. */
+/* script.h -- the common parts of all gnuplot scripts. */
 #ifndef SCRIPT_H
 #define SCRIPT_H
 
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stickslip/plot.h>
 
-#define SCRIPT_COLUMNS 1000     /* pixel columns that a line over time is thinned to */
+#define SCRIPT_COLUMNS 1000     /* pixel columns of a line over time, after thinning */
 
 /* The part of a record that is drawn. */
 typedef struct script_span {
@@ -14,7 +14,7 @@ typedef struct script_span {
     size_t first, n;            /* samples in it, and one more on either side */
 } script_span;
 
-/* SS_EINVAL if nothing lies in the span asked for. */
+/* SS_EINVAL if the span of opts contains no sample. */
 ss_status ss_script_find_span(script_span *span, const ss_header *head, size_t n,
                               const ss_plot_opts *opts, ss_error *err);
 
@@ -26,9 +26,9 @@ ss_status ss_script_check(const char *column, const double *x, size_t n, ss_erro
 ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err);
 /* The named variables from and to, in the lines at the top. */
 void ss_script_write_span(FILE *out, const script_span *span);
-/* Lines of script: tics of time at 1, 2 or 5 times a power of ten, with labels that tell them apart,
- * six intervals at most and as many as have room for these, also when from and to are changed.
- * letters is the length of a label. */
+/* Lines of script: tics of time at 1, 2 or 5 times a power of ten, with labels that differ, at most six
+ * intervals and as many as have room for the labels, also after from and to are changed.  letters is
+ * the length of a label. */
 #define SCRIPT_TIME_TICS \
     "tic(share) = share < 1.001 ? 1 : share < 2.001 ? 2 : share < 5.001 ? 5 : 10\n" \
     "every(n) = (part = (to > from ? to - from : 1)/n, decade = 10**floor(log10(part)), " \
@@ -41,12 +41,12 @@ void ss_script_write_span(FILE *out, const script_span *span);
 
 /* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
 void ss_script_quote(FILE *out, const char *text);
-/* A number rounded to so many decimals, whatever the locale, and what stands behind it. */
+/* A number rounded to so many decimals, in any locale, and the text after it. */
 void ss_script_write(FILE *out, double x, int decimals, const char *behind);
-/* Decimals that tell apart a tenth of a pixel column in a picture of this range. */
+/* Decimals that distinguish a tenth of a pixel column in a picture of this range. */
 int ss_script_decimals(double range);
 
-/* The power of ten, a multiple of 3, that brings the n values to numbers short to read. */
+/* The power of ten, a multiple of 3, by which the n values are divided to be short to read. */
 int ss_script_exponent(const double *x, size_t n);
 /* "name / (10^-3 unit)", in two lines if it is wider than its room; cut where it is longer than any
  * picture. */
@@ -54,26 +54,26 @@ typedef struct script_label {
     char text[256];
     size_t n;                   /* bytes of it */
     size_t second;              /* where its second line begins; 0: one line */
-    double font;                /* the part <= 1 of the usual size that its letters have */
+    double font;                /* size of its letters, <= 1, over the usual size */
 } script_label;
 void ss_script_make_label(script_label *label, const ss_column *column, int exponent,
                           double room);     /* [ems] */
 /* The label as a string constant. */
 void ss_script_write_label(FILE *out, const script_label *label);
-/* The font of the label, behind it; nothing for the usual size. */
+/* The font of the label, after it; nothing for the usual size. */
 void ss_script_write_font(FILE *out, const script_label *label);
 /* Set the title: that of opts, or else scene or model of the header, unless it is NULL; and under it
  * "lines: " and the label, unless it is NULL. */
 void ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
                            const script_label *lines);
-/* Set label number n beside the vertical axis: further out in two lines, that tics have their room. */
+/* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */
 void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 
-/* set AXIS STEP: so many intervals at most over the range, of 1, 2 or 5 times a power of ten. */
+/* set AXIS STEP: at most so many intervals over the range, of 1, 2 or 5 times a power of ten. */
 void ss_script_write_tics(FILE *out, const char *axis, double range, int intervals);
 
 /* A datablock of time and x 10^-exponent: the smallest and largest of each pixel column, so that
- * no spike is lost.  span as found; x points at the whole record.  The range of what was put. */
+ * no spike is lost.  span as found; x points at the whole record.  Returns the range of the values. */
 double ss_script_write_trace(FILE *out, const char *name, const double *x, const ss_header *head,
                       const script_span *span, int exponent);
 

@@ -5,8 +5,8 @@
 #include <string.h>
 #include "base/error.h"
 
-/* Okabe and Ito's colours, told apart by all kinds of colour vision; point types and
- * dashes tell methods that share one. */
+/* Okabe and Ito's colours, which differ for all kinds of colour vision; point types and dashes
+ * distinguish methods that share a colour. */
 static const char *const colour[] = { "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                       "#e69f00", "#56b4e9" };
 static const int point[] = { 7, 5, 9, 13, 4 };
@@ -18,7 +18,7 @@ write_point(FILE *out, const ss_trade_row *row, double fastest)
     fprintf(out, "%.4g %.3g\n", row->seconds / fastest, row->error_x);
 }
 
-/* The points of one method as datablock number k, from row i on; what follows the last of them. */
+/* The points of one method as datablock number k, from row i on.  Returns the row after them. */
 static size_t
 write_method(FILE *out, const ss_trade *trade, size_t i, size_t k, double fastest)
 {

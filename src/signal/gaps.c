@@ -1,4 +1,4 @@
-/* gaps.c -- samples that are missing from a record: NaN until something stands in for them. */
+/* gaps.c -- samples that are missing from a record: NaN until a value replaces them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 
 static const char key[] = "gaps";
 
-/* Put something in place of a run of missing values, [i, j) of n that stand a row apart. */
+/* Replace a run of missing values, [i, j) of n that are a row apart. */
 static void
 fill_run(double *x, size_t row, size_t i, size_t j, size_t n, ss_gaps how)
 {
@@ -19,7 +19,7 @@ fill_run(double *x, size_t row, size_t i, size_t j, size_t n, ss_gaps how)
     }
 }
 
-/* Fill one column, marking the rows; gives how many values there were. */
+/* Fill one column, and mark the rows; returns the number of values present. */
 static size_t
 fill_column(double *x, size_t row, size_t n, ss_gaps how, char *missing)
 {
@@ -34,7 +34,7 @@ fill_column(double *x, size_t row, size_t n, ss_gaps how, char *missing)
     return there;
 }
 
-/* "from:to from:to ...", to be freed: from the first sample missing to the next that is there. */
+/* "from:to from:to ...", to be freed: from the first missing sample to the next one present. */
 static char *
 spans(const char *missing, size_t n, const ss_header *head)
 {
@@ -122,7 +122,7 @@ ss_gaps_near(const ss_span *gap, size_t n, double t, double margin)
 
 /* --- within a record ----------------------------------------------------------------------- */
 
-#define UNEVEN 1e-6             /* of a sample: what its decimal digits leave of a time */
+#define UNEVEN 1e-6             /* of a sample: the rounding of a time to decimal digits */
 
 ss_status
 ss_gaps_of(ss_span **out, size_t *n, const ss_header *head, size_t rows)

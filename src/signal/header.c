@@ -1,4 +1,4 @@
-/* header.c -- what a signal is made of: rate, start, columns, notes. */
+/* header.c -- the description of a signal: rate, start, columns, notes. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ ss_header_free(ss_header *head)
     free(head);
 }
 
-/* Append a column of these strings, which become the header's or are freed; NULL: no memory. */
+/* Append a column of these strings, which the header then owns, or free them; NULL: no memory. */
 static ss_status
 append_column(ss_header *head, char *name, char *unit)
 {
@@ -79,7 +79,7 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
     copy->has_time = head->has_time;
     if (first > 0)
         copy->start += (double)first / head->rate;
-    int ascending = 1;                          /* then all names differ already */
+    int ascending = 1;                          /* then all names differ */
     for (size_t i = 0; i < n; i++) {
         ss_status st = SS_EINVAL;
         ascending = ascending && (i == 0 || column[i] > column[i - 1]);
@@ -136,7 +136,7 @@ find_name(const ss_header *head, const char *name)
     return -1;
 }
 
-/* The least number from 2 on that no column has behind this name and "_"; 0: no memory.  One pass
+/* The least number from 2 on that no column has after this name and "_"; 0: no memory.  One pass
  * over the columns, as there are files with thousands of the same name. */
 static size_t
 free_suffix(const ss_header *head, const char *name)
@@ -160,7 +160,7 @@ free_suffix(const ss_header *head, const char *name)
     return suffix;
 }
 
-/* A name without blanks, slashes, or one that is there already. */
+/* A name without blanks and slashes that no other column has. */
 static char *
 clean_name(const ss_header *head, const char *name)
 {
@@ -214,7 +214,7 @@ lower(char c)
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
 }
 
-/* The only column whose name is the one asked for, cleaned, in whatever case if fold; else -1. */
+/* The only column whose name is this one, cleaned, in any case if fold; else -1. */
 static int
 find_cleaned(const ss_header *head, const char *asked, int fold)
 {
@@ -263,7 +263,7 @@ ss_header_row(const ss_header *head, double t)
 
 /* --- notes --------------------------------------------------------------------------------- */
 
-/* The index of the note with this key, or n_notes; *value is what stands behind the colon. */
+/* The index of the note with this key, or n_notes; *value is the text after the colon. */
 static size_t
 find_note(const ss_header *head, const char *key, size_t length, const char **value)
 {

@@ -1,4 +1,4 @@
-/* header.h -- the header of a signal as text: what readers and writers of every form share. */
+/* header.h -- the header of a signal as text: shared by readers and writers of every form. */
 #ifndef HEADER_H
 #define HEADER_H
 
@@ -6,12 +6,12 @@
 #include <stdio.h>
 #include <stickslip/signal.h>
 
-/* More than any honest input has, so that hostile input finds an end of memory and time. */
+/* More than any honest input has: they bound the memory and time of hostile input. */
 enum { MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
 
 /* The lines of a header, to be freed, or NULL if there is no memory. */
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
-/* Take in a "# key: value" line, which is changed; reason is set if it is SS_EDATA. */
+/* Read a "# key: value" line, which is changed; reason is set if the status is SS_EDATA. */
 ss_status ss_header_read_line(ss_header *head, char *line, const char **reason);
 /* Write " name", " name/unit" or " name/(unit)". */
 void ss_write_label(FILE *out, const char *name, const char *unit);

@@ -1,8 +1,8 @@
-/* noise.c -- what measuring adds to a signal: white noise, noise of a band, a converter's steps.
+/* noise.c -- the errors of a measurement: white noise, noise of a band, a converter's steps.
  *
- * Numbers are drawn by GSL's mt19937 and its Ziggurat.  Noise of a band is made in the spectrum:
- * Gaussian numbers at the frequencies of the band, of a power of two samples, nothing elsewhere,
- * and what is needed of that, with the rms that was asked for. */
+ * Numbers are drawn by GSL's mt19937 and its Ziggurat.  Noise of a band is made in the spectrum of a
+ * power of two samples: Gaussian numbers at the frequencies of the band, zero elsewhere, scaled to
+ * the given rms.  The record uses as many of these samples as it has. */
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -52,8 +52,8 @@ ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns,
     return zero == 0 ? SS_OK : SS_ERANGE;
 }
 
-/* Gaussian numbers at the frequencies of a spectrum of m samples in [lo, hi], as GSL wants them:
- * real parts from the left, imaginary ones from the right. */
+/* Gaussian numbers at the frequencies of a spectrum of m samples in [lo, hi], in GSL's order: real
+ * parts from the left, imaginary parts from the right. */
 static size_t
 fill_band(ss_noise *noise, double *spectrum, size_t m, double rate, double lo, double hi)
 {
@@ -138,7 +138,7 @@ deviation(const double *x, size_t n, double unit)
     return sqrt(square / (double)n);
 }
 
-/* Squares of what is not between these overflow, or lose digits to underflow. */
+/* Squares of numbers outside these overflow, or lose digits to underflow. */
 #define SQUARE_LEAST 1e-145
 #define SQUARE_MOST 1e145
 

@@ -39,7 +39,7 @@ fill_piece(const struct target *to, const double *t, const double *value, size_t
     return 1;
 }
 
-/* One column of n values, a row apart: those that are there, in pieces; the rest becomes NaN. */
+/* One column of n values, a row apart: a spline through each piece without a gap, NaN between. */
 static int
 fill_column(const struct target *to, const double *t, const double *value, size_t row, size_t n,
             double longest, double *kept, double *kept_t)
@@ -61,7 +61,7 @@ fill_column(const struct target *to, const double *t, const double *value, size_
     return k == 0 || fill_piece(to, kept_t, kept, k);
 }
 
-/* How many samples from the first stamp to the last; 0: more than memory holds. */
+/* The number of samples from the first stamp to the last; 0: more than memory holds. */
 static size_t
 count_samples(const double *t, size_t n, double rate, size_t columns)
 {

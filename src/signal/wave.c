@@ -1,8 +1,8 @@
 /* wave.c -- benchmark signals.
  *
  * A phase of 1e6 cycles in one double is only good to 1e-10 cycles, so times and phases are kept in
- * two (Dekker 1971) until whole cycles have been taken off: then it is good to 1e-16 in a record of
- * any length. */
+ * two (Dekker 1971) until whole cycles are subtracted: then it is good to 1e-16 in a record of any
+ * length. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -72,7 +72,7 @@ chirp_cycles(const ss_wave_opts *o, struct twofold t)
     return multiply(sum, t);
 }
 
-/* The deterministic ones, in sample i. */
+/* Sample i of a signal without noise. */
 static double
 sample(ss_wave wave, const ss_wave_opts *o, size_t i)
 {
@@ -89,7 +89,7 @@ sample(ss_wave wave, const ss_wave_opts *o, size_t i)
     return 0;
 }
 
-/* What is wrong with the options, or NULL. */
+/* The fault of the options, or NULL. */
 static const char *
 refuse_opts(ss_wave wave, const ss_wave_opts *o)
 {

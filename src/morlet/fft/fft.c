@@ -3,31 +3,31 @@
  * On a circle of P samples, of which the record fills the first n and zeros the rest, the sum over
  * samples is, for any b = c/rate and with C = pi^-1/4 sqrt(2 pi), in units of a^1/2,
  *     C/P sum_k X_k exp(-v_k^2/2) exp(2 pi i k c/P),   v_k = 2 pi k a rate/P - omega_c,
- * over all integers k, X being periodic in k (Poisson): negative frequencies, the mean and what
- * aliases are in it.  It is exact but for what reaches around the circle; the sum is cut to
- * |v| <= R.  What a scale then is, is a Fourier series of few terms.
+ * over all integers k, X being periodic in k (Poisson): negative frequencies, the mean and aliases
+ * are in it.  It is exact except for the part of the wavelet that reaches around the circle; the sum
+ * is cut to |v| <= R.  A scale is then a Fourier series of few terms.
  *
  * Lattice: translations that divide the circle into L equal parts come from the terms folded modulo
  * L and one inverse FFT of that length, exactly.
  * Other translations: the terms, shifted to zero frequency, by an inverse FFT of a length L that
  * oversamples them, then interpolation between its points (kaiser.c) and the carrier's rotation.
- * With a coefficient a sample the places between points repeat, so that their weights do, too; else
- * each place has its own, and b is met to the last bit.
+ * With a coefficient a sample the positions between points repeat, and so do their weights; else
+ * each position has its own, and b is exact to the last bit.
  *
  * On a circle of which a point stands for D samples, x is spread to its points by the same
  * interpolation, run backwards, with 16 taps and 8 points a cycle, which leaves an error below
  * rounding.
  *
- * Error.  A scale is computed for the accuracy asked for, and then what was left out is bounded by
- * what the record's own spectrum holds: the cut leaves out at most
+ * Error.  A scale is computed for the given accuracy, and then the omitted part is bounded by the
+ * record's own spectrum: the cut leaves out at most
  *     C/P sum over |v_k| > R of |X_k| exp(-v_k^2/2),
  * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of
- * |X_k| over ranges are differences of running sums, so that this costs next to nothing.  If the
- * bound exceeds what the largest |W| allows (9/10 of it, the rest being for lattices that are nearly
- * met), the scale is done again with R and e that suffice for any signal.
+ * |X_k| over ranges are differences of running sums, which costs almost nothing.  If the bound
+ * exceeds the one that the largest |W| allows (9/10 of it; the rest is for lattices that are met only
+ * nearly), the scale is computed again with R and e that suffice for any signal.
  *
- * Single precision comes first where it may be good enough: terms are rounded to it, transformed
- * and interpolated in it, and what that adds is bounded from the sum of their sizes. */
+ * Single precision is tried first where it may suffice: terms are rounded to it, transformed and
+ * interpolated in it, and the sum of their sizes bounds the error that this adds. */
 #include <fftw3.h>
 #include <math.h>
 #include <stdint.h>
@@ -178,7 +178,7 @@ write_anywhere(const struct fft *f, const route *r, const band *b, const ss_scal
     return most;
 }
 
-/* --- what is left out ------------------------------------------------------------------------- */
+/* --- the omitted part ------------------------------------------------------------------------- */
 
 /* sums[i] = sum of |Re X_k| + |Im X_k|, which is no less than |X_k|, over k < i block. */
 VERSIONS static void
@@ -224,7 +224,7 @@ size_of(const level *lev, const double *sums, ptrdiff_t lo, ptrdiff_t hi)
     return sum_to(lev, sums, hi, 1) - sum_to(lev, sums, lo, 0);
 }
 
-/* Bound on what the cut, and interpolation, leave out of any coefficient of a scale. */
+/* Bound on the error of any coefficient of a scale by the cut and by interpolation. */
 static double
 left_out(const struct fft *f, const level *lev, const band *b, const double *sums, int images)
 {
@@ -277,7 +277,7 @@ sum_terms(const float *restrict c, size_t n, double *size, double *square)
     }
 }
 
-/* What rounding may add to a coefficient.  *likely: the largest |W| of noise of this power. */
+/* The error of a coefficient by rounding.  *likely: the largest |W| of noise of this power. */
 static double
 rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, double *likely)
 {
@@ -294,15 +294,15 @@ rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, dou
 
 /* --- a scale ---------------------------------------------------------------------------------- */
 
-/* Where the terms of a short series are put, after its values v. */
+/* The terms of a short series, after its values v. */
 static double *
 terms_of(const struct fft *f, double *v)
 {
     return v + 2 * (f->longest + MARGIN);
 }
 
-/* Terms to points.  Returns what single precision may add to a coefficient; if that is too much,
- * infinity, and nothing more is done. */
+/* Terms to points.  Returns the error of a coefficient by single precision; if that is too large,
+ * infinity, and the points are not computed. */
 static double
 transform_back(const route *r, const band *b, ptrdiff_t origin, int single, double accuracy,
                void *c, void *points)
@@ -329,8 +329,8 @@ write_points(const void *points, ptrdiff_t first, size_t n, int single, double f
         : write_lattice(v + 2 * first, n, factor, w);
 }
 
-/* One pass over part of a scale.  Returns the largest |W|; *rounding is what single precision may
- * have added, or infinity if it is too much: then nothing is done. */
+/* One pass over part of a scale.  Returns the largest |W|; *rounding is the error by single
+ * precision, or infinity if it is too large: then nothing is computed. */
 static double
 pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span part, way how,
      double *v, double factor, double *w, double *rounding)
@@ -443,7 +443,7 @@ spread_record(const level *lev, const record *rec, double *y)
     return SS_OK;
 }
 
-/* What spreading did to low frequencies. */
+/* Undo the effect of spreading on low frequencies. */
 static void
 undo_spreading(const level *lev, double *x)
 {

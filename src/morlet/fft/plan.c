@@ -1,14 +1,14 @@
 /* plan.c -- how the scales of a grid are transformed by FFT: circles, lengths and routes.
  *
- * What reaches around a circle is an error, so it has the record's n samples and REACH a of zeros.
- * Long scales want many zeros and use low frequencies only.  For them there is a second circle, on
- * which a point stands for D samples.
+ * A wavelet that reaches around a circle is an error, so a circle has the record's n samples and
+ * REACH a of zeros.  Long scales need many zeros and use low frequencies only: for them there is a
+ * second circle, on which a point stands for D samples.
  *
- * Each scale goes by the cheapest of what is possible on its circle, and with AUTO by the sum over
- * samples where that is cheaper still.
+ * Each scale uses the cheapest route that its circle allows, and with AUTO the sum over samples where
+ * that is cheaper.
  *
- * The cut R and images e of the first pass are what noise needs at the accuracy asked for.  Those
- * of the last suffice for any signal: the sum over samples of the kernel's error is bounded by its
+ * The cut R and images e of the first pass suffice for noise at the given accuracy.  Those of the
+ * last suffice for any signal: the sum over samples of the kernel's error is bounded by its
  * size near b and its decay, 1/|u|, away from it, in units of a^1/2 max|x|: for the cut
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
  * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR. */
@@ -157,8 +157,8 @@ choose_levels(struct fft *f, const ss_morlet *plan)
 
 /* --- routes ----------------------------------------------------------------------------------- */
 
-/* L, if every translation stands at a multiple of the circle's L-th part, else 0.  Within the
- * promise is near enough, W changing by no more than (omega_c + REACH)/a of its largest a second. */
+/* L, if every translation is a multiple of the circle's L-th part, else 0.  A deviation within the
+ * promise is allowed: W changes by at most (omega_c + REACH)/a of its largest a second. */
 static size_t
 lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy,
                int window)
@@ -186,7 +186,7 @@ inverse_cost(size_t length)
     return length < 1 << 12 ? cost : length < 1 << 18 ? 1.6 * cost : 3.5 * cost;
 }
 
-/* A kernel for a band to edge <= EDGE_MAX in this round; 0 if none is good enough. */
+/* A kernel for a band to edge <= EDGE_MAX in this round; 0 if none is accurate enough. */
 static int
 kernel_for(const struct fft *f, double edge, int round, kaiser *out)
 {
@@ -195,7 +195,7 @@ kernel_for(const struct fft *f, double edge, int round, kaiser *out)
     return ss_kaiser_choose(out, &shape, f->images[round]);
 }
 
-/* The kernel for a band to this edge, made now if need be; NULL if there is none or no memory. */
+/* The kernel for a band to this edge, made on the first call; NULL: none, or no memory. */
 static const kaiser *
 advance_kernel(struct fft *f, int round, double edge)
 {
@@ -215,7 +215,7 @@ advance_kernel(struct fft *f, int round, double edge)
     return *at;
 }
 
-/* With L points: about what the scale costs [s], infinity if it is not possible. */
+/* The approximate cost of the scale with L points [s]; infinity if that is not possible. */
 static double
 interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int dense, size_t length)
 {
@@ -305,7 +305,7 @@ choose_routes(struct fft *f, const ss_morlet *plan)
 
 /* --- weights of dense scales ------------------------------------------------------------------ */
 
-/* How many places between points repeat. */
+/* The number of positions between points, after which they repeat. */
 static size_t
 phases_of(const level *lev, const route *r)
 {
@@ -365,7 +365,7 @@ inverse_of_length(struct fft *f, size_t length, fftw_complex *v, fftw_complex *c
     return of;
 }
 
-/* What rounding in single precision adds to any coefficient, over the sum of the sizes of the terms.
+/* The error of any coefficient by rounding in single precision, over the sum of the terms' sizes.
  *
  * With u = 2^-24, to first order, as a part of that sum: u for the terms themselves.  In the FFT
  * every point is a sum of all terms times roots of unity, which passes one butterfly for each prime
@@ -411,7 +411,7 @@ plan_single(const struct fft *f, const ss_morlet *plan, size_t i, inverse *of, f
     r->single = of->single;
 }
 
-/* v, c and x are where the arrays will be as far as alignment is concerned. */
+/* v, c and x have the alignment of the arrays to come. */
 static ss_status
 make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x)
 {

@@ -1,4 +1,4 @@
-/* plan.h -- what plan.c prepares for fft.c, and the lock around FFTW's planner. */
+/* plan.h -- the tables that plan.c makes for fft.c, and the lock around FFTW's planner. */
 #ifndef FFT_PLAN_H
 #define FFT_PLAN_H
 
@@ -36,7 +36,7 @@ typedef struct level {
  * within the promise: in single precision, with the first cut, with the last. */
 typedef enum way { SINGLE, FIRST, LAST, WAYS } way;
 
-/* How a scale is computed: not here; at points of its series; or between them, at places that
+/* How a scale is computed: not by FFT; at points of its series; or between them, at positions that
  * repeat or anywhere. */
 typedef struct route {
     enum { BY_SUM, LATTICE, DENSE, ANYWHERE } kind;

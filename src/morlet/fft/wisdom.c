@@ -1,4 +1,4 @@
-/* wisdom.c -- what FFTW has learnt of this machine, written to a file and read from one. */
+/* wisdom.c -- FFTW's measurements of this machine, written to a file and read from one. */
 #include <errno.h>
 #include <fftw3.h>
 #include <pthread.h>

@@ -267,8 +267,6 @@ judge(ss_fit *fit, const work *w)
         return st;
     if (m->compared == 0)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
-    else if (w->c.steps > w->c.budget)
-        snprintf(fit->why, sizeof fit->why, "scenes like it take too many steps: %.2g", w->c.steps);
     else if (!ss_match_explains(m, w->noise))
         snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
                  "%.3g times the noise", 100 * fit->residual_started, sqrt(ss_match_excess(m, w->noise)));
@@ -316,6 +314,9 @@ fit_signal(ss_fit *fit, work *w, const ss_signal *signal, size_t column, const s
         st = search(w, signal, column, &searching, err);
     if (st == SS_OK)
         st = match_all(w, &matching);
+    if (st == SS_OK && w->c.steps > BUDGET)
+        return ss_fail(err, SS_EBUDGET, "scenes like it take more than %.0e integration steps to be fitted",
+                       BUDGET);
     if (st != SS_OK)
         return st;
     report(fit, w);

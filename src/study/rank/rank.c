@@ -319,6 +319,9 @@ rank_scene(ss_rank_row *row, found *f, const work *w, const ss_scene *scene,
     ss_status st = ss_candidate_search(&f->candidate, &w->goal, STARTS, KEEP, STEPS, &search);
     if (st == SS_OK)
         st = match_scene(f, w, &matching);
+    if (st == SS_OK && f->candidate.steps > BUDGET)
+        return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be adjusted: "
+                       "it is too stiff to be ranked", row->scene + 1, BUDGET);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     const match *m = &f->match;
@@ -414,10 +417,6 @@ judge(ss_ranking *r, const work *w, const found *f)
     for (size_t i = 0; i < r->n; i++) {
         least = f[i].match.left < f[least].match.left ? i : least;
         fit += ss_match_explains(&f[i].match, w->noise);
-        if (f[i].candidate.steps > f[i].candidate.budget && !ss_match_explains(&f[i].match, w->noise)) {
-            snprintf(r->why, sizeof r->why, "scene %zu takes too many steps to be adjusted", i + 1);
-            return;
-        }
     }
     const match *best = &f[least].match;
     if (fit == 0) {

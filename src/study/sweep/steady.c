@@ -10,8 +10,10 @@
 #include <math.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/range.h"
 #include "study/sweep/meter.h"
 
+const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
 const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
                                             .max_steps = 10000000 };
 
@@ -93,8 +95,9 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
         if ((opts->measures & 1u << i) && measure[i].has != NULL && !measure[i].has(m))
             return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", m->name,
                            measure[i].name);
-    if (!(opts->tol >= 1e-13 && opts->tol <= 1e-1))
-        return ss_fail(err, SS_EINVAL, "tolerance %g is out of range 1e-13 ... 0.1", opts->tol);
+    ss_status st = ss_range_check(opts->tol, ss_steady_tolerances, "tolerance", err);
+    if (st != SS_OK)
+        return st;
     if (opts->max_period < 1 || opts->max_period > SS_PERIOD_MAX)
         return ss_fail(err, SS_EINVAL, "the longest period is 1 ... %d cycles", SS_PERIOD_MAX);
     if (opts->max_cycles < 1)

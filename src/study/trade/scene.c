@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "base/progress.h"
+#include "base/range.h"
 #include "base/sort.h"
 #include "motion/engine.h"
 #include "study/trade/common.h"
@@ -37,6 +38,7 @@ static const double tolerance[] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
                                     1e-11, 1e-12, 1e-13, 1e-14 };
 enum { TOLERANCES = sizeof tolerance / sizeof *tolerance };
 
+const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
 const ss_trade_opts ss_trade_defaults = { .budget = 10 };
 
 /* --- one run ------------------------------------------------------------------------------- */
@@ -653,8 +655,8 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     ss_status st = ss_record_check(scene, err);
     if (st != SS_OK)
         return st;
-    if (!(accuracy >= 1e-12 && accuracy <= 1e-3))
-        return ss_fail(err, SS_EINVAL, "accuracy %g is out of range 1e-12 ... 0.001", accuracy);
+    if ((st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err)) != SS_OK)
+        return st;
     if (opts->method != NULL && strcmp(opts->method, EXACT) == 0)
         st = ss_exact_check(ss_model_of(scene), err);
     if (st != SS_OK)
