@@ -78,15 +78,15 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_header_note(head, "key", NULL), NULL);
     assert_refused(ss_signal_new(NULL, head, 1), NULL);
     assert_refused(ss_signal_new(&signal, NULL, 1), NULL);
-    assert_refused(ss_signal_select(&signal, NULL, NULL, 0, 0, 0), NULL);
-    assert_refused(ss_signal_write(NULL, stdout, SS_TSV), NULL);
-    assert_refused(ss_writer_new(NULL, stdout, SS_TSV, head), NULL);
-    assert_refused(ss_writer_new(&writer, NULL, SS_TSV, head), NULL);
-    assert_refused(ss_writer_new(&writer, stdout, SS_TSV, NULL), NULL);
+    assert_refused(ss_signal_select(&signal, NULL, NULL, 0, 0, 0, NULL), NULL);
+    assert_refused(ss_signal_write(NULL, stdout, SS_TSV, NULL), NULL);
+    assert_refused(ss_writer_new(NULL, stdout, SS_TSV, head, NULL), NULL);
+    assert_refused(ss_writer_new(&writer, NULL, SS_TSV, head, NULL), NULL);
+    assert_refused(ss_writer_new(&writer, stdout, SS_TSV, NULL, NULL), NULL);
     assert_refused(ss_writer_rows(NULL, NULL, 0), NULL);
     assert_refused(ss_scene_write(NULL, stdout), NULL);
     assert_refused(ss_scene_write(&scene, NULL), NULL);
-    assert_refused(ss_coefficients_write(NULL, stdout, SS_TSV), NULL);
+    assert_refused(ss_coefficients_write(NULL, stdout, SS_TSV, NULL), NULL);
     assert_refused(ss_morlet_transform(&c, NULL, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_store_write(NULL, &record, &e), &e);
     assert_refused(ss_store_write("x.h5", NULL, &e), &e);
@@ -153,8 +153,8 @@ headers_and_samples_refuse_null(void **state)
     assert_null(ss_reader_header(NULL));
     assert_int_equal(ss_reader_waits(NULL), 0);
     assert_refused(ss_writer_flush(NULL), NULL);
-    assert_refused(ss_signal_resample(NULL, NULL, 1), NULL);
-    assert_refused(ss_signal_resample(&signal, NULL, 1), NULL);
+    assert_refused(ss_signal_resample(NULL, NULL, 1, NULL), NULL);
+    assert_refused(ss_signal_resample(&signal, NULL, 1, NULL), NULL);
     assert_refused(ss_wave_new(NULL, SS_SINE, &ss_wave_defaults, &e), &e);
     assert_refused(ss_wave_new(&signal, SS_SINE, NULL, &e), &e);
     assert_refused(ss_noise_add_once(NULL, 1, 1, 1), NULL);
@@ -167,7 +167,7 @@ headers_and_samples_refuse_null(void **state)
     assert_refused(ss_noise_add_band(noise, NULL, 2, 1, 0, 1, 1, &e), &e);
     ss_noise_free(noise);
     assert_true(isnan(ss_noise_rms(NULL, 1, 0)));
-    assert_refused(ss_samples_quantise(NULL, 1, 8, 1, NULL), NULL);
+    assert_refused(ss_samples_quantise(NULL, 1, 8, 1, NULL, NULL), NULL);
     assert_int_equal(ss_number_format(NULL, 1), 0);
     assert_true(ss_number_parse(NULL, NULL) == 0);
     assert_int_equal(x[0] + x[1], 3);
@@ -287,9 +287,9 @@ transforms_refuse_null(void **state)
     assert_int_equal(ss_coefficients_edge(NULL, 0, 0), 1);
     assert_int_equal(ss_coefficients_edge(&none, 0, 0), 1);
     assert_true(isnan(ss_coefficients_max(NULL)));
-    assert_refused(ss_coefficient_writer_new(NULL, stdout, SS_TSV, head), NULL);
-    assert_refused(ss_coefficient_writer_new(&writer, NULL, SS_TSV, head), NULL);
-    assert_refused(ss_coefficient_writer_new(&writer, stdout, SS_TSV, NULL), NULL);
+    assert_refused(ss_coefficient_writer_new(NULL, stdout, SS_TSV, head, NULL), NULL);
+    assert_refused(ss_coefficient_writer_new(&writer, NULL, SS_TSV, head, NULL), NULL);
+    assert_refused(ss_coefficient_writer_new(&writer, stdout, SS_TSV, NULL, NULL), NULL);
     assert_refused(ss_coefficient_writer_rows(NULL, &scale, 0, 0, w, 1), NULL);
     assert_refused(ss_coefficient_writer_end(NULL, 1), NULL);
     ss_header_free(head);
@@ -549,9 +549,9 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_reader_new(&reader, in, "in", &gaps, NULL), SS_EINVAL);
         assert_null(ss_format_name((size_t)k));
         assert_int_equal(ss_format_has_words((ss_format)k), 0);
-        assert_int_equal(ss_writer_new(&writer, in, (ss_format)k, head), SS_EINVAL);
-        assert_int_equal(ss_signal_write(signal, in, (ss_format)k), SS_EINVAL);
-        assert_int_equal(ss_coefficient_writer_new(&coefficient_writer, in, (ss_format)k, head),
+        assert_int_equal(ss_writer_new(&writer, in, (ss_format)k, head, NULL), SS_EINVAL);
+        assert_int_equal(ss_signal_write(signal, in, (ss_format)k, NULL), SS_EINVAL);
+        assert_int_equal(ss_coefficient_writer_new(&coefficient_writer, in, (ss_format)k, head, NULL),
                          SS_EINVAL);
         assert_int_equal(ss_ranking_new(&ranking, signal, 0, &scene, 1, &rank, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &rank, NULL), SS_EINVAL);

@@ -216,7 +216,7 @@ static ss_status
 write_streams(int variant)
 {
     rewind(scrap);
-    return ss_signal_write(signal, scrap, variant == 0 ? SS_TSV : SS_AU);
+    return ss_signal_write(signal, scrap, variant == 0 ? SS_TSV : SS_AU, NULL);
 }
 
 static ss_status
@@ -225,14 +225,14 @@ signals(int variant)
     static const size_t pick[] = { 0 };
     ss_signal *made = NULL;
     if (variant == 7) {
-        ss_status resampled = ss_signal_resample(&made, signal, 700);
+        ss_status resampled = ss_signal_resample(&made, signal, 700, NULL);
         ss_signal_free(made);
         return resampled;
     }
     ss_wave_opts opts = ss_wave_defaults;
     opts.duration = 0.01;
     ss_status st = variant < 6 ? ss_wave_new(&made, (ss_wave)variant, &opts, &err)
-                   : ss_signal_select(&made, signal, pick, 1, 3, 7);
+                   : ss_signal_select(&made, signal, pick, 1, 3, 7, NULL);
     ss_signal_free(made);
     return st;
 }
@@ -661,13 +661,13 @@ set_up(void **state)
         return -1;
     for (int i = 0; i < 2; i++) {
         FILE *out = fmemopen(text[i], sizeof text[i], "w");
-        if (ss_signal_write(signal, out, i == 0 ? SS_TSV : SS_AU) != SS_OK)
+        if (ss_signal_write(signal, out, i == 0 ? SS_TSV : SS_AU, NULL) != SS_OK)
             return -1;
         length[i] = (size_t)ftell(out);
         fclose(out);
     }
     FILE *out = fmemopen(coefficient_text, sizeof coefficient_text, "w");
-    if (ss_coefficients_write(coefficients, out, SS_TSV) != SS_OK)
+    if (ss_coefficients_write(coefficients, out, SS_TSV, NULL) != SS_OK)
         return -1;
     coefficient_length = (size_t)ftell(out);
     fclose(out);

@@ -29,7 +29,7 @@ record_of(const ss_scene *scene, double snr)
     const size_t a = SS_ACCELERATION;
     ss_signal *all = NULL, *one = NULL;
     assert_int_equal(ss_sim_signal(&all, scene, NULL), SS_OK);
-    assert_int_equal(ss_signal_select(&one, all, &a, 1, 0, all->n), SS_OK);
+    assert_int_equal(ss_signal_select(&one, all, &a, 1, 0, all->n, NULL), SS_OK);
     ss_signal_free(all);
     if (snr < 200)
         ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5);
@@ -252,7 +252,7 @@ columns_that_contradict_each_other_are_not_named(void **state)
     (void)state;
     assert_int_equal(ss_sim_signal(&all, &scene[0], NULL), SS_OK);
     assert_int_equal(ss_sim_signal(&other, &scene[1], NULL), SS_OK);
-    assert_int_equal(ss_signal_select(&both, all, column, 2, 0, all->n), SS_OK);
+    assert_int_equal(ss_signal_select(&both, all, column, 2, 0, all->n, NULL), SS_OK);
     for (size_t c = 0; c < 2; c++)
         ss_noise_add_once(both->values + c * both->n, both->n,
                           ss_noise_rms(both->values + c * both->n, both->n, 40), 4);

@@ -121,14 +121,14 @@ selects_columns_and_rows(void **state)
     ss_signal *s = read_text("t,x,y\n1,1,2\n1.5,3,4\n2,5,6\n", NULL), *part;
     const size_t column[] = { 1, 0, 1 }, none[] = { 2 };
     (void)state;
-    assert_int_equal(ss_signal_select(&part, s, column, 3, 1, 3), SS_OK);
+    assert_int_equal(ss_signal_select(&part, s, column, 3, 1, 3, NULL), SS_OK);
     assert_true(part->n == 2 && part->head->start == 1.5 && part->head->n_columns == 3);
     assert_true(part->values[0] == 4 && part->values[1] == 6 && part->values[2] == 3);
     assert_string_equal(part->head->column[2].name, "y_2");
     ss_signal_free(part);
-    assert_int_equal(ss_signal_select(&part, s, none, 1, 0, 1), SS_EINVAL);
-    assert_int_equal(ss_signal_select(&part, s, column, 1, 0, 4), SS_EINVAL);
-    assert_int_equal(ss_signal_select(&part, s, column, 1, 2, 1), SS_EINVAL);
+    assert_int_equal(ss_signal_select(&part, s, none, 1, 0, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_signal_select(&part, s, column, 1, 0, 4, NULL), SS_EINVAL);
+    assert_int_equal(ss_signal_select(&part, s, column, 1, 2, 1, NULL), SS_EINVAL);
     ss_signal_free(s);
 }
 
@@ -141,16 +141,16 @@ resamples_a_signal_at_its_own_samples(void **state)
     ss_wave_opts wave = ss_wave_defaults;
     ss_signal *s, *twice, *back;
     assert_int_equal(ss_wave_new(&s, SS_CHIRP, &wave, NULL), SS_OK);
-    assert_int_equal(ss_signal_resample(&twice, s, 2 * wave.rate), SS_OK);
+    assert_int_equal(ss_signal_resample(&twice, s, 2 * wave.rate, NULL), SS_OK);
     assert_int_equal(twice->n, 2 * s->n - 1);
-    assert_int_equal(ss_signal_resample(&back, twice, wave.rate), SS_OK);
+    assert_int_equal(ss_signal_resample(&back, twice, wave.rate, NULL), SS_OK);
     assert_int_equal(back->n, s->n);
     for (size_t i = 0; i < s->n; i++)
         if (!(fabs(back->values[i] - s->values[i]) <= 1e-9))    /* stamps are rounded: 1e-15 * 10 s */
             fail_msg("sample %zu: %.17g became %.17g", i, s->values[i], back->values[i]);
     ss_signal_free(back);
-    assert_int_equal(ss_signal_resample(&back, s, 0), SS_EINVAL);
-    assert_int_equal(ss_signal_resample(&back, s, NAN), SS_EINVAL);
+    assert_int_equal(ss_signal_resample(&back, s, 0, NULL), SS_EINVAL);
+    assert_int_equal(ss_signal_resample(&back, s, NAN, NULL), SS_EINVAL);
     ss_signal_free(twice);
     ss_signal_free(s);
 }

@@ -20,7 +20,7 @@ au_is_not_written_where_it_would_not_be_read(void **state)
     for (int i = 0; i < CHANNELS; i++)
         ss_header_add_column(head, "a", NULL);
     FILE *f = tmpfile();
-    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head), SS_OK);
+    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_OK);
     ss_writer_flush(writer);
     ss_writer_free(writer);
     rewind(f);
@@ -30,15 +30,15 @@ au_is_not_written_where_it_would_not_be_read(void **state)
     fclose(f);
     f = tmpfile();
     ss_header_add_column(head, "a", NULL);
-    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_EINVAL);
     ss_header_free(head);
     head = ss_header_new(1, 0);
     ss_header_add_column(head, "a", NULL);
     memset(note, 'x', sizeof note - 1);
     ss_header_note(head, "long", note);
-    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_EINVAL);
     assert_int_equal(ftell(f), 0);              /* nothing was written */
-    assert_int_equal(ss_writer_new(&writer, f, SS_TSV, head), SS_OK);
+    assert_int_equal(ss_writer_new(&writer, f, SS_TSV, head, NULL), SS_OK);
     ss_writer_free(writer);
     ss_header_free(head);
     fclose(f);
@@ -83,7 +83,7 @@ come_back_the_same(ss_format format, int has_time, size_t n)
     for (size_t i = 0; i < n * one->head->n_columns; i++)
         one->values[i] = hard[i % 10] * (i < 10 ? 1 : cos((double)i));
     FILE *f = tmpfile();
-    assert_int_equal(ss_signal_write(one, f, format), SS_OK);
+    assert_int_equal(ss_signal_write(one, f, format, NULL), SS_OK);
     rewind(f);
     if (ss_signal_read(&two, f, "in", NULL, &err) != SS_OK)
         fail_msg("%s", err.text);
@@ -143,7 +143,7 @@ reads_a_line_of_any_length(void **state)
     for (int i = 0; i < COLUMNS; i++)
         one->values[i] = 1. / (i + 3);
     FILE *f = tmpfile();
-    assert_int_equal(ss_signal_write(one, f, SS_TSV), SS_OK);
+    assert_int_equal(ss_signal_write(one, f, SS_TSV, NULL), SS_OK);
     rewind(f);
     assert_int_equal(ss_signal_read(&two, f, "in", NULL, &err), SS_OK);
     assert_int_equal(two->head->n_columns, COLUMNS);
@@ -203,7 +203,7 @@ reports_a_full_disk(void **state)
         skip();
     }
     assert_int_equal(ss_wave_new(&s, SS_SINE, &ss_wave_defaults, NULL), SS_OK);
-    assert_int_equal(ss_signal_write(s, out, SS_TSV), SS_EIO);
+    assert_int_equal(ss_signal_write(s, out, SS_TSV, NULL), SS_EIO);
     ss_signal_free(s);
     fclose(out);
 }

@@ -506,7 +506,7 @@ file_of_stream(size_t n, ss_format format, int dense, ss_coefficients **whole)
     assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
     make(NOISE, signal->values, n);
     assert_int_equal(ss_coefficients_header(&own, head, 0, 0, &opts), SS_OK);
-    assert_int_equal(ss_coefficient_writer_new(&f.writer, f.out, format, own), SS_OK);
+    assert_int_equal(ss_coefficient_writer_new(&f.writer, f.out, format, own, NULL), SS_OK);
     assert_int_equal(ss_stream_new(&stream, 2000, &opts, write_rows, &f, NULL), SS_OK);
     feed(stream, signal->values, n, HURRIED);
     assert_int_equal(ss_coefficient_writer_end(f.writer, n), SS_OK);

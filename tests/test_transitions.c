@@ -486,7 +486,7 @@ gaps_leave_out_what_they_reach_and_nothing_else(void **state)
                 double from = release + gap[g % 6].from;
                 size_t first = (size_t)(from * scene.rate), many = (size_t)(gap[g % 6].length * scene.rate);
                 snprintf(what, sizeof what, "%s, %s, gap %d", names[i], k ? "40 dB" : "clean", g);
-                assert_int_equal(ss_signal_select(&with, signal, &column, 1, 0, signal->n), SS_OK);
+                assert_int_equal(ss_signal_select(&with, signal, &column, 1, 0, signal->n, NULL), SS_OK);
                 make_gap(with, 0, first, many, g >= 6);
                 assert_int_equal(ss_features_find(&f, with, 0, NULL, NULL), SS_OK);
                 from = (double)first / scene.rate;

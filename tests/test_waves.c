@@ -247,7 +247,7 @@ a_converter_rounds_and_clips(void **state)
         size_t inside = 0, clipped = 7, outside = 7;
         for (size_t i = 0; i < N; i++)
             x[i] = 3 * (2. * (double)i / (N - 1) - 1);
-        assert_int_equal(ss_samples_quantise(x, N, bits, range, &clipped), SS_OK);
+        assert_int_equal(ss_samples_quantise(x, N, bits, range, &clipped, NULL), SS_OK);
         for (size_t i = 0; i < N; i++) {
             double was = 3 * (2. * (double)i / (N - 1) - 1), off = x[i] - was;
             outside += was < -range - step / 2 || was > range - step / 2;
@@ -268,11 +268,11 @@ a_converter_rounds_and_clips(void **state)
             assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
                         <= (bits > 11 ? 0.05 : 1e-2));
     }
-    assert_int_equal(ss_samples_quantise(x, N, 0, 1, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 53, 1, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 8, 0, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 8, INFINITY, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 52, 1e-310, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 0, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 53, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 8, 0, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 8, INFINITY, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_samples_quantise(x, N, 52, 1e-310, NULL, NULL), SS_EINVAL);
 }
 
 int

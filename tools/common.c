@@ -511,7 +511,7 @@ tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
         tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
                    &err);
     else
-        tool_check(ss_signal_write(signal, tool_output(path), tool_stream(kind)), NULL);
+        tool_check(ss_signal_write(signal, tool_output(path), tool_stream(kind), &err), &err);
 }
 
 /* The last line of gnuplot's words is the reason; those above quote the script. */

@@ -65,6 +65,7 @@ static void
 copy_whole(tool_kind kind, const ss_read_opts *opts)
 {
     ss_signal *signal = tool_read_signal(path, opts), *chosen;
+    ss_error err = { "" };
     if (opts->resample > 0 && (signal->head->rate < opts->resample
                                || signal->head->rate > opts->resample)) {
         if (signal->n < 2)
@@ -72,7 +73,7 @@ copy_whole(tool_kind kind, const ss_read_opts *opts)
         if (signal->head->rate > opts->resample)
             tool_warn("%s: frequencies above %g Hz fold down", tool_input_name(path),
                       opts->resample / 2);
-        tool_check(ss_signal_resample(&chosen, signal, opts->resample), NULL);
+        tool_check(ss_signal_resample(&chosen, signal, opts->resample, &err), &err);
         ss_signal_free(signal);
         signal = chosen;
     }
@@ -82,7 +83,7 @@ copy_whole(tool_kind kind, const ss_read_opts *opts)
     first = first < end ? first : end;
     say_header(signal->head);
     need_rows(end - first);
-    tool_check(ss_signal_select(&chosen, signal, column, n, first, end), NULL);
+    tool_check(ss_signal_select(&chosen, signal, column, n, first, end, NULL), NULL);
     tool_write_signal(chosen, output, kind);
     ss_signal_free(chosen);
     ss_signal_free(signal);
@@ -109,10 +110,8 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     tool_check(ss_header_select(&chosen, head, column, n, first), NULL);
     ss_status st = ss_writer_new(&writer, tool_output(output), tool_stream(kind),
-                                 chosen);
-    if (st == SS_EINVAL)
-        tool_die("AU is limited to 4096 columns and a header of 1 MiB; choose fewer with --column");
-    tool_check(st, NULL);
+                                 chosen, &err);
+    tool_check(st, &err);
     while (row < end) {
         size_t kept = 0;
         tool_check(ss_reader_rows(reader, rows, PIECE, &got, &err), &err);

@@ -201,13 +201,11 @@ format_of(const request *req)
 }
 
 static void
-check_written(ss_status status)
+check_written(ss_status status, const ss_error *err)
 {
-    if (status == SS_EINVAL)
-        tool_die("AU is limited to a header of 1 MiB");
     if (status == SS_EIO || status == SS_STOP)
         tool_end();                     /* says why */
-    tool_check(status, NULL);
+    tool_check(status, err);
 }
 
 /* --- output as it comes ----------------------------------------------------------------------- */
@@ -263,7 +261,8 @@ open_output(flow *f, const request *req, const ss_header *signal, size_t column,
                                        &f->error), &f->error);
     } else {
         f->out = tool_output(req->output);
-        check_written(ss_coefficient_writer_new(&f->text, f->out, format_of(req), head));
+        check_written(ss_coefficient_writer_new(&f->text, f->out, format_of(req), head, &f->error),
+                      &f->error);
     }
     ss_header_free(head);
 }
@@ -277,7 +276,7 @@ check_flow(const flow *f, ss_status status, const ss_error *err, const char *pat
     if (status == SS_STOP && f->store != NULL)
         tool_check(SS_EIO, &f->error);
     if (status == SS_STOP)
-        check_written(status);
+        check_written(status, NULL);
     check(status, err, path);
 }
 
@@ -287,7 +286,7 @@ close_output(flow *f, size_t samples)
     if (f->store != NULL)
         tool_check(ss_store_writer_end(f->store, samples, &f->error), &f->error);
     else
-        check_written(ss_coefficient_writer_end(f->text, samples));
+        check_written(ss_coefficient_writer_end(f->text, samples), NULL);
     ss_store_writer_free(f->store);
     ss_coefficient_writer_free(f->text);
 }
@@ -403,7 +402,7 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
         if (st != SS_OK)                /* bad data: what is complete before them is written */
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
         if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
-            check_written(SS_EIO);
+            check_written(SS_EIO, NULL);
         tool_check(st, &bad);
     }
     free(rows);

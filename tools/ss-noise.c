@@ -54,7 +54,8 @@ static size_t n_converted, n_clipped;
 static void
 convert(double *x, size_t n)
 {
-    tool_check(ss_samples_quantise(x, n, (int)bits, range, &n_clipped), NULL);
+    ss_error err = { "" };
+    tool_check(ss_samples_quantise(x, n, (int)bits, range, &n_clipped, &err), &err);
     n_converted += n;
 }
 
@@ -160,7 +161,7 @@ change_stream(tool_kind kind, ss_noise *noise)
         level[c] *= isnan(rms) ? 0 : rms;
     add_notes(head);
     out = tool_output(output);
-    tool_check(ss_writer_new(&writer, out, tool_stream(kind), head), NULL);
+    tool_check(ss_writer_new(&writer, out, tool_stream(kind), head, &err), &err);
     for (;;) {
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         if (n == 0)

@@ -58,8 +58,10 @@ static void
 begin_samples(output *o)
 {
     ss_format format = tool_stream(o->req->kind);
+    ss_error err = { "" };
     if (o->writer == NULL)
-        tool_check(ss_writer_new(&o->writer, tool_output(o->req->path), format, o->head), NULL);
+        tool_check(ss_writer_new(&o->writer, tool_output(o->req->path), format, o->head, &err),
+                   &err);
 }
 
 static int

@@ -191,7 +191,8 @@ typedef struct ss_coefficients {
 /* The simple case: transform one column of a signal. */
 ss_status ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
                        const ss_morlet_opts *opts, ss_error *err);
-ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format);
+ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format,
+                                ss_error *err);
 /* Text or AU, told apart by its first bytes, of a record or a stream that has come to its end.  Reads
  * past what it needs: nothing may have been read from a pipe before. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
@@ -218,7 +219,7 @@ ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_
                                  const ss_morlet_opts *opts);
 typedef struct ss_coefficient_writer ss_coefficient_writer;
 ss_status ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
-                                    const ss_header *head);
+                                    const ss_header *head, ss_error *err);
 /* Arguments as a sink gets them.  SS_EIO if out refuses the rows. */
 ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
                                      size_t first, size_t n, const double *w, size_t samples);

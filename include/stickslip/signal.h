@@ -116,7 +116,7 @@ ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_r
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n);
 /* A copy of some columns, in the order given by their index, and of the rows [first, end). */
 ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
-                           size_t n_columns, size_t first, size_t end);
+                           size_t n_columns, size_t first, size_t end, ss_error *err);
 void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 
 /* --- writing ------------------------------------------------------------------------------- */
@@ -137,19 +137,20 @@ typedef struct ss_writer ss_writer;
 
 /* Start a stream on out, which the writer does not own, with its header; head is copied.
  * SS_EINVAL: AU is limited to 4096 columns and a header of 1 MiB. */
-ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head);
+ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
+                        ss_error *err);
 /* Append n rows of n_columns values each, one row after the other; SS_EIO if out refuses them. */
 ss_status ss_writer_rows(ss_writer *writer, const double *rows, size_t n);
 /* Flush out: SS_EIO if any write failed. */
 ss_status ss_writer_flush(ss_writer *writer);
 void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flush */
 
-ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format);
+ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err);
 
 /* A copy at another rate [Hz], by the cubic spline through each column: what lies above half the new
  * rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate; SS_ERANGE: the
  * spline exceeds what a double holds. */
-ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate);
+ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err);
 
 /* --- making and changing ------------------------------------------------------------------- */
 
@@ -200,7 +201,8 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
  * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
  * below range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
-ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped);
+ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped,
+                              ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

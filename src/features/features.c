@@ -270,7 +270,7 @@ transform(search *s, size_t column, ss_error *err)
     if (s->n_gaps == 0)
         return ss_morlet_transform(&s->coef, s->signal, column, &opts, err);
     ss_signal *bridged = NULL;          /* zeros in a gap are steep */
-    ss_status st = ss_signal_select(&bridged, s->signal, &column, 1, 0, s->n);
+    ss_status st = ss_signal_select(&bridged, s->signal, &column, 1, 0, s->n, err);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     ss_gaps_bridge(bridged->values, s->n, s->rate, s->gap, s->n_gaps);

@@ -156,13 +156,16 @@ ss_noise_rms(const double *x, size_t n, double snr_db)
 }
 
 ss_status
-ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped)
+ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped,
+                    ss_error *err)
 {
-    if ((x == NULL && n > 0) || bits < 1 || bits > SS_BITS_MAX || !(range > 0 && isfinite(range)))
-        return SS_EINVAL;
+    if (x == NULL && n > 0)
+        return SS_FAIL_NULL(err);
+    if (bits < 1 || bits > SS_BITS_MAX)
+        return ss_fail(err, SS_EINVAL, "%d bits are out of range 1 ... %d", bits, SS_BITS_MAX);
     double codes = ldexp(1, bits - 1), step = range / codes;
-    if (!(step > 0))
-        return SS_EINVAL;
+    if (!(step > 0 && isfinite(range)))
+        return ss_fail(err, SS_EINVAL, "range %g has no steps of %d bits", range, bits);
     for (size_t i = 0; i < n; i++) {
         double code = rint(x[i] / step), kept = fmin(fmax(code, -codes), codes - 1);
         if (clipped != NULL)

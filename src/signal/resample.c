@@ -90,15 +90,16 @@ ss_resample(double **out, size_t *n_out, const double *t, const double *value, s
 }
 
 ss_status
-ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate)
+ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err)
 {
     if (out == NULL || signal == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
     size_t n = signal->n;
     *out = NULL;
     if (n < 2 || !(rate > 0) || !isfinite(rate))
-        return SS_EINVAL;
+        return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n,
+                       n == 1 ? "" : "s", rate);
     double *t = malloc(n * sizeof *t);
     ss_header *new_head = ss_header_copy(head);
     int done = t != NULL && new_head != NULL;
@@ -121,5 +122,6 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate)
         return SS_OK;
     ss_signal_free(*out);
     *out = NULL;
-    return done ? SS_ERANGE : SS_ENOMEM;
+    return done ? ss_fail(err, SS_ERANGE, "a resampled value exceeds what a double holds")
+        : ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
 }

@@ -2,6 +2,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/error.h"
 #include <stickslip/signal.h>
 
 ss_status
@@ -38,14 +39,14 @@ ss_signal_free(ss_signal *signal)
 
 ss_status
 ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column, size_t n_columns,
-                 size_t first, size_t end)
+                 size_t first, size_t end, ss_error *err)
 {
     ss_header *head;
     if (out == NULL || signal == NULL || (column == NULL && n_columns > 0))
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     *out = NULL;
     if (first > end || end > signal->n)
-        return SS_EINVAL;
+        return ss_fail(err, SS_EINVAL, "rows %zu to %zu are not among the %zu", first, end, signal->n);
     ss_status st = ss_header_select(&head, signal->head, column, n_columns, first);
     if (st != SS_OK)
         return st;

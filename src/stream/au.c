@@ -155,9 +155,8 @@ write_header(FILE *out, const ss_header *head, const char *text, size_t length, 
     fwrite("\0\0\0\0\0\0\0", 1, padding, out);
 }
 
-/* SS_EINVAL if AU is too narrow for the header. */
 static ss_status
-begin_au(FILE *out, const ss_header *head, const char *magic)
+begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
     size_t length;
     char *text = ss_header_text(head, magic, &length);
@@ -168,7 +167,10 @@ begin_au(FILE *out, const ss_header *head, const char *magic)
     if (fits)
         write_header(out, head, text, length, padding);
     free(text);
-    return !fits ? SS_EINVAL : ferror(out) ? SS_EIO : SS_OK;
+    if (!fits)
+        return ss_fail(err, SS_EINVAL, "AU holds at most %d columns and a header of %d MiB",
+                       MAX_CHANNELS, MAX_ANNOTATION >> 20);
+    return ferror(out) ? SS_EIO : SS_OK;
 }
 
 static size_t

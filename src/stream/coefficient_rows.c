@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/error.h"
 #include "morlet/plan.h"
 #include "stream/coefficient_rows.h"
 #include "stream/format.h"
@@ -22,7 +23,7 @@ struct ss_coefficient_writer {
 };
 
 static ss_status
-write_header(const ss_header *head, FILE *out, const struct format *format)
+write_header(const ss_header *head, FILE *out, const struct format *format, ss_error *err)
 {
     static const char *const label[COEFFICIENT_COLUMNS][2] = {
         { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" },
@@ -33,7 +34,7 @@ write_header(const ss_header *head, FILE *out, const struct format *format)
         st = ss_header_add_column(own, label[i][0], label[i][1]);
     if (st == SS_OK) {
         own->has_time = 0;
-        st = format->begin(out, own, COEFFICIENTS_MAGIC);
+        st = format->begin(out, own, COEFFICIENTS_MAGIC, err);
     }
     ss_header_free(own);
     return st;
@@ -41,10 +42,10 @@ write_header(const ss_header *head, FILE *out, const struct format *format)
 
 ss_status
 ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
-                          const ss_header *head)
+                          const ss_header *head, ss_error *err)
 {
     if (out_writer == NULL || out == NULL || head == NULL || ss_format_table(format) == NULL)
-        return SS_EINVAL;
+        return ss_fail(err, SS_EINVAL, "an argument is NULL, or the format is not known");
     const char *stream = ss_header_find_note(head, "stream");
     ss_coefficient_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
@@ -58,7 +59,7 @@ ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_form
     writer->out.used = 0;
     ss_status st = ss_header_gaps(&writer->gap, &writer->n_gaps, head);
     if (st == SS_OK)
-        st = write_header(head, out, writer->format);
+        st = write_header(head, out, writer->format, err);
     if (st == SS_OK)
         *out_writer = writer;
     else
@@ -136,12 +137,13 @@ ss_coefficient_writer_free(ss_coefficient_writer *writer)
 }
 
 ss_status
-ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format)
+ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format,
+                      ss_error *err)
 {
     ss_coefficient_writer *writer = NULL;
     if (coefficients == NULL || coefficients->w == NULL)
-        return SS_EINVAL;
-    ss_status st = ss_coefficient_writer_new(&writer, out, format, coefficients->head);
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_coefficient_writer_new(&writer, out, format, coefficients->head, err);
     for (size_t i = 0; st == SS_OK && i < coefficients->n_scales; i++) {
         const ss_scale *scale = &coefficients->scale[i];
         st = ss_coefficient_writer_rows(writer, scale, 0, scale->n,

@@ -19,7 +19,7 @@ struct format {
     ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
 
     /* Writing numbers under a header that begins with magic; NULL if none are. */
-    ss_status (*begin)(FILE *out, const ss_header *head, const char *magic);
+    ss_status (*begin)(FILE *out, const ss_header *head, const char *magic, ss_error *err);
     /* A cell of at most SS_NUMBER_MAX bytes, the last of its row or not; gives its length. */
     size_t (*number)(char *to, double x, int last);
     int has_time;               /* a column of time is written as the others are */

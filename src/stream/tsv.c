@@ -154,8 +154,9 @@ open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 /* --- writing ------------------------------------------------------------------------------- */
 
 static ss_status
-begin_text(FILE *out, const ss_header *head, const char *magic)
+begin_text(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
+    (void)err;
     size_t length;
     char *text = ss_header_text(head, magic, &length);
     if (text == NULL)

@@ -1,5 +1,6 @@
 /* writer.c -- signals row by row, in any format. */
 #include <stdlib.h>
+#include "base/error.h"
 #include "stream/format.h"
 #include "stream/output.h"
 
@@ -11,10 +12,11 @@ struct ss_writer {
 };
 
 ss_status
-ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
+ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
+              ss_error *err)
 {
     if (out_writer == NULL || out == NULL || head == NULL || ss_format_table(format) == NULL)
-        return SS_EINVAL;
+        return ss_fail(err, SS_EINVAL, "an argument is NULL, or the format is not known");
     ss_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
     if (writer == NULL)
@@ -24,7 +26,7 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
     writer->row = writer->out.used = 0;
     writer->head = ss_header_copy(head);
     ss_status st = writer->head == NULL ? SS_ENOMEM
-        : writer->format->begin(out, head, SIGNAL_MAGIC);
+        : writer->format->begin(out, head, SIGNAL_MAGIC, err);
     if (st != SS_OK) {
         ss_writer_free(writer);
         return st;
@@ -80,17 +82,17 @@ ss_writer_free(ss_writer *writer)
 }
 
 ss_status
-ss_signal_write(const ss_signal *signal, FILE *out, ss_format format)
+ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err)
 {
     enum { PIECE = 1024 };
     ss_writer *writer = NULL;
     if (signal == NULL || out == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     size_t columns = signal->head->n_columns;
     double *rows = malloc((columns + 1) * PIECE * sizeof *rows);
     if (rows == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_writer_new(&writer, out, format, signal->head);
+    ss_status st = ss_writer_new(&writer, out, format, signal->head, err);
     for (size_t first = 0; st == SS_OK && first < signal->n; first += PIECE) {
         size_t n = signal->n - first < PIECE ? signal->n - first : PIECE;
         for (size_t i = 0; i < n; i++)

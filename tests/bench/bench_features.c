@@ -31,7 +31,7 @@ features_of(const ss_signal *clean, double snr, unsigned long seed, const ss_sce
     ss_features_opts opts = ss_features_defaults;
     opts.mass = scene->mass;
     opts.stiffness = scene->stiffness;
-    if (ss_signal_select(&signal, clean, &column, 1, 0, clean->n) != SS_OK)
+    if (ss_signal_select(&signal, clean, &column, 1, 0, clean->n, NULL) != SS_OK)
         exit(1);
     if (isfinite(snr))
         ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, snr), seed);

@@ -55,7 +55,7 @@ acceleration(const ss_scene *scene)
     ss_signal *all = NULL, *one = NULL;
     ss_error err;
     if (ss_sim_signal(&all, scene, &err) != SS_OK
-        || ss_signal_select(&one, all, &a, 1, 0, all->n) != SS_OK) {
+        || ss_signal_select(&one, all, &a, 1, 0, all->n, NULL) != SS_OK) {
         printf("# %s\n", err.text);
         exit(1);
     }

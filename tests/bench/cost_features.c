@@ -43,7 +43,7 @@ acceleration(const char *name, double snr)
     if (ss_sim_signal(&all, &scene, NULL) != SS_OK)
         exit(1);
     size_t column = (size_t)ss_header_column(all->head, "a");
-    if (ss_signal_select(&a, all, &column, 1, 0, all->n) != SS_OK)
+    if (ss_signal_select(&a, all, &column, 1, 0, all->n, NULL) != SS_OK)
         exit(1);
     ss_signal_free(all);
     if (isfinite(snr))

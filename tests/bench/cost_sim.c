@@ -191,7 +191,7 @@ cost_of_columns(void)
             FILE *out = fopen("/dev/null", "w");
             ss_header *head = ss_sim_header(&s, &r.columns);
             if (out == NULL || head == NULL
-                || ss_writer_new(&r.writer, out, form == 0 ? SS_AU : SS_TSV, head) != SS_OK)
+                || ss_writer_new(&r.writer, out, form == 0 ? SS_AU : SS_TSV, head, NULL) != SS_OK)
                 exit(1);
             printf("\t%.3g", 1e3 * time_to(write_rows, &r, &s, "exact", 0, NULL, NULL));
             ss_writer_free(r.writer);
@@ -218,7 +218,7 @@ cost_of_form(const char *h5)
             double began = bench_seconds();
             if (form < 2) {
                 FILE *out = fopen("/dev/null", "w");
-                if (out == NULL || ss_signal_write(signal, out, form == 0 ? SS_TSV : SS_AU) != SS_OK)
+                if (out == NULL || ss_signal_write(signal, out, form == 0 ? SS_TSV : SS_AU, NULL) != SS_OK)
                     exit(1);
                 fclose(out);
             } else if (ss_store_write(h5, &(ss_record){ .signal = signal }, NULL) != SS_OK) {

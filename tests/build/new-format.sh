@@ -48,10 +48,10 @@ open_fish(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 }
 
 static ss_status
-begin_fish(FILE *out, const ss_header *head, const char *magic)
+begin_fish(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
     char rate[SS_NUMBER_MAX];
-    (void)magic;
+    (void)magic, (void)err;
     ss_number_format(rate, head->rate);
     fprintf(out, "FISH\n%s", rate);
     for (size_t c = 0; c < head->n_columns; c++)
@@ -93,7 +93,7 @@ echo '-- what reads them: the same as of text'
 for command in ss-cat 'ss-noise --rms 1' ss-morlet ss-plot 'ss-features -q' 'ss-rank -q'; do
     $command ring.tsv | grep -v -e '^# signal' > one
     $command ring.fish | grep -v -e '^# signal' > two
-    cmp one two && echo "$command: $(wc -l < two) lines"
+    cmp one two && [ "$(wc -l < two)" -gt 9 ] && echo "$command: the same"
 done
 ss-trade -q -b 0.01 ring.fish | grep '^# compared'
 echo '-- what writes rows'

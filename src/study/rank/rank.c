@@ -538,7 +538,7 @@ rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++)
         column[i] = i;
-    ss_status st = ss_signal_select(out, signal, column, n, first, end);
+    ss_status st = ss_signal_select(out, signal, column, n, first, end, NULL);
     free(column);
     return st;
 }
