@@ -1,4 +1,4 @@
-/* load.c -- open a path whatever it holds. */
+/* load.c -- open a path with any kind of signal. */
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -56,7 +56,8 @@ microstick(state *m, double x, double y)
     m->q[1] = 0;
 }
 
-/* Without friction there is nothing to stick to: the mass goes where it is pulled, or will be. */
+/* Without friction the mass never sticks: it slips in the direction of the force, or of the force's
+ * rate where that is 0. */
 static int
 start_free(state *m)
 {
@@ -66,10 +67,10 @@ start_free(state *m)
     return 1;
 }
 
-/* What counts as touching the contact's limit: ten times the absolute tolerance of x, which is what
- * an integrator's error makes of the limit in the course of a stick; in units of the limit no less
- * than 1e-10, and no more than 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4
- * for one of 0.1 ms in the light scene). */
+/* The distance at which a contact touches its limit: ten times the absolute tolerance of x, which is
+ * the error of an integrator in the course of a stick; in units of the limit at least 1e-10, and at
+ * most 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4 for one of 0.1 ms in the
+ * light scene). */
 #define GRAZE_TOL 10
 #define GRAZE_LEAST 1e-10
 #define GRAZE_MOST 1e-6
@@ -90,7 +91,7 @@ start(state *m)
     return 1;
 }
 
-/* What the damper adds to the force that ends a microstick, over the spring's. */
+/* The damper's part of the force that ends a microstick, over the spring's. */
 static double
 damper_ratio(const state *m)
 {
@@ -110,7 +111,7 @@ guard(const state *m, const double q[], const double dqdt[], double *slope)
     return limit + m->slack - fabs(force);
 }
 
-/* How far beyond its limit a contact would go, v' as it is, before it turns round. */
+/* The distance beyond its limit at which a contact would turn back, at the present v'. */
 static double
 excess(const state *m)
 {
@@ -123,9 +124,9 @@ excess(const state *m)
 }
 
 /* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most.  An
- * undamped contact comes back to its limit exactly, each period, and whether it is then released
- * would be the rounding's decision.  What it is beyond is taken as such and subtracted; stopping it
- * at the limit would turn an error of d into one of sqrt(d). */
+ * undamped contact returns exactly to its limit each period, and rounding would decide whether it is
+ * released then.  The excess is subtracted as a distance; stopping the contact at the limit would
+ * turn an error of d into one of sqrt(d). */
 static int
 only_touches(state *m)
 {
@@ -136,7 +137,7 @@ only_touches(state *m)
     if (!(beyond <= m->slack + m->graze))
         return 0;
     m->q[0] -= sign(m->q[0]) * beyond;
-    m->slack = m->graze;                /* it passes its peak without being asked again */
+    m->slack = m->graze;                /* it passes its peak without another test */
     m->touches++;
     return 1;
 }
@@ -151,7 +152,7 @@ next(state *m, ss_event *e)
         ss_linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;
         e->direction = m->mode;
-    } else if (m->scene->friction == 0) {       /* nothing to stick to: v passes through 0 */
+    } else if (m->scene->friction == 0) {       /* no stick without friction: v passes through 0 */
         ss_linear_slip(m, x, 0, -m->mode);
         e->kind = SS_REVERSE;
         e->direction = m->mode;

@@ -41,7 +41,7 @@ next_turn(double angle, double from)
 /* The end of a stick in closed form: k Z_e cos(theta) - k x leaves [-f_k, f_k] upwards where the
  * cosine rises, downwards where it falls.  Touching a limit is not leaving it.  A stick that
  * begins at its limit, within rounding, with the force on its way out, ends at once; without this
- * the crossing would lie behind it and a whole turn be waited for. */
+ * the crossing would be in the past, and the stick would last a whole turn. */
 static int
 still(const state *m, double *u_end)
 {
@@ -81,7 +81,7 @@ next(state *m, ss_event *e)
     int now = stop_or_go(m, x);
     e->kind = now == 0 ? SS_STICK : SS_REVERSE;
     e->direction = now == 0 ? before : now;
-    return now != before;               /* else v has touched 0 and goes on */
+    return now != before;               /* else v has touched 0 and keeps its sign */
 }
 
 static void

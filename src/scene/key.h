@@ -1,4 +1,4 @@
-/* key.h -- the fields of ss_scene: which key names one, what it may be, what a fit may vary. */
+/* key.h -- the fields of ss_scene: their keys, their ranges, and those that a fit may vary. */
 #ifndef KEY_H
 #define KEY_H
 
@@ -14,7 +14,7 @@ typedef struct scene_key {
     int range;                      /* of a number */
     size_t offset;                  /* in ss_scene, of a double or an enumeration: one key each */
     const char *unit;               /* of a number */
-    /* Of an enumeration: its i-th word, asked for from 0 to the first NULL.  NULL for a number. */
+    /* Of an enumeration: its i-th word, from 0 to the first NULL.  NULL for a number. */
     const char *(*word)(int i);
 } scene_key;
 

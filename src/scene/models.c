@@ -1,4 +1,4 @@
-/* models.c -- the friction models: a line each, in the order of ss_model. */
+/* models.c -- the friction models: one line each, in the order of ss_model. */
 #include "scene/model.h"
 
 #define MODELS(model) \

@@ -1,4 +1,4 @@
-/* ranges.c -- over which ranges scenes are supported, in the measures that a motion depends on.
+/* ranges.c -- the supported ranges of scenes, in the quantities that a motion depends on.
  *
  * Units of mass, length and time change nothing but rounding, so the ranges that matter are those of
  * the ratios; m, omega_n and X are there for overflow alone.  tests/test_random.c draws its scenes

@@ -1,7 +1,7 @@
 /* scene.c -- a scene: read, check, write; its model's parameters and no others.
  *
- * Tables of keys (keys.c, and that of each model) say what must be given and what it may be;
- * reading, checking and writing all follow them. */
+ * Tables of keys (keys.c, and that of each model) hold the required keys and the ranges of values;
+ * reading, checking and writing all use them. */
 #include <stickslip/scene.h>
 
 #include <ctype.h>
@@ -65,7 +65,7 @@ range_text(const scene_key *k)
     return k->range == POSITIVE ? "> 0" : k->range == NOT_NEGATIVE ? ">= 0" : "finite";
 }
 
-/* Where a key stands, for messages: a line of the file, or a setting. */
+/* The origin of a key, for messages: a line of the file, or a setting. */
 struct place {
     const char *name;           /* of the file */
     long line;                  /* 0: not given, > 0: line of the file, < 0: setting */
@@ -163,7 +163,7 @@ nearest_key(const char *name)
     return best;
 }
 
-/* The key that a name is most like may be one mistyped, if few letters differ. */
+/* The key nearest to a name, if few letters differ: the name may be mistyped. */
 static ss_status
 fail_unknown(const char *name, struct place at, ss_error *err)
 {
@@ -223,7 +223,7 @@ line_of(given *g, const scene_key *k)
     return &g->line[k->offset / sizeof(int)];
 }
 
-/* One "key = value", which is cut up in place. */
+/* One "key = value", which is split in place. */
 static ss_status
 read_setting(ss_scene *scene, char *text, struct place at, given *g, ss_error *err)
 {
@@ -239,7 +239,7 @@ read_setting(ss_scene *scene, char *text, struct place at, given *g, ss_error *e
         return fail_unknown(name, at, err);
     long *seen = line_of(g, k);
     if (at.line < 0 && *seen > 0)
-        *seen = 0;                      /* a setting takes the place of the file's line */
+        *seen = 0;                      /* a setting replaces the file's line */
     if (*seen != 0) {
         snprintf(message, sizeof message, at.line < 0 ? "repeated key '%s'"
                  : "repeated key '%s', first given on line %ld", name, *seen);
@@ -249,7 +249,7 @@ read_setting(ss_scene *scene, char *text, struct place at, given *g, ss_error *e
     return set_value(scene, k, trim(equals + 1), at, err);
 }
 
-/* A key that was given and is another model's. */
+/* A key in the scene that belongs to another model. */
 static ss_status
 check_foreign(const struct model *model, given *g, struct place last, ss_error *err)
 {
@@ -409,7 +409,7 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     const scene_key *k;
     if (model == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
-    ss_scene copy = *scene;         /* the accessors below give what may be changed */
+    ss_scene copy = *scene;         /* the accessors give pointers to change it by */
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
         if (k->word != NULL && !is_choice(k, *word_of(&copy, k)))
             return ss_fail(err, SS_EINVAL, "%s is no known choice", k->name);

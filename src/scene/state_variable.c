@@ -120,8 +120,8 @@ rates(const state *m, double drive, const double q[], double dqdt[])
 }
 
 /* The friction switches over within |v| = 1/alpha.  A step from well before to well after that front
- * finds tanh the same at all the points where it looks, and its error estimate, too, sees nothing:
- * so v may move by half its size and one width at most, as far as v' and v'' tell. */
+ * evaluates the same tanh at all its points, and so does its error estimate: so v may change by at
+ * most half its size and one width, as far as v' and v'' tell. */
 static double
 sight(const state *m, const double dqdt[])
 {

@@ -1,8 +1,8 @@
 /* disk.c -- the file that HDF5 writes to, which never fails.
  *
- * HDF5 cannot let go of a file that it failed to write (a full disk): it tries again at exit, in
- * vain and aloud.  So it is not told: the first failure is kept, after which nothing is written any
- * more, and who made the file looks at it in the end. */
+ * HDF5 cannot close a file that it failed to write (a full disk): it tries again at exit, in vain,
+ * and prints messages.  So this driver reports no failure: it keeps the first one and writes nothing
+ * after it, and the caller checks it at the end. */
 #include "store/h5.h"
 
 #include <errno.h>
@@ -25,7 +25,7 @@ open_file(const char *name, unsigned flags, hid_t access, haddr_t most)
     return &info->disk->of_hdf5;
 }
 
-/* It stays the caller's. */
+/* The caller keeps ownership. */
 static herr_t
 close_file(H5FD_t *file)
 {
@@ -70,7 +70,7 @@ get_eof(const H5FD_t *file, H5FD_mem_t type)
     return ((const h5_disk *)file)->eof;
 }
 
-/* What is not there reads as zeros. */
+/* Bytes that are not in the file read as zeros. */
 static herr_t
 read_bytes(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t size, void *buffer)
 {

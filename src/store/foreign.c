@@ -1,4 +1,4 @@
-/* foreign.c -- datasets of files that others wrote: any 1-D or 2-D array of real numbers.
+/* foreign.c -- datasets of files from other programs: any 1-D or 2-D array of real numbers.
  *
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
@@ -20,7 +20,7 @@ typedef struct array {
     int transposed;             /* a column is contiguous in the file */
 } array;
 
-/* --- what can be read ---------------------------------------------------------------------- */
+/* --- readable datasets --------------------------------------------------------------------- */
 
 /* SS_OK if it holds real numbers, else *why it does not, or NULL if the text is in file->err. */
 static ss_status
@@ -66,7 +66,7 @@ get_shape(hid_t id, array *shape)
 
 /* --- the list ------------------------------------------------------------------------------ */
 
-enum { LISTED = 300, LOOKED_AT = 10000 };       /* letters; objects, for files of nothing but names */
+enum { LISTED = 300, LOOKED_AT = 10000 };       /* letters; objects, for files with only names */
 
 struct list {
     h5_file *file;

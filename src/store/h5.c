@@ -1,7 +1,7 @@
 /* h5.c -- opening HDF5 files, reading attributes and datasets of real numbers.
  *
- * A file may claim what it likes, so what would open other files, run a plugin, or ask for memory
- * out of all proportion to the file, is refused before HDF5 is asked to do it. */
+ * A file may make any claim.  So everything that would open other files, run a plugin, or need memory
+ * out of proportion to the file is refused before HDF5 acts on it. */
 #include "store/h5.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ refuse_link(const char *parent, const char *group, const char *file, const char 
     return -1;
 }
 
-/* How to open something of this class without being led to another file. */
+/* Access properties to open an object of this class without following links to another file. */
 static hid_t
 inside_only(hid_t class)
 {
@@ -81,8 +81,8 @@ file_size(hid_t object)
     return (double)size;
 }
 
-/* The bytes that a file may claim for all that is read of it: what deflate can make of all of it, and
- * whatever is no great matter. */
+/* The bytes that a file may claim for everything read from it: the most that deflate can make of the
+ * whole file, or a size that is small anyway. */
 static double
 largest_claim(hid_t object)
 {
@@ -172,7 +172,7 @@ ss_h5_claim(h5_file *file, hid_t dataset)
         ? "with those before, claims more values than a file of this size can hold" : NULL;
 }
 
-/* What HDF5_PLUGIN_PRELOAD has forbidden for good has no mask: then all is 0. */
+/* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good there is no mask: then all is 0. */
 unsigned
 ss_h5_forbid_plugins(void)
 {
@@ -305,7 +305,7 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
     if (value != NULL)
         notes->status = ss_header_note(notes->head, name, value);
     free(value);
-    if (notes->status == SS_EINVAL)             /* others may write what is no note of ours */
+    if (notes->status == SS_EINVAL)             /* other programs may write attributes that are no notes */
         notes->status = SS_OK;
     return notes->status != SS_OK;
 }

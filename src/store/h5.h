@@ -1,4 +1,4 @@
-/* h5.h -- the floor of the store: one open HDF5 file, and how its calls fail. */
+/* h5.h -- the base of the store: one open HDF5 file, and the failures of its calls. */
 #ifndef H5_H
 #define H5_H
 
@@ -17,11 +17,11 @@ typedef struct h5_file {
     hid_t id;
     const char *path;           /* for messages */
     ss_error *err;
-    double claimed;             /* bytes of the values that were asked for, as doubles */
+    double claimed;             /* bytes of the values read so far, as doubles */
     double text;                /* and of text in attributes */
 } h5_file;
 
-/* SS_EIO or what is given, with the text "PATH:GROUP/NAME: TEXT"; group 0 for the file itself. */
+/* SS_EIO or the given status, with the text "PATH:GROUP/NAME: TEXT"; group 0 for the file itself. */
 ss_status ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name,
                      const char *text);
 
@@ -47,11 +47,11 @@ const char *ss_h5_refuse_values(hid_t dataset);
  * Called once before they are read, so that names of one dataset do not multiply it. */
 const char *ss_h5_claim(h5_file *file, hid_t dataset);
 
-/* No plugin is loaded from here on, whatever filter a file asks for; gives what restores it. */
+/* Load no plugin from here on, for any filter of a file; returns the value that restores it. */
 unsigned ss_h5_forbid_plugins(void);
 void ss_h5_restore_plugins(unsigned mask);
 
-/* Attributes of an object.  A missing one, or one of another kind, gives 0. */
+/* Attributes of an object.  Returns 0 for a missing one, or one of another kind. */
 int ss_h5_get_number(hid_t object, const char *name, double *value);
 /* The same of text: *text is NULL, or to be freed.  SS_EDATA: the file claims too much of it. */
 ss_status ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text);
@@ -62,13 +62,13 @@ ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double
 /* The notes among the root's attributes, in the order in which they were written. */
 ss_status ss_h5_read_notes(h5_file *file, ss_header *head);
 
-/* What ss_store_read_signal and ss_store_read_coefficients give, of a file that is open (read.c).
+/* ss_store_read_signal and ss_store_read_coefficients for a file that is open (read.c).
  * On failure *out may hold a part of the signal. */
 ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
                             const ss_read_opts *opts);
 ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
 
-/* The dataset at a path, whatever wrote it (foreign.c). */
+/* The dataset at a path, from any program (foreign.c). */
 ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,
                              const ss_read_opts *opts);
 /* Fail with the list of datasets that the file has. */

@@ -1,7 +1,7 @@
 /* read.c -- our own files back into memory, value by value as they were written.
  *
- * A file may have come through other hands, so every size is checked before it is believed: those
- * of datasets against each other, those in attributes against the datasets. */
+ * Another program may have changed a file, so every size is checked before it is used: sizes of
+ * datasets against each other, sizes in attributes against the datasets. */
 #include "store/h5.h"
 
 #include <math.h>
@@ -105,7 +105,7 @@ list_links(h5_file *file, hid_t group, struct links *links)
     return links->status;
 }
 
-/* Add the dataset at a link as a column of the header; *link stays the caller's. */
+/* Add the dataset at a link as a column of the header; the caller keeps ownership of *link. */
 static ss_status
 add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
 {
@@ -463,7 +463,7 @@ ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
     return status;
 }
 
-/* HDF5 without its reports, and without plugins that a file might ask for. */
+/* HDF5 without its messages, and without the plugins that a file may name. */
 #define QUIETLY(work) do { \
         H5E_BEGIN_TRY { \
             unsigned plugins = ss_h5_forbid_plugins(); \

@@ -1,6 +1,6 @@
-/* write.c -- a record as an HDF5 file that xarray, MATLAB and h5dump understand unaided.
+/* write.c -- a record as an HDF5 file that xarray, MATLAB and h5dump understand directly.
  *
- * Every dataset carries units and long_name and is tied to the dimension scales that it stands on.
+ * Every dataset has units and long_name and is attached to its dimension scales.
  * Nothing in the file depends on the clock, the path or the machine: creation times are not
  * tracked, file types are little-endian, links and attributes are kept in the order of writing.
  *
@@ -20,7 +20,7 @@
 #include "base/error.h"
 
 #define CHUNK 65536             /* values in a chunk, or written at a time, at most */
-#define PLAIN_BYTES 65536       /* a dataset up to this size is stored as it is */
+#define PLAIN_BYTES 65536       /* a dataset up to this size is stored without compression */
 #define OPEN_BYTES (32 << 20)   /* of chunks being filled, about, where lengths are not known */
 #define LEAST_CHUNK 256
 
@@ -28,7 +28,7 @@
 typedef struct variable {
     const char *name, *unit, *long_name;
     hid_t file_type, memory_type;
-    const void *values;         /* NULL: they come later */
+    const void *values;         /* NULL: they are written later */
     size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
     hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
                                    kept in chunks of so many values of a row */
@@ -38,11 +38,11 @@ struct ss_store_writer {
     char *path;
     h5_file file;
     h5_disk disk;
-    int spooled;                /* path is no regular file: it gets a copy in the end */
+    int spooled;                /* path is not a regular file: it gets a copy at the end */
     ss_status status;           /* of what failed first */
     ss_error error;
     double rate, start;
-    int growing;                /* lengths are known in the end only */
+    int growing;                /* lengths are known only at the end */
     /* the signal */
     size_t length, samples;     /* in all; so far */
     size_t n_columns;
@@ -62,8 +62,8 @@ struct ss_store_writer {
     unsigned char *edge;
 };
 
-/* A call of HDF5 fails for want of memory, or of a name or size that it can store: of a full disk
- * it does not hear. */
+/* A call of HDF5 fails for lack of memory, or for a name or size that it cannot store; disk.c hides a
+ * full disk from it. */
 static ss_status
 fail_write(h5_file *file, hid_t group, const char *name)
 {
@@ -71,7 +71,7 @@ fail_write(h5_file *file, hid_t group, const char *name)
 }
 
 static int
-put_number(hid_t object, const char *name, hid_t file_type, double value)
+write_number(hid_t object, const char *name, hid_t file_type, double value)
 {
     hid_t space = H5Screate(H5S_SCALAR);
     hid_t id = H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT);
@@ -82,7 +82,7 @@ put_number(hid_t object, const char *name, hid_t file_type, double value)
 }
 
 static int
-put_text(hid_t object, const char *name, const char *value)
+write_text(hid_t object, const char *name, const char *value)
 {
     hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, strlen(value) + 1);
@@ -95,7 +95,7 @@ put_text(hid_t object, const char *name, const char *value)
     return good;
 }
 
-/* How a dataset is laid out: large ones in compressed chunks along the last dimension. */
+/* The layout of a dataset: large ones in compressed chunks along the last dimension. */
 static hid_t
 layout(const variable *v, int rank, const hsize_t dims[])
 {
@@ -118,7 +118,7 @@ layout(const variable *v, int rank, const hsize_t dims[])
     return plist;
 }
 
-/* How it is kept while it grows: with room for a chunk a row. */
+/* The cache of a growing dataset: room for a chunk a row. */
 static hid_t
 access_of(const variable *v, int rank, const hsize_t dims[])
 {
@@ -144,8 +144,8 @@ memory_space(const variable *v, hsize_t values)
     return space;
 }
 
-/* Make one dataset on the given dimension scales, NULL making it a scale itself, and write what
- * values it has; < 0 if HDF5 fails. */
+/* Make one dataset on the given dimension scales (NULL: it is a scale itself), and write its values if
+ * it has any; < 0 if HDF5 fails. */
 static hid_t
 new_variable(hid_t group, const variable *v, int rank, const hsize_t dims[],
              const char *const scales[])
@@ -155,7 +155,8 @@ new_variable(hid_t group, const variable *v, int rank, const hsize_t dims[],
     hid_t how = layout(v, rank, dims), access = access_of(v, rank, dims);
     hid_t space = H5Screate_simple(rank, dims, most);
     hid_t id = H5Dcreate2(group, v->name, v->file_type, space, H5P_DEFAULT, how, access);
-    int good = id >= 0 && put_text(id, "units", v->unit) && put_text(id, "long_name", v->long_name);
+    int good = id >= 0 && write_text(id, "units", v->unit)
+        && write_text(id, "long_name", v->long_name);
     if (good && v->values != NULL) {
         hid_t memory = memory_space(v, values);
         good = H5Dwrite(id, v->memory_type, memory, values > 0 ? H5S_ALL : space, H5P_DEFAULT,
@@ -179,14 +180,14 @@ new_variable(hid_t group, const variable *v, int rank, const hsize_t dims[],
 }
 
 static ss_status
-put_variable(h5_file *file, hid_t group, const variable *v, int rank, const hsize_t dims[],
-             const char *const scales[])
+write_variable(h5_file *file, hid_t group, const variable *v, int rank, const hsize_t dims[],
+               const char *const scales[])
 {
     hid_t id = new_variable(group, v, rank, dims, scales);
     return id >= 0 && H5Dclose(id) >= 0 ? SS_OK : fail_write(file, group, v->name);
 }
 
-/* Make a dataset's rows so long, if they are shorter. */
+/* Extend a dataset's rows to this length, if they are shorter. */
 static int
 grow(hid_t id, int rank, hsize_t length)
 {
@@ -217,7 +218,7 @@ write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type, const
 }
 
 static hid_t
-put_group(hid_t parent, const char *name)
+write_group(hid_t parent, const char *name)
 {
     hid_t plist = H5Pcreate(H5P_GROUP_CREATE);
     H5Pset_obj_track_times(plist, 0);
@@ -284,7 +285,7 @@ open_column(ss_store_writer *w, hid_t group, const ss_column *column, hsize_t ch
     const variable v = { .name = link, .unit = column->unit, .long_name = long_name(column),
                          .file_type = H5T_IEEE_F64LE, .chunk = chunk };
     *id = new_variable(group, &v, 1, &dims, scales);
-    if (*id < 0 || (strcmp(link, column->name) != 0 && !put_text(*id, "column", column->name)))
+    if (*id < 0 || (strcmp(link, column->name) != 0 && !write_text(*id, "column", column->name)))
         return fail_write(&w->file, group, link);
     return SS_OK;
 }
@@ -295,13 +296,13 @@ open_signal(ss_store_writer *w, const ss_header *head)
     hsize_t dims = w->length, chunk = w->growing ? growing_chunk(8 * (head->n_columns + 1)) : 0;
     const variable t = { .name = "t", .unit = "s", .long_name = "time",
                          .file_type = H5T_IEEE_F64LE, .chunk = chunk };
-    hid_t group = put_group(w->file.id, "signal");
+    hid_t group = write_group(w->file.id, "signal");
     w->column = calloc(head->n_columns + 1, sizeof *w->column);
     if (w->column == NULL)
         return SS_ENOMEM;
-    if (group < 0 || !put_number(group, "rate", H5T_IEEE_F64LE, head->rate)
-        || !put_number(group, "start", H5T_IEEE_F64LE, head->start)
-        || !put_number(group, "has_time", H5T_STD_I8LE, head->has_time)
+    if (group < 0 || !write_number(group, "rate", H5T_IEEE_F64LE, head->rate)
+        || !write_number(group, "start", H5T_IEEE_F64LE, head->start)
+        || !write_number(group, "has_time", H5T_STD_I8LE, head->has_time)
         || (w->times = new_variable(group, &t, 1, &dims, NULL)) < 0)
         return fail_write(&w->file, 0, "/signal");
     ss_status st = SS_OK;
@@ -350,12 +351,12 @@ write_samples(ss_store_writer *w, const double *x, size_t n, size_t row, size_t 
 #define KIND_LENGTH 8           /* "reverse" and a NUL */
 
 static ss_status
-put_events(h5_file *file, const ss_event *event, size_t n)
+write_events(h5_file *file, const ss_event *event, size_t n)
 {
     static const char *const scales[] = { "t" };
     static const char none;
     hsize_t dims = n;
-    hid_t group = put_group(file->id, "events"), text = H5Tcopy(H5T_C_S1);
+    hid_t group = write_group(file->id, "events"), text = H5Tcopy(H5T_C_S1);
     double *real = malloc((3 * n + 1) * sizeof *real);      /* t, x, v interleaved */
     char *kind = calloc(n + 1, KIND_LENGTH);
     int *direction = malloc((n + 1) * sizeof *direction);
@@ -379,7 +380,7 @@ put_events(h5_file *file, const ss_event *event, size_t n)
           H5T_NATIVE_INT, direction, 0, 1, 0 },
     };
     for (size_t i = 0; status == SS_OK && i < sizeof v / sizeof *v; i++)
-        status = put_variable(file, group, &v[i], 1, &dims, i > 0 ? scales : NULL);
+        status = write_variable(file, group, &v[i], 1, &dims, i > 0 ? scales : NULL);
     H5Tclose(text);
     H5Gclose(group);
     free(real);
@@ -424,7 +425,7 @@ open_coefficients(ss_store_writer *w, hid_t group, const ss_header *head, struct
     for (size_t i = 0; i < sizeof v / sizeof *v; i++) {
         *id[i] = new_variable(group, &v[i], rank, dims, scales + 2 - rank);
         /* CF: the label of a row that is not its index */
-        if (*id[i] < 0 || (rank == 2 && !put_text(*id[i], "coordinates", "frequency")))
+        if (*id[i] < 0 || (rank == 2 && !write_text(*id[i], "coordinates", "frequency")))
             return fail_write(&w->file, group, v[i].name);
     }
     return SS_OK;
@@ -441,10 +442,10 @@ open_times(ss_store_writer *w, hid_t group, size_t n, hsize_t chunk, hid_t *id)
 }
 
 static int
-put_lattice(hid_t object, const ss_scale *scale)
+write_lattice(hid_t object, const ss_scale *scale)
 {
-    return put_number(object, "b_num", H5T_IEEE_F64LE, scale->b_num)
-           && put_number(object, "b_den", H5T_IEEE_F64LE, scale->b_den);
+    return write_number(object, "b_num", H5T_IEEE_F64LE, scale->b_num)
+           && write_number(object, "b_den", H5T_IEEE_F64LE, scale->b_den);
 }
 
 static ss_status
@@ -471,9 +472,9 @@ open_dense(ss_store_writer *w, hid_t group, const ss_header *head)
     };
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i < sizeof v / sizeof *v; i++)
-        st = put_variable(&w->file, group, &v[i], 1, dims, i > 0 ? scales : NULL);
+        st = write_variable(&w->file, group, &v[i], 1, dims, i > 0 ? scales : NULL);
     free(row);
-    if (st == SS_OK && !put_lattice(group, &w->scale[0]))
+    if (st == SS_OK && !write_lattice(group, &w->scale[0]))
         st = fail_write(&w->file, 0, "/wavelet");
     if (st == SS_OK)
         st = open_times(w, group, w->n, chunk, &w->rows->time);
@@ -488,11 +489,11 @@ open_scale(ss_store_writer *w, hid_t parent, const ss_header *head, size_t i)
     hsize_t chunk = w->growing ? growing_chunk(25 * w->n_scales) : 0;
     char name[32];
     snprintf(name, sizeof name, "scale%03zu", i);
-    hid_t group = put_group(parent, name);
-    if (group < 0 || !put_number(group, "m", H5T_IEEE_F64LE, scale->m)
-        || !put_number(group, "scale", H5T_IEEE_F64LE, scale->a)
-        || !put_number(group, "frequency", H5T_IEEE_F64LE, scale->f)
-        || !put_number(group, "j", H5T_STD_I32LE, scale->j) || !put_lattice(group, scale))
+    hid_t group = write_group(parent, name);
+    if (group < 0 || !write_number(group, "m", H5T_IEEE_F64LE, scale->m)
+        || !write_number(group, "scale", H5T_IEEE_F64LE, scale->a)
+        || !write_number(group, "frequency", H5T_IEEE_F64LE, scale->f)
+        || !write_number(group, "j", H5T_STD_I32LE, scale->j) || !write_lattice(group, scale))
         return fail_write(&w->file, parent, name);
     ss_status st = open_times(w, group, dims, chunk, &w->rows[i].time);
     if (st == SS_OK)
@@ -502,7 +503,7 @@ open_scale(ss_store_writer *w, hid_t parent, const ss_header *head, size_t i)
 }
 
 static ss_status
-take_grid(ss_store_writer *w, const ss_coefficients *grid)
+copy_grid(ss_store_writer *w, const ss_coefficients *grid)
 {
     w->n_scales = grid->n_scales;
     w->scale = malloc((grid->n_scales + 1) * sizeof *w->scale);
@@ -521,18 +522,18 @@ open_wavelet(ss_store_writer *w, const ss_coefficients *grid)
 {
     const ss_header *head = grid->head;
     const ss_column none = { "", "" }, *column = head->n_columns > 0 ? head->column : &none;
-    ss_status st = take_grid(w, grid);
+    ss_status st = copy_grid(w, grid);
     if (st != SS_OK)
         return st;
-    w->wavelet = put_group(w->file.id, "wavelet");
-    if (w->wavelet < 0 || !put_text(w->wavelet, "column", column->name)
-        || !put_text(w->wavelet, "column_units", column->unit)
-        || !put_number(w->wavelet, "rate", H5T_IEEE_F64LE, head->rate)
-        || !put_number(w->wavelet, "start", H5T_IEEE_F64LE, head->start)
-        || !put_number(w->wavelet, "has_time", H5T_STD_I8LE, head->has_time)
-        || !put_number(w->wavelet, "center", H5T_IEEE_F64LE, grid->center)
-        || !put_number(w->wavelet, "dense", H5T_STD_I8LE, w->dense)
-        || !put_number(w->wavelet, "scales", H5T_STD_I32LE, (double)w->n_scales))
+    w->wavelet = write_group(w->file.id, "wavelet");
+    if (w->wavelet < 0 || !write_text(w->wavelet, "column", column->name)
+        || !write_text(w->wavelet, "column_units", column->unit)
+        || !write_number(w->wavelet, "rate", H5T_IEEE_F64LE, head->rate)
+        || !write_number(w->wavelet, "start", H5T_IEEE_F64LE, head->start)
+        || !write_number(w->wavelet, "has_time", H5T_STD_I8LE, head->has_time)
+        || !write_number(w->wavelet, "center", H5T_IEEE_F64LE, grid->center)
+        || !write_number(w->wavelet, "dense", H5T_STD_I8LE, w->dense)
+        || !write_number(w->wavelet, "scales", H5T_STD_I32LE, (double)w->n_scales))
         return fail_write(&w->file, 0, "/wavelet");
     if (w->dense)
         return open_dense(w, w->wavelet, head);
@@ -604,9 +605,9 @@ write_scale(ss_store_writer *w, size_t i, size_t n, const double *x, size_t samp
 /* --- the file ------------------------------------------------------------------------------ */
 
 static ss_status
-put_notes(ss_store_writer *w, const ss_header *head)
+write_notes(ss_store_writer *w, const ss_header *head)
 {
-    if (!put_text(w->file.id, H5_VERSION_NOTE, SS_VERSION))
+    if (!write_text(w->file.id, H5_VERSION_NOTE, SS_VERSION))
         return fail_write(&w->file, 0, "/");
     for (size_t i = 0; head != NULL && i < head->n_notes; i++) {
         const char *colon = strstr(head->note[i], ": ");
@@ -615,7 +616,7 @@ put_notes(ss_store_writer *w, const ss_header *head)
         if (key == NULL)
             return SS_ENOMEM;
         int good = H5Aexists(w->file.id, key) > 0
-                   || put_text(w->file.id, key, colon != NULL ? colon + 2 : "");
+                   || write_text(w->file.id, key, colon != NULL ? colon + 2 : "");
         free(key);
         if (!good)
             return fail_write(&w->file, 0, head->note[i]);
@@ -685,7 +686,7 @@ copy_out(const ss_store_writer *w)
     return fclose(out) != 0 && why == 0 ? errno : why;
 }
 
-/* Have HDF5 write what it still holds, and let it go. */
+/* Let HDF5 write its buffers and close the file. */
 static ss_status
 close_hdf5(ss_store_writer *w, ss_status st)
 {
@@ -694,7 +695,7 @@ close_hdf5(ss_store_writer *w, ss_status st)
     return st == SS_OK && !good ? fail_write(&w->file, 0, "") : st;
 }
 
-/* Close all.  A file that is not whole is removed. */
+/* Close everything.  An incomplete file is removed. */
 static ss_status
 close_file(ss_store_writer *w, ss_status st)
 {
@@ -714,7 +715,7 @@ close_file(ss_store_writer *w, ss_status st)
     return st;
 }
 
-/* A disk that is full is told at once; what failed first is kept. */
+/* A full disk is reported at once; the first failure is kept. */
 static ss_status
 keep(ss_store_writer *w, ss_status st)
 {
@@ -751,7 +752,7 @@ begin(ss_store_writer **out, const char *path, const ss_header *head)
         return st;
     (*out)->rate = head != NULL ? head->rate : 1;
     (*out)->start = head != NULL ? head->start : 0;
-    return put_notes(*out, head);
+    return write_notes(*out, head);
 }
 
 static ss_status
@@ -840,7 +841,7 @@ ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t firs
     return tell(writer, st, err);
 }
 
-/* What only the end tells: the length, and times that all scales share. */
+/* Known only at the end: the length, and the times that all scales share. */
 static ss_status
 complete(ss_store_writer *w, size_t samples)
 {
@@ -854,8 +855,8 @@ complete(ss_store_writer *w, size_t samples)
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
     if ((w->dense && !write_times(w, w->rows->time, &w->scale[0], 0, samples))
-        || (H5Aexists(w->file.id, "samples") <= 0 && !put_text(w->file.id, "samples", text))
-        || !put_number(w->wavelet, "samples", H5T_STD_I64LE, (double)samples))
+        || (H5Aexists(w->file.id, "samples") <= 0 && !write_text(w->file.id, "samples", text))
+        || !write_number(w->wavelet, "samples", H5T_STD_I64LE, (double)samples))
         return fail_write(&w->file, 0, "/wavelet");
     return SS_OK;
 }
@@ -908,7 +909,7 @@ write_all(ss_store_writer **out, const char *path, const ss_record *r)
             st = write_samples(w, signal->values, signal->n, 1, signal->n);
     }
     if (st == SS_OK && (r->has_events || r->n_events > 0))
-        st = put_events(&w->file, r->events, r->n_events);
+        st = write_events(&w->file, r->events, r->n_events);
     if (st != SS_OK || c == NULL)
         return st;
     w->n = c->n;

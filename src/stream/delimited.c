@@ -1,8 +1,8 @@
-/* delimited.c -- text tables as data-acquisition systems write them.
+/* delimited.c -- text tables of data-acquisition systems.
  *
- * The first line of nothing but numbers begins the data and shows the separator; what stands
- * above it is searched for names and units, and one column is turned into the clock.  The table
- * is read whole, as only all stamps together show the rate. */
+ * The first line with nothing but numbers begins the data and shows the separator; the lines above
+ * it are searched for names and units, and one column becomes the clock.  The whole table is read
+ * first, as only all stamps together show the rate. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,7 +62,7 @@ trim(char *p)
     return p;
 }
 
-/* Take the quotes off a cell, in place; gives what stands behind it. */
+/* Remove the quotes of a cell, in place; returns the text after it. */
 static char *
 unquote(char *p)
 {
@@ -106,7 +106,7 @@ split(struct table *t, char *p, char separator)
 
 enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE };
 
-/* What recorders write where there is no number. */
+/* Words that recorders write in place of a number. */
 static int
 is_no_number(const char *cell)
 {
@@ -134,7 +134,7 @@ read_cell(char *cell, char separator, double *x)
     return is_no_number(cell) ? CELL_NOT_FINITE : CELL_TEXT;
 }
 
-/* How many cells a line has if they are all numbers with this separator, else 0; NONE: no memory. */
+/* The number of cells of a line if all are numbers with this separator, else 0; NONE: no memory. */
 static size_t
 count_numbers(struct table *t, const char *line, char separator)
 {
@@ -225,7 +225,7 @@ is_unit(const char *p)
     return 1;
 }
 
-/* What a row above the data holds, if it has as many cells as the data. */
+/* The kind of a row above the data that has as many cells as the data. */
 enum row_kind { ROW_OTHER, ROW_NAMES, ROW_UNITS, ROW_MIXED, ROW_NO_MEMORY };
 
 static enum row_kind
@@ -238,7 +238,7 @@ kind_of_row(struct table *t, const char *line)
     char *copy = strdup(line);
     size_t n = copy != NULL ? split(t, copy, t->separator) : NONE;
     if (n == t->n_columns + 1 && strcasecmp(t->cell[n - 1], "comment") == 0)
-        n--;                                    /* LabVIEW names what few of its rows have */
+        n--;                                    /* LabVIEW names a column that few of its rows have */
     for (size_t i = 0; n == t->n_columns && i < n; i++) {
         empty += t->cell[i][0] == '\0';
         units += (size_t)is_unit(t->cell[i]);
@@ -324,8 +324,8 @@ cut(char *line, size_t n, char separator)
             *line = '\0';
 }
 
-/* Rigol's oscilloscopes number the rows; beside the names of their columns stand Start and Increment,
- * and below these words the times.  If that is so, take them, and leave names and units. */
+/* Rigol's oscilloscopes number the rows; beside the names of their columns are Start and Increment, and
+ * below these words the times.  Read them if they are there, and leave names and units. */
 static ss_status
 find_increment(struct table *t)
 {
@@ -445,7 +445,7 @@ check_mark(struct table *t, size_t column, ss_error *err)
 }
 
 static ss_status
-take_row(struct table *t, char *text, ss_error *err)
+append_row(struct table *t, char *text, ss_error *err)
 {
     const char *name = t->in->name;
     unsigned long line = t->in->line;
@@ -501,11 +501,11 @@ read_table(struct table *t, ss_error *err)
         return out_of_memory(t, err);
     st = read_names(t, err);
     if (st == SS_OK)
-        st = take_row(t, first, err);
+        st = append_row(t, first, err);
     free(first);
     while (st == SS_OK && (st = next_line(t, &line, &comment, err)) == SS_OK && line != NULL)
         if (!comment)
-            st = take_row(t, line, err);
+            st = append_row(t, line, err);
     return st;
 }
 
@@ -565,7 +565,7 @@ drop_rows_without(struct table *t, size_t column)
     t->n_rows = kept;
 }
 
-/* The rows at their place among the samples, NaN between them. */
+/* The rows as samples at their indices, NaN between them. */
 static ss_status
 spread_rows(struct table *t, const size_t *sample, ss_error *err)
 {
@@ -590,7 +590,7 @@ spread_rows(struct table *t, const size_t *sample, ss_error *err)
 
 /* Rows at stamps as samples of a clock: that of the stamps, or that of --resample. */
 static ss_status
-take_samples(struct table *t, const double *stamp, ss_error *err)
+place_rows(struct table *t, const double *stamp, ss_error *err)
 {
     const char *name = t->in->name;
     int gaps = t->opts->gaps != SS_GAPS_REFUSE;
@@ -624,7 +624,7 @@ take_samples(struct table *t, const double *stamp, ss_error *err)
 
 /* The column holds times in this unit, counted from t->origin. */
 static ss_status
-take_stamps(struct table *t, size_t column, double factor, double divisor, ss_error *err)
+read_stamps(struct table *t, size_t column, double factor, double divisor, ss_error *err)
 {
     drop_rows_without(t, column);
     double *stamp = malloc((t->n_rows + 1) * sizeof *stamp);
@@ -632,7 +632,7 @@ take_stamps(struct table *t, size_t column, double factor, double divisor, ss_er
         return out_of_memory(t, err);
     for (size_t i = 0; i < t->n_rows; i++)
         stamp[i] = t->origin + t->value[i * t->n_columns + column] * factor / divisor;
-    ss_status st = take_samples(t, stamp, err);
+    ss_status st = place_rows(t, stamp, err);
     if (st == SS_OK) {
         t->names->start = stamp[0];
         t->time = column;
@@ -642,13 +642,13 @@ take_stamps(struct table *t, size_t column, double factor, double divisor, ss_er
 }
 
 static ss_status
-take_clock(struct table *t, size_t column, const char *unit_name, ss_error *err)
+read_clock(struct table *t, size_t column, const char *unit_name, ss_error *err)
 {
     const struct time_unit *unit = find_time_unit(unit_name);
     if (unit == NULL)
         return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
                        t->names->column[column].name, unit_name);
-    return take_stamps(t, column, unit->factor, unit->divisor, err);
+    return read_stamps(t, column, unit->factor, unit->divisor, err);
 }
 
 static ss_status
@@ -671,22 +671,22 @@ choose_clock(struct table *t, ss_error *err)
         return no_such_column(t, opts->time, err);
     if (chosen >= 0) {
         is_called_time(&t->names->column[chosen], &unit);
-        return take_clock(t, (size_t)chosen, unit, err);
+        return read_clock(t, (size_t)chosen, unit, err);
     }
     if (opts->rate > 0) {
         t->names->rate = opts->rate;
         return SS_OK;
     }
     if (t->increment > 0)
-        return take_stamps(t, 0, t->increment, 1, err);
+        return read_stamps(t, 0, t->increment, 1, err);
     for (size_t i = 0; i < t->n_columns; i++)
         if (is_called_time(&t->names->column[i], &unit))
-            return take_clock(t, i, unit, err);
+            return read_clock(t, i, unit, err);
     if (t->n_columns > 1 && *first != '\0' && find_time_unit(first) != NULL)
-        return take_clock(t, 0, first, err);
+        return read_clock(t, 0, first, err);
     ss_status st = SS_ECLOCK;
     if (t->n_columns > 1 && !t->named)          /* a force over its deflection ascends too */
-        st = take_clock(t, 0, "", NULL);
+        st = read_clock(t, 0, "", NULL);
     if (st == SS_OK || st == SS_ENOMEM)
         return st == SS_OK ? SS_OK : out_of_memory(t, err);
     return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->in->name);

@@ -1,8 +1,8 @@
-/* meter.c -- measures taken along a walk.
+/* meter.c -- measures along a walk.
  *
  * Counts and times come from the events.  Extrema lie at the ends of legs or where a rate changes
- * sign inside them; they are looked for in parts of 1/40 of the mode's fastest period, which hold
- * one at most, and followed to 1e-9 of that, where their value is off by its square.  The work is
+ * sign inside them; they are searched in parts of 1/40 of the mode's fastest period, which hold at
+ * most one, and located to 1e-9 of that, where the error of their value is its square.  The work is
  * f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10 in each part. */
 #include "study/sweep/meter.h"
 
@@ -57,7 +57,7 @@ point_at_start(walk *w)
 }
 
 static void
-look_at(meter *r, const point *p)
+widen_extremes(meter *r, const point *p)
 {
     r->x_lo = fmin(r->x_lo, p->x);
     r->x_hi = fmax(r->x_hi, p->x);
@@ -110,7 +110,7 @@ in_transition(const state *m, const point *p)
 }
 
 static void
-take_extremum_of_a(meter *r, const state *m, const point *p)
+count_extremum_of_a(meter *r, const state *m, const point *p)
 {
     double t = r->time + p->s;
     if (!in_transition(m, p))
@@ -120,7 +120,7 @@ take_extremum_of_a(meter *r, const state *m, const point *p)
     r->now.last = t;
 }
 
-/* Fewer than three extrema are no oscillation: the base alone makes two. */
+/* Fewer than three extrema are no oscillation: the base alone causes two. */
 static void
 count_ring(meter *r, const ring *of)
 {
@@ -141,7 +141,7 @@ leave_transition(meter *r)
     r->now.n = 0;
 }
 
-/* The transition at the end goes on in that at the start if the cycles close. */
+/* If the cycles close, the transition at the end continues as the one at the start. */
 static void
 end_transition(meter *r, int closes)
 {
@@ -173,16 +173,16 @@ work_between(walk *w, double lo, double hi)
 
 /* The part of a leg between two points near to each other. */
 static void
-take_part(meter *r, walk *w, const point *lo, const point *hi)
+measure_part(meter *r, walk *w, const point *lo, const point *hi)
 {
     static const unsigned by_rate[] = { RANGE, 1u << SS_V_MAX,
                                         1u << SS_A_MAX | 1u << SS_TRANSITION };
     for (rate which = OF_X; which <= OF_A; which++)
         if ((r->wanted & by_rate[which]) && rate_of(lo, which) * rate_of(hi, which) < 0) {
             point p = extremum(w, *lo, *hi, which);
-            look_at(r, &p);
+            widen_extremes(r, &p);
             if (which == OF_A)
-                take_extremum_of_a(r, &w->m.now, &p);
+                count_extremum_of_a(r, &w->m.now, &p);
         }
     if (!in_transition(&w->m.now, hi))
         leave_transition(r);
@@ -203,12 +203,12 @@ ss_meter_leg(meter *r, walk *w)
     if (!w->m.now.model->linear && !still)
         parts *= 2;
     point lo = point_at_start(w), first = lo;
-    look_at(r, &lo);
+    widen_extremes(r, &lo);
     for (size_t i = 1; i <= parts; i++) {
         point hi = point_at(w, i < parts ? w->h * (double)i / (double)parts : w->h);
-        look_at(r, &hi);
+        widen_extremes(r, &hi);
         if (!still) {
-            take_part(r, w, &lo, &hi);
+            measure_part(r, w, &lo, &hi);
             if (force_varies(&w->m.now) && (r->wanted & 1u << SS_ENERGY))
                 r->energy += work_between(w, lo.s, hi.s);
         }

@@ -1,4 +1,4 @@
-/* meter.h -- what is measured along a walk, and the walk's derivative by its initial state. */
+/* meter.h -- measures along a walk, and the derivative of the walk by its initial state. */
 #ifndef METER_H
 #define METER_H
 
@@ -13,7 +13,7 @@ typedef struct ring {
 
 typedef struct meter {
     unsigned wanted;
-    int needs_course;               /* more than the ends of the legs is looked at */
+    int needs_course;               /* the inside of the legs is needed, not only their ends */
     double time, stick, x_lo, x_hi, v_max, a_max, energy;
     size_t stops, microslips;
     int slip, first_slip;           /* directions; first_slip: if that before it is unknown */
@@ -26,8 +26,8 @@ typedef struct meter {
 void ss_meter_begin(meter *r, unsigned wanted, const state *m);
 void ss_meter_leg(meter *r, walk *w);
 void ss_meter_event(meter *r, const ss_event *event);
-/* The measures of so many forcing cycles, which close to a period or do not.  What cannot be told
- * stays as it is. */
+/* The measures of so many forcing cycles, which close to a period or do not.  A measure that
+ * is not known is unchanged. */
 void ss_meter_end(meter *r, int cycles, int closes, double value[]);
 
 /* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an exact engine. */

@@ -1,8 +1,8 @@
 /* steady.c -- the periodic state that a scene settles to, by simulation or by shooting.
  *
- * The state at the start of each forcing cycle is a map iterated.  It has come to a period p when
- * it repeats after p cycles; as it approaches geometrically, what is left to go follows from how
- * the last differences shrink, so that a slow approach is not taken for its end.  Shooting is
+ * The state at the start of each forcing cycle is an iterated map.  It has period p when it repeats
+ * after p cycles.  It approaches its limit geometrically, so the rate at which the last differences
+ * shrink gives the distance that remains, and a slow approach is not mistaken for the limit.  Shooting is
  * Newton's method on that map, with its derivative from tangent.c. */
 #include <stickslip/sweep.h>
 
@@ -17,7 +17,7 @@ const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
 const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
                                             .max_steps = 10000000 };
 
-/* What a model must have for a measure. */
+/* The condition of a measure on the model. */
 static int
 sticks(const struct model *model)
 {
@@ -72,7 +72,7 @@ ss_measure_unit(ss_measure m)
     return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
 }
 
-/* Without a closed form any method stands for the one that suits the point. */
+/* Without a closed form any method represents the one that suits the point. */
 static const char *
 method_of(const ss_steady_opts *opts, const struct model *model)
 {
@@ -127,7 +127,7 @@ typedef struct finder {
     double n;                           /* forcing cycles walked, from the walk's t = 0 */
     section unit;                         /* of a difference */
     section last[2 * SS_PERIOD_MAX + 1];  /* the latest, cycle after cycle, in a ring */
-    unsigned long taken;                /* of them */
+    unsigned long recorded;                /* of them */
     unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
 } finder;
 
@@ -231,51 +231,51 @@ measure_cycles(finder *f, int cycles, int period, ss_steady *out)
 /* --- by simulation ------------------------------------------------------------------------- */
 
 static void
-take_state(finder *f)
+record_section(finder *f)
 {
-    f->last[f->taken++ % (2 * SS_PERIOD_MAX + 1)] = section_of(&f->w.m.now);
+    f->last[f->recorded++ % (2 * SS_PERIOD_MAX + 1)] = section_of(&f->w.m.now);
 }
 
 /* The state so many cycles before the latest. */
 static section
 section_before(const finder *f, int cycles)
 {
-    return f->last[(f->taken - 1 - (unsigned long)cycles) % (2 * SS_PERIOD_MAX + 1)];
+    return f->last[(f->recorded - 1 - (unsigned long)cycles) % (2 * SS_PERIOD_MAX + 1)];
 }
 
-/* A difference within rounding says nothing of how it shrinks. */
+/* A difference within rounding gives no rate of shrinking. */
 #define ROUNDING (64 * DBL_EPSILON)
 
 static int
 has_period(const finder *f, int p)
 {
-    if (f->taken <= (unsigned long)p)
+    if (f->recorded <= (unsigned long)p)
         return 0;
     double now = distance(f, section_before(f, 0), section_before(f, p));
     if (now <= ROUNDING || !(now <= f->opts->tol))
         return now <= ROUNDING;
-    if (f->taken <= 2 * (unsigned long)p)
+    if (f->recorded <= 2 * (unsigned long)p)
         return 0;
     double before = distance(f, section_before(f, p), section_before(f, 2 * p)), ratio = now / before;
     return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
 }
 
 /* The state within tol of its limit is within 2 tol of itself after any multiple of its period, so
- * what is that near for fewer cycles has only not come to the shorter period yet. */
+ * a state that is as near after fewer cycles has not reached the shorter period yet. */
 static int
 find_period(const finder *f)
 {
     for (int p = 1; p <= f->opts->max_period; p++) {
         if (has_period(f, p))
             return p;
-        if (f->taken > (unsigned long)p
+        if (f->recorded > (unsigned long)p
             && distance(f, section_before(f, 0), section_before(f, p)) <= 10 * f->opts->tol)
             return 0;
     }
     return 0;
 }
 
-/* Settle as long as asked for; then the first cycle that comes back to where this began. */
+/* Settle for the given cycles; then find the first cycle that returns to its first state. */
 static ss_status
 settle_and_look(finder *f, int *period)
 {
@@ -298,10 +298,10 @@ static ss_status
 settle(finder *f, int *period)
 {
     ss_status st = SS_OK;
-    take_state(f);
+    record_section(f);
     for (unsigned long i = 0; st == SS_OK && *period == 0 && i < f->opts->max_cycles; i++) {
         st = go(f, 1, NULL, NULL);
-        take_state(f);
+        record_section(f);
         *period = find_period(f);
     }
     return st;
@@ -335,7 +335,8 @@ move(motion *m, const double d[D_MOST])
     return m->now.model->variation->move(&m->now, d);
 }
 
-/* One of Newton's steps from *at, which it moves; what it moved by and missed goes into *off. */
+/* One of Newton's steps, which moves *at.  *off: the larger of the step and the miss; INFINITY if the
+ * step was shortened, unless the miss is rounding. */
 static ss_status
 newton_step(finder *f, motion *at, tangent *t, double *off)
 {
@@ -403,11 +404,11 @@ begin(finder *f)
                               .max_steps = f->opts->max_steps };
     ss_walk_end(&f->w);
     f->n = 0;
-    f->taken = 0;
+    f->recorded = 0;
     return ss_walk_begin(&f->w, f->scene, &sim, f->err);
 }
 
-/* Why something asked for is missing, if it is. */
+/* The reason for a missing measure, if one is missing. */
 static ss_status
 complete(const finder *f, const ss_steady *out)
 {

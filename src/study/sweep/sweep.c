@@ -1,8 +1,8 @@
 /* sweep.c -- the points of a grid, on several threads, their rows in grid order.
  *
- * Threads take points in batches, in order.  A finished batch waits in a ring for those before it;
- * the thread that finishes the first one missing hands on what is then in order.  A point depends
- * on nothing but the scene and its place in the grid, so the rows do not depend on the threads. */
+ * Threads compute points in batches, in order.  A finished batch waits in a ring for those before it;
+ * the thread that finishes the first missing batch sends all batches that are then in order.  A point
+ * depends only on the scene and its index in the grid, so the rows do not depend on the threads. */
 #include <stickslip/sweep.h>
 
 #include <math.h>
@@ -157,13 +157,13 @@ typedef struct batch {
 typedef struct sweep {
     const ss_scene *scene;
     const ss_sweep_opts *opts;
-    size_t n, taken, given;         /* points of the shard; the next to take, to give to the sink */
+    size_t n, taken, sent;         /* points of the shard; the next to compute; the next for the sink */
     batch *ring;
     size_t room;
-    double *vary;                   /* of the row that is given */
+    double *vary;                   /* of the row for the sink */
     ss_status status;
     pthread_mutex_t lock;           /* of all from taken on; the sink is called under it */
-    pthread_cond_t moved;           /* given has grown, or the status has changed */
+    pthread_cond_t moved;           /* sent has grown, or the status has changed */
 } sweep;
 
 static size_t
@@ -178,13 +178,13 @@ batch_of(sweep *w, size_t point)
     return &w->ring[point / BATCH % w->room];
 }
 
-/* Give the batch that is due, whose turn it is. */
+/* Send the batch whose turn it is to the sink. */
 static void
-give(sweep *w, batch *b)
+send_batch(sweep *w, batch *b)
 {
     for (size_t i = 0; w->status == SS_OK && i < b->n; i++) {
         const result *r = &b->result[i];
-        ss_sweep_row row = { index_of(w, w->given + i), w->vary, r->steady, r->status,
+        ss_sweep_row row = { index_of(w, w->sent + i), w->vary, r->steady, r->status,
                              r->reason.text };
         place(w->opts, row.index, w->vary);
         if (r->status == SS_ENOMEM)
@@ -192,10 +192,10 @@ give(sweep *w, batch *b)
         else if (w->opts->sink(&row, w->opts->user) != 0)
             w->status = SS_STOP;
     }
-    w->given += b->n;
+    w->sent += b->n;
     b->done = 0;
     if (w->status == SS_OK)
-        w->status = ss_progress_at(&w->opts->progress, (double)w->given / (double)w->n);
+        w->status = ss_progress_at(&w->opts->progress, (double)w->sent / (double)w->n);
 }
 
 static void
@@ -207,7 +207,7 @@ work_on(void *user)
     if (vary == NULL)
         w->status = SS_ENOMEM;
     while (w->status == SS_OK && w->taken < w->n) {
-        if (w->taken >= w->given + w->room * BATCH) {
+        if (w->taken >= w->sent + w->room * BATCH) {
             pthread_cond_wait(&w->moved, &w->lock);
             continue;
         }
@@ -222,8 +222,8 @@ work_on(void *user)
         }
         pthread_mutex_lock(&w->lock);
         b->done = 1;
-        while (w->given < w->n && (b = batch_of(w, w->given))->done)
-            give(w, b);
+        while (w->sent < w->n && (b = batch_of(w, w->sent))->done)
+            send_batch(w, b);
         pthread_cond_broadcast(&w->moved);
     }
     pthread_cond_broadcast(&w->moved);

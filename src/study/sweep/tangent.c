@@ -93,7 +93,7 @@ ss_tangent_multipliers(const tangent *t, double *first, double *second, double *
         *second = large != 0 ? fabs(minors / large) : 0;
         *angle = large < 0 ? M_PI : 0;
     }
-    if (never_slips && *first < 1) {            /* wherever it came to rest, there it stays */
+    if (never_slips && *first < 1) {            /* it stays wherever it came to rest */
         *second = *first;
         *first = 1;
         *angle = 0;

@@ -1,4 +1,4 @@
-/* common.h -- what the trades of a scene and of a transform share. */
+/* common.h -- shared by the trades of a scene and of a transform. */
 #ifndef TRADE_H
 #define TRADE_H
 

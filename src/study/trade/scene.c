@@ -1,13 +1,13 @@
-/* scene.c -- what accuracy costs on a scene, measured; and the cheapest way to an accuracy.
+/* scene.c -- the cost of accuracy on a scene, measured; and the cheapest way to an accuracy.
  *
  * A run is compared with a reference, sample by sample and event by event.  Linear models have a
- * closed form; what rounding does to it is found by moving the scene's own numbers by their last
- * bit.  The others have none: there two methods of different order at the
- * tightest tolerance that both keep take its place, and their distance says how well they know.
+ * closed form; the effect of rounding on it is measured by changing the scene's own numbers by their
+ * last bit.  For the other models the reference is two methods of different order at the tightest
+ * tolerance that both keep; their distance is its error.
  *
- * The error of a run is that of the very same run when it is done again, as nothing here is random
- * but the time.  So what is promised for an accuracy holds but for the samples between those
- * compared and what the reference does not know: the margin is for these. */
+ * A run that is repeated has the same error, as nothing here is random except the time.  So an
+ * accuracy that is promised holds except for the samples that were not compared and the error of the
+ * reference: the margin is for these. */
 #include <stickslip/trade.h>
 
 #include <float.h>
@@ -28,7 +28,7 @@
  * samples fall on all of its phases. */
 enum { MOST = 19997 };
 
-#define MARGIN 2                    /* an error measured, times this, is promised */
+#define MARGIN 2                    /* a measured error times this is promised */
 enum { REPEATS = 5 };               /* of short rows */
 #define SHORT 0.1                   /* [s] */
 #define OUTRAGEOUS 300              /* times the steps of the reference: SS_EBUDGET */
@@ -43,7 +43,7 @@ const ss_trade_opts ss_trade_defaults = { .budget = 10 };
 
 /* --- one run ------------------------------------------------------------------------------- */
 
-/* What of a scene is compared. */
+/* The compared part of a scene. */
 typedef struct probe {
     ss_scene scene;
     size_t n;                       /* samples compared */
@@ -68,7 +68,7 @@ probe_of(const ss_scene *scene)
     return p;
 }
 
-typedef struct taken {              /* what a run gave */
+typedef struct run_result {              /* what a run gave */
     const probe *p;
     double *x, *a;
     size_t seen;                    /* samples of the scene */
@@ -76,13 +76,13 @@ typedef struct taken {              /* what a run gave */
     ss_event *event;
     size_t n_events, room;
     ss_sim_stats stats;
-    double seconds;                 /* of CPU time, or what it would have taken */
+    double seconds;                 /* of CPU time, or what it would have run_result */
 
     double began, budget;           /* [s] of CPU time; budget <= 0: none */
     int over;
     ss_progress progress;           /* the caller's, of the whole */
     double done, share;
-} taken;
+} run_result;
 
 double
 ss_trade_cpu_time(void)
@@ -97,7 +97,7 @@ ss_trade_cpu_time(void)
 static int
 keep_samples(const ss_sample *s, size_t n, void *user)
 {
-    taken *k = user;
+    run_result *k = user;
     for (size_t i = 0; i < n; i++, k->seen++) {
         size_t block = k->seen / k->p->stride, within = k->seen % k->p->stride;
         if (block < k->p->n && within == (uint32_t)block * UINT32_C(2654435761) % k->p->stride) {
@@ -111,7 +111,7 @@ keep_samples(const ss_sample *s, size_t n, void *user)
 static int
 keep_event(const ss_event *e, void *user)
 {
-    taken *k = user;
+    run_result *k = user;
     ss_event *event = ss_list_room(k->event, &k->room, k->n_events, sizeof *event);
     if (event == NULL) {
         k->no_memory = 1;
@@ -122,11 +122,11 @@ keep_event(const ss_event *e, void *user)
     return 0;
 }
 
-/* Give up what is sure to go over its budget early. */
+/* Stop early a run that is sure to exceed its budget. */
 static int
 watch(double done, void *user)
 {
-    taken *k = user;
+    run_result *k = user;
     double spent = ss_trade_cpu_time() - k->began;
     if (k->budget > 0 && (spent > k->budget
                           || (spent > k->budget / 50 && spent > 2 * k->budget * done))) {
@@ -138,8 +138,8 @@ watch(double done, void *user)
 }
 
 static ss_status
-take(taken *k, const probe *p, const char *method, double tol, unsigned long max_steps,
-     ss_error *err)
+run_method(run_result *k, const probe *p, const char *method, double tol, unsigned long max_steps,
+           ss_error *err)
 {
     const ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
                                .samples = keep_samples, .progress = { watch, k }, .user = k,
@@ -159,7 +159,7 @@ take(taken *k, const probe *p, const char *method, double tol, unsigned long max
 }
 
 static ss_status
-taken_init(taken *k, const probe *p)
+run_result_init(run_result *k, const probe *p)
 {
     k->x = malloc((p->n + 1) * sizeof *k->x);
     k->a = malloc((p->n + 1) * sizeof *k->a);
@@ -167,7 +167,7 @@ taken_init(taken *k, const probe *p)
 }
 
 static void
-taken_free(taken *k)
+run_result_free(run_result *k)
 {
     free(k->x);
     free(k->a);
@@ -186,7 +186,7 @@ largest(const double *x, size_t n)
 }
 
 static double
-error_x(const taken *k, const taken *ref)
+error_x(const run_result *k, const run_result *ref)
 {
     double worst = 0;
     for (size_t i = 0; i < ref->p->n; i++)
@@ -197,7 +197,7 @@ error_x(const taken *k, const taken *ref)
 /* The event of k nearest to e that is of the same kind and direction, or SIZE_MAX.  *from, where to
  * look, goes on with e. */
 static size_t
-nearest(const taken *k, const ss_event *e, size_t *from)
+nearest(const run_result *k, const ss_event *e, size_t *from)
 {
     size_t best = SIZE_MAX;
     while (*from < k->n_events && k->event[*from].t < e->t)
@@ -217,7 +217,7 @@ nearest(const taken *k, const ss_event *e, size_t *from)
 /* Events that are each other's nearest are the same.  own[i] becomes the error of the reference's
  * i-th, 0 if it was missed. */
 static void
-compare_events(ss_trade_row *row, const taken *k, const taken *ref, double *own)
+compare_events(ss_trade_row *row, const run_result *k, const run_result *ref, double *own)
 {
     size_t from = 0, from_back = 0, matched = 0;
     row->error_t = 0;
@@ -247,7 +247,7 @@ is_beside(const ss_event *e, double own, double t)
 }
 
 static double
-error_a(const taken *k, const taken *ref, const double *own)
+error_a(const run_result *k, const run_result *ref, const double *own)
 {
     double worst = 0;
     for (size_t i = 0, e = 0; i < ref->p->n; i++) {
@@ -263,7 +263,7 @@ error_a(const taken *k, const taken *ref, const double *own)
 }
 
 static ss_status
-compare(ss_trade_row *row, const taken *k, const taken *ref)
+compare(ss_trade_row *row, const run_result *k, const run_result *ref)
 {
     double *own = malloc((ref->n_events + 1) * sizeof *own);
     if (own == NULL)
@@ -288,17 +288,17 @@ nudged(const probe *p)
     return q;
 }
 
-/* Run the reference into ref, and into other what it is to be judged by; text says what it is. */
+/* Run the reference into ref, and the run that shows its error into other; text names it. */
 static ss_status
-refer(taken *ref, taken *other, const probe *p, unsigned long max_steps, char text[64],
-      ss_error *err)
+run_reference(run_result *ref, run_result *other, const probe *p, unsigned long max_steps,
+              char text[64], ss_error *err)
 {
     if (ss_model_is_linear(p->scene.model)) {
         const probe beside = nudged(p);
-        ss_status st = take(ref, p, EXACT, 1e-14, max_steps, err);
+        ss_status st = run_method(ref, p, EXACT, 1e-14, max_steps, err);
         snprintf(text, 64, EXACT);
         if (st == SS_OK)
-            st = take(other, &beside, EXACT, 1e-14, max_steps, err);
+            st = run_method(other, &beside, EXACT, 1e-14, max_steps, err);
         other->p = p;
         return st;
     }
@@ -306,15 +306,16 @@ refer(taken *ref, taken *other, const probe *p, unsigned long max_steps, char te
     const char *second = strcmp(first, "rk8pd") == 0 ? "rkck" : "msbdf";
     ss_status st = SS_ETOL;
     for (int i = TOLERANCES - 1; st == SS_ETOL && i >= 0 && tolerance[i] <= 1e-10; i--) {
-        st = take(ref, p, first, tolerance[i], max_steps, err);
+        st = run_method(ref, p, first, tolerance[i], max_steps, err);
         if (st == SS_OK)
-            st = take(other, p, second, tolerance[i], max_steps, err);
+            st = run_method(other, p, second, tolerance[i], max_steps, err);
         snprintf(text, 64, "%s and %s at tol %g", first, second, tolerance[i]);
     }
     return st;
 }
 
-/* How much the distance of the two says: a nudge is repeated, and rounding never absent. */
+/* The error of the reference from the distance of the two runs: of a nudge twice that; at least
+ * rounding. */
 static double
 known(const probe *p, double distance)
 {
@@ -323,12 +324,12 @@ known(const probe *p, double distance)
 
 /* --- the table ----------------------------------------------------------------------------- */
 
-typedef struct table {
+typedef struct measurement {
     ss_trade *trade;
     const ss_trade_opts *opts;
     probe p;
-    taken ref, run;
-} table;
+    run_result ref, run;
+} measurement;
 
 static int
 keeps(const ss_trade_row *row, double accuracy)
@@ -376,20 +377,20 @@ make_rows(ss_trade *trade, const ss_scene *scene)
 }
 
 static ss_status
-take_row(table *t, const ss_trade_row *row, ss_error *err)
+run_row(measurement *t, const ss_trade_row *row, ss_error *err)
 {
-    return take(&t->run, &t->p, row->method, row->tol > 0 ? row->tol : 1e-12, 0, err);
+    return run_method(&t->run, &t->p, row->method, row->tol > 0 ? row->tol : 1e-12, 0, err);
 }
 
 static ss_status
-measure_row(table *t, ss_trade_row *row)
+measure_row(measurement *t, ss_trade_row *row)
 {
     const ss_trade_row *best = t->opts->target > 0 ? ss_trade_cheapest(t->trade, t->opts->target)
         : NULL;
     t->run.budget = t->opts->budget;
     if (best != NULL)
         t->run.budget = fmin(t->run.budget, 2 * best->seconds);
-    row->status = take_row(t, row, NULL);
+    row->status = run_row(t, row, NULL);
     row->seconds = t->run.seconds;
     row->steps = t->run.stats.steps;
     row->rhs = t->run.stats.rhs;
@@ -404,7 +405,7 @@ measure_row(table *t, ss_trade_row *row)
     return st;
 }
 
-/* In turns, so that what disturbs the machine falls on all alike; the medians count. */
+/* In turns, so that a disturbance of the machine affects all rows alike; the medians count. */
 ss_status
 ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
 {
@@ -427,12 +428,12 @@ ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
 }
 
 static ss_status
-take_again(void *user, const ss_trade_row *row, double done, double *seconds)
+run_again(void *user, const ss_trade_row *row, double done, double *seconds)
 {
-    table *t = user;
+    measurement *t = user;
     t->run.budget = 0;
     t->run.done = done;
-    ss_status st = take_row(t, row, NULL);
+    ss_status st = run_row(t, row, NULL);
     *seconds = t->run.seconds;
     return st;
 }
@@ -454,18 +455,18 @@ ss_trade_mark_frontier(ss_trade *trade)
 }
 
 static ss_status
-fill_table(table *t, ss_error *err)
+measure_rows(measurement *t, ss_error *err)
 {
     ss_trade *trade = t->trade;
     ss_trade_row between = { .method = EXACT };
-    ss_status st = taken_init(&t->ref, &t->p);
+    ss_status st = run_result_init(&t->ref, &t->p);
     if (st == SS_OK)
-        st = taken_init(&t->run, &t->p);
+        st = run_result_init(&t->run, &t->p);
     if (st == SS_OK)
         st = make_rows(trade, &t->p.scene);
     t->ref.budget = t->run.budget = REFERENCE_BUDGET * t->opts->budget;
     if (st == SS_OK)
-        st = refer(&t->ref, &t->run, &t->p, 0, trade->reference, err);
+        st = run_reference(&t->ref, &t->run, &t->p, 0, trade->reference, err);
     if (st == SS_EBUDGET && (t->ref.over || t->run.over))
         return ss_fail(err, st, "the run of reference would take about %.2g s: a row's budget of %g s "
                        "allows it %g s", t->ref.over ? t->ref.seconds : t->run.seconds,
@@ -484,7 +485,7 @@ fill_table(table *t, ss_error *err)
     }
     t->run.share = 0;
     if (st == SS_OK)
-        st = ss_trade_repeat(trade, take_again, t);
+        st = ss_trade_repeat(trade, run_again, t);
     if (st == SS_OK)
         ss_trade_mark_frontier(trade);
     return st;
@@ -502,11 +503,11 @@ ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opt
         opts = &ss_trade_defaults;
     if (!(opts->budget > 0))
         return ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
-    taken empty = { .wants_events = 1, .progress = opts->progress };
-    table t = { calloc(1, sizeof *t.trade), opts, probe_of(scene), empty, empty };
-    st = t.trade != NULL ? fill_table(&t, err) : SS_ENOMEM;
-    taken_free(&t.ref);
-    taken_free(&t.run);
+    run_result empty = { .wants_events = 1, .progress = opts->progress };
+    measurement t = { calloc(1, sizeof *t.trade), opts, probe_of(scene), empty, empty };
+    st = t.trade != NULL ? measure_rows(&t, err) : SS_ENOMEM;
+    run_result_free(&t.ref);
+    run_result_free(&t.run);
     if (st == SS_OK) {
         *out = t.trade;
         return SS_OK;
@@ -538,24 +539,24 @@ cost[] = {
 };
 enum { COSTS = sizeof cost / sizeof *cost };
 
-typedef struct search {
+typedef struct choice {
     probe p;
-    taken ref, run;
+    run_result ref, run;
     double known, accuracy;
     unsigned long user_steps;       /* of opts */
     double tol, reached;            /* of the last method, SS_OK; the least error seen */
-} search;
+} choice;
 
 /* The loosest tolerance at which the method keeps the accuracy. */
 static ss_status
-loosest(search *s, const char *method, unsigned long max_steps, ss_error *err)
+loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
 {
     ss_status st = SS_ETOL;
     s->reached = INFINITY;
     for (int i = 0; i < TOLERANCES; i++) {
         if (tolerance[i] > 1.001e3 * s->accuracy)
             continue;
-        st = take(&s->run, &s->p, method, tolerance[i], max_steps, err);
+        st = run_method(&s->run, &s->p, method, tolerance[i], max_steps, err);
         if (st != SS_OK)
             return st;
         double error = fmax(error_x(&s->run, &s->ref), s->known);
@@ -568,7 +569,7 @@ loosest(search *s, const char *method, unsigned long max_steps, ss_error *err)
 }
 
 static ss_status
-choose_given(search *s, const char *method, ss_error *err)
+choose_given(choice *s, const char *method, ss_error *err)
 {
     double most = OUTRAGEOUS * (double)(s->ref.stats.steps + 1);
     if (s->user_steps > 0)
@@ -583,10 +584,10 @@ choose_given(search *s, const char *method, ss_error *err)
     return st;
 }
 
-/* Where there is no closed form: a method is given up when it has done the work of the best.  Each
- * sample costs the one-step methods a step of its own. */
+/* Without a closed form: a method is stopped when it has done the work of the best.  Each sample
+ * costs the one-step methods a step of its own. */
 static ss_status
-choose_cheapest(search *s, ss_sim_opts *opts, ss_error *err)
+choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
 {
     double least = INFINITY;
     for (size_t i = 0; i < COSTS; i++) {
@@ -614,15 +615,15 @@ choose_cheapest(search *s, ss_sim_opts *opts, ss_error *err)
 }
 
 static ss_status
-choose(search *s, ss_sim_opts *opts, ss_error *err)
+choose(choice *s, ss_sim_opts *opts, ss_error *err)
 {
     char reference[64];
     int is_linear = ss_model_is_linear(s->p.scene.model);
-    ss_status st = taken_init(&s->ref, &s->p);
+    ss_status st = run_result_init(&s->ref, &s->p);
     if (st == SS_OK)
-        st = taken_init(&s->run, &s->p);
+        st = run_result_init(&s->run, &s->p);
     if (st == SS_OK)
-        st = refer(&s->ref, &s->run, &s->p, s->user_steps, reference, err);
+        st = run_reference(&s->ref, &s->run, &s->p, s->user_steps, reference, err);
     if (st != SS_OK)
         return st;
     s->known = known(&s->p, error_x(&s->run, &s->ref));
@@ -661,11 +662,11 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
         st = ss_exact_check(ss_model_of(scene), err);
     if (st != SS_OK)
         return st;
-    const taken empty = { .progress = opts->progress };
-    search s = { .p = probe_of(scene), .ref = empty, .run = empty, .accuracy = accuracy,
+    const run_result empty = { .progress = opts->progress };
+    choice s = { .p = probe_of(scene), .ref = empty, .run = empty, .accuracy = accuracy,
                  .user_steps = opts->max_steps };
     st = choose(&s, opts, err);
-    taken_free(&s.ref);
-    taken_free(&s.run);
+    run_result_free(&s.ref);
+    run_result_free(&s.run);
     return st == SS_ENOMEM ? ss_fail(err, st, "%s", ss_strerror(st)) : st;
 }
