@@ -35,9 +35,9 @@ typedef enum ss_engine {
                                    or longer than some ten records */
 } ss_engine;
 
-/* How long FFTW looks for a fast way to do an FFT.  Measured ways are up to twice as fast, but may
- * take seconds to find for each of the lengths that a plan needs, and may differ from run to run, so
- * that results do in their last bits; but see ss_wisdom_read. */
+/* The effort of FFTW to find a fast FFT.  A measured FFT is up to twice as fast, but measuring may take
+ * seconds for each length of a plan, and its choice may differ from run to run, and with it the last
+ * bits of results; but see ss_wisdom_read. */
 typedef enum ss_planner { SS_PLANNER_ESTIMATE, SS_PLANNER_MEASURE, SS_PLANNER_PATIENT } ss_planner;
 
 typedef struct ss_morlet_opts {
@@ -55,8 +55,8 @@ typedef struct ss_morlet_opts {
                                    where that is more */
     ss_norm norm;
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
-    ss_detrend detrend;         /* what is subtracted from the record first */
-    int force;                  /* 1: also scales that sampling or record do not resolve */
+    ss_detrend detrend;         /* the trend that is subtracted from the record first */
+    int force;                  /* 1: scales that sampling or record do not resolve, too */
     int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
     ss_planner planner;
     ss_progress progress;       /* called after every scale of a whole record, by one thread at a time */
@@ -89,17 +89,17 @@ typedef struct ss_morlet ss_morlet;     /* a plan: a grid for records of one len
  * program that plans with FFTW itself keeps clear of that.  SS_ESCALE if scales are asked for that are not usable (unless force) or none is left. */
 ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts,
                         ss_error *err);
-/* What FFTW's planner has found out in this process, FFTW's own state: with what was read, plans for
- * the same lengths are made at once, whatever the planner, and always the same.  SS_EINVAL if in holds no
- * wisdom of this FFTW and machine (less than 16 MB), SS_ENOMEM, SS_EIO. */
+/* The measurements of FFTW's planner in this process, which are FFTW's own state.  After reading them,
+ * plans for the same lengths are made at once, with any planner, and are always the same.  SS_EINVAL
+ * if in holds no wisdom of this FFTW and machine (less than 16 MB), SS_ENOMEM, SS_EIO. */
 ss_status ss_wisdom_read(FILE *in, ss_error *err);
 ss_status ss_wisdom_write(FILE *out);
 size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to short */
 const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* an array that the plan owns */
-ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that scale i is left to */
+ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that computes scale i */
 size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients over all scales */
 
-/* How many times a scale has been computed in single precision, in all of the plan's executions. */
+/* The number of scales computed in single precision, in all of the plan's executions. */
 size_t ss_morlet_singles(const ss_morlet *plan);
 
 /* Transform the plan's n samples of x, which must be finite, into w: re, im of coefficient c at
@@ -139,12 +139,12 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 /* --- streams --------------------------------------------------------------------------------
  *
  * The transform of a signal whose length is not known, in memory bounded by the longest scale.  A
- * coefficient is complete, and can be had, when the samples up to 8.5 a after b have come: what may
- * follow, however large, stays below the floor of the accuracy.  So the error is the one promised for
+ * coefficient is complete when the samples up to 8.5 a after b have arrived: later samples, however
+ * large, change it by less than the floor of the accuracy.  So the error is the one promised for
  * the whole record; even the largest |W| is only that of its scale so far.
  *
- * Windows lie at fixed places and are given with their last sample.  So what is given, and in which
- * order, depends on the samples and on where the stream was drained, not on how many samples were
+ * Windows lie at fixed times and are computed with their last sample.  So the coefficients and their
+ * order depend on the samples and on where the stream was drained, not on how many samples were
  * pushed at a time nor on the number of threads. */
 
 typedef struct ss_stream ss_stream;
@@ -161,19 +161,19 @@ size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
  * comes less than this behind b. */
 size_t ss_stream_window(const ss_stream *stream, size_t i);
 
-/* Take n samples.  The sink gets what is complete of them when a window is full.
- * SS_EINVAL: one is not finite; those before it have been taken.  After a failure the stream only
- * says it again. */
+/* Append n samples.  When a window is full, the sink gets its complete coefficients.  SS_EINVAL: a
+ * sample is not finite; those before it have been appended.  After a failure the stream only reports
+ * it again. */
 ss_status ss_stream_push(ss_stream *stream, const double *x, size_t n, ss_error *err);
-/* Give all that is complete. */
+/* Send all complete coefficients to the sink. */
 ss_status ss_stream_drain(ss_stream *stream, ss_error *err);
-/* Give all the rest: the signal has ended, and is zero from here on. */
+/* Send all the rest: the signal has ended, and is zero from here on. */
 ss_status ss_stream_end(ss_stream *stream, ss_error *err);
 void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
 
 /* --- coefficients on their grid -------------------------------------------------------------- */
 
-/* Coefficients with the grid they stand on, as computed or as read back. */
+/* Coefficients with their grid, as computed or as read back. */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
                                    and the options as notes: samples, column, unit, center, voices,
@@ -193,7 +193,7 @@ ss_status ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, si
                        const ss_morlet_opts *opts, ss_error *err);
 ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format,
                                 ss_error *err);
-/* Text or AU, told apart by its first bytes, of a record or a stream that has come to its end.  Reads
+/* Text or AU, recognised by its first bytes, of a record or a stream that has come to its end.  Reads
  * past what it needs: nothing may have been read from a pipe before. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
 void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
@@ -213,21 +213,21 @@ int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k
 ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
                             double *error, ss_progress progress, ss_error *err);
 
-/* Write coefficients as they come.  The header says the column's signal and the options, and with
- * n = 0 that the samples are not counted yet: then end writes their number. */
+/* Write coefficients as they arrive.  The header has the column's signal and the options; n = 0: the
+ * number of samples is not known yet, and end writes it. */
 ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                                  const ss_morlet_opts *opts);
 typedef struct ss_coefficient_writer ss_coefficient_writer;
 ss_status ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
                                     const ss_header *head, ss_error *err);
-/* Arguments as a sink gets them.  SS_EIO if out refuses the rows. */
+/* The arguments of a sink.  SS_EIO if out refuses the rows. */
 ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
                                      size_t first, size_t n, const double *w, size_t samples);
 /* Flushes. */
 ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples);
 void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
 
-/* Where coefficients come from that are not all in memory at a time: fills in those of scale i. */
+/* A source of coefficients that are not all in memory at a time: fills in those of scale i. */
 typedef ss_status ss_coefficient_source(size_t i, double *w, void *user, ss_error *err);
 
 /* Largest |W| outside the cone of influence (of all, if all lie inside): 0 dB of the contours. */

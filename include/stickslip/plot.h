@@ -1,5 +1,5 @@
 /* stickslip/plot.h -- self-contained gnuplot scripts: data inside, named variables at the top,
- * no terminal set unless asked for.  Text from files is escaped: it draws, it does not run. */
+ * no terminal set unless opts name one.  Text from files is escaped: it is drawn and never run. */
 #ifndef STICKSLIP_PLOT_H
 #define STICKSLIP_PLOT_H
 
@@ -45,7 +45,7 @@ typedef struct ss_contour_opts {
     size_t n_events;
     const ss_overlay *overlay;  /* or NULL */
     ss_coefficient_source *source;  /* called once for every scale if the coefficients' w is NULL */
-    void *source_user;          /* handed to it */
+    void *source_user;          /* passed to it */
     ss_progress progress;       /* called after every scale */
 } ss_contour_opts;
 extern const ss_range ss_contour_levels;
@@ -62,7 +62,7 @@ ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *op
 
 typedef struct ss_map_opts {
     size_t x, y;                /* columns of the table that make a grid */
-    size_t z[2], n_z;           /* one or two that are drawn over it */
+    size_t z[2], n_z;           /* one or two columns drawn over it */
     const double *curve;        /* x, y, x, y, ... of a line over all, NaN where it breaks; NULL */
     size_t n_curve;             /* points */
 } ss_map_opts;

@@ -1,4 +1,4 @@
-/* stickslip/scene.h -- a scene: one friction model, its parameters, and the record to make of it.
+/* stickslip/scene.h -- a scene: one friction model, its parameters, and its record.
  *
  * All models share  m x'' + k x + f = k Z_e cos(Omega t + phase),  t = 0 at the start of settling;
  * they differ in the friction force f.  The text form is described in stickslip-scene(5). */
@@ -50,11 +50,11 @@ typedef struct ss_scene {
 
 extern const ss_scene ss_scene_defaults;    /* start here: settle 0, duration 10, rate 2000, ... */
 
-/* What a model says of the motion: one sample.  At an event the side after it is given. */
+/* One sample of the motion.  At an event it is the state after the event. */
 typedef struct ss_sample {
     double t;           /* [s] n / rate from the start of the record */
     double x, v, a;     /* displacement, velocity, acceleration of the mass [m, m/s, m/s^2] */
-    double f;           /* friction force on the mass, as it stands in the equation of motion [N] */
+    double f;           /* friction force on the mass, with its sign in the equation of motion [N] */
     double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
     double z;           /* displacement of the base [m] */
     int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip;
@@ -74,18 +74,18 @@ typedef struct ss_event {
     int direction;      /* +1 or -1: of the slip that begins; for SS_STICK, of the one that ended */
 } ss_event;
 
-/* Read a scene from text.  name stands for the file in messages.  On failure *scene is unchanged.
+/* Read a scene from text.  name is the name of the file in messages.  On failure *scene is unchanged.
  * SS_EDATA for a key that is unknown, repeated, missing, malformed, out of range or not the
  * model's; SS_EIO if reading failed. */
 ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err);
 
-/* The same with the n settings "key=value" put in place of what the text says, as if they were
- * its last lines.  A setting at fault gives SS_EINVAL, the text SS_EDATA. */
+/* The same with the n settings "key=value" as if they were its last lines: they replace the
+ * values of the text.  SS_EINVAL for a wrong setting, SS_EDATA for the text. */
 ss_status ss_scene_read_set(ss_scene *scene, FILE *in, const char *name,
                             const char *const settings[], size_t n, ss_error *err);
 
-/* Read the shipped scene of this name ("compliant-light"), or if none has it the file of this path,
- * with settings as above.  SS_EIO also if there is neither; err then has the names that there are. */
+/* Read the shipped scene of this name ("compliant-light"), or if there is none the file of this path,
+ * with settings as above.  SS_EIO also if there is neither; err then lists the shipped names. */
 ss_status ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], size_t n,
                         ss_error *err);
 
@@ -99,8 +99,8 @@ ss_status ss_scene_write(const ss_scene *scene, FILE *out);
  * has no such number, and err says so. */
 double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
 
-/* A range over which scenes are supported: there results are tested.  What lies outside is tried all
- * the same. */
+/* A range over which scenes are supported: results are tested there.  Scenes outside are simulated, too,
+ * without that promise. */
 typedef struct ss_scene_range {
     const char *name, *unit;    /* "Omega/omega_n"; X is the largest of Z_e, |x0|, |v0|/omega_n */
     double from, to;
@@ -113,7 +113,7 @@ const ss_scene_range *ss_model_range(ss_model model, size_t i);
 /* SS_OK if a scene that has passed ss_scene_check lies within them, else SS_EINVAL. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
-/* What a model is; "?" or 0 for a number that is no model's. */
+/* Properties of a model; "?" or 0 for a number that is not that of a model. */
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
 int ss_model_has_events(ss_model model);            /* stick, slip and reverse */
 int ss_model_is_linear(ss_model model);             /* between events: it has a closed form */

@@ -27,22 +27,22 @@ typedef struct ss_header {
     char **note;                /* "key: value" lines of the source, passed on; never rate, start, columns */
 } ss_header;
 
-/* Build a header: every string is copied, one that is no valid UTF-8 as if it were Latin-1.  NULL if
- * there is no memory. */
+/* Build a header.  Every string is copied; one that is not valid UTF-8 is read as Latin-1.  NULL: no
+ * memory. */
 ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
 ss_header *ss_header_copy(const ss_header *head);
-/* Append a column.  Blanks and slashes in its name become "_", and a name that is there already
- * gets "_2", "_3", ... behind it; unit may be NULL or "".  SS_EINVAL: no name. */
+/* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
+ * "_2", "_3", ...; unit may be NULL or "".  SS_EINVAL: no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
-/* Append a note; one with a key that is there already replaces it.  Newlines become blanks.
+/* Append a note; it replaces a note with the same key.  Newlines become blanks.
  * SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or has a colon in it. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
 
-/* The index of a column given by name, or by its number counted from 1; -1 if it is not there.  Blanks
- * and slashes in the name asked for stand for "_"; where no name matches, one that differs in the case
- * of letters does if it is the only one, but not one letter alone: a and A are two quantities. */
+/* The index of a column given by name, or by its number counted from 1; -1 if there is none.  Blanks
+ * and slashes in the given name match "_".  If no name matches, the only one that differs in the case of
+ * letters does, except for a single letter: a and A are two quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
 /* The first row at time t or after it (by no more than 1e-6 sample periods before it), from 0. */
@@ -54,12 +54,12 @@ ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t 
 
 /* --- reading ------------------------------------------------------------------------------- */
 
-/* Samples that a recording lacks: cells that are empty or hold no finite number, and rows that a
- * jump of the time stamps shows to be missing. */
+/* The treatment of missing samples: cells that are empty or hold no finite number, and rows that the
+ * time stamps skip. */
 typedef enum ss_gaps {
-    SS_GAPS_REFUSE,             /* are an error */
-    SS_GAPS_SPLIT,              /* are 0, as the signal is outside its record */
-    SS_GAPS_INTERPOLATE         /* lie on the line between their neighbours */
+    SS_GAPS_REFUSE,             /* an error */
+    SS_GAPS_SPLIT,              /* 0, the value of the signal outside its record */
+    SS_GAPS_INTERPOLATE         /* on the line between their neighbours */
 } ss_gaps;
 
 /* All zeros are the defaults. */
@@ -88,18 +88,18 @@ int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
 
 typedef struct ss_reader ss_reader;
 
-/* Open a stream of any of the three kinds, told apart by its first bytes.  The reader does not own
- * in, but reads past its buffer, so nothing may have been read from a pipe before.  name stands for
- * the file in messages.  opts may be NULL.  Text and AU streams are read as they come, in constant
- * memory; delimited text is read whole, to check its clock. */
+/* Open a stream of any of the three kinds, recognised by its first bytes.  The reader does not own
+ * in, but bypasses its buffer, so nothing may have been read from a pipe before.  name is the name of
+ * the file in messages.  opts may be NULL.  Text and AU streams are read as they arrive, in constant
+ * memory; delimited text is read completely first, to check its clock. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);
 
 /* Read up to max rows of n_columns values each, one row after the other, into rows.  *n = 0 with
- * SS_OK is the end.  Fewer than max may come: what is there is given before more is waited for. */
+ * SS_OK is the end.  It may return fewer than max: it does not wait if some rows have arrived. */
 ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
-/* 1 if they would wait for the source, for a row or a part of it; 0 if there is some, or the end. */
+/* 1 if that call would wait for the source; 0 if a part of a row has arrived, or at the end. */
 int ss_reader_waits(const ss_reader *reader);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
 
@@ -147,9 +147,9 @@ void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flu
 
 ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err);
 
-/* A copy at another rate [Hz], by the cubic spline through each column: what lies above half the new
- * rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate; SS_ERANGE: the
- * spline exceeds what a double holds. */
+/* A copy at another rate [Hz], by the cubic spline through each column: frequencies above half the
+ * new rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate; SS_ERANGE:
+ * the spline exceeds what a double holds. */
 ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err);
 
 /* --- making and changing ------------------------------------------------------------------- */
@@ -182,22 +182,22 @@ ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, s
 /* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the
  * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
 ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed);
-/* The same piece by piece, for several columns: to n rows, of which value c of row i stands at
- * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (where it is 0 none is drawn).
+/* The same piece by piece, for several columns: to n rows, value c of row i at
+ * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (no number is drawn where it is 0).
  * SS_ERANGE, here and below, if a sum is not finite; x has been changed then. */
 typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
 ss_status ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
 /* Noise of the frequencies lo to hi [Hz] only, 0 <= lo <= hi <= rate / 2, to n samples of one column;
- * the rms of what is added is rms.  SS_EINVAL if the record has no frequency in the band. */
+ * the added noise has exactly this rms.  SS_EINVAL if the record has no frequency in the band. */
 ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
                             double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
 
-/* What a converter of so many bits makes of x, whose input spans -range to range: multiples of the
+/* x after a converter of so many bits, whose input spans -range to range: multiples of the
  * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
  * below range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };

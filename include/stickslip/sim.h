@@ -22,7 +22,7 @@ typedef struct ss_sim_opts {
                                    more a second of settling and record, 1e11 in all at most */
     ss_sample_sink *samples;
     ss_event_sink *events;
-    void *user;                 /* handed to both, either of which may be NULL */
+    void *user;                 /* passed to both, either of which may be NULL */
     ss_progress progress;       /* called every few hundred steps or samples */
 } ss_sim_opts;
 extern const ss_range ss_sim_tolerances;        /* of tol */
@@ -45,10 +45,10 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
 ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats,
                      ss_error *err);
 
-/* Which columns of a sample are wanted, and in which order. */
+/* The wanted columns of a sample, in this order. */
 enum { SS_SIM_COLUMNS = 7 };            /* x, v, a, f, y, z, mode */
 typedef struct ss_sim_columns {
-    int has_time;                       /* t was asked for (first) */
+    int has_time;                       /* t is wanted (first) */
     size_t n;
     int pick[SS_SIM_COLUMNS];
 } ss_sim_columns;
@@ -73,8 +73,8 @@ const char *ss_sim_method_for(const ss_scene *scene);
 
 /* --- as text ------------------------------------------------------------------------------- */
 
-/* Write events as they come, a row each under the notes of head, as ss-sim(1) describes, on out, which
- * the writer does not own.  SS_EINVAL: the format holds numbers only; SS_EIO. */
+/* Write events as they arrive, one row each, after the notes of head, as ss-sim(1) describes, on out,
+ * which the writer does not own.  SS_EINVAL: the format holds numbers only; SS_EIO. */
 typedef struct ss_event_writer ss_event_writer;
 ss_status ss_event_writer_new(ss_event_writer **writer, FILE *out, ss_format format,
                               const ss_header *head);

@@ -12,7 +12,7 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* What |W| (a^-1/2 norm) does over the octave above the shortest scale that shows the spike:
+/* The growth of |W| (a^-1/2 norm) over the octave above the shortest scale that shows the spike:
  * a^-1/2 for a glitch of one sample (-3 dB an octave; 0 for two samples), a^1/2 for a jump (+3; +2
  * at the shortest scales of a sampled one), a^3/2 for a kink (+9; 4 to 15 where jump, kink and
  * curvature come together), and faster than any power for what is smooth (30 to 50 in the

@@ -1,11 +1,11 @@
-/* stickslip/status.h -- what a call answers, and why it failed. */
+/* stickslip/status.h -- the result of a call, and the reason of a failure. */
 #ifndef STICKSLIP_STATUS_H
 #define STICKSLIP_STATUS_H
 
 #define SS_VERSION "0.1.0"
 
-/* What public headers declare has C linkage and is visible outside the shared library; what the
- * library's own headers declare is not. */
+/* Declarations of public headers have C linkage and are visible outside the shared library; those of
+ * the library's own headers are not. */
 #ifdef __cplusplus
 #define SS_EXTERN_C extern "C" {
 #define SS_EXTERN_C_END }
@@ -37,12 +37,12 @@ typedef enum ss_status {
     SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range;
                        ss_morlet_opts.force computes them all the same */
     SS_ETOL,        /* the step size underflowed before the tolerance was met */
-    SS_ECHATTER,    /* events follow each other faster than double precision can tell apart */
+    SS_ECHATTER,    /* events follow each other faster than double precision can separate */
     SS_EBUDGET,     /* the scene needs more work than it may: max_steps, or what it has without */
     SS_ERANGE       /* a value is not finite: the numbers lie beyond double precision */
 } ss_status;
 
-/* Why a call failed, in one line without a newline: "run.tsv:17: expected 4 columns, found 3".
+/* The reason of a failure, one line without a newline: "run.tsv:17: expected 4 columns, found 3".
  * Filled in on failure only.  Wherever a function takes an ss_error *, NULL is allowed. */
 typedef struct ss_error {
     char text[512];
@@ -55,11 +55,11 @@ typedef struct ss_range {
     double from, to;
 } ss_range;
 
-/* A function that long work calls with how far it is, from 0 to 1; a non-zero return ends the work
- * with SS_STOP.  { NULL, NULL }: there is none. */
+/* A function that long work calls with the fraction done, 0 to 1; a non-zero return ends the work with
+ * SS_STOP.  { NULL, NULL }: none. */
 typedef struct ss_progress {
     int (*function)(double done, void *user);
-    void *user;                 /* handed to it */
+    void *user;                 /* passed to it */
 } ss_progress;
 
 const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */

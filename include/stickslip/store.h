@@ -1,9 +1,9 @@
-/* stickslip/store.h -- signals, events and coefficients in HDF5 files, laid out as
- * stickslip-hdf5(5) says.
+/* stickslip/store.h -- signals, events and coefficients in HDF5 files, in the
+ * layout of stickslip-hdf5(5).
  *
- * Each writing call makes a whole file at path, replacing what is there; on failure path is
- * removed.  A caller that wants to keep the old file until the new one is whole writes to another
- * name and renames it, as the tools do.  The same input gives the same bytes.  Path may be a device
+ * Each writing call makes a complete file at path and replaces an existing one; on failure path is
+ * removed.  A caller that needs the old file until the new one is complete writes to another name and
+ * renames it, as the tools do.  The same input gives the same bytes.  Path may be a device
  * or a FIFO: the file is then made under no name and copied there.
  *
  * HDF5 itself is safe in several threads only where it was built so, which its serial packages are
@@ -19,7 +19,7 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* What goes into one file; NULL or 0 for what is not there. */
+/* The contents of one file; NULL or 0 for absent parts. */
 typedef struct ss_record {
     const ss_signal *signal;                /* /signal/t and a dataset a column */
     const ss_event *events;                 /* /events/... */
@@ -33,20 +33,20 @@ ss_status ss_store_write(const char *path, const ss_record *record, ss_error *er
 /* The same while samples and coefficients are still being made, in memory that does not grow with
  * their number.  Grid has head, n_scales, scale and center as in ss_coefficients; its n is the
  * length of the record, or 0 if that is not known yet: the datasets then have a time dimension
- * without limit.  Its head is ss_coefficients_header's.  Signal is the header of what the transform
- * is of, with all columns that are to be stored beside it, or NULL. */
+ * without limit.  Its head is ss_coefficients_header's.  Signal is the header of the transformed
+ * signal, with all columns that are stored beside it, or NULL. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);
-/* n samples more of each column: sample i of column c is x[i * row + c * column]. */
+/* Append n samples of each column: sample i of column c is x[i * row + c * column]. */
 ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_t n, size_t row,
                                  size_t column, ss_error *err);
-/* Arguments as a sink of coefficients gets them. */
+/* The arguments of a sink of coefficients. */
 ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first,
                                size_t n, const double *w, size_t samples, ss_error *err);
-/* The record has so many samples, and all of them and their coefficients have been given. */
+/* End: the record has so many samples, and all of them and their coefficients have been appended. */
 ss_status ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);
-/* A file that has not come to its end is removed; NULL is allowed. */
+/* A file without ss_store_writer_end is removed; NULL is allowed. */
 void ss_store_writer_free(ss_store_writer *writer);
 
 /* 1 if the file is HDF5 (its signature at byte 0, 512, 1024, ...), else 0, also if it cannot be read. */
@@ -70,8 +70,8 @@ const ss_coefficients *ss_store_reader_grid(const ss_store_reader *reader);
 ss_status ss_store_reader_scale(ss_store_reader *reader, size_t i, double *w, ss_error *err);
 void ss_store_reader_free(ss_store_reader *reader);     /* NULL is allowed */
 
-/* Open path whatever it holds: a stream, delimited text, HDF5, or HDF5 with ":/path/to/dataset"
- * behind it. */
+/* Open path, with any contents: a stream, delimited text, HDF5, or HDF5 followed by
+ * ":/path/to/dataset". */
 ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts,
                          ss_error *err);
 

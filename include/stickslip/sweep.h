@@ -10,7 +10,7 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* Measures are taken over one period of the motion, `a cycle' is a forcing cycle.  A model without
+/* Measures are those of one period of the motion; a cycle is a forcing cycle.  A model without
  * sticks has no stops, stick and microslips; only compliant contact has a transition, or the state
  * variable. */
 typedef enum ss_measure {
@@ -26,7 +26,7 @@ typedef enum ss_measure {
     SS_MICROSLIPS,      /* slips followed by one in the same direction, a half-cycle */
     SS_TRANSITION,      /* from the times between extrema of a in transitions that have three or
                            more of them: microsticks, or where |alpha v| < 1 [Hz] */
-    SS_X_PHASE,         /* x and v at the start of a forcing cycle, which tell basins apart [m] */
+    SS_X_PHASE,         /* x and v at the start of a forcing cycle, which distinguish basins [m] */
     SS_V_PHASE,         /* [m/s] */
     SS_FLOQUET,         /* modulus of the largest Floquet multiplier of the period */
     SS_FLOQUET_2,       /* of the next */
@@ -40,13 +40,13 @@ const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a numb
 typedef struct ss_steady_opts {
     unsigned measures;          /* wanted: a set of 1u << ss_measure */
     double tol;                 /* see ss_steady_find */
-    int max_period;             /* sub-harmonics looked for, 1 ... SS_PERIOD_MAX cycles */
-    unsigned long max_cycles;   /* > 0: then it is called aperiodic */
-    unsigned long settle;       /* > 0: simulate so many cycles instead of looking for the end */
+    int max_period;             /* the longest period that is searched, 1 ... SS_PERIOD_MAX cycles */
+    unsigned long max_cycles;   /* > 0: a motion without a period by then is aperiodic */
+    unsigned long settle;       /* > 0: simulate so many cycles instead of searching for the limit */
     int shoot;                  /* Newton on the period map; exact method, no SS_CYCLES */
     const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
                                    else as ss_sim_run chooses */
-    unsigned long max_steps;    /* > 0: give up after so many, or after 20 right-hand sides for
+    unsigned long max_steps;    /* > 0: stop after so many, or after 20 right-hand sides for
                                    each of them */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64 };
@@ -54,17 +54,18 @@ extern const ss_range ss_steady_tolerances;     /* of tol */
 extern const ss_steady_opts ss_steady_defaults; /* 1e-9, 8, 10000, 0, simulation, 10^7 steps */
 
 typedef struct ss_steady {
-    double value[SS_MEASURES];  /* NaN for what was not asked for or is not there */
+    double value[SS_MEASURES];  /* NaN for a measure that is not wanted or absent */
 } ss_steady;
 
 /* Find the periodic state that the scene settles to, from its initial state on, and measure it.
  *
  * The state (x, v, and y or theta) at the start of each forcing cycle is compared with that of 1,
  * 2, ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k,
- * v in those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when it differs by
- * at most tol and, going on to shrink as it has, lies within tol of its limit.  With shoot,
+ * v in those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when the difference is
+ * at most tol and the state, by the rate at which the differences shrink, lies within tol of its
+ * limit.  With shoot,
  * Newton's steps and residual are at most tol.  Settle, duration and rate of the scene do not
- * count.
+ * matter.
  *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
  * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the
@@ -72,7 +73,7 @@ typedef struct ss_steady {
  * there. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);
-/* SS_EINVAL if that can never work for the model: a measure that it does not have, a range. */
+/* SS_EINVAL if that is impossible for the model: a measure that it does not have, a range. */
 ss_status ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err);
 
 /* --- a grid ----------------------------------------------------------------------------------- */
@@ -108,25 +109,25 @@ typedef struct ss_sweep_opts {
     size_t first;               /* the first of these that is wanted, counted from 0 */
     int threads;                /* 1 ... SS_THREADS_MAX */
     ss_sweep_sink *sink;
-    void *user;                 /* handed to the sink */
+    void *user;                 /* passed to the sink */
     ss_progress progress;       /* called as the sink is */
 } ss_sweep_opts;
 
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
 
-/* SS_EINVAL if no point can be worked out so: an axis that the model does not have or that belongs
+/* SS_EINVAL if no point can be computed: an axis that the model does not have or that belongs
  * to the record, a measure, a range. */
 ss_status ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
-/* Every point is worked out from the scene alone, so that rows are the same whatever the threads
- * and shards.  A point that fails is a row with its reason; SS_ENOMEM,
- * SS_EINVAL as from ss_sweep_check, or SS_STOP end the sweep. */
+/* Every point is computed from the scene alone, so the rows do not depend on threads and shards.
+ * A point that fails is a row with its reason; SS_ENOMEM, SS_EINVAL as from ss_sweep_check, or SS_STOP
+ * end the sweep. */
 ss_status ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
 /* --- as text ---------------------------------------------------------------------------------- */
 
-/* What the rows of a sweep hold and what stands above them. */
+/* The columns of the rows of a sweep, and their header. */
 typedef struct ss_sweep_text {
     const char *name;           /* of the scene */
     const ss_scene *scene;

@@ -26,10 +26,9 @@ typedef struct ss_trade_row {
 
 typedef struct ss_trade {
     char reference[64];         /* "exact", or two methods that agree */
-    double known_x, known_a, known_t;   /* what the reference may itself be wrong by, as above: for
-                                   exact, twice the change when m, k and K_y move by their last bit;
-                                   else the distance of the two methods.  No row's error is given as
-                                   less */
+    double known_x, known_a, known_t;   /* the error of the reference itself, as above: for exact,
+                                   twice the change when m, k and K_y change by their last bit; else
+                                   the distance of the two methods.  No row has a smaller error */
     size_t samples, events;     /* compared */
     size_t n;
     ss_trade_row *row;
@@ -45,15 +44,15 @@ typedef struct ss_trade_opts {
 extern const ss_range ss_trade_accuracies;          /* that ss_trade_choose can keep */
 extern const ss_trade_opts ss_trade_defaults;       /* 10 s, no target */
 
-/* Run the scene with every method at tolerances 1e-2, 1e-3, ... 1e-13, here and now.  A record of
+/* Run the scene with every method at tolerances 1e-2, 1e-3, ... 1e-13, on this machine.  A record of
  * more than 20000 samples is measured at a lower rate, which leaves its events as they are.  Rows
- * of up to 0.1 s are timed five more times, in turns, and their median given.  opts may be NULL.
+ * of up to 0.1 s are timed five more times, in turns, and have their median.  opts may be NULL.
  * SS_STOP if progress asks for it; else as ss_sim_run, about the reference.  To be freed with
  * ss_trade_free. */
 ss_status ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opts,
                            ss_error *err);
-/* Transform n samples with every engine at accuracies 1e-2, 1e-3, ... 1e-13, here and now, on one
- * thread and on the scales that grid asks for and that 1e-13 resolves.  The rows' methods are those
+/* Transform n samples with every engine at accuracies 1e-2, 1e-3, ... 1e-13, on this machine, on one
+ * thread and on the scales of grid that 1e-13 resolves.  The rows' methods are those
  * of ss-morlet, tol is the accuracy asked for, error_x the worst error of W over the largest |W| of its
  * scale, less the 16 DBL_EPSILON a^1/2 max|x| of rounding that no accuracy promises; there are no
  * events.  The reference is the definition at some 40 translations a scale, its largest |W| among
