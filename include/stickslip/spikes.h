@@ -89,6 +89,7 @@ typedef struct ss_bursts {
     double f;                   /* label of the scale that shows them best [Hz] */
     double next;                /* [dB] of the strongest one left out re the strongest; -infinity:
                                    none that is above the noise */
+    double floor;               /* [dB] re the strongest: weaker ones would not be told from noise */
 } ss_bursts;
 
 /* The events of a record that is quiet for most of the time, of whatever length and shape: maxima

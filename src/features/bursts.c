@@ -56,6 +56,7 @@ take(ss_bursts *found, row *r, double threshold, double range)
         return SS_ENOMEM;
     found->f = r->f;
     found->next = -INFINITY;
+    found->floor = r->n > 0 ? 20 * log10(threshold * r->rms / r->top) : 0;
     for (; n < r->n && r->peak[n].level > threshold * r->rms; n++) {
         double level = 20 * log10(r->peak[n].level / r->top);
         if (level < -range) {

@@ -297,7 +297,6 @@ static ss_status
 judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cycles *out)
 {
     size_t active = 0, used = 0, symmetric = 0;
-    int is_modulated = 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < n; i++) {
         if (!(c[i].energy > least))
@@ -318,7 +317,7 @@ judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cyc
         out->why = "no cycle resembles the next one";
     else if (lasting(c, n) < LASTING || fades(c, n, least))
         out->why = "it rings once, or sounds in a small part of the record only";
-    else if ((st = modulated(c, n, v, &is_modulated)) == SS_OK && is_modulated)
+    else if ((st = modulated(c, n, v, &out->modulated)) == SS_OK && out->modulated)
         out->why = "its cycles swell and fade in turn: it is modulated";
     return st;
 }

@@ -14,6 +14,7 @@ typedef struct ss_cycles {
     double symmetry;            /* the same with the signal half a period later: -1 where the second
                                    half of a cycle mirrors the first */
     double overtones;           /* share of a cycle's power beyond its fundamental */
+    int modulated;              /* 1: the cycles swell and fade in turn */
     const char *why;            /* there is no period; NULL where there is one */
 } ss_cycles;
 

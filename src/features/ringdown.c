@@ -13,7 +13,7 @@
  * Errors: by the jackknife over windows, in its linearised form. What it cannot see is a misfit that
  * all windows share, of the slow part or the ends: that moves the fit as the windows change. So all
  * are cut at their starts, or at their ends, and half of what that moves the fit by, noise apart, is
- * added in quadrature. */
+ * added in quadrature.  What is left beyond white noise adds a third part, see add_colour. */
 #include "features/ringdown.h"
 
 #include <gsl/gsl_cdf.h>
@@ -36,8 +36,9 @@
 #define CHANCE 1e-3             /* of ending the growth at a block that belongs to the stick */
 #define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
+#define WHITE 1.2               /* of the white noise's variance: more is coloured */
 #define MISFIT 1e-3             /* of the oscillation's amplitude: passes for noise */
-#define ROUGH 0.02              /* a core is described badly if more of its amplitude is left */
+#define LATEST 32.0             /* behind a window, see rings_on */
 #define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
 #define LASTS 0.15              /* of its amplitude at its end: what is gone rang no two periods */
 #define APART 3.0               /* periods a transition, or half-cycle of the base: two and a slip */
@@ -337,6 +338,47 @@ find_windows(work *k, const ss_window *core, ss_window *window, size_t n, size_t
     }
 }
 
+/* --- what goes on behind the windows ------------------------------------------------------- */
+
+/* So many periods behind the window, in one of the least length and before limit: is there an
+ * oscillation of this frequency, of more than twice the amplitude that the fit leaves it?  -1: that
+ * cannot be looked at. */
+static int
+rings_behind(work *k, ss_window win, double late_by, size_t limit)
+{
+    size_t first = win.end + periods(k, late_by);
+    ss_window late = { first, first + periods(k, LEAST) };
+    if (ss_window_length(win) == 0 || late.end > limit || has_gap(k, (ss_window){ win.end, late.end }))
+        return -1;
+    double mean = ss_varpro_project(&k->fit, win).ring / (double)ss_window_length(win);
+    linear fitted = ss_varpro_project(&k->fit, late);
+    double apart = (double)(late.first + late.end - win.first - win.end) / 2;
+    double m = (double)ss_window_length(late), left = m * mean * exp(-2 * k->fit.s * apart);
+    int is_one = fitted.ring > EXPLAINED * (fitted.ring + fitted.rss)
+        || belong(k, fitted.rss, ss_window_length(late) - k->fit.columns);
+    return is_one && fitted.ring > 4 * left + k->noise * gsl_cdf_chisq_Qinv(CHANCE, 2);
+}
+
+/* A train of micro-slips looks like a strongly damped oscillation, though the contact rings on behind
+ * it; a hum goes on, too.  So all windows are looked behind at growing distances; more than half of
+ * them decide. */
+static int
+rings_on(work *k, const ss_window *window, size_t n)
+{
+    for (double late_by = 2; late_by <= LATEST; late_by *= 2) {
+        size_t seen = 0, on = 0, limit = k->n;
+        for (size_t i = n; i-- > 0;) {
+            int is = rings_behind(k, window[i], late_by, limit);
+            limit = ss_window_length(window[i]) > 0 ? window[i].first : limit;
+            seen += is >= 0;
+            on += is > 0;
+        }
+        if (seen >= FEW && 2 * on > seen)
+            return 1;
+    }
+    return 0;
+}
+
 /* --- standard errors ----------------------------------------------------------------------- */
 
 /* Of one window: H = J'J and g = J'r, and the sum of squares. */
@@ -461,6 +503,31 @@ add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
     return st;
 }
 
+/* What is left beyond white noise is not of the model: it may lie in the band of the oscillation, where
+ * all of its energy in a window tells on the fit, not the share that white noise has there.  The fit
+ * is no finer than its tolerance, either. */
+static void
+add_colour(work *k, const ss_window *window, size_t n, double white, ss_value value[2])
+{
+    double variance = -1, unused[2];
+    size_t used = 0, samples = ss_window_total(window, n);
+    ss_value more[2];
+    normal all = { 0 };
+    variances(k, window, n, &variance, unused);
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        normal h = normal_of(k, window[i]);
+        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
+        used++;
+    }
+    double excess = fmax(0, variance - WHITE * white * white);
+    errors_of_fit(&all, excess * 0.5 * (double)samples / (double)used, more);
+    for (int j = 0; j < 2; j++)
+        value[j].error = sqrt(value[j].error * value[j].error + more[j].error * more[j].error
+                              + FINE * FINE * k->fit.w * k->fit.w);
+}
+
 /* --- each transition by itself ------------------------------------------------------------- */
 
 static ss_status
@@ -491,37 +558,7 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
     return st;
 }
 
-/* Are the cores described badly, even when they are placed and fitted in turns? Then it is not the
- * end of a stick that stops the growth, as a core fits into shorter ones than can be used, nor
- * noise, but that the oscillation is not quite a damped sinusoid. */
-static ss_status
-look_rough(work *k, const size_t *anchor, ss_window *core, size_t n, double white, int *is_rough)
-{
-    enum { TURNS = 3 };
-    size_t rough = 0, used = 0;
-    int ok = 1;
-    *is_rough = 0;
-    for (int turn = 0; turn < TURNS && ok; turn++) {
-        for (size_t i = 0; i < n; i++)
-            core[i] = place(k, anchor[i], CORE);
-        ss_status st = ss_varpro_fit(&k->fit, core, n, COARSE, &ok);
-        if (st != SS_OK)
-            return st;
-    }
-    for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(core[i]) == 0)
-            continue;
-        linear fitted = ss_varpro_project(&k->fit, core[i]);
-        used++;
-        rough += fitted.rss > ROUGH * ROUGH * fitted.ring && fitted.rss > white * white
-            * gsl_cdf_chisq_Qinv(CHANCE, (double)(ss_window_length(core[i]) - k->fit.columns));
-    }
-    *is_rough = 2 * rough > used;
-    return SS_OK;
-}
-
-/* Windows of the least length where none could be grown, each fitted by itself and kept if the
- * oscillation explains it well. */
+/* Windows of the least length, each fitted by itself and kept if the oscillation explains it well. */
 static ss_status
 fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
 {
@@ -543,7 +580,9 @@ fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *
     return st;
 }
 
-/* The median of those fitted one by one, and its error from their scatter. */
+/* The median of those fitted one by one, from their scatter.  What is left of the windows may lie in
+ * the band of the oscillation, which moves a fit by the root of half the samples of a window more than
+ * white noise would.  Where the fits do not scatter by that, they may all be moved alike. */
 static ss_status
 take_median(const ss_window *window, size_t n, const ss_value *each, ss_value value[2])
 {
@@ -555,15 +594,21 @@ take_median(const ss_window *window, size_t n, const ss_value *each, ss_value va
         size_t used = 0;
         for (size_t i = 0; i < n; i++)
             if (ss_window_length(window[i]) > 0 && !isnan(each[2 * i + j].value))
-                v[used++] = each[2 * i + j].value;
+                v[used++] = each[2 * i + j].error * sqrt(0.5 * (double)ss_window_length(window[i]));
         if (used < FEW)
             break;
+        double moved = gsl_stats_median(v, 1, used);
+        used = 0;
+        for (size_t i = 0; i < n; i++)
+            if (ss_window_length(window[i]) > 0 && !isnan(each[2 * i + j].value))
+                v[used++] = each[2 * i + j].value;
         for (size_t i = 0; i < used; i++)
             mean += v[i] / (double)used;
         for (size_t i = 0; i < used; i++)
             scatter += (v[i] - mean) * (v[i] - mean) / (double)(used - 1);
         value[j].value = gsl_stats_median(v, 1, used);
-        value[j].error = sqrt(M_PI / 2 * scatter / (double)used);       /* of a Gaussian's median */
+        value[j].error = sqrt(M_PI / 2 * scatter / (double)used         /* of a Gaussian's median */
+                              + fmax(0, moved * moved - scatter));
     }
     free(v);
     return SS_OK;
@@ -572,7 +617,7 @@ take_median(const ss_window *window, size_t n, const ss_value *each, ss_value va
 /* --- all of it ----------------------------------------------------------------------------- */
 
 static ss_status
-fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *window,
+fit_all(work *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
 {
     double start = k->fit.w;
@@ -613,11 +658,18 @@ fit_all(work *k, const size_t *anchor, size_t n, ss_window *core, ss_window *win
             for (size_t i = 0; i < n; i++)
                 window[i] = cut(k, window[i], longest);
     } while (longest < k->fit.room);
+    if (rings_on(k, window, n)) {
+        for (size_t i = 0; i < n; i++)
+            window[i].end = window[i].first;
+        return SS_OK;
+    }
     value[0].value = k->fit.w;
     value[1].value = k->fit.s;
     st = jackknife(k, window, n, value);
     if (st == SS_OK)
         st = add_misfit(k, window, n, value);
+    if (st == SS_OK)
+        add_colour(k, window, n, white, value);
     return st == SS_OK ? fit_each(k, window, n, each) : st;
 }
 
@@ -632,25 +684,25 @@ clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_v
 }
 
 static ss_status
-fit_with(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
-         ss_value *each)
+fit_with(work *k, const size_t *anchor, size_t n, double white, ss_window *window,
+         ss_value value[2], ss_value *each)
 {
     ss_window *core = malloc((n + 1) * sizeof *core);
     if (core == NULL)
         return SS_ENOMEM;
     clear(anchor, n, window, value, each);
-    ss_status st = fit_all(k, anchor, n, core, window, value, each);
+    ss_status st = fit_all(k, anchor, n, white, core, window, value, each);
     free(core);
     return st;
 }
 
 /* With either slow part; the one whose w is known better is kept. */
 static ss_status
-fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
-         ss_value *each, double forcing)
+fit_both(work *k, const size_t *anchor, size_t n, double white, ss_window *window,
+         ss_value value[2], ss_value *each, double forcing)
 {
     double w = k->fit.w;
-    ss_status st = fit_with(k, anchor, n, window, value, each);
+    ss_status st = fit_with(k, anchor, n, white, window, value, each);
     if (st != SS_OK || !(forcing > 0))
         return st;
     ss_window *other = malloc((n + 1) * sizeof *other);
@@ -658,45 +710,13 @@ fit_both(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value va
     st = SS_ENOMEM;
     if (other != NULL && other_each != NULL) {
         ss_varpro_start(&k->fit, w, START * w, forcing);
-        st = fit_with(k, anchor, n, other, other_value, other_each);
+        st = fit_with(k, anchor, n, white, other, other_value, other_each);
         if (st == SS_OK && !(other_value[0].error >= value[0].error)
             && !isnan(other_value[0].error)) {
             memcpy(window, other, n * sizeof *window);
             memcpy(each, other_each, 2 * n * sizeof *each);
             memcpy(value, other_value, sizeof other_value);
         }
-    }
-    free(other);
-    free(other_each);
-    return st;
-}
-
-/* What neither fit describes: one by one, all of them alike, if that describes more. */
-static ss_status
-fit_singly(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
-           ss_value *each, double white)
-{
-    size_t strict = 0, used = 0;
-    int rough = 0;
-    for (size_t i = 0; i < n; i++)
-        strict += ss_window_length(window[i]) > 0;
-    if (2 * strict >= n)
-        return SS_OK;
-    ss_window *other = malloc(n * sizeof *other);
-    ss_value *other_each = malloc(2 * n * sizeof *other_each), other_value[2];
-    ss_status st = SS_ENOMEM;
-    if (other != NULL && other_each != NULL)
-        st = look_rough(k, anchor, other, n, white, &rough);
-    if (st == SS_OK && rough) {
-        clear(anchor, n, other, other_value, other_each);
-        st = fit_rough(k, anchor, n, other, other_each);
-        for (size_t i = 0; i < n; i++)
-            used += ss_window_length(other[i]) > 0;
-    }
-    if (st == SS_OK && used > strict) {
-        memcpy(window, other, n * sizeof *window);
-        memcpy(each, other_each, 2 * n * sizeof *each);
-        st = take_median(window, n, each, value);
     }
     free(other);
     free(other_each);
@@ -738,10 +758,7 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
         st = SS_ENOMEM;
     ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
-        st = fit_both(&k, anchor, n_anchors, window, value, each, forcing);
-    ss_varpro_start(&k.fit, w, START * w, 0);
-    if (st == SS_OK)
-        st = fit_singly(&k, anchor, n_anchors, window, value, each, white);
+        st = fit_both(&k, anchor, n_anchors, white, window, value, each, forcing);
     ss_varpro_free(&k.fit);
     free(k.limit);
     return st;

@@ -16,7 +16,9 @@ static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 #define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
 #define STRONG 20.0             /* [dB] below the strongest: spikes that begin or end a transition */
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
+#define APART 6.0               /* [dB] above the next weaker one: events are not swells of noise */
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
+enum { SHORT = 64 };            /* samples: in fewer no single event has quiet beside it */
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 #define PRECISE 10.0            /* a frequency is this many of its standard errors, at least */
 #define SHARPER 1.5             /* than the oscillation, in frequency: an event within it */
@@ -193,12 +195,20 @@ earlier_window(const void *a, const void *b)
     return (p->first > q->first) - (p->first < q->first);
 }
 
+/* Does the spike end a stick in which f rings?  At scales that see no more than the oscillation itself,
+ * its own crests pass for kinks. */
+static int
+cuts(const ss_spike *spike, double f)
+{
+    return is_event(spike) && spike->level >= -STRONG && spike->f > SHARPER * f;
+}
+
 typedef enum bars { BAR_GAPS, BAR_JUMPS, BAR_EVENTS } bars;
 
 /* What no stick reaches over: gaps, and strong jumps, or jumps and kinks, which have no samples of
  * their own. */
 static ss_status
-find_bars(const search *s, bars which, ss_window **bar, size_t *n)
+find_bars(const search *s, bars which, double f, ss_window **bar, size_t *n)
 {
     const ss_spikes *found = s->out->spikes;
     *bar = malloc((s->n_gaps + found->n + 1) * sizeof **bar);
@@ -207,36 +217,13 @@ find_bars(const search *s, bars which, ss_window **bar, size_t *n)
     for (*n = 0; *n < s->n_gaps; ++*n)
         ss_gap_rows(&s->gap[*n], s->rate, &(*bar)[*n].first, &(*bar)[*n].end);
     for (size_t i = 0; i < found->n && which != BAR_GAPS; i++)
-        if ((which == BAR_EVENTS ? is_event(&found->spike[i])
-             : found->spike[i].kind == SS_SPIKE_JUMP) && found->spike[i].level >= -STRONG) {
+        if (which == BAR_EVENTS ? cuts(&found->spike[i], f)
+            : found->spike[i].kind == SS_SPIKE_JUMP && found->spike[i].level >= -STRONG) {
             size_t at = (size_t)ceil(fmax(found->spike[i].t * s->rate, 0));
             (*bar)[(*n)++] = (ss_window){ at, at };
         }
     qsort(*bar, *n, sizeof **bar, earlier_window);
     return SS_OK;
-}
-
-/* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
- * smaller one does little harm, so that windows are kept off jumps only where nothing can be fitted
- * else. */
-static ss_status
-fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
-    ss_value *each)
-{
-    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
-    ss_status st = SS_OK;
-    all[0].value = NAN;
-    for (bars which = BAR_GAPS; which <= BAR_JUMPS && st == SS_OK && isnan(all[0].value); which++) {
-        ss_window *bar = NULL;
-        size_t n_bars = 0;
-        st = find_bars(s, which, &bar, &n_bars);
-        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps))
-            st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f,
-                                 isnan(forcing) ? 0 : turn * forcing, s->out->noise, bar, n_bars,
-                                 window, all, each);
-        free(bar);
-    }
-    return st;
 }
 
 /* Where the transitions are known already, each stick by itself, as they need not be alike. */
@@ -246,7 +233,7 @@ fit_singly(const search *s, const size_t *anchor, size_t n, double f, ss_window 
 {
     ss_window *bar = NULL;
     size_t n_bars = 0;
-    ss_status st = find_bars(s, BAR_EVENTS, &bar, &n_bars);
+    ss_status st = find_bars(s, BAR_EVENTS, f, &bar, &n_bars);
     if (st == SS_OK)
         st = ss_ringdown_fit_each(s->x, s->n, anchor, n, 2 * M_PI / s->rate * f, bar, n_bars, window,
                                   all, each);
@@ -254,16 +241,14 @@ fit_singly(const search *s, const size_t *anchor, size_t n, double f, ss_window 
     return st;
 }
 
-/* Does a strong jump or kink lie between the two, by more than the scale that shows it?  At scales
- * that see no more than the oscillation of frequency f itself, its own crests pass for kinks. */
+/* Does a jump or kink that ends a stick lie between the two, by more than the scale that shows it? */
 static int
 crosses_event(const ss_spikes *found, double from, double to, double f)
 {
     size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
     for (; i < found->n && found->spike[i].t < to; i++) {
         double a = ROW_CENTER / (2 * M_PI * found->spike[i].f), t = found->spike[i].t;
-        if (is_event(&found->spike[i]) && found->spike[i].level >= -STRONG
-            && found->spike[i].f > SHARPER * f && t > from + a && t < to - a)
+        if (cuts(&found->spike[i], f) && t > from + a && t < to - a)
             return 1;
     }
     return 0;
@@ -298,7 +283,7 @@ count_crossings(const search *s, const ss_window *window, size_t n, double f, si
 static const char *
 judge_fit(const ss_value all[2], size_t used, size_t crossed)
 {
-    if (isnan(all[0].value))
+    if (isnan(all[0].value) || used < FEW)
         return "what recurs lasts under 2 periods or is no damped oscillation";
     if (2 * crossed > used)
         return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
@@ -319,23 +304,52 @@ forget_fit(const size_t *anchor, size_t n, ss_window *window, ss_value all[2], s
     }
 }
 
+/* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
+ * smaller one does little harm, so that windows are kept off jumps, and then off kinks, only where
+ * nothing can be fitted else that deserves it.  *why: it is no ringing. */
+static ss_status
+fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
+    ss_value *each, const char **why)
+{
+    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
+    double white = s->out->noise / s->largest;
+    ss_status st = SS_OK;
+    *why = "";
+    for (bars which = BAR_GAPS; which <= BAR_EVENTS && st == SS_OK && *why != NULL; which++) {
+        ss_window *bar = NULL;
+        size_t n_bars = 0, used, crossed;
+        st = find_bars(s, which, f, &bar, &n_bars);
+        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps)) {
+            st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f, isnan(forcing) ? 0 : turn * forcing,
+                                 white, bar, n_bars, window, all, each);
+            if (st == SS_OK)
+                st = count_crossings(s, window, n, f, &used, &crossed);
+            if (st == SS_OK)
+                *why = judge_fit(all, used, crossed);
+        }
+        free(bar);
+    }
+    return st;
+}
+
 /* Fit an oscillation of about f to every transition, each about a time [s], and judge it. */
 static ss_status
 fit_and_judge(search *s, const double *about, double f, int singly, ss_window *window)
 {
     ss_features *out = s->out;
-    size_t n = out->n, used = 0, crossed = 0;
+    size_t n = out->n;
     size_t *anchor = malloc((n + 1) * sizeof *anchor);
     ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
     ss_status st = SS_ENOMEM;
     if (anchor != NULL && each != NULL) {
         for (size_t i = 0; i < n; i++)
             anchor[i] = (size_t)(about[i] * s->rate);
-        st = (singly ? fit_singly : fit)(s, anchor, n, f, window, all, each);
+        st = singly ? fit_singly(s, anchor, n, f, window, all, each)
+            : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
     }
-    if (st == SS_OK && !singly)
-        st = count_crossings(s, window, n, f, &used, &crossed);
-    if (st == SS_OK && (out->why_ringing = judge_fit(all, used, crossed)) != NULL)
+    if (st == SS_OK && singly)
+        out->why_ringing = judge_fit(all, n, 0);
+    if (st == SS_OK && out->why_ringing != NULL)
         forget_fit(anchor, n, window, all, each);
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
@@ -486,13 +500,24 @@ room_about(const search *s, const ss_bursts *found, size_t i)
     return (ss_window){ (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
 }
 
+/* Do several stand apart from the next weaker one, or from the noise?  Swells of noise have all
+ * strengths. */
+static int
+stand_apart(const ss_bursts *found)
+{
+    double weakest = 0;
+    for (size_t i = 0; i < found->n; i++)
+        weakest = fmin(weakest, found->burst[i].level);
+    return found->n < 2 || weakest - fmax(found->next, found->floor) >= APART;
+}
+
 /* Single events in a record that is quiet else. */
 static ss_status
 find_single(search *s)
 {
     ss_bursts *found = NULL;
     ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
-    if (st == SS_OK && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
+    if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];
             size_t at = (size_t)round(found->burst[i].t * s->rate);
@@ -630,9 +655,9 @@ find_transitions(search *s)
     }
     if (st == SS_OK && out->n == 0 && spiked)
         st = find_spiked(s);
-    if (st == SS_OK && out->n == 0)
+    if (st == SS_OK && out->n == 0 && !s->cycles.modulated)
         st = find_single(s);
-    if (st == SS_OK && out->n == 0 && out->spikes->conclusive)
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive && s->n < SHORT)
         st = find_spiked(s);            /* too short for the others */
     return st;
 }

@@ -69,4 +69,6 @@ done
 if [ "$LONG_RECORD" = 1 ]; then
     compile cost_features ''
     "$out/cost_features" | expand -t 18
+    compile cover_features ''
+    "$out/cover_features" | expand -t 22 || echo "errors of ss-features do not cover as they should"
 fi

@@ -1,0 +1,39 @@
+# Cases that once gave a wrong number: it is - now, or right within three of its standard errors.
+none() { awk -v key="$1:" '$2 == key { print key, $3 }'; }
+covers() { awk -v key="$1:" -v truth="$2" '$2 == key { off = $3 - truth; if (off < 0) off = -off
+    print key, ($3 != "-" && off <= 3 * $4 && $4 < 0.1 * truth ? "covered" : $3 " " $4) }'; }
+rig='--mass 2.42 --stiffness 2310'
+# sticks of .4 to .9 periods, separated by micro-slips; the last in noise that hides these
+for scene in '-s friction=1.1 compliant-light' '-s friction=1.1 compliant-heavy'; do
+    # shellcheck disable=SC2086  # words of an option
+    ss-sim $scene | ss-features $rig > found
+    for key in transition_frequency contact_stiffness damping_ratio contact_damping; do none $key < found; done
+    grep '^# about_ringing' found
+    covers slip_rate 5 < found
+done
+for seed in 1 2 3; do
+    # shellcheck disable=SC2086
+    ss-sim -s friction=1.2 -s settle=10 -s duration=6 compliant-light | ss-noise --snr 20 --seed $seed |
+        ss-features $rig > found
+    none contact_stiffness < found
+    none damping_ratio < found
+done
+# one stick of 16 periods beside a train of short ones
+ss-sim -s mass=0.0404804 -s stiffness=2430.98 -s friction=0.10326 -s base_amplitude=6.61617e-05 \
+    -s base_frequency=6.00594 -s contact_stiffness=174128 -s contact_damping=0.809964 -s settle=0.868401 \
+    -s duration=1.66502 -s rate=3832.29 compliant-light | ss-features --mass 0.0404804 > found
+none total_stiffness < found
+none damping_ratio < found
+# what repeats, with the drift of a start that has not settled, and exactly
+ss-sim compliant-light | ss-features | covers repetition_frequency 2.5
+ss-signal sine | ss-features | covers repetition_frequency 10
+ss-signal sine --frequency 9.7 | ss-features | covers repetition_frequency 9.7
+# what rings once, is modulated, or is noise whose power repeats, does not repeat itself
+ss-signal ringdown | ss-features | none repetition_frequency
+for wave in '(1 + .8 * cos(18.8496 * t)) * cos(316 * t)' '(1 + cos(18.8496 * t)) * (rand() + rand() - 1)'; do
+    awk "BEGIN { srand(1); print \"t,a\"; for (i = 0; i < 16000; i++) { t = i / 1000; print t \",\" $wave } }" |
+        ss-features > found
+    none repetition_frequency < found
+    none slip_rate < found
+    none transition_frequency < found
+done
