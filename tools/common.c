@@ -376,33 +376,51 @@ tool_is_hdf5(const char *path)
     return ss_store_is_hdf5(path) || (access(path, F_OK) != 0 && strstr(path, ":/") != NULL);
 }
 
-void
-tool_name_scene(char *name, size_t size, const char *path, const char *const settings[], size_t n)
+char *
+tool_name_scene(const char *path, const char *const settings[], size_t n)
 {
     static const char *const of_record[] = { "settle", "duration", "rate" };
-    const char *slash = strrchr(path, '/');
-    snprintf(name, size, "%s", slash != NULL ? slash + 1 : tool_input_name(path));
+    const char *slash = strrchr(path, '/'), *own = slash != NULL ? slash + 1 : tool_input_name(path);
+    size_t size = strlen(own) + 1;
+    for (size_t i = 0; i < n; i++)
+        size += strlen(settings[i]) + 2;
+    char *name = malloc(size), *end;
+    if (name == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    end = stpcpy(name, own);
     for (size_t i = 0; i < n; i++) {
         int physical = 1;
         for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
             physical &= strncmp(settings[i], of_record[k], strlen(of_record[k])) != 0;
         if (physical)
-            snprintf(name + strlen(name), size - strlen(name), ", %s", settings[i]);
+            end = stpcpy(stpcpy(end, ", "), settings[i]);
     }
+    return name;
+}
+
+void
+tool_list(char *list, size_t size, const char *word)
+{
+    size_t length = strlen(list);               /* invariant: dots still fit */
+    if (length >= 3 && strcmp(list + length - 3, "...") == 0)
+        return;
+    if (length + strlen(word) + sizeof ",  ..." > size)
+        strcpy(list + length, " ...");
+    else
+        stpcpy(stpcpy(list + length, length > 0 ? ", " : ""), word);
 }
 
 size_t
 tool_column(const ss_header *head, const char *path, const char *name)
 {
-    char list[512] = "";
     int c = ss_header_column(head, name != NULL ? name : "a");
     if (c < 0 && name == NULL && head->n_columns == 1)
         c = 0;
     if (c >= 0)
         return (size_t)c;
+    char list[512] = "";
     for (size_t i = 0; i < head->n_columns; i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
-                 head->column[i].name);
+        tool_list(list, sizeof list, head->column[i].name);
     if (name == NULL)
         tool_die("%s: choose a column with --column from %s", tool_input_name(path), list);
     tool_die("%s: no column '%s', there are %s", tool_input_name(path), name, list);

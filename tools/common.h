@@ -70,11 +70,13 @@ ss_coefficients *tool_read_coefficients(const char *path);
 /* Read a scene given by path, by the bare name of a shipped one, or "-", with settings
  * "key=value" in place of its own; dies, a setting at fault being wrong usage. */
 ss_scene tool_read_scene(const char *path, const char *const settings[], size_t n);
-/* The name by which it is known, without its directories, and what was changed in its physics. */
-void tool_name_scene(char *name, size_t size, const char *path, const char *const settings[],
-                     size_t n);
+/* The name by which it is known, without its directories, and what was changed in its physics; to be
+ * freed. */
+char *tool_name_scene(const char *path, const char *const settings[], size_t n);
 /* 1 if path holds HDF5 or names a dataset in it, which cannot be read row by row, else 0. */
 int tool_is_hdf5(const char *path);
+/* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
+void tool_list(char *list, size_t size, const char *word);
 /* The index of a column by name or number, or die with the list of those that are there; name
  * NULL: "a", else the only one. */
 size_t tool_column(const ss_header *head, const char *path, const char *name);

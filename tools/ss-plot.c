@@ -82,8 +82,7 @@ find_column(const ss_sweep_table *t, const char *path, const char *name, size_t 
     for (size_t i = 0; i < t->n_columns; i++) {
         if (strlen(t->name[i]) == length && strncmp(t->name[i], name, length) == 0)
             return i;
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
-                 t->name[i]);
+        tool_list(list, sizeof list, t->name[i]);
     }
     tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, name, list);
 }
@@ -128,6 +127,8 @@ read_line(const char *path, size_t *n)
         double x = ss_number_parse(text, &end), y = ss_number_parse(end, &rest);
         line[2 * *n] = end > text && rest > end ? x : NAN;
         line[2 * *n + 1] = y;
+        for (int c = strchr(text, '\n') != NULL ? '\n' : 0; c != '\n' && c != EOF;)
+            c = getc(in);               /* the rest of a long row is no row */
         points += !isnan(line[2 * *n]);
     }
     if (ferror(in))

@@ -279,7 +279,6 @@ note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
 static void
 rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
 {
-    enum { NAME_SIZE = 256 };
     ss_scene *scene = calloc(j->n_scenes + 1, sizeof *scene);
     char **name = calloc(j->n_scenes + 1, sizeof *name);
     ss_ranking *r = NULL;
@@ -288,10 +287,7 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < j->n_scenes; i++) {
         scene[i] = tool_read_scene(j->scenes[i], j->settings, j->n_settings);
-        name[i] = malloc(NAME_SIZE);
-        if (name[i] == NULL)
-            tool_die("%s", ss_strerror(SS_ENOMEM));
-        tool_name_scene(name[i], NAME_SIZE, j->scenes[i], j->settings, j->n_settings);
+        name[i] = tool_name_scene(j->scenes[i], j->settings, j->n_settings);
     }
     tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
     note_work(r, name, opts);

@@ -138,10 +138,10 @@ list(void)
 static void
 write_scene(const request *req, const ss_scene *scene)
 {
-    char name[256];
+    char *name = tool_name_scene(req->scene_path, req->settings, req->n_settings);
     FILE *out = tool_output(req->path);
-    tool_name_scene(name, sizeof name, req->scene_path, req->settings, req->n_settings);
     fprintf(out, "# %s\n", name);
+    free(name);
     tool_check(ss_scene_write(scene, out), NULL);
 }
 
@@ -182,13 +182,13 @@ static void
 note_origin(ss_header *head, const request *req)
 {
     const ss_sim_opts *opts = &req->opts;
-    char name[256], tol[SS_NUMBER_MAX];
-    tool_name_scene(name, sizeof name, req->scene_path, req->settings, req->n_settings);
+    char tol[SS_NUMBER_MAX], *name = tool_name_scene(req->scene_path, req->settings, req->n_settings);
     ss_number_format(tol, opts->tol);
     if (ss_header_note(head, "scene", name) != SS_OK
         || ss_header_note(head, "integrator", opts->method) != SS_OK
         || ss_header_note(head, "tolerance", tol) != SS_OK)
         tool_die("%s", ss_strerror(SS_ENOMEM));
+    free(name);
 }
 
 static void

@@ -64,8 +64,7 @@ pick_measure(request *req, const char *name, size_t length)
     }
     char list[512] = "";
     for (ss_measure m = 0; m < SS_MEASURES; m++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", m > 0 ? ", " : "",
-                 ss_measure_name(m));
+        tool_list(list, sizeof list, ss_measure_name(m));
     tool_usage("--measure: '%.*s' is none of %s", (int)length, name, list);
 }
 
@@ -247,8 +246,7 @@ main(int argc, char *argv[])
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)
         tool_usage("%s", err.text);
 
-    char name[256];
-    tool_name_scene(name, sizeof name, req.scene_path, req.settings, req.n_settings);
+    char *name = tool_name_scene(req.scene_path, req.settings, req.n_settings);
     req.text = (ss_sweep_text){ .name = name, .scene = &scene, .opts = &req.opts,
                                 .measure = req.pick, .n_measures = req.n_picks,
                                 .format = req.text.format };
@@ -259,6 +257,7 @@ main(int argc, char *argv[])
         tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
     tool_note("%zu points, %zu of them incomplete", req.rows, req.failed);
+    free(name);
     free(req.settings);
     free(req.axis);
     tool_end();

@@ -55,7 +55,7 @@ typedef struct request {
     size_t n_settings;
     int dense;
     ss_trade_opts opts;
-    char name[256];
+    char *name;
 } request;
 
 /* What cannot be read twice is copied to a file that can. */
@@ -124,7 +124,7 @@ measure_scene(request *req)
     if (req->column != NULL || req->dense)
         tool_usage("--column and --dense are for a signal, and %s is a scene", req->path);
     ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
-    tool_name_scene(req->name, sizeof req->name, req->path, req->settings, req->n_settings);
+    req->name = tool_name_scene(req->path, req->settings, req->n_settings);
     tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
     tool_note("%zu rows against %s, whose x is known within %.2g of its maximum", trade->n,
               trade->reference, trade->known_x);
@@ -141,9 +141,7 @@ measure_signal(request *req)
         tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));
     ss_signal *signal = tool_read_signal(req->path, NULL);
     size_t column = tool_column(signal->head, req->path, req->column);
-    const char *name = strrchr(req->path, '/');
-    snprintf(req->name, sizeof req->name, "%s",
-             tool_input_name(name != NULL ? name + 1 : req->path));
+    req->name = tool_name_scene(req->path, NULL, 0);
     grid.dense = req->dense;
     tool_check(ss_trade_transform(&trade, signal->values + column * signal->n, signal->n,
                                   signal->head->rate, &grid, &req->opts, &err), &err);
@@ -195,6 +193,7 @@ main(int argc, char *argv[])
     else
         tool_check(ss_trade_write(trade, req.name, tool_output(req.output), tool_stream(kind)), NULL);
     ss_trade_free(trade);
+    free(req.name);
     free(req.settings);
     tool_end();
     return 0;

@@ -34,6 +34,19 @@ ss_version(void)
     return SS_VERSION;
 }
 
+/* What is too long loses its middle: it begins with the name of a file and ends with what is wrong. */
+static void
+format_text(char *text, size_t size, const char *format, va_list args)
+{
+    char whole[8192];
+    int n = vsnprintf(whole, sizeof whole, format, args);
+    size_t length = n < (int)sizeof whole ? (size_t)n : sizeof whole - 1, first = size / 4;
+    if (length < size)
+        memcpy(text, whole, length + 1);
+    else
+        snprintf(text, size, "%.*s ... %s", (int)first, whole, whole + length - (size - first - 6));
+}
+
 /* These texts contain names of files and parts of input: a character that would break the line or
  * control the terminal is shown as a question mark. */
 ss_status
@@ -42,7 +55,7 @@ ss_fail(ss_error *err, ss_status status, const char *format, ...)
     if (err != NULL) {
         va_list args;
         va_start(args, format);
-        vsnprintf(err->text, sizeof err->text, format, args);
+        format_text(err->text, sizeof err->text, format, args);
         va_end(args);
         for (char *p = err->text; *p != '\0'; p++)
             *p = iscntrl((unsigned char)*p) ? '?' : *p;

@@ -141,7 +141,6 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
             ss_header **out)
 {
     double start;
-    char name[128];
     ss_status status = find_clock(file, id, dataset, &rate, &start);
     if (status == SS_OK)
         status = ss_refuse_range(file->path, rate, start, file->err);
@@ -151,15 +150,18 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
     if (*out == NULL)
         return SS_ENOMEM;
     const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
-    char *unit;
+    char *unit, *name = malloc(strlen(base) + 3 * sizeof(size_t) + 1);
+    if (name == NULL)
+        return SS_ENOMEM;
     status = ss_h5_get_text(file, id, "units", &unit);
     for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
-        int length = snprintf(name, sizeof name, "%.100s", base);
+        char *end = stpcpy(name, base);
         if (shape->columns > 1)
-            snprintf(name + length, sizeof name - (size_t)length, "%zu", c + 1);
+            sprintf(end, "%zu", c + 1);
         status = ss_header_add_column(*out, name, unit);
     }
     free(unit);
+    free(name);
     return status;
 }
 

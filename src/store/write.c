@@ -253,13 +253,18 @@ long_name(const ss_column *column)
 static void
 link_name(char link[256], hid_t group, const char *name)
 {
-    snprintf(link, 200, "%s", name);
+    size_t length = 199;
+    if (snprintf(link, length + 1, "%s", name) > (int)length) {
+        while (length > 0 && (name[length] & 0xc0) == 0x80)
+            length--;                   /* to the start of a character */
+        link[length] = '\0';
+    }
     for (char *c = link; *c != '\0'; c++)
         if (*c == '/')
             *c = '_';
     if (link[0] == '\0' || strcmp(link, ".") == 0)
         strcpy(link, "_");
-    size_t length = strlen(link);
+    length = strlen(link);
     for (int i = 2; H5Lexists(group, link, H5P_DEFAULT) > 0; i++)
         sprintf(link + length, "_%d", i);
 }

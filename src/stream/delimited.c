@@ -655,9 +655,14 @@ static ss_status
 no_such_column(const struct table *t, const char *name, ss_error *err)
 {
     char list[300] = "";
-    for (size_t i = 0; i < t->n_columns && strlen(list) < sizeof list - 1; i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
-                 t->names->column[i].name);
+    size_t length = 0, room = sizeof list - sizeof " ...";
+    for (size_t i = 0; i < t->n_columns && length < room; i++) {
+        size_t before = length;
+        length += (size_t)snprintf(list + length, room - length, "%s%s", i > 0 ? ", " : "",
+                                   t->names->column[i].name);
+        if (length >= room)
+            strcpy(list + before, " ...");
+    }
     return ss_fail(err, SS_EDATA, "%s: no column '%.40s', there are %s", t->in->name, name, list);
 }
 

@@ -61,14 +61,28 @@ decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
     return SS_OK;
 }
 
-/* Behind the data that the header gives there must be nothing: which of the two is right? */
+/* Are these four letters? */
+static int
+names_chunk(const char *name)
+{
+    for (int i = 0; i < 4; i++)
+        if (name[i] < ' ' || name[i] > '~')
+            return 0;
+    return 1;
+}
+
+/* Behind the data that the header gives there must be nothing, or another chunk, at an even place: else
+ * which of the two is right? */
 static ss_status
 refuse_more(ss_reader *reader, ss_error *err)
 {
     struct input *in = &reader->in;
-    ss_status st = ss_input_need(in, 1, err);
-    if (st != SS_OK || in->hi == in->lo)
+    size_t odd = reader->is_chunk ? reader->end % 2 : 0;
+    ss_status st = ss_input_need(in, odd + 4, err);
+    if (st != SS_OK || in->hi - in->lo <= odd)
         return st;
+    if (reader->is_chunk && in->hi - in->lo >= odd + 4 && names_chunk(in->buffer + in->lo + odd))
+        return SS_OK;
     return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
                    "cuts it there", in->name, (unsigned long long)reader->row,
                    (unsigned long long)reader->end);

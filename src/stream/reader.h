@@ -22,7 +22,8 @@ struct ss_reader {
     uint64_t row;               /* rows given so far */
     sample_type type;           /* frames: of their values */
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
-    uint64_t end;               /* frames: see ss_frames_begin */
+    uint64_t end;               /* frames: where they end in the file, unless that is unknown */
+    int is_chunk;               /* frames: behind them, another chunk of a WAV file is no error */
     double *values;             /* delimited text: all rows, one after the other */
     size_t n_rows;
 };

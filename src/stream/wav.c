@@ -2,7 +2,8 @@
  *
  * A WAV file is chunks of a name, a length and so many bytes, filled up to an even number; "fmt " says
  * what "data" holds, and the others do not concern a signal.  A program that writes to a pipe cannot know
- * the lengths and gives some near 2^31 or 2^32, or zeros: then the data end with the file. */
+ * the lengths and gives some near 2^31 or 2^32, or zeros: then the data end with the file.  A length
+ * behind which the file goes on with no chunk is refused, as it is in AU. */
 #include <string.h>
 #include "base/error.h"
 #include "stream/clock.h"
@@ -67,6 +68,7 @@ read_description(struct input *in, uint32_t length, description *d, ss_error *er
     const char *p = in->buffer + in->lo;
     *d = (description){ little_endian(p, 2), little_endian(p + 2, 2), little_endian(p + 14, 2),
                         little_endian(p + 4, 4) };
+    unsigned frame = little_endian(p + 12, 2);
     if (d->code == CODE_EXTENSIBLE && length >= FMT_EXTENSIBLE)
         d->code = little_endian(p + 24, 2);
     int known = d->code == CODE_PCM ? d->bits >= 8 && d->bits <= 32 && d->bits % 8 == 0
@@ -77,13 +79,17 @@ read_description(struct input *in, uint32_t length, description *d, ss_error *er
     if (d->channels < 1 || d->channels > MAX_CHANNELS || d->rate < 1)
         return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels at %lu Hz", in->name,
                        d->channels, (unsigned long)d->rate);
+    if (frame != 0 && frame != d->channels * d->bits / 8)
+        return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels of %u bits in %u bytes",
+                       in->name, d->channels, d->bits, frame);
     return skip(in, length, err);
 }
 
-/* Everything up to the data, whose length is given. */
+/* Everything up to the data, whose place in the file and length are given. */
 static ss_status
-read_chunks(struct input *in, description *d, uint32_t *length, ss_error *err)
+read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length, ss_error *err)
 {
+    *place = RIFF_HEADER;
     for (int i = 0; i < MAX_CHUNKS; i++) {
         ss_status st = need(in, CHUNK_HEADER, err);
         if (st != SS_OK)
@@ -92,6 +98,7 @@ read_chunks(struct input *in, description *d, uint32_t *length, ss_error *err)
         memcpy(name, in->buffer + in->lo, sizeof name);
         *length = little_endian(in->buffer + in->lo + 4, 4);
         in->lo += CHUNK_HEADER;
+        *place += CHUNK_HEADER;
         int is_data = memcmp(name, "data", 4) == 0;
         if (is_data && d->channels > 0)
             return SS_OK;
@@ -101,6 +108,7 @@ read_chunks(struct input *in, description *d, uint32_t *length, ss_error *err)
             : skip(in, *length, err);
         if (st != SS_OK)
             return st;
+        *place += (uint64_t)*length + *length % 2;
     }
     return ss_fail(err, SS_EDATA, "%s: WAV header: no data in the first %d chunks", in->name,
                    MAX_CHUNKS);
@@ -112,12 +120,13 @@ open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     struct input *in = &reader->in;
     description d = { 0 };
     uint32_t length = 0;
+    uint64_t place = 0;
     ss_status st = need(in, RIFF_HEADER, err);
     if (st != SS_OK)
         return st;
     uint32_t all = little_endian(in->buffer + in->lo + 4, 4);
     in->lo += RIFF_HEADER;
-    if ((st = read_chunks(in, &d, &length, err)) != SS_OK)
+    if ((st = read_chunks(in, &d, &place, &length, err)) != SS_OK)
         return st;
     if ((st = ss_frames_columns(reader->head, d.channels)) != SS_OK)
         return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
@@ -125,7 +134,8 @@ open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     sample_type type = { .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT,
                          .is_unsigned = d.bits == 8, .little_endian = 1 };
     int unknown = length >= UNKNOWN_FROM || (length == 0 && all == 0);
-    ss_frames_begin(reader, type, unknown ? UINT64_MAX : length, 0);
+    ss_frames_begin(reader, type, unknown ? UINT64_MAX : length, place + length);
+    reader->is_chunk = 1;
     return ss_refuse_clock(in->name, reader->head->rate, opts, err);
 }
 

@@ -46,6 +46,14 @@ for encoding in 2 3 4 5 6; do
     } > au/encoding$encoding
 done
 
+# What a header says of a length need not be so.
+for length in '\0\0\0\0' '\0\0\0\002' '\177\377\377\377'; do
+    printf '.snd\0\0\0\030%b\0\0\0\003\0\0\003\350\0\0\0\001abcdefgh' "$length" > "au/length$(printf %s "$length" | tr -d '\\')"
+done
+printf 'RIFF\044\0\0\0WAVEfmt \020\0\0\0\001\0\001\0\100\037\0\0\0\0\0\0\002\0\020\0data\0\0\0\0\0\0\001\002' > au/wav-length0
+printf 'RIFF\0\0\0\0WAVEfmt \020\0\0\0\001\0\002\0\100\037\0\0\0\0\0\0\010\0\030\0data\010\0\0\0abcdefgh' > au/wav-wide
+
+printf 't,x\n0,1\n1e-310,2\n2e-310,3\n' > delimited/subnormal-step
 printf '%s\n' 'Time (ms);Force [N];x/mm' '0,0;1,5;-2' '0,5;1,25;3' '1,0;0;4' '1,5;1e-3;5' \
     > delimited/semicolon
 printf '%s\n' '"Date","Nov, 21"' Rate,1000 '"t","a ""b"""' s,m/s^2 0,1 0.001,2 0.002,3 \

@@ -47,3 +47,11 @@ for f in short half adpcm channels no-format endless tiny nan bare; do
     ss-cat $f.wav > out || echo "exit $?"
 done
 ss-cat --rate 44100 pcm8.wav > out || echo "exit $?"
+# a length that is too small, or 0, is not believed; nor is a frame of another size
+{ riff 0; fmt 1 1 16; data 2; le 2 1 2 3; } > small.wav
+{ riff 36; fmt 1 1 16; data 0; le 2 0 1 2; } > zero.wav
+{ riff 0; fmt 1 1 8; data 1; byte 192 0 0 0 0 0; } > small-odd.wav
+{ riff 0; printf 'fmt '; le 4 16; le 2 1 2; le 4 8000 0; le 2 8 24; data 8; le 4 1 2; } > wide.wav
+for bits in 0 7 64 65535; do { riff 0; fmt 1 1 "$bits"; data 8; le 4 0 0; } > "bits$bits.wav"; done
+{ riff 0; fmt 1 65535 16; data 8; le 4 0 0; } > many.wav
+for f in small zero small-odd wide bits0 bits7 bits64 bits65535 many; do ss-cat $f.wav > out || echo "exit $?"; done
