@@ -163,8 +163,8 @@ headers_and_samples_refuse_null(void **state)
     ss_noise_add(NULL, x, 2, 1, 1, 1, x);
     ss_noise_add(noise, x, 2, 1, 1, 1, NULL);
     ss_noise_add(noise, NULL, 2, 1, 1, 1, x);
-    assert_refused(ss_noise_add_band(NULL, x, 2, 1, 0, 1, 1, &e), &e);
-    assert_refused(ss_noise_add_band(noise, NULL, 2, 1, 0, 1, 1, &e), &e);
+    assert_refused(ss_noise_add_band(NULL, x, 2, 1, (ss_range){ 0, 1 }, 1, &e), &e);
+    assert_refused(ss_noise_add_band(noise, NULL, 2, 1, (ss_range){ 0, 1 }, 1, &e), &e);
     ss_noise_free(noise);
     assert_true(isnan(ss_noise_rms(NULL, 1, 0)));
     assert_refused(ss_samples_quantise(NULL, 1, 8, 1, NULL, NULL), NULL);
@@ -256,9 +256,9 @@ transforms_refuse_null(void **state)
     assert_refused(ss_morlet_compare(plan, x, NULL, 1, &difference, &e), &e);
     assert_refused(ss_morlet_compare(plan, x, w, 1, NULL, &e), &e);
     ss_morlet_free(plan);
-    assert_refused(ss_morlet_point(NULL, 64, 1, opts, 1, 1, w, &e), &e);
-    assert_refused(ss_morlet_point(x, 64, 1, NULL, 1, 1, w, &e), &e);
-    assert_refused(ss_morlet_point(x, 64, 1, opts, 1, 1, NULL, &e), &e);
+    assert_refused(ss_morlet_point(NULL, 64, 1, opts, (ss_point){ 1, 1 }, w, &e), &e);
+    assert_refused(ss_morlet_point(x, 64, 1, NULL, (ss_point){ 1, 1 }, w, &e), &e);
+    assert_refused(ss_morlet_point(x, 64, 1, opts, (ss_point){ 1, 1 }, NULL, &e), &e);
     assert_true(isnan(ss_scale_b(NULL, 1)));
     assert_int_equal(ss_scale_edge(NULL, 1, 1, 1), 1);
 
@@ -327,11 +327,11 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_spikes_find(&spikes, NULL, 2, 1, &ss_spike_defaults, &e), &e);
     assert_refused(ss_spikes_find(&spikes, x, 2, 1, NULL, &e), &e);
     assert_int_equal(ss_spikes_within(NULL, 0, 1, 1).n, 0);
-    assert_refused(ss_bursts_find(NULL, x, 2, 1, 1, NULL, 0, &e), &e);
-    assert_refused(ss_bursts_find(&bursts, NULL, 2, 1, 1, NULL, 0, &e), &e);
-    assert_refused(ss_drops_find(NULL, &n, x, 2, 1, 1, NULL, 0, &e), &e);
-    assert_refused(ss_drops_find(&drops, NULL, x, 2, 1, 1, NULL, 0, &e), &e);
-    assert_refused(ss_drops_find(&drops, &n, NULL, 2, 1, 1, NULL, 0, &e), &e);
+    assert_refused(ss_bursts_find(NULL, x, 2, 1, &(ss_burst_opts){ .range = 1 }, &e), &e);
+    assert_refused(ss_bursts_find(&bursts, NULL, 2, 1, &(ss_burst_opts){ .range = 1 }, &e), &e);
+    assert_refused(ss_drops_find(NULL, &n, x, 2, 1, &(ss_drop_opts){ .height = 1 }, &e), &e);
+    assert_refused(ss_drops_find(&drops, NULL, x, 2, 1, &(ss_drop_opts){ .height = 1 }, &e), &e);
+    assert_refused(ss_drops_find(&drops, &n, NULL, 2, 1, &(ss_drop_opts){ .height = 1 }, &e), &e);
     assert_refused(ss_ranking_new(NULL, signal, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_ranking_new(&ranking, NULL, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_ranking_new(&ranking, signal, 0, NULL, 1, NULL, &e), &e);

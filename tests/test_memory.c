@@ -245,7 +245,7 @@ noises(int variant)
     ss_status st = ss_noise_new(&noise, 1);
     (void)variant;
     if (st == SS_OK)
-        st = ss_noise_add_band(noise, x, 100, 100, 10, 20, 1, &err);
+        st = ss_noise_add_band(noise, x, 100, 100, (ss_range){ 10, 20 }, 1, &err);
     ss_noise_free(noise);
     return st;
 }
@@ -315,7 +315,8 @@ comparisons(int variant)
     if (st == SS_OK)
         st = ss_morlet_compare(plan, x, w, 3, &difference, &err);
     if (st == SS_OK)
-        st = ss_morlet_point(x, signal->n, signal->head->rate, &opts, 0.01, 0.01, point, &err);
+        st = ss_morlet_point(x, signal->n, signal->head->rate, &opts, (ss_point){ 0.01, 0.01 },
+                             point, &err);
     ss_morlet_free(plan);
     free(w);
     return st;
@@ -424,8 +425,9 @@ searches(int variant)
     double rate = cycles->head->rate;
     ss_status st = variant == 0 ? ss_spikes_find(&spikes, a, cycles->n, rate, &ss_spike_defaults,
                                                  &err)
-        : variant == 1 ? ss_bursts_find(&bursts, a, cycles->n, rate, 20, NULL, 0, &err)
-        : ss_drops_find(&drops, &n, f, cycles->n, rate, 1, NULL, 0, &err);
+        : variant == 1 ? ss_bursts_find(&bursts, a, cycles->n, rate,
+                                        &(ss_burst_opts){ .range = 20 }, &err)
+        : ss_drops_find(&drops, &n, f, cycles->n, rate, &(ss_drop_opts){ .height = 1 }, &err);
     ss_spikes_free(spikes);
     ss_bursts_free(bursts);
     free(drops);

@@ -285,7 +285,8 @@ short_constant_and_improper_records_are_answered(void **state)
             found = find(x, n, RATE);
             assert_true(last == 1 || found->n == 0);
             ss_spikes_free(found);
-            assert_int_equal(ss_bursts_find(&bursts, x, n, RATE, 15, NULL, 0, NULL), SS_OK);
+            assert_int_equal(ss_bursts_find(&bursts, x, n, RATE, &(ss_burst_opts){ .range = 15 },
+                                            NULL), SS_OK);
             ss_bursts_free(bursts);
         }
         x[n - 1] = 0;
@@ -295,7 +296,7 @@ short_constant_and_improper_records_are_answered(void **state)
         assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &bad[i], &err), SS_EINVAL);
     assert_int_equal(ss_spikes_find(&found, x, 0, RATE, &ss_spike_defaults, &err), SS_EINVAL);
     assert_int_equal(ss_spikes_find(&found, x, 64, NAN, &ss_spike_defaults, &err), SS_EINVAL);
-    assert_int_equal(ss_bursts_find(&bursts, x, 64, RATE, -1, NULL, 0, &err), SS_EINVAL);
+    assert_int_equal(ss_bursts_find(&bursts, x, 64, RATE, &(ss_burst_opts){ .range = -1 }, &err), SS_EINVAL);
     x[3] = NAN;
     assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
     assert_string_equal(err.text, "sample 4 is not a finite number");
@@ -322,12 +323,12 @@ finds_the_one_event(void **state)
     for (size_t i = 0; i < N; i++)
         x[i] += 1e-4 * (double)i + 1 / cosh(((double)i - 3000) / 20)
             + 0.1 / cosh(((double)i - 7000) / 20);
-    assert_int_equal(ss_bursts_find(&found, x, N, 50000, 15, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_bursts_find(&found, x, N, 50000, &(ss_burst_opts){ .range = 15 }, NULL), SS_OK);
     assert_int_equal(found->n, 1);
     assert_true(fabs(found->burst[0].t * 50000 - 3000) <= 20 && found->burst[0].level == 0);
     assert_true(fabs(found->next + 20) <= 0.5);
     ss_bursts_free(found);
-    assert_int_equal(ss_bursts_find(&found, x, N, 50000, 25, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_bursts_find(&found, x, N, 50000, &(ss_burst_opts){ .range = 25 }, NULL), SS_OK);
     assert_int_equal(found->n, 2);
     assert_true(fabs(found->burst[1].level + 20) <= 0.5 && found->next < -25);
     ss_bursts_free(found);
@@ -349,7 +350,8 @@ a_gap_is_no_event(void **state)
         x[i] += 5 + 1 / cosh(((double)i - 7000) / 20);
         x[i] = ss_gaps_near(gap, 2, t + 0.5 / 50000, 0) ? 0 : x[i];
     }
-    assert_int_equal(ss_bursts_find(&found, x, N, 50000, 15, gap, 2, NULL), SS_OK);
+    assert_int_equal(ss_bursts_find(&found, x, N, 50000,
+                                    &(ss_burst_opts){ .range = 15, .gap = gap, .n_gaps = 2 }, NULL), SS_OK);
     assert_int_equal(found->n, 1);
     assert_true(fabs(found->burst[0].t * 50000 - 7000) <= 20);
     ss_bursts_free(found);
@@ -397,7 +399,8 @@ counts_drops_by_their_height(void **state)
             ss_drop *drop = NULL;
             size_t n = 0;
             double unit = kind == 4 ? 1e-6 : 1;
-            assert_int_equal(ss_drops_find(&drop, &n, y, N, RATE, (above + 0.5) * unit, NULL, 0, NULL),
+            assert_int_equal(ss_drops_find(&drop, &n, y, N, RATE,
+                                           &(ss_drop_opts){ .height = (above + 0.5) * unit }, NULL),
                              SS_OK);
             if (n != 10 - (size_t)above)
                 fail_msg("kind %d: %zu drops above %d.5", kind, n, above);
@@ -432,7 +435,9 @@ falls_over_gaps_are_left_out(void **state)
             for (size_t i = first; i < end; i++)
                 x[i] = line ? left + (right - left) * (double)(i - first) / (double)(end - first) : 0;
         }
-        assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 0.4, gap, 3, NULL), SS_OK);
+        assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE,
+                                       &(ss_drop_opts){ .height = 0.4, .gap = gap, .n_gaps = 3 },
+                                       NULL), SS_OK);
         assert_int_equal(n, 8);
         assert_true(fabs(drop[0].t - 1.9) < 0.05 && fabs(drop[1].t - 3.9) < 0.05);
         free(drop);
@@ -451,13 +456,13 @@ a_slow_drift_is_no_drop(void **state)
     saw(x, N, height, 1);
     for (size_t i = 0; i < N; i++)
         x[i] -= 0.5 * (double)i / RATE;
-    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 1.5, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, &(ss_drop_opts){ .height = 1.5 }, NULL), SS_OK);
     assert_int_equal(n, 0);
     free(drop);
-    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 0, NULL, 0, NULL), SS_EINVAL);
+    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, &(ss_drop_opts){ .height = 0 }, NULL), SS_EINVAL);
     x[7] = NAN;
-    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, 1, NULL, 0, NULL), SS_EINVAL);
-    assert_int_equal(ss_drops_find(&drop, &n, x, 1, RATE, 1, NULL, 0, NULL), SS_OK);
+    assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, &(ss_drop_opts){ .height = 1 }, NULL), SS_EINVAL);
+    assert_int_equal(ss_drops_find(&drop, &n, x, 1, RATE, &(ss_drop_opts){ .height = 1 }, NULL), SS_OK);
     assert_int_equal(n, 0);
     free(drop);
 }

@@ -195,8 +195,8 @@ noise_of_a_band_stays_in_it(void **state)
         ss_noise *noise;
         for (int pass = 0; pass < 2; pass++) {
             ss_noise_new(&noise, 7);
-            assert_int_equal(ss_noise_add_band(noise, pass == 0 ? x : again, n, 2000, band[k].lo,
-                                               band[k].hi, 0.25, NULL), SS_OK);
+            assert_int_equal(ss_noise_add_band(noise, pass == 0 ? x : again, n, 2000,
+                                               (ss_range){ band[k].lo, band[k].hi }, 0.25, NULL), SS_OK);
             ss_noise_free(noise);
         }
         assert_memory_equal(x, again, sizeof x);
@@ -225,9 +225,10 @@ bands_without_a_frequency_are_refused(void **state)
     (void)state;
     ss_noise_new(&noise, 1);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, wrong[i][0], wrong[i][1], 1, &err),
+        assert_int_equal(ss_noise_add_band(noise, x, 100, 2000,
+                                           (ss_range){ wrong[i][0], wrong[i][1] }, 1, &err),
                          SS_EINVAL);
-    assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, 0, 100, -1, &err), SS_EINVAL);
+    assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, (ss_range){ 0, 100 }, -1, &err), SS_EINVAL);
     for (size_t i = 0; i < 100; i++)
         assert_true(x[i] == 0);
     ss_noise_free(noise);

@@ -113,7 +113,7 @@ add_noise(ss_noise *noise, ss_signal *signal, const double *level)
     for (size_t c = 0; c < columns && !isnan(band[0]); c++)
         if (level[c] > 0)
             tool_check(ss_noise_add_band(noise, signal->values + c * n, n, signal->head->rate,
-                                         band[0], band[1], level[c], &err), &err);
+                                         (ss_range){ band[0], band[1] }, level[c], &err), &err);
 }
 
 /* The variance and the frequencies of a band are known only from the whole record. */

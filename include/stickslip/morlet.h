@@ -124,10 +124,14 @@ ss_status ss_morlet_compare(const ss_morlet *plan, const double *x, const double
                             double *difference, ss_error *err);
 void ss_morlet_free(ss_morlet *plan);                               /* NULL is allowed */
 
+typedef struct ss_point {
+    double a, b;                /* scale and translation [s] */
+} ss_point;
+
 /* W at one point by the definition, as exactly as double precision allows, in opts' convention
  * (its grid fields and its accuracy are not used; detrend is).  a > 0, b within the record. */
 ss_status ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
-                          double a, double b, double w[2], ss_error *err);
+                          ss_point at, double w[2], ss_error *err);
 
 /* b of translation k [s] from the first sample.  W is taken at this double exactly, except that
  * one which is the time n / rate of a sample, rounded, stands for that sample. */

@@ -189,9 +189,9 @@ typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
 ss_status ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
-/* Noise of the frequencies lo to hi [Hz] only, 0 <= lo <= hi <= rate / 2, to n samples of one column;
+/* Noise of the frequencies in band [Hz] only, 0 <= from <= to <= rate / 2, to n samples of one column;
  * the added noise has exactly this rms.  SS_EINVAL if the record has no frequency in the band. */
-ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
+ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band,
                             double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */

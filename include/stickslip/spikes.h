@@ -92,11 +92,16 @@ typedef struct ss_bursts {
     double floor;               /* [dB] re the strongest: weaker ones would not be told from noise */
 } ss_bursts;
 
+typedef struct ss_burst_opts {
+    double range;               /* [dB] >= 0 */
+    const ss_span *gap;         /* they reach 6 scales, the support of its wavelet */
+    size_t n_gaps;
+} ss_burst_opts;
+
 /* The events of a record that is quiet for most of the time, of whatever length and shape: maxima
- * of |W| at the scale where they stand out most, not more than range dB below the strongest.  Gaps
- * reach 6 scales, the support of its wavelet. */
-ss_status ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, double range,
-                         const ss_span *gap, size_t n_gaps, ss_error *err);
+ * of |W| at the scale where they stand out most, not more than range below the strongest. */
+ss_status ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate,
+                         const ss_burst_opts *opts, ss_error *err);
 void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
 
 /* --- drops ----------------------------------------------------------------------------------- */
@@ -107,12 +112,19 @@ typedef struct ss_drop {
     double height;              /* > 0 */
 } ss_drop;
 
+typedef struct ss_drop_opts {
+    double height;              /* > 0 */
+    double reload;              /* rise that ends a fall; 0: a quarter of height */
+    const ss_span *gap;
+    size_t n_gaps;
+} ss_drop_opts;
+
 /* All falls of x by more than height, in time order; *out is to be freed with free().  A fall ends
- * where x has risen again by a quarter of height, so a slow drift is none.  Single wrong samples
+ * where x has risen again by reload, so a slow drift is none.  Single wrong samples
  * are left out of account; white noise moves heights by some 3 % of that.  A fall that a gap cuts is
  * left out. */
 ss_status ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-                        double height, const ss_span *gap, size_t n_gaps, ss_error *err);
+                        const ss_drop_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -70,17 +70,17 @@ take(ss_bursts *found, row *r, double threshold, double range)
 }
 
 ss_status
-ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, double range,
-               const ss_span *gap, size_t n_gaps, ss_error *err)
+ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, const ss_burst_opts *opts,
+               ss_error *err)
 {
-    if (out == NULL || x == NULL)
+    if (out == NULL || x == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     row_source source;
     row best = { .rms = 1 };
-    if (!(range >= 0))
+    if (!(opts->range >= 0))
         return ss_fail(err, SS_EINVAL, "range: 0 dB or more are needed");
-    ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, gap, n_gaps,
-                                      err);
+    ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, opts->gap,
+                                      opts->n_gaps, err);
     if (st != SS_OK)
         return st;
     double length = (double)(n - 1) / rate, shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * rate);
@@ -92,7 +92,7 @@ ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, double r
     st = find_clearest(&best, &source, rows, err);
     if (st == SS_OK)
         st = take(found, &best, ss_row_threshold(length, shortest, rows,
-                                                 ss_spike_defaults.false_alarms), range);
+                                                 ss_spike_defaults.false_alarms), opts->range);
     free(best.peak);
     if (st != SS_OK) {
         ss_bursts_free(found);

@@ -235,19 +235,12 @@ ss_drops_typical(const double *x, size_t n, ss_typical *out)
 
 ss_status
 ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-              double height, const ss_span *gap, size_t n_gaps, ss_error *err)
+              const ss_drop_opts *opts, ss_error *err)
 {
-    return ss_drops_find_reloaded(out, n_drops, x, n, rate, height, DROPS_RELOAD * height, gap, n_gaps, err);
-}
-
-ss_status
-ss_drops_find_reloaded(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-                       double height, double reload, const ss_span *gap, size_t n_gaps,
-                       ss_error *err)
-{
-    if (out == NULL || n_drops == NULL || x == NULL)
+    if (out == NULL || n_drops == NULL || x == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     drop_list list = { 0, 0, NULL };
+    double height = opts->height, reload = opts->reload > 0 ? opts->reload : DROPS_RELOAD * height;
     if (n == 0 || n > SIZE_MAX / 64)
         return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
     if (!(rate >= 1e-100 && rate <= 1e100))
@@ -264,12 +257,12 @@ ss_drops_find_reloaded(ss_drop **out, size_t *n_drops, const double *x, size_t n
     if (st == SS_OK) {
         double *bridged = scratch + 2 * n + NARROWEST + 1;
         memcpy(bridged, x, n * sizeof *x);
-        ss_gaps_bridge(bridged, n, rate, gap, n_gaps);
+        ss_gaps_bridge(bridged, n, rate, opts->gap, opts->n_gaps);
         st = find(&list, bridged, n, rate, height, reload, scratch);
     }
     free(scratch);
     if (st == SS_OK)
-        leave_out(&list, gap, n_gaps);
+        leave_out(&list, opts->gap, opts->n_gaps);
     if (st != SS_OK) {
         free(list.drop);
         return st;

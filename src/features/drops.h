@@ -15,9 +15,4 @@ typedef struct ss_typical {
 /* Of the n samples of x. */
 ss_status ss_drops_typical(const double *x, size_t n, ss_typical *out);
 
-/* ss_drops_find where a fall ends when x has risen by reload. */
-ss_status ss_drops_find_reloaded(ss_drop **out, size_t *n_drops, const double *x, size_t n,
-                                 double rate, double height, double reload, const ss_span *gap,
-                                 size_t n_gaps, ss_error *err);
-
 #endif

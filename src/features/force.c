@@ -66,8 +66,8 @@ find_falls(search *s, const double *x, double height, double reload, int named, 
 {
     ss_drop *drop = NULL;
     size_t n = 0;
-    ss_status st = ss_drops_find_reloaded(&drop, &n, x, s->n, s->rate, height, reload, s->gap,
-                                          s->n_gaps, NULL);
+    ss_status st = ss_drops_find(&drop, &n, x, s->n, s->rate,
+                                 &(ss_drop_opts){ height, reload, s->gap, s->n_gaps }, NULL);
     *decided = st == SS_OK && (named || falls_are_quick(drop, n));
     if (*decided)
         st = set_falls(s, drop, n);

@@ -516,7 +516,8 @@ static ss_status
 find_single(search *s)
 {
     ss_bursts *found = NULL;
-    ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate, CLEAR, s->gap, s->n_gaps, NULL);
+    ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate,
+                                  &(ss_burst_opts){ CLEAR, s->gap, s->n_gaps }, NULL);
     if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];

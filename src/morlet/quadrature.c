@@ -399,11 +399,12 @@ ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record 
 }
 
 ss_status
-ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a,
-                double b, double w[2], ss_error *err)
+ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
+                ss_point at, double w[2], ss_error *err)
 {
     if (x == NULL || opts == NULL || w == NULL)
         return SS_FAIL_NULL(err);
+    const double a = at.a, b = at.b;
     record rec;
     ss_status st = ss_morlet_check(n, rate, opts, err);
     if (st != SS_OK)

@@ -68,13 +68,13 @@ fill_band(ss_noise *noise, double *spectrum, size_t m, double rate, double lo, d
 }
 
 ss_status
-ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, double lo, double hi,
-                  double rms, ss_error *err)
+ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band, double rms,
+                  ss_error *err)
 {
     if (noise == NULL || (x == NULL && n > 0))
         return SS_FAIL_NULL(err);
     size_t m = 2;
-    double square = 0;
+    double square = 0, lo = band.from, hi = band.to;
     if (!(rms >= 0 && isfinite(rms)) || !(rate > 0) || n > SIZE_MAX / 64)
         return ss_fail(err, SS_EINVAL, "the rms of noise must be 0 or more");
     if (!(lo >= 0 && lo <= hi && hi <= rate / 2))

@@ -62,7 +62,7 @@ rounding(double center)
             x_max = fmax(x_max, fabs(x[i]));
         for (int j = 0; j < 300; j++) {
             double a = (center + 5) / (M_PI * rate) * pow(1.07, j % 70), b = j / 151.;
-            if (ss_morlet_point(x, N, rate, &opts, a, b, w, NULL) != SS_OK)
+            if (ss_morlet_point(x, N, rate, &opts, (ss_point){ a, b }, w, NULL) != SS_OK)
                 exit(2);
             oracle(x, N, rate, &opts, a, b, want);
             double error = (double)hypotl(w[0] - want[0], w[1] - want[1]);
