@@ -13,7 +13,6 @@
 #include "signal/gaps.h"
 #include "signal/header.h"
 #include "stream/clock.h"
-#include "stream/clock.h"
 
 typedef struct array {
     size_t rows, columns;

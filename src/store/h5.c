@@ -325,3 +325,56 @@ ss_h5_read_notes(h5_file *file, ss_header *head)
         return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
     return notes.status;
 }
+
+ss_status
+ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
+                  double *value)
+{
+    if (ss_h5_get_number(group, name, value) && *value >= lo && *value <= hi)
+        return SS_OK;
+    char text[128];
+    snprintf(text, sizeof text, "attribute '%s' is missing or out of range", name);
+    return ss_h5_fail(file, SS_EDATA, group, "", text);
+}
+
+ss_status
+ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
+{
+    double rate, start, has_time;
+    ss_status status;
+    if ((status = ss_h5_need_number(file, group, "rate", 1e-300, 1e300, &rate)) != SS_OK
+        || (status = ss_h5_need_number(file, group, "start", -1e300, 1e300, &start)) != SS_OK
+        || (status = ss_h5_need_number(file, group, "has_time", 0, 1, &has_time)) != SS_OK)
+        return status;
+    *head = ss_header_new(rate, start);
+    if (*head == NULL)
+        return SS_ENOMEM;
+    (*head)->has_time = has_time != 0;
+    return ss_h5_read_notes(file, *head);
+}
+
+ss_status
+ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
+{
+    hid_t id = ss_h5_open_dataset(group, name);
+    if (id < 0)
+        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
+    const char *wrong = ss_h5_claim(file, id);
+    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
+    *n = wrong == NULL ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
+    H5Sclose(space);
+    H5Dclose(id);
+    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, name, wrong);
+}
+
+ss_status
+ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n)
+{
+    char text[64];
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) {
+            snprintf(text, sizeof text, "value %zu is not finite", i + 1);
+            return ss_h5_fail(file, SS_EDATA, group, name, text);
+        }
+    return SS_OK;
+}

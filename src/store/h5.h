@@ -1,4 +1,5 @@
-/* h5.h -- the base of the store: one open HDF5 file, and the failures of its calls. */
+/* h5.h -- the base of the store: one open HDF5 file, its attributes and values, and the failures of its
+ * calls. */
 #ifndef H5_H
 #define H5_H
 
@@ -51,6 +52,9 @@ const char *ss_h5_claim(h5_file *file, hid_t dataset);
 unsigned ss_h5_forbid_plugins(void);
 void ss_h5_restore_plugins(unsigned mask);
 
+/* A required attribute of a group, lo <= value <= hi. */
+ss_status ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
+                            double *value);
 /* Attributes of an object.  Returns 0 for a missing one, or one of another kind. */
 int ss_h5_get_number(hid_t object, const char *name, double *value);
 /* The same of text: *text is NULL, or to be freed.  SS_EDATA: the file claims too much of it. */
@@ -59,14 +63,17 @@ ss_status ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **t
 /* Read a whole dataset of real numbers, of n values in all, as doubles. */
 ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n);
 
+/* SS_EDATA with the place of the first value that is not finite. */
+ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
+/* The number of values of a 1-D or 2-D dataset, which are counted as claimed. */
+ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n);
+
+/* Rate, start and whether the text form has a column of time, from a group into a new header, with the
+ * notes of the file. */
+ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
+
 /* The notes among the root's attributes, in the order in which they were written. */
 ss_status ss_h5_read_notes(h5_file *file, ss_header *head);
-
-/* ss_store_read_signal and ss_store_read_coefficients for a file that is open (read.c).
- * On failure *out may hold a part of the signal. */
-ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
-                            const ss_read_opts *opts);
-ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
 
 /* The dataset at a path, from any program (foreign.c). */
 ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,

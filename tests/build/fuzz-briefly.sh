@@ -8,9 +8,8 @@ mkdir -p tests/fuzz
 set -- -std=c11 -D_XOPEN_SOURCE=700 -I"$SRC/include" -I"$SRC/src" $INCLUDES -O1
 # shellcheck disable=SC2086
 clang "$@" -fsanitize=fuzzer-no-link -c "$SRC"/src/base/number.c "$SRC"/src/scene/scene.c "$SRC"/src/signal/*.c \
-    "$SRC"/src/stream/*.c "$SRC"/src/store/h5.c "$SRC"/src/store/read.c \
-    "$SRC"/src/store/foreign.c "$SRC"/src/plot/map.c \
-    "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
+    "$SRC"/src/stream/*.c "$SRC"/src/store/h5.c "$SRC"/src/store/read.c "$SRC"/src/store/*_reader.c \
+    "$SRC"/src/store/foreign.c "$SRC"/src/plot/map.c "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
 names=
 for harness in "$SRC"/tests/fuzz/fuzz_*.c; do
     name=fuzz/$(basename "$harness" .c)

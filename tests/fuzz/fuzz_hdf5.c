@@ -1,6 +1,6 @@
 /* fuzz_hdf5.c -- HDF5 files, through the file image interface: as signals, as the arrays of others,
  * as coefficients. */
-#include "store/h5.h"
+#include "store/groups.h"
 #include "fuzz.h"
 
 static hid_t
