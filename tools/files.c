@@ -80,7 +80,7 @@ discard_and_die(int number)
     raise(number);
 }
 
-/* --- no output replaces an input -------------------------------------------------------------- */
+/* --- what is read must not be written -------------------------------------------------------- */
 
 /* Keep that this file is read, or written; dies if it is both. */
 static void

@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include "base/error.h"
+#include "motion/bernstein.h"
 #include "motion/event.h"
 
 static guard_value
@@ -27,17 +28,86 @@ fail_lost(const engine *e, ss_error *err)
 }
 
 ss_status
-ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
+ss_engine_begin(engine *e)
+{
+    e->has_start = 0;
+    return e->type->begin(e);
+}
+
+static void
+derive(const state *m, double u, const double q[], const double dqdt[],
+       double d[ORDERS + 1][MAX_DIM])
+{
+    memcpy(d[0], q, sizeof d[0]);
+    memcpy(d[1], dqdt, sizeof d[1]);
+    m->model->derivatives(m, u, q, dqdt, d + 2);
+}
+
+void
+ss_engine_derive(engine *e)
+{
+    const state *m = &e->m->now;
+    if (!e->has_start)
+        derive(m, m->u, m->q, e->dq0, e->start);
+    if (!e->has_end)
+        derive(m, m->u + e->h, e->q1, e->dq1, e->end);
+    e->has_start = e->has_end = 1;
+}
+
+/* A guard is its value at the origin and a sum of q and v, which its rates of change tell; in stick
+ * that sum is limited on either side. */
+static step_guard
+guard_of_step(const engine *e)
+{
+    static const double origin[MAX_DIM] = { 0 }, q[MAX_DIM] = { 1, 0 }, v[MAX_DIM] = { 0, 1 };
+    const state *m = &e->m->now;
+    step_guard g = { .either_side = m->mode == 0, .h = e->h };
+    double of_q, of_v;
+    g.level = m->model->guard(m, origin, origin, &of_q);
+    m->model->guard(m, q, q, &of_q);
+    m->model->guard(m, q, v, &of_v);
+    for (int i = 0; i <= ORDERS; i++) {
+        g.at_0[i] = of_q * e->start[i][0] + of_v * e->start[i][1];
+        g.at_h[i] = of_q * e->end[i][0] + of_v * e->end[i][1];
+    }
+    double a = (m->drive + fabs(m->f0) + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1]))
+        / m->scene->mass;
+    g.rounding = a * e->h * (fabs(of_v) / 9 + fabs(of_q) * e->h / 72);      /* of v' */
+    return g;
+}
+
+/* By what the guard and its slope are at the ends, and by steps repeated. */
+static int
+ends_by_steps(engine *e, double *s_event)
 {
     const state *m = &e->m->now;
     guard_value at_0, at_h;
-    *ends = 0;
-    if (m->model->guard == NULL)
-        return SS_OK;
     at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
     at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
-    *ends = ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
-    return e->lost ? fail_lost(e, err) : SS_OK;
+    int ends = ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
+    return e->lost ? -1 : ends;
+}
+
+static int
+ends_by_derivatives(engine *e, double *s_event)
+{
+    int unresolved = 0;
+    ss_engine_derive(e);
+    step_guard g = guard_of_step(e);
+    int ends = ss_first_zero(&g, s_event, &unresolved);
+    e->m->unresolved += (unsigned long)unresolved;
+    return ends;
+}
+
+ss_status
+ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
+{
+    const struct model *model = e->m->now.model;
+    *ends = 0;
+    if (model->guard == NULL || e->clear)
+        return SS_OK;
+    *ends = model->derivatives != NULL ? ends_by_derivatives(e, s_event) : ends_by_steps(e, s_event);
+    return *ends < 0 ? fail_lost(e, err) : SS_OK;
 }
 
 /* The mode has ended s from now: enter the next one.  1 if that is an event. */
@@ -67,6 +137,7 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 ss_status
 ss_engine_step(engine *e, double h_max, ss_error *err)
 {
+    e->clear = e->has_end = 0;
     ss_status st = e->type->step(e, h_max, err);
     if (st != SS_OK || 0 * e->dq1[0] + 0 * e->dq1[1] + 0 * e->dq1[2] == 0)
         return st;
@@ -80,6 +151,8 @@ ss_engine_accept(engine *e)
     state *m = &e->m->now;
     memcpy(m->q, e->q1, sizeof m->q);
     memcpy(e->dq0, e->dq1, sizeof e->dq0);
+    memcpy(e->start, e->end, sizeof e->start);
+    e->has_start = e->has_end;
     m->u += e->h;
     e->type->go_on(e);
 }

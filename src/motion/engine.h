@@ -36,6 +36,10 @@ struct engine {
     double h;                               /* of the last step */
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
+    int clear;                              /* step() has proven that no event is in it */
+    /* The state and its first ORDERS derivatives at both ends, once asked for. */
+    int has_start, has_end;
+    double start[ORDERS + 1][MAX_DIM], end[ORDERS + 1][MAX_DIM];
     int lands_on_samples;                   /* at() answers at the nearer end */
     int lost;                               /* a guard within a step was no number */
     unsigned long steps, rhs, events;
@@ -54,6 +58,10 @@ ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
  * C - (c/m) S and S. */
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
+/* The motion has entered a mode. */
+ss_status ss_engine_begin(engine *e);
+/* Fill start and end. */
+void ss_engine_derive(engine *e);
 /* Take a step, see struct engine_type; SS_ERANGE if it leads to what is not finite. */
 ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
 /* Whether the mode ends within the step just taken, and when; as above. */

@@ -1,4 +1,5 @@
-/* event.c -- find when a guard becomes negative inside one step.
+/* event.c -- find when a guard becomes negative inside one step, where its derivatives are not known
+ * (bernstein.c proves it where they are).
  *
  * A mode lasts while its guard is not negative.  The guard is asked at a time s; the engine answers
  * by stepping again from the start of the step to s, so the answer is as good as the step.  (The

@@ -189,14 +189,15 @@ exact_step(engine *e, double h_max, ss_error *err)
     const exact *x = (exact *)e;
     const state *m = &e->m->now;
     double slope, g = m->model->guard(m, m->q, e->dq0, &slope);
-    double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);   /* B h^2 / 8 is g / 2 at most */
+    double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);
     (void)err;
     e->steps++;
-    if (h > h_max) {
+    if (h > h_max) {                        /* B h^2 / 8 is g / 2 at most */
         e->h = h;
         e->rhs++;
         evaluate_at(x, m->u + h, e->q1, e->dq1);
-        if (m->model->guard(m, e->q1, e->dq1, &slope) > x->curvature * h * h / 8)
+        e->clear = m->model->guard(m, e->q1, e->dq1, &slope) > x->curvature * h * h / 8;
+        if (e->clear)
             return SS_OK;
     }
     e->h = h_max;

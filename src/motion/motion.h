@@ -15,7 +15,8 @@ typedef struct motion {
 } motion;
 
 /* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
- * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and a guard has at most one extremum a step. */
+ * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and the polynomial through the derivatives at both
+ * ends (ode.c) is as good as the motion. */
 enum { STEPS_PER_PERIOD = 40 };
 
 double ss_step_cap(const state *m);                 /* the longest step in the mode */

@@ -178,19 +178,14 @@ ode_step(engine *e, double h_max, ss_error *err)
     return SS_OK;
 }
 
-/* The Taylor coefficients in s / h, s from u. */
+/* The Taylor coefficients in s / h of a state and its derivatives. */
 static void
-taylor(const engine *e, double u, const double q[], const double dqdt[],
-       double c[ORDERS + 1][MAX_DIM])
+taylor(double h, double d[ORDERS + 1][MAX_DIM], double c[ORDERS + 1][MAX_DIM])
 {
-    const state *m = &e->m->now;
-    double scale = e->h;
-    memcpy(c[0], q, sizeof c[0]);
-    memcpy(c[1], dqdt, sizeof c[1]);
-    m->model->derivatives(m, u, q, dqdt, c + 2);
-    for (int k = 1; k <= ORDERS; scale *= e->h / ++k)
-        for (size_t i = 0; i < m->model->dim; i++)
-            c[k][i] *= scale;
+    double scale = 1;
+    for (int k = 0; k <= ORDERS; scale *= h / ++k)
+        for (size_t i = 0; i < MAX_DIM; i++)
+            c[k][i] = scale * d[k][i];
 }
 
 /* With x = s / h, the curve is T(x) + x^5 g(x): T the Taylor polynomial at the start, and g, in
@@ -200,11 +195,11 @@ static void
 draw_curve(ode *o)
 {
     static const double over_x5[ORDERS + 1] = { 1, -5, 15, -35, 70 };
-    const engine *e = &o->base;
-    const state *m = &e->m->now;
+    engine *e = &o->base;
     double end[ORDERS + 1][MAX_DIM];
-    taylor(e, m->u, m->q, e->dq0, o->curve);
-    taylor(e, m->u + e->h, e->q1, e->dq1, end);
+    ss_engine_derive(e);
+    taylor(e->h, e->start, o->curve);
+    taylor(e->h, e->end, end);
     for (size_t i = 0; i < o->system.dimension; i++) {
         double T[ORDERS + 1];
         for (int k = 0; k <= ORDERS; k++)

@@ -164,7 +164,7 @@ change_mode(record *r, engine *e, int still, double s)
     ss_status st = SS_OK;
     if (ss_engine_next_mode(e, still, s, &event))
         st = write_event(r, e->m, &event);
-    return st == SS_OK ? e->type->begin(e) : st;
+    return st == SS_OK ? ss_engine_begin(e) : st;
 }
 
 /* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
@@ -302,7 +302,7 @@ begin(record *r, engine *e, int slips)
         e->events++;
         st = write_event(r, e->m, &event);
     }
-    return st == SS_OK ? e->type->begin(e) : st;
+    return st == SS_OK ? ss_engine_begin(e) : st;
 }
 
 ss_status

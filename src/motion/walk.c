@@ -16,7 +16,7 @@ ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error 
     *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
     ss_motion_start(&w->m);
     ss_status st = ss_engine_new(&w->e, &w->m, method, opts->tol, err);
-    return st == SS_OK ? w->e->type->begin(w->e) : st;
+    return st == SS_OK ? ss_engine_begin(w->e) : st;
 }
 
 ss_status
@@ -28,7 +28,7 @@ ss_walk_begin_at(walk *w, const motion *from)
     ss_motion_rebase(&w->m);
     w->lasted = 0;
     w->in_a_row = 0;
-    return w->e->type->begin(w->e);
+    return ss_engine_begin(w->e);
 }
 
 void
@@ -96,7 +96,7 @@ ss_walk_on(walk *w, int *is_event, ss_event *event, ss_error *err)
         return SS_OK;
     }
     *is_event = ss_engine_next_mode(w->e, w->still, w->h, event);
-    ss_status st = w->e->type->begin(w->e);
+    ss_status st = ss_engine_begin(w->e);
     if (st == SS_OK)
         st = ss_motion_chatters(&w->m, w->lasted, &w->in_a_row, err);
     w->lasted = 0;

@@ -94,7 +94,9 @@ struct model {
      * for what lies inside them, which the multistep methods cannot do where there are events. */
     void (*derivatives)(const state *m, double u, const double q[], const double dqdt[],
                         double higher[][MAX_DIM]);
-    /* Not negative within the mode, and its rate of change; NULL if the model has no events. */
+    /* Not negative within the mode, and its rate of change; NULL if the model has no events.  Where
+     * the model has derivatives it is level + p, p linear in q and v, or in a mode 0 that is not
+     * still level - |p|. */
     double (*guard)(const state *m, const double q[], const double dqdt[], double *slope);
     /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever); NULL if in none. */
     int (*still)(const state *m, double *u_end);

@@ -1,0 +1,202 @@
+/* bernstein.c -- prove when a guard first becomes negative inside one step, or that it does not.
+ *
+ * A mode lasts while its guard is not negative.  Inside a step the guard is taken for the polynomial
+ * of degree 9 that has its value and four derivatives at both ends (Hermite).  In Bernstein's form
+ * such a polynomial has at most as many zeros as its coefficients have changes of sign, and exactly
+ * one where they have one (Descartes' rule; G. Farin, Curves and Surfaces for CAGD, 4 and 5): no
+ * change proves that there is no event, one that there is one, more are divided by two, the earlier
+ * half first.  So no event is stepped over, however many lie in a step.
+ *
+ * Error: with the step caps of motion.h the polynomial is off by 2e-18 of the guard's amplitude
+ * (ode.c), less than the rounding of the coefficients, 2^-50 of the largest and of what the guard's
+ * derivatives are made of.  (Differences of the coefficients fall with their order within the caps;
+ * of any polynomial they may grow as 2^order, and the rounding to 81 ulp / 2.)  A coefficient within
+ * that has no sign.  Where only such are left, the guard touches 0 and rounding decides: that is
+ * said. */
+#include "motion/bernstein.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { DEGREE = 2 * ORDERS + 1 };
+
+/* A touch of 0 is as good as flat after 25 halvings: the coefficients go to the curve as 4^-n. */
+enum { HALVINGS = 30 };
+
+#define ROUNDING 0x1p-50
+
+/* The shortest time to an event, in units of the step: time goes on. */
+#define EVENT_WIDTH 0x1p-50
+
+/* Half of the coefficients, from h^i (9 - i)! / 9! p^(i), which are the differences of their order. */
+static void
+half_of_coefficients(const double p[], double h, double b[ORDERS + 1])
+{
+    double d1 = h / 9 * p[1], h2 = h * h / 72, d2 = h2 * p[2], h3 = h2 * h / 7, d3 = h3 * p[3];
+    b[0] = p[0];
+    b[1] = p[0] + d1;
+    b[2] = p[0] + 2 * d1 + d2;
+    b[3] = p[0] + 3 * (d1 + d2) + d3;
+    b[4] = p[0] + 4 * (d1 + d3) + 6 * d2 + h3 * h / 6 * p[4];
+}
+
+static void
+coefficients(const step_guard *g, double b[DEGREE + 1])
+{
+    double back[ORDERS + 1];
+    half_of_coefficients(g->at_0, g->h, b);
+    half_of_coefficients(g->at_h, -g->h, back);
+    for (int j = 0; j <= ORDERS; j++)
+        b[DEGREE - j] = back[j];
+}
+
+/* The value at x and the derivative there, by de Casteljau's scheme. */
+static double
+value(const double b[], double x, double *slope)
+{
+    double c[DEGREE + 1];
+    memcpy(c, b, sizeof c);
+    for (int n = DEGREE; n > 1; n--)
+        for (int i = 0; i < n; i++)
+            c[i] += x * (c[i + 1] - c[i]);
+    *slope = DEGREE * (c[1] - c[0]);
+    return c[0] + x * (c[1] - c[0]);
+}
+
+/* The one change to negative in [0, 1]: Newton's steps from where the coefficients change, or halves
+ * of the bracket where those leave it.  What is undecided before and after has the sign it must. */
+static double
+only_zero(double b[], double error)
+{
+    enum { PASSES = 100 };
+    double lo = 0, hi = 1;
+    int i = 0;
+    for (int j = 0; fabs(b[j]) <= error; j++)
+        b[j] = fmax(b[j], 0);
+    for (int j = DEGREE; fabs(b[j]) <= error; j--)
+        b[j] = fmin(b[j], 0);
+    if (b[0] < 0)
+        return 0;
+    while (i < DEGREE - 1 && !(b[i + 1] < -error))
+        i++;
+    double x = (i + fmax(b[i], 0) / (fmax(b[i], 0) - b[i + 1])) / DEGREE;
+    for (int pass = 0; pass < PASSES; pass++) {
+        double slope, g = value(b, x, &slope), next = x - g / slope;
+        if (g < 0)
+            hi = x;
+        else
+            lo = x;
+        if (!(next >= lo && next <= hi))
+            next = lo + (hi - lo) / 2;
+        if (fabs(next - x) <= DBL_EPSILON)
+            return next;
+        x = next;
+    }
+    return hi;
+}
+
+static void
+halve(const double b[], double left[], double right[])
+{
+    memcpy(right, b, (DEGREE + 1) * sizeof *b);
+    for (int n = DEGREE; n >= 0; n--) {
+        left[DEGREE - n] = right[0];
+        for (int i = 0; i < n; i++)
+            right[i] = (right[i] + right[i + 1]) / 2;
+    }
+}
+
+/* What the signs of the coefficients say. */
+typedef struct signs {
+    int first;                      /* the first that is decided, 0 if none */
+    int changes;
+    int flat;                       /* the guard may touch 0 after its start and before its end */
+} signs;
+
+static signs
+signs_of(const double b[], double error)
+{
+    signs s = { 0, 0, 0 };
+    int last = 0, undecided = 0;
+    for (int i = 0; i <= DEGREE; i++) {
+        int now = fabs(b[i]) <= error ? 0 : sign(b[i]);
+        undecided = now == 0 ? undecided + 1 : 0;
+        if (now == 0)
+            s.flat |= last > 0 && (i < DEGREE || undecided > 1);
+        if (now == 0 || now == last)
+            continue;
+        s.changes += last != 0;
+        if (last == 0)
+            s.first = now;
+        last = now;
+    }
+    return s;
+}
+
+/* The first x in [0, 1] after which b is negative; 0 if there is none.  At the start of a step b may
+ * be 0. */
+static int
+first_zero(double b[], double error, int at_start, int halvings, double *x, int *unresolved)
+{
+    double left[DEGREE + 1], right[DEGREE + 1];
+    signs s = signs_of(b, error);
+    if (s.changes == 0 && s.first >= 0 && !s.flat) {
+        *unresolved |= s.first == 0 && !at_start;
+        return 0;
+    }
+    if (s.changes == (s.first > 0)) {
+        *x = only_zero(b, error);
+        return 1;
+    }
+    if (halvings == 0) {
+        *unresolved = 1;
+        *x = 1;
+        return s.changes > 0;
+    }
+    halve(b, left, right);
+    if (first_zero(left, error, at_start, halvings - 1, x, unresolved)) {
+        *x /= 2;
+        return 1;
+    }
+    if (!first_zero(right, error, 0, halvings - 1, x, unresolved))
+        return 0;
+    *x = 0.5 + *x / 2;
+    return 1;
+}
+
+/* The first s in (0, h] after which the guard is negative.
+ *
+ * needs:  h > 0; a guard that is not negative at 0 but for rounding
+ * gives:  1 and *s_event, to about 4e-15 h; 0 if there is none; -1 if a number is not finite
+ * blind:  to what is within rounding of 0: a guard that starts there and rises has just begun, one
+ *         that comes there later is *unresolved
+ * cost:   the coefficients and their signs; a halving where there are two zeros or almost, some
+ *         five values of the polynomial an event */
+int
+ss_first_zero(const step_guard *g, double *s_event, int *unresolved)
+{
+    double p[DEGREE + 1], b[DEGREE + 1], least = INFINITY, most = -INFINITY, sum = 0, x = 1;
+    coefficients(g, p);
+    for (int i = 0; i <= DEGREE; i++) {
+        least = p[i] < least ? p[i] : least;
+        most = p[i] > most ? p[i] : most;
+        sum += p[i];
+    }
+    double error = ROUNDING * (g->level + fmax(-least, most) + g->rounding);
+    int found = 0;
+    if (!isfinite(sum) || !isfinite(error))
+        return -1;
+    for (int side = 1; side >= (g->either_side ? -1 : 1); side -= 2) {
+        double first, lowest = g->level + (side > 0 ? least : -most);
+        if (lowest > error)
+            continue;
+        for (int i = 0; i <= DEGREE; i++)
+            b[i] = g->level + side * p[i];
+        if (first_zero(b, error, 1, HALVINGS, &first, unresolved)) {
+            x = fmin(x, first);
+            found = 1;
+        }
+    }
+    *s_event = fmax(x, EVENT_WIDTH) * g->h;
+    return found;
+}

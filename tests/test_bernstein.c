@@ -1,0 +1,239 @@
+/* test_bernstein.c -- the first zero of a guard in a step, for guards whose zeros are known.
+ *
+ * A guard is given as a polynomial by its factors, so its zeros are known without computing them, and
+ * of degree 9 at most, so the library's polynomial is the guard itself.  Three errors and no fourth:
+ * blur, the width over which the guard is lost in the rounding of its coefficients, rounding of the
+ * result, and the width 2^-50 that an event at the start is given. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "motion/bernstein.h"
+
+enum { MOST = 9 };
+
+/* scale times the product of (x - zero[i]), plus lift, at x = s / h */
+typedef struct product {
+    double scale, lift;
+    int n;
+    double zero[MOST];
+} product;
+
+/* Derivatives by x, of order 0 to ORDERS: each factor multiplies a Taylor series. */
+static void
+derivatives(const product *p, long double x, long double d[ORDERS + 1])
+{
+    long double factorial = 1;
+    for (int i = 0; i <= ORDERS; i++)
+        d[i] = i == 0 ? p->scale : 0;
+    for (int k = 0; k < p->n; k++)
+        for (int i = ORDERS; i >= 0; i--)
+            d[i] = d[i] * (x - p->zero[k]) + (i > 0 ? d[i - 1] : 0);
+    d[0] += p->lift;
+    for (int i = 2; i <= ORDERS; i++)
+        d[i] *= factorial *= i;
+}
+
+static int
+find(const product *p, double level, int either_side, double h, double *x, int *unresolved)
+{
+    step_guard g = { .level = level, .either_side = either_side, .h = h };
+    long double start[ORDERS + 1], end[ORDERS + 1], scale = 1;
+    derivatives(p, 0, start);
+    derivatives(p, 1, end);
+    for (int i = 0; i <= ORDERS; i++, scale *= h) {
+        g.at_0[i] = (double)(start[i] / scale);
+        g.at_h[i] = (double)(end[i] / scale);
+    }
+    *unresolved = 0;
+    int found = ss_first_zero(&g, x, unresolved);
+    *x /= h;
+    return found;
+}
+
+/* Blur by the largest coefficient and the slope at the zero: coefficients are sums of differences, of
+ * which those of order i are at most 2^i of the largest and come 4 over i times, each rounded by
+ * half an ulp, which makes 3^4 halves; 2^-50 is what is taken for undecided. */
+#define BLUR(largest, slope) ((81 * DBL_EPSILON / 2 + 0x1p-50) * (largest) / (slope))
+
+static const struct row {
+    const char *what;
+    product p;
+    double level;
+    int either_side, found;
+    double x, blur;
+} row[] = {
+    { "no zero", { 1, 1, 2, { .5, .5 } }, 0, 0, 0, 0, 0 },
+    { "a minimum just above 0", { 1, 1e-14, 2, { .5, .5 } }, 0, 0, 0, 0, 0 },
+    { "a minimum just below 0", { 1, 0, 2, { .5 - 1e-6, .5 + 1e-6 } }, 0, 0, 1, .5 - 1e-6,
+      BLUR(.25, 2e-6) },
+    { "a falling line", { -1, 0, 1, { .25 } }, 0, 0, 1, .25, BLUR(.75, 1) },
+    { "a rising line", { 1, 0, 1, { -.25 } }, 0, 0, 0, 0, 0 },
+    { "two zeros", { 1, 0, 2, { .3, .4 } }, 0, 0, 1, .3, BLUR(1, .1) },
+    { "three zeros", { -1, 0, 3, { .2, .3, .7 } }, 0, 0, 1, .2, BLUR(1, .05) },
+    { "two close and a third", { -1, 0, 3, { .6, .6 + 1e-5, .7 } }, 0, 0, 1, .6,
+      BLUR(1, 1e-6) },
+    { "two close after a first", { -1, 0, 3, { .1, .6, .6 + 1e-5 } }, 0, 0, 1, .1, BLUR(1, .25) },
+    { "nine zeros", { -1, 0, 9, { .1, .2, .3, .4, .5, .6, .7, .8, .9 } }, 0, 0, 1, .1,
+      BLUR(4e-4, 4e-4) },
+    { "eight zeros and none in the step", { 1, 0, 8, { -.1, -.1, -.2, -.3, 1.1, 1.1, 1.2, 2 } }, 0, 0,
+      0, 0, 0 },
+    { "a start at 0 that rises", { -1, 0, 2, { 0, .5 } }, 0, 0, 1, .5, BLUR(.5, .5) },
+    { "a start at 0 that rises, rounded below 0", { -1, -1e-17, 2, { 0, .5 } }, 0, 0, 1, .5,
+      BLUR(.5, .5) },
+    { "a start at 0 that rises to the end", { 1, 0, 1, { 0 } }, 0, 0, 0, 0, 0 },
+    { "a start at 0 with a triple zero", { 1, 0, 3, { 0, 0, 0 } }, 0, 0, 0, 0, 0 },
+    { "a start at 0 that falls", { -1, 0, 1, { 0 } }, 0, 0, 1, 0, BLUR(1, 1) },
+    { "a start at 0 that falls and rises", { 1, 0, 2, { 0, .5 } }, 0, 0, 1, 0, BLUR(.5, .5) },
+    { "just after the start", { -1, 0, 1, { 1e-9 } }, 0, 0, 1, 1e-9, BLUR(1, 1) },
+    { "just before the end", { -1, 0, 1, { 1 - 1e-9 } }, 0, 0, 1, 1 - 1e-9, BLUR(1, 1) },
+    { "at the end: the next step's", { -1, 0, 1, { 1 } }, 0, 0, 0, 0, 0 },
+    { "just after the end", { -1, 0, 1, { 1 + 1e-9 } }, 0, 0, 0, 0, 0 },
+    { "a dip that ends at 0", { 1, 0, 2, { .5, 1 } }, 0, 0, 1, .5, BLUR(.5, .5) },
+    { "the upper limit", { 1.5, 0, 1, { 0 } }, 1, 1, 1, 2. / 3, BLUR(2.5, 1.5) },
+    { "the lower limit", { -1.5, 0, 1, { 0 } }, 1, 1, 1, 2. / 3, BLUR(2.5, 1.5) },
+    { "both limits, the lower first", { -16, 0, 3, { 0, .5, 1 } }, .5, 1, 1, 0.081217282358338486,
+      BLUR(2, 4) },
+    { "from the limit to the other", { 2.5, -1, 1, { 0 } }, 1, 1, 1, .8, BLUR(2.5, 2.5) },
+    { "within the limits", { 4, 0, 2, { 0, 1 } }, 1.0001, 1, 0, 0, 0 },
+};
+
+static void
+finds_known_zeros(void **unused)
+{
+    static const double h[] = { 1, 1e-9, 3e7 };
+    (void)unused;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (size_t k = 0; k < sizeof h / sizeof *h; k++) {
+            const struct row *r = &row[i];
+            int unresolved;
+            double x, allow = r->blur + 4 * DBL_EPSILON * r->x + 0x1p-50;
+            int found = find(&r->p, r->level, r->either_side, h[k], &x, &unresolved);
+            if (found != r->found || unresolved != 0)
+                fail_msg("%s: found %d, unresolved %d", r->what, found, unresolved);
+            if (found && !(fabs(x - r->x) <= allow))
+                fail_msg("%s: %.17g, not %.17g +- %.1e", r->what, x, r->x, allow);
+        }
+}
+
+static void
+says_where_rounding_decides(void **unused)
+{
+    const struct { product p; int found; double x, blur; } touch[] = {
+        { { 1, 0, 2, { .3, .3 } }, 0, 0, 0 },               /* inside */
+        { { 1, 0, 2, { .5, .5 } }, 0, 0, 0 },               /* where the step is divided */
+        { { 1, 0, 2, { 1, 1 } }, 0, 0, 0 },                 /* at the end */
+        { { 1, 1e-17, 2, { .3, .3 } }, 0, 0, 0 },
+        { { 1, -1e-17, 2, { .3, .3 } }, 0, 0, 0 },
+        { { 1, 0, 4, { .3, .3, .7, .7 } }, 0, 0, 0 },
+        { { -1, 0, 3, { .3, .3, .7 } }, 1, .7, BLUR(1, .16) },      /* the zero after it is found */
+        { { -1, 0, 3, { .5, .5, .5 } }, 1, .5, cbrt(BLUR(.125, 1)) }    /* three zeros or one */
+    };
+    (void)unused;
+    for (size_t i = 0; i < sizeof touch / sizeof *touch; i++) {
+        int unresolved;
+        double x;
+        int found = find(&touch[i].p, 0, 0, 1, &x, &unresolved);
+        assert_int_equal(unresolved, 1);
+        assert_int_equal(found, touch[i].found);
+        assert_true(!found || fabs(x - touch[i].x) <= touch[i].blur + DBL_EPSILON);
+    }
+}
+
+/* splitmix64 (Steele, Lea & Flood 2014) */
+static double
+uniform(uint64_t *s)
+{
+    uint64_t z = *s += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+/* Zeros in [-.5, 1.5], some of them in close pairs; the sign is that of a mode that lasts at 0. */
+static product
+random_product(uint64_t *s)
+{
+    product p = { .n = 1 + (int)(MOST * uniform(s)) };
+    double at_0 = 1;
+    for (int i = 0; i < p.n; i++) {
+        p.zero[i] = 2 * uniform(s) - .5;
+        if (i > 0 && uniform(s) < .3)
+            p.zero[i] = p.zero[i - 1] + pow(10, -6 * uniform(s));
+        at_0 *= -p.zero[i];
+    }
+    p.scale = at_0 > 0 ? 1 : -1;
+    return p;
+}
+
+static void
+finds_the_first_of_random_zeros(void **unused)
+{
+    uint64_t s = 1;
+    int hits = 0, misses = 0;
+    (void)unused;
+    for (int i = 0; i < 100000; i++) {
+        product p = random_product(&s);
+        double first = 2, second = 2, slope = 1, largest = 1, x, end = 1;
+        int unresolved;
+        for (int k = 0; k < p.n; k++) {
+            double z = p.zero[k];
+            if (z > 0 && z < first) {
+                second = first;
+                first = z;
+            } else if (z > 0 && z < second) {
+                second = z;
+            }
+            largest *= fmax(fabs(z), fabs(z - 1));
+            end = fmin(end, fabs(z - 1));
+            end = fmin(end, fabs(z));
+        }
+        for (int k = 0; k < p.n; k++)
+            slope *= p.zero[k] == first ? 1 : fabs(p.zero[k] - first);
+        /* coefficients of a factor are -z and 1 - z: of a product, at most the largest product */
+        double allow = BLUR(largest, slope) + 8 * DBL_EPSILON;
+        if (allow > (second - first) / 10 || end < 1e-4)
+            continue;                   /* rounding may lose the pair, or one at an end */
+        int found = find(&p, 0, 0, 1, &x, &unresolved);
+        assert_int_equal(found, first < 1);
+        if (found && !(fabs(x - first) <= allow))
+            fail_msg("number %d: %.17g, not %.17g +- %.1e", i, x, first, allow);
+        hits += found;
+        misses += !found;
+    }
+    assert_true(hits > 10000 && misses > 1000);
+}
+
+static void
+refuses_what_is_not_finite(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i <= ORDERS; i++) {
+        step_guard g = { .h = 1, .at_0 = { 1 }, .at_h = { 1 } };
+        double s;
+        int unresolved = 0;
+        assert_int_equal(ss_first_zero(&g, &s, &unresolved), 0);
+        g.at_0[i] = NAN;
+        assert_int_equal(ss_first_zero(&g, &s, &unresolved), -1);
+        g.at_0[i] = 1;
+        g.at_h[i] = INFINITY;
+        assert_int_equal(ss_first_zero(&g, &s, &unresolved), -1);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_known_zeros),
+        cmocka_unit_test(says_where_rounding_decides),
+        cmocka_unit_test(finds_the_first_of_random_zeros),
+        cmocka_unit_test(refuses_what_is_not_finite),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
