@@ -7,17 +7,15 @@
 #include <math.h>
 #include <stickslip.h>
 
-/* W(a, b) of n samples.  Taps beyond 12 a are below 1e-31 and left out. */
+/* W of n samples, tau samples after sample c.  Taps beyond 12 a are below 1e-31 and left out. */
 static inline void
-oracle(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a, double b,
-       long double w[2])
+oracle_at(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a, double c,
+          long double tau, long double w[2])
 {
     const long double wc = opts->center;
     long double k = opts->admissible ? expl(-wc * wc / 2) : 0, re = 0, im = 0;
-    double c = rint(b * rate);
     for (size_t i = 0; i < n; i++) {
-        long double s = c / rate == b ? i - (long double)c : -fmal(b, rate, -(long double)i);
-        long double u = s / ((long double)a * rate);
+        long double u = ((i - (long double)c) - tau) / ((long double)a * rate);
         if (fabsl(u) > 12)
             continue;
         long double g = x[i] * expl(-u * u / 2);
@@ -28,6 +26,31 @@ oracle(const double *x, size_t n, double rate, const ss_morlet_opts *opts, doubl
         / (opts->norm == SS_NORM_L1 ? (long double)a : sqrtl(a));
     w[0] = re * factor;
     w[1] = im * factor;
+}
+
+/* W(a, b). */
+static inline void
+oracle(const double *x, size_t n, double rate, const ss_morlet_opts *opts, double a, double b,
+       long double w[2])
+{
+    double c = rint(b * rate);
+    long double tau = c / rate == b ? 0 : fmal(b, rate, -(long double)c);
+    oracle_at(x, n, rate, opts, a, c, tau, w);
+}
+
+/* W at translation k of a scale.  Steps of a stepped grid are b_num samples over a whole number of at
+ * most 63, exactly so though b is rounded; other steps are b_num seconds. */
+static inline void
+oracle_of(const double *x, size_t n, double rate, const ss_morlet_opts *opts, const ss_scale *scale,
+          size_t k, long double w[2])
+{
+    double parts = rint(scale->b_den / rate), all = (double)k * scale->b_num;
+    if (opts->dense || scale->b_den == 1 || parts < 1 || parts > 63) {
+        oracle(x, n, rate, opts, scale->a, ss_scale_b(scale, k), w);
+        return;
+    }
+    double c = floor(all / parts);
+    oracle_at(x, n, rate, opts, scale->a, c, ((long double)all - c * parts) / parts, w);
 }
 
 /* What long double itself gets wrong, in units of a^1/2 max|x|: nothing where it is wider. */
@@ -56,7 +79,7 @@ worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
             most = fmax(most, hypot(got[0], got[1]) / (1 + opts->accuracy));
             if (k % every != 0)
                 continue;
-            oracle(x, n, rate, opts, sc->a, ss_scale_b(sc, k), want);
+            oracle_of(x, n, rate, opts, sc, k, want);
             error = fmax(error, (double)hypotl(got[0] - want[0], got[1] - want[1]));
         }
         double bound = opts->accuracy * most + 16 * DBL_EPSILON * unit + DBL_TRUE_MIN;

@@ -55,13 +55,14 @@ static void
 stream_reads_back_the_same(void **state)
 {
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         ss_morlet_opts opts = ss_morlet_defaults;
         ss_coefficients *back = NULL;
         ss_error err = { "" };
         FILE *file = tmpfile();
         opts.voices = i == 1 ? 1 : 5;
         opts.dense = i == 2;
+        opts.exact = i == 3;
         ss_coefficients *coef = some_coefficients(&opts);
         assert_string_equal(ss_header_find_note(coef->head, "scene"), "compliant-light");
         assert_string_equal(ss_header_find_note(coef->head, "column"), "a");
@@ -131,7 +132,8 @@ static const struct damage {
     { "# samples: 300", "# samples: 300.5", "not whole numbers" },
     { "# samples: 300", "# samples: 400", "edge is 1" },
     { "# voices: 2", "# voices: 3", "not those of a scale" },
-    { "# step: 0.25", "# step: 0.5", "b is 0.0078125 s where the grid has 0.015625 s" },
+    { "# step: 0.25", "# step: 0.5", "b is 0.00731428571 s where the grid has 0.0142222222 s" },
+    { "# lattice: b", "# no: b", "b is 0.00731428571 s where the grid has 0.0078125 s" },
     { "# center: 6", "# center: 7", "not those of a scale" },
     { "# columns: m a/s", "# columns: m a/min", "expected '# columns: m a/s b/s" },
     { "-5\t0.03125\t0\t", "-5\t0.03125\tzero\t", "column 3 is not a number" },
@@ -139,8 +141,8 @@ static const struct damage {
     { "-5\t0.03125\t0\t", "-5\t0.03125\t0 ", "expected 7 numbers separated by tabs" },
     { "-5\t0.03125\t0\t", "-5\t0.03125\t0.1\t", "b is 0.1 s where the grid has 0 s" },
     { "-5\t0.03125\t0\t", "1e300\t0.03125\t0\t", "not those of a scale" },
-    { "\t1\n-5\t0.03125\t0.0078125", "\t0\n-5\t0.03125\t0.0078125", "edge is 0" },
-    { "\t1\n-5\t0.03125\t0.0078125", "\t1\t2\n-5\t0.03125\t0.0078125", "separated by tabs" },
+    { "\t1\n-5\t0.03125\t0.007314285714285714", "\t0\n-5\t0.03125\t0.007314285714285714", "edge is 0" },
+    { "\t1\n-5\t0.03125\t0.007314285714285714", "\t1\t2\n-5\t0.03125\t0.007314285714285714", "separated by tabs" },
 };
 
 /* The text with its first from put in place by to. */

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
+#include "morlet/fft/blocks.h"
 #include "morlet_plan.h"
 
 /* --- the sum ------------------------------------------------------------------------------- */
@@ -121,6 +122,55 @@ long_scales_by_fft_keep_the_bound(void **state)
             free(w);
         }
     free(x);
+}
+
+/* Stepped grids in blocks: records of one window and of many, with many octaves, of steps from the
+ * finest to one scale, narrow and wide wavelets, short forced scales. */
+static void
+blocks_keep_the_bound(void **state)
+{
+    static const struct {
+        double center, step, rate, m0, m1;      /* m0 = m1: the default range */
+        int voices, admissible;
+        ss_norm norm;
+        size_t n;
+    } row[] = {
+        { 6,     0.25, 2000,  0,  0,  16, 0, SS_NORM_L2, 20011 },
+        { 6,     0.25, 44100, 0,  0,  3,  0, SS_NORM_L1, 1025 },
+        { 6,     1,    1e-3,  0,  0,  5,  0, SS_NORM_L2, 12345 },
+        { 6,     0.5,  1e9,   0,  0,  7,  1, SS_NORM_L2, 3001 },
+        { 5.336, 0.01, 7,     0,  0,  2,  0, SS_NORM_L2, 2500 },
+        { 2,     0.25, 48000, 0,  0,  4,  1, SS_NORM_L1, 6000 },
+        { 40,    0.25, 1000,  0,  0,  3,  0, SS_NORM_L2, 30000 },
+        { 200,   0.1,  1000,  0,  0,  1,  1, SS_NORM_L2, 40000 },
+        { 6,     0.3,  1024,  -9, 5,  2,  0, SS_NORM_L2, 9000 },    /* 2 to 2^15 samples */
+    };
+    (void)state;
+    for (size_t i = 0; i < LENGTH(row); i++)
+        for (kind which = 0; which < KINDS; which++) {
+            ss_morlet_opts opts = ss_morlet_defaults;
+            size_t n = row[i].n, in_blocks = 0;
+            double *x = malloc(n * sizeof *x);
+            opts.engine = SS_ENGINE_FFT;
+            opts.accuracy = which == NOISE ? 0.1 : 1e-13;
+            opts.center = row[i].center, opts.step = row[i].step, opts.voices = row[i].voices;
+            opts.admissible = row[i].admissible, opts.norm = row[i].norm;
+            opts.octaves = opts.force = row[i].m0 != row[i].m1;
+            opts.m0 = row[i].m0, opts.m1 = row[i].m1;
+            make(which, x, n);
+            ss_morlet *plan = plan_of(n, row[i].rate, &opts);
+            double *w = transform(plan, x);
+            for (size_t j = 0; j < ss_morlet_scales(plan); j++)
+                in_blocks += ss_blocks_covers(plan->blocks, j);
+            assert_true(in_blocks + 8 > ss_morlet_scales(plan));
+            double worst = worst_error(plan, x, n, row[i].rate, &opts, w,
+                                       1 + ss_morlet_total(plan) / 80);
+            if (!(worst <= 1))
+                fail_msg("row %zu, %s: %g times the bound", i, kind_name[which], worst);
+            ss_morlet_free(plan);
+            free(w);
+            free(x);
+        }
 }
 
 /* Where accuracy leaves room for single precision, it is used, and the bound holds: scales by lattice
@@ -390,6 +440,7 @@ main(void)
         cmocka_unit_test(error_of_the_sum_is_below_its_bound),
         cmocka_unit_test(forced_scales_keep_the_bound),
         cmocka_unit_test(long_scales_by_fft_keep_the_bound),
+        cmocka_unit_test(blocks_keep_the_bound),
         cmocka_unit_test(single_precision_keeps_the_bound),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(scales_come_one_by_one_to_the_last_bit),

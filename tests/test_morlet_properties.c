@@ -186,6 +186,47 @@ dyadic_grid_is_exact(void **state)
     ss_morlet_free(plan);
 }
 
+/* Steps are at most B_0 a, a few percent less on average, 2^p/m samples and octaves apart by 2. */
+static void
+steps_are_fractions_of_samples_just_below_the_one_asked_for(void **state)
+{
+    static const struct { double step, least; } row[] = {
+        { 0.25, 8. / 9 }, { 0.5, 7. / 8 }, { 1, 5. / 6 }, { 0.003, 8. / 9 } };
+    (void)state;
+    for (size_t i = 0; i < LENGTH(row); i++)
+        for (double rate = 1e-3; rate < 1e7; rate *= 9.7) {
+            ss_morlet_opts opts = ss_morlet_defaults;
+            opts.step = row[i].step;
+            ss_morlet *plan = plan_of(6000, rate, &opts);
+            for (size_t j = 0; j < ss_morlet_scales(plan); j++) {
+                const ss_scale *sc = ss_morlet_scale(plan, j);
+                double ratio = sc->b_num / sc->b_den / (opts.step * sc->a);
+                double m = rint(sc->b_den / rate);
+                assert_true(ratio <= 1 + 1e-15 && ratio >= row[i].least * (1 - 1e-15));
+                assert_true(frexp(sc->b_num, &(int){ 0 }) == 0.5 && sc->b_den == m * rate);
+                assert_true(fmod(m, 2) == 1 && m <= 45 && m * opts.step <= 17);
+                if (j >= 16)
+                    assert_true(sc[-16].b_num == 2 * sc->b_num && sc[-16].b_den == sc->b_den);
+            }
+            ss_morlet_free(plan);
+        }
+}
+
+static void
+exact_steps_are_the_scale_times_the_step(void **state)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    for (opts.step = 0.25; opts.step < 3; opts.step += 1) {
+        opts.exact = opts.step <= 1;
+        ss_morlet *plan = plan_of(6000, 2000, &opts);
+        for (size_t j = 0; j < ss_morlet_scales(plan); j++)
+            assert_true(ss_scale_b(ss_morlet_scale(plan, j), 1)
+                        == opts.step * ss_morlet_scale(plan, j)->a);
+        ss_morlet_free(plan);
+    }
+}
+
 static void
 dense_grid_has_a_coefficient_a_sample(void **state)
 {
@@ -443,6 +484,8 @@ main(void)
         cmocka_unit_test(scales_with_the_rate),
         cmocka_unit_test(is_mirrored_by_conjugation),
         cmocka_unit_test(dyadic_grid_is_exact),
+        cmocka_unit_test(steps_are_fractions_of_samples_just_below_the_one_asked_for),
+        cmocka_unit_test(exact_steps_are_the_scale_times_the_step),
         cmocka_unit_test(dense_grid_has_a_coefficient_a_sample),
         cmocka_unit_test(default_scales_are_four_cycles_a_record_to_the_highest_resolved),
         cmocka_unit_test(edges_are_within_the_cone),

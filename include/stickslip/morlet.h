@@ -5,7 +5,10 @@
  *     W(a, b) = a^-1/2 (1/rate) sum_n x_n conj h((n/rate - b) / a),
  *
  * the signal being zero outside the record.  Scales are a = 2^(j/V) s, j an integer, V voices an
- * octave; translations are b = n B_0 a (stepped) or n / rate (dense), from the first sample.  A
+ * octave; translations are b = n B (stepped) or n / rate (dense), from the first sample.  B is the
+ * largest of 2^p/m samples, p an integer and m one of 1 3 5 7 9 15 21 25 35 45, m B_0 <= 17, that is
+ * no more than B_0 a; that is what short FFTs give.  B is B_0 a itself if exact is asked for, with
+ * B_0 > 1, and where V is 1 and B_0 a a power of two, as on the paper's dyadic grid.  A
  * scale is labelled with the frequency f = omega_c / (2 pi a): the maximum over a of the response
  * to a steady sinusoid carries its frequency with the 1/a norm, and reads low by the factor
  * 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) with the a^-1/2 norm (1.35 % at omega_c = 6). */
@@ -44,6 +47,7 @@ typedef struct ss_morlet_opts {
     double center;              /* omega_c */
     int voices;                 /* V, scales an octave */
     double step;                /* B_0, translation step in units of the scale; unused if dense */
+    int exact;                  /* 1: translations are n B_0 a, which costs some 15 times more */
     int dense;                  /* 1: one coefficient a sample at every scale */
     double fmin, fmax;          /* [Hz] scales labelled fmin to fmax; 0: the default, see below */
     int octaves;                /* 1: scales from 2^m0 to 2^m1 s instead */
@@ -133,8 +137,9 @@ typedef struct ss_point {
 ss_status ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
                           ss_point at, double w[2], ss_error *err);
 
-/* b of translation k [s] from the first sample.  W is taken at this double exactly, except that
- * one which is the time n / rate of a sample, rounded, stands for that sample. */
+/* b of translation k [s] from the first sample.  W is taken at k B exactly where B is a fraction of
+ * samples, of which this is the nearest double but one; else at this double, except that one which
+ * is the time n / rate of a sample, rounded, stands for that sample. */
 double ss_scale_b(const ss_scale *scale, size_t k);
 /* 1 inside the cone of influence of a record of n samples: nearer than sqrt(2) a to an end, the
  * ends being the first and the last sample. */
@@ -181,7 +186,7 @@ void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
                                    and the options as notes: samples, column, unit, center, voices,
-                                   step (or dense: yes), norm, admissible, detrend, accuracy, method,
+                                   step (or dense: yes), lattice (if B is a fraction of samples), norm, admissible, detrend, accuracy, method,
                                    and label, what frequencies mean */
     size_t n;                   /* samples of the record, > 0 */
     double center;              /* omega_c */

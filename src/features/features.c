@@ -263,6 +263,7 @@ transform(search *s, size_t column, ss_error *err)
     ss_morlet_opts opts = ss_morlet_defaults;
     double lowest = CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n);
     opts.center = CENTER;
+    opts.exact = 1;             /* prominences near the threshold were measured on this grid */
     opts.norm = s->opts->norm;
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);

@@ -169,7 +169,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud, ss
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_morlet *plan = NULL;
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
-    opts.octaves = 1;
+    opts.octaves = opts.exact = 1;
     opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
     double a = exp2(opts.m0), rate = source->rate;
     size_t margin = (size_t)ceil(ROW_REACH * a * rate), n = source->n + 2 * margin;

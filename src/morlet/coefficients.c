@@ -82,6 +82,8 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
         || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
         || (opts->dense ? ss_header_note(head, "dense", "yes")
                         : note_number(head, "step", opts->step))
+        || (!opts->dense && !opts->exact && opts->step <= 1
+            && ss_header_note(head, "lattice", SS_LATTICE))
         || ss_header_note(head, "norm", norm_name[opts->norm])
         || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
         || ss_header_note(head, "detrend", detrend_name[opts->detrend])

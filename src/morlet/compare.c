@@ -15,7 +15,7 @@ typedef struct compare {
     spectra spectra;
     double *scratch, *row;              /* for a scale by FFT */
     size_t each;                        /* coefficients of a scale */
-    double *b, *want;
+    double *want;
     size_t *k;
     uint64_t state;
 } compare;
@@ -30,20 +30,32 @@ draw(uint64_t *state)
     return z ^ z >> 31;
 }
 
+/* Is a scale done by the definition that can be done by FFT? */
+static int
+only_by_sum(const compare *cmp, size_t i)
+{
+    return ss_morlet_engine(cmp->plan, i) == SS_ENGINE_QUADRATURE
+        && ss_morlet_engine(cmp->other, i) == SS_ENGINE_FFT;
+}
+
 static ss_status
-recompute(compare *cmp, size_t i)
+recompute(compare *cmp, size_t i, ss_error *err)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
     double most = 0;
-    if (ss_fft_covers(cmp->plan->fft, i) || !ss_fft_covers(cmp->other->fft, i))
-        return ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->b, cmp->each, cmp->want);
-    ss_fft_scale(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, (span){ 0, scale->n }, 1,
-                 &most, cmp->row);
+    if (!only_by_sum(cmp, i)) {
+        ss_status st = ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->k, cmp->each,
+                                            cmp->want);
+        return st != SS_OK ? st : ss_morlet_finish(cmp->want, cmp->each, scale->a,
+                                                   cmp->plan->opts.norm, cmp->rec.exponent, err);
+    }
+    ss_status st = ss_morlet_part(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, NULL,
+                                  (span){ 0, scale->n }, &most, cmp->row, err);
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
         cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
     }
-    return SS_OK;
+    return st;
 }
 
 /* The largest difference of a scale relative to its largest |W|. */
@@ -52,14 +64,9 @@ compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *
 {
     const ss_scale *scale = &cmp->plan->scale[i];
     double most = 0;
-    for (size_t c = 0; c < cmp->each; c++) {
+    for (size_t c = 0; c < cmp->each; c++)
         cmp->k[c] = (size_t)(draw(&cmp->state) % scale->n);
-        cmp->b[c] = ss_scale_b(scale, cmp->k[c]);
-    }
-    ss_status st = recompute(cmp, i);
-    if (st == SS_OK)
-        st = ss_morlet_finish(cmp->want, cmp->each, scale->a, cmp->plan->opts.norm,
-                              cmp->rec.exponent, err);
+    ss_status st = recompute(cmp, i, err);
     w += 2 * scale->offset;
     for (size_t c = 0; c < scale->n; c++)
         most = fmax(most, hypot(w[2 * c], w[2 * c + 1]));
@@ -81,22 +88,19 @@ prepare(compare *cmp, ss_morlet **other, ss_error *err)
     if (st != SS_OK)
         return st;
     cmp->other = *other;
-    cmp->b = malloc(cmp->each * sizeof *cmp->b);
     cmp->k = malloc(cmp->each * sizeof *cmp->k);
     cmp->want = malloc(2 * cmp->each * sizeof *cmp->want);
-    if (cmp->b == NULL || cmp->k == NULL || cmp->want == NULL)
+    if (cmp->k == NULL || cmp->want == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < plan->n_scales; i++)
-        if (!ss_fft_covers(plan->fft, i) && ss_fft_covers(cmp->other->fft, i)
-            && plan->scale[i].n > longest)
+        if (only_by_sum(cmp, i) && plan->scale[i].n > longest)
             longest = plan->scale[i].n;
     if (longest == 0)
         return SS_OK;
     cmp->row = malloc(2 * longest * sizeof *cmp->row);
-    cmp->scratch = ss_fft_scratch(cmp->other->fft);
-    if (cmp->row == NULL || cmp->scratch == NULL)
+    if (cmp->row == NULL || ss_morlet_scratch(cmp->other, &cmp->scratch) != SS_OK)
         return SS_ENOMEM;
-    return ss_fft_forward(cmp->other->fft, &cmp->rec, &cmp->spectra);
+    return ss_morlet_forward(cmp->other, &cmp->rec, &cmp->spectra);
 }
 
 ss_status
@@ -117,11 +121,10 @@ ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_
         st = compare_scale(&cmp, i, w, &worst, err);
     if (st == SS_OK)
         *difference = worst;
-    ss_spectra_free(&cmp.spectra);
+    ss_morlet_spectra_free(&cmp.spectra);
     if (cmp.scratch != NULL)
         ss_fft_scratch_free(cmp.scratch);
     free(cmp.row);
-    free(cmp.b);
     free(cmp.k);
     free(cmp.want);
     free(cmp.rec.x);

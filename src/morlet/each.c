@@ -79,12 +79,10 @@ prepare(shared_input *in, worker *w, size_t workers)
     for (size_t t = 0; t < workers; t++) {
         w[t].shared = in;
         w[t].w = most <= SIZE_MAX / (2 * sizeof(double)) ? malloc(2 * most * sizeof(double)) : NULL;
-        if (plan->fft != NULL)
-            w[t].scratch = ss_fft_scratch(plan->fft);
-        if (w[t].w == NULL || (plan->fft != NULL && w[t].scratch == NULL))
+        if (w[t].w == NULL || ss_morlet_scratch(plan, &w[t].scratch) != SS_OK)
             return SS_ENOMEM;
     }
-    return plan->fft != NULL ? ss_fft_forward(plan->fft, &in->rec, &in->spectra) : SS_OK;
+    return ss_morlet_forward(plan, &in->rec, &in->spectra);
 }
 
 ss_status
@@ -109,7 +107,7 @@ ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink
         free(w[t].w);
     }
     free(w);
-    ss_spectra_free(&in.spectra);
+    ss_morlet_spectra_free(&in.spectra);
     free(in.rec.x);
     return st;
 }

@@ -10,44 +10,6 @@
 #include "base/progress.h"
 #include "morlet/plan.h"
 
-ss_status
-ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
-{
-    double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
-    for (size_t i = 0; i < 2 * n; i++) {
-        w[i] = ldexp(w[i] * factor, exponent);
-        if (!isfinite(w[i]))
-            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
-                           a);
-    }
-    return SS_OK;
-}
-
-ss_status
-ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-               double *scratch, wavelet *wave, span part, double *most, double *w, ss_error *err)
-{
-    const ss_scale *scale = &plan->scale[i];
-    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
-    factor = ldexp(factor, rec->exponent);
-    int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
-    factor = fits ? factor : 1;
-    if (s != NULL && ss_fft_covers(plan->fft, i)) {
-        if (scratch == NULL)
-            return SS_ENOMEM;
-        ss_fft_scale(plan, i, rec, s, scratch, part, factor, most, w);
-    } else {
-        wavelet *own = wave == NULL ? ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)
-            : NULL;
-        if (wave == NULL && own == NULL)
-            return SS_ENOMEM;
-        ss_quadrature_scale(plan, scale, rec, wave != NULL ? wave : own, part, factor, most, w);
-        ss_wavelet_free(own);
-    }
-    return fits ? SS_OK
-        : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
-}
-
 typedef struct scale_queue {
     const ss_morlet *plan;
     record rec;
@@ -76,9 +38,10 @@ compute_scales(void *user)
 {
     scale_queue *queue = user;
     const ss_morlet_opts *opts = &queue->plan->opts;
-    double *scratch = queue->plan->fft != NULL ? ss_fft_scratch(queue->plan->fft) : NULL;
+    double *scratch;
+    ss_status have = ss_morlet_scratch(queue->plan, &scratch);
     pthread_mutex_lock(&queue->lock);
-    if (scratch == NULL && queue->plan->fft != NULL) {
+    if (have != SS_OK) {
         queue->next = queue->failed = 0;
         queue->status = SS_ENOMEM;
     }
@@ -114,8 +77,7 @@ ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *e
     ss_status st = ss_morlet_record(&queue.rec, x, plan->n, plan->opts.detrend, err);
     if (st != SS_OK)
         return st;
-    if (plan->fft != NULL)
-        st = ss_fft_forward(plan->fft, &queue.rec, &queue.spectra);
+    st = ss_morlet_forward(plan, &queue.rec, &queue.spectra);
     if (st == SS_OK) {
         size_t threads = (size_t)plan->opts.threads;
         pthread_mutex_init(&queue.lock, NULL);
@@ -124,7 +86,7 @@ ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *e
         if ((st = queue.status) != SS_OK && err != NULL)
             *err = queue.error;
     }
-    ss_spectra_free(&queue.spectra);
+    ss_morlet_spectra_free(&queue.spectra);
     free(queue.rec.x);
     return st;
 }

@@ -3,7 +3,13 @@
  * Scales are numbered: a = 2^(j/V).  Every limit (a frequency, octaves, the sampling, the record's
  * length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale includes it,
  * and then a range of integers j.  So a request is refused for a scale that it contains, not for the
- * frequency that it names. */
+ * frequency that it names.
+ *
+ * Translations of a stepped grid are 2^p/m samples apart, m from a short list of odd numbers: the
+ * largest such step that does not exceed B_0 a.  Then any 2^p samples that begin at a translation
+ * hold a whole number of steps, and inverse FFTs of short lengths give all coefficients
+ * (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below twice the reach of the wavelet; steps above
+ * B_0 = 1 are few and stay exact.  The grid follows from options, rate and j alone. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -12,6 +18,12 @@
 #include "morlet/plan.h"
 
 #define SLACK 1e-9          /* in j; rounding of V log2 a is below 1e-10 */
+#define STEPS_REPEAT 17     /* the wavelet reaches 8.5 a to either side */
+
+/* m, as far as FFTs of m 2^k points are fast.  The steps that they allow are at most 12.5 % apart, at
+ * B_0 = 1 17 %. */
+static const int odd_part[] = { 1, 35, 9, 5, 21, 45, 3, 25, 7, 15 };
+enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
 
 const ss_morlet_opts ss_morlet_defaults = {
     .center = 6, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
@@ -146,6 +158,33 @@ ss_scale_b(const ss_scale *scale, size_t k)
     return (double)k * scale->b_num / scale->b_den;
 }
 
+spot
+ss_spot_of(double b, double rate)
+{
+    double c = rint(b * rate);
+    return (spot){ c, c / rate == b ? 0 : fma(b, rate, -c) };
+}
+
+double
+ss_scale_parts(const ss_scale *scale, double rate)
+{
+    double parts = rint(scale->b_den / rate);
+    int listed = 0;
+    for (int i = 0; i < ODD_PARTS; i++)
+        listed |= parts == odd_part[i];
+    return listed && scale->b_den == parts * rate ? parts : 0;
+}
+
+spot
+ss_scale_spot(const ss_scale *scale, size_t k, double rate)
+{
+    double parts = ss_scale_parts(scale, rate), all = (double)k * scale->b_num;
+    if (parts == 0)
+        return ss_spot_of(ss_scale_b(scale, k), rate);
+    double c = rint(all / parts);
+    return (spot){ c, fma(-c, parts, all) / parts };
+}
+
 int
 ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate)
 {
@@ -178,6 +217,29 @@ count_translations(ss_scale *scale, size_t n, double rate, ss_error *err)
     return SS_OK;
 }
 
+/* The largest step of 2^p/m samples, but no more than so many. */
+static void
+choose_step(ss_scale *scale, double samples, double rate, double step)
+{
+    double best = 0;
+    for (int i = 0; i < ODD_PARTS; i++) {
+        double m = odd_part[i], two = ldexp(1, ilogb(samples * m));
+        if (m * step > STEPS_REPEAT || two / m <= best)
+            continue;
+        best = two / m;
+        scale->b_num = two;
+        scale->b_den = m * rate;
+    }
+}
+
+/* The paper's grid has one voice and steps that are powers of two. */
+static int
+step_is_exact(const ss_scale *scale, const ss_morlet_opts *opts)
+{
+    int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5;
+    return opts->dense || opts->exact || opts->step > 1 || (opts->voices == 1 && power_of_two);
+}
+
 ss_status
 ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                    const ss_morlet_opts *opts, ss_error *err)
@@ -190,6 +252,8 @@ ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                          .b_den = opts->dense ? rate : 1 };
     if (!(scale->b_num >= 1e-300))
         return ss_fail(err, SS_EINVAL, "step %g is too small", opts->step);
+    if (!step_is_exact(scale, opts))
+        choose_step(scale, scale->b_num * rate, rate, opts->step);
     return n == 0 ? SS_OK : count_translations(scale, n, rate, err);
 }
 
@@ -212,87 +276,4 @@ ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
         *scale = NULL;
     }
     return st;
-}
-
-static ss_status
-fill_plan(ss_morlet *plan, ss_error *err)
-{
-    ss_status st = ss_morlet_grid(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
-                                  err);
-    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
-        plan->scale[i].offset = plan->total;
-        plan->total += plan->scale[i].n;
-        if (plan->total > SIZE_MAX / (2 * sizeof(double)))
-            st = SS_ENOMEM;
-    }
-    return st;
-}
-
-ss_status
-ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
-{
-    if (out == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = ss_morlet_check(n, rate, opts, err);
-    if (st != SS_OK)
-        return st;
-    ss_morlet *plan = calloc(1, sizeof *plan);
-    if (plan == NULL)
-        return SS_ENOMEM;
-    *plan = (ss_morlet){ .opts = *opts, .n = n, .rate = rate };
-    st = fill_plan(plan, err);
-    if (st == SS_OK)
-        st = ss_fft_new(plan);
-    if (st != SS_OK) {
-        ss_morlet_free(plan);
-        return st;
-    }
-    *out = plan;
-    return SS_OK;
-}
-
-size_t
-ss_morlet_scales(const ss_morlet *plan)
-{
-    if (plan == NULL)
-        return 0;
-    return plan->n_scales;
-}
-
-const ss_scale *
-ss_morlet_scale(const ss_morlet *plan, size_t i)
-{
-    return plan != NULL && i < plan->n_scales ? &plan->scale[i] : NULL;
-}
-
-size_t
-ss_morlet_total(const ss_morlet *plan)
-{
-    if (plan == NULL)
-        return 0;
-    return plan->total;
-}
-
-ss_engine
-ss_morlet_engine(const ss_morlet *plan, size_t i)
-{
-    if (plan == NULL || i >= plan->n_scales)
-        return SS_ENGINE_AUTO;
-    return ss_fft_covers(plan->fft, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
-}
-
-size_t
-ss_morlet_singles(const ss_morlet *plan)
-{
-    return plan != NULL && plan->fft != NULL ? ss_fft_singles(plan->fft) : 0;
-}
-
-void
-ss_morlet_free(ss_morlet *plan)
-{
-    if (plan == NULL)
-        return;
-    ss_fft_free(plan->fft);
-    free(plan->scale);
-    free(plan);
 }

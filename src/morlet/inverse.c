@@ -147,6 +147,16 @@ overlap(const solver *s, double w, double shift)
     return sum;
 }
 
+/* In units of the scale. */
+static double
+largest_step(const ss_morlet *plan)
+{
+    double most = 0;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        most = fmax(most, plan->scale[i].b_num / plan->scale[i].b_den / plan->scale[i].a);
+    return most;
+}
+
 /* Frame bounds after Daubechies (1990), theorem 2.7, for frequencies within the labels: the smallest
  * and the largest sum of |H|^2, less and more what translations apart by step a alias. */
 static void
@@ -156,7 +166,7 @@ find_bounds(solver *s)
     const ss_scale *longest = &s->plan->scale[0];
     const ss_scale *shortest = &s->plan->scale[s->plan->n_scales - 1];
     double lowest = 2 * M_PI * longest->f, ratio = shortest->f / longest->f;
-    double step = shortest->b_num / shortest->b_den / shortest->a, least = INFINITY, most = 0;
+    double step = largest_step(s->plan), least = INFINITY, most = 0;
     double beta[2 * SHIFTS] = { 0 }, alias = 0;
     size_t n = PER_SCALE * s->plan->n_scales;
     for (size_t i = 0; i <= n; i++) {
@@ -186,6 +196,7 @@ static ss_status
 read_options(const ss_coefficients *c, ss_morlet_opts *opts, ss_error *err)
 {
     static const char *const needed[] = { "voices", "norm", "admissible" };
+    const char *step = ss_header_find_note(c->head, "step");
     const ss_scale *longest = &c->scale[0], *shortest = &c->scale[c->n_scales - 1];
     char *end;
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
@@ -195,8 +206,10 @@ read_options(const ss_coefficients *c, ss_morlet_opts *opts, ss_error *err)
     opts->center = c->center;
     opts->voices = (int)ss_number_parse(ss_header_find_note(c->head, "voices"), &end);
     opts->dense = note_says(c, "dense", "yes");
+    opts->exact = ss_header_find_note(c->head, "lattice") == NULL;
     if (!opts->dense)
-        opts->step = longest->b_num / longest->b_den / longest->a;
+        opts->step = step != NULL ? ss_number_parse(step, &end)
+            : longest->b_num / longest->b_den / longest->a;
     opts->norm = note_says(c, "norm", "l1") ? SS_NORM_L1 : SS_NORM_L2;
     opts->admissible = note_says(c, "admissible", "yes");
     opts->octaves = opts->force = 1;

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stickslip/morlet.h>
 
+/* The note of a stepped grid whose translations are fractions of samples: without it they are n B_0 a. */
+#define SS_LATTICE "b = n B, B the largest 2^p/m samples <= step a, m of 1 3 5 7 9 15 21 25 35 45"
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 /* The share of the promised 16 eps for the parts of the wavelet that are left out. */
 #define TAIL_FLOOR (4 * DBL_EPSILON)
@@ -20,6 +22,7 @@ struct ss_morlet {
     size_t total;           /* coefficients */
     int window;             /* 1: for windows of a stream, of whose coefficients only those are
                                asked for that lie REACH a and a unit within its ends */
+    struct blocks *blocks;  /* NULL: no scale goes that way; the others: */
     struct fft *fft;        /* NULL: all by quadrature */
 };
 
@@ -37,6 +40,11 @@ typedef struct span {
     size_t first, n;
 } span;
 
+/* Where a coefficient stands: tau samples, |tau| <= 1/2, after sample c. */
+typedef struct spot {
+    double c, tau;
+} spot;
+
 /* SS_EINVAL if a sample is not finite. */
 ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend,
                            ss_error *err);
@@ -52,6 +60,11 @@ ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_
  * translations are not counted. */
 ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
+/* m, if translation k of a scale lies at sample k b_num/m exactly, else 0. */
+double ss_scale_parts(const ss_scale *scale, double rate);
+/* Where translation k is taken, and time b [s] from the first sample. */
+spot ss_scale_spot(const ss_scale *scale, size_t k, double rate);
+spot ss_spot_of(double b, double rate);
 /* Translations up to time t >= 0. */
 size_t ss_scale_count(const ss_scale *scale, double t);
 
@@ -79,9 +92,10 @@ void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet
                            const double *w, double factor, double *x);
 double ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale);
 
-/* The same at any b, by the definition, as exactly as double precision allows, for factor 1. */
+/* The same at n translations k, by the definition, as exactly as double precision allows, for
+ * factor 1. */
 ss_status ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
-                               const double *b, size_t n, double *w);
+                               const size_t *k, size_t n, double *w);
 
 /* Choose the scales that are transformed by FFT, all that can be or those where it is cheaper, and
  * prepare for them: plan->fft, NULL if there are none. */
@@ -89,18 +103,28 @@ ss_status ss_fft_new(ss_morlet *plan);
 void ss_fft_free(struct fft *fft);                     /* NULL is allowed */
 int ss_fft_covers(const struct fft *fft, size_t i);     /* scale i */
 
+/* Of a record's windows, level by level. */
+typedef struct block_spectra {
+    double **level;
+    size_t levels;
+} block_spectra;
+
 /* The record's spectra, which threads share, and the same for scale i. */
 typedef struct spectra {
+    block_spectra blocks;
     double *level[2];
     double *size[2];        /* sums of their sizes, in steps; NULL: not needed */
 } spectra;
+
 ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out);
 void ss_spectra_free(spectra *s);
 void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                   double *scratch, span part, double factor, double *most, double *w);
 /* The number of scales computed in single precision so far. */
 size_t ss_fft_singles(const struct fft *fft);
-double *ss_fft_scratch(const struct fft *fft);         /* for one thread; NULL: no memory */
+size_t ss_fft_room(const struct fft *fft);             /* doubles of scratch for one thread */
+double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
+double *ss_fft_scratch(const struct fft *fft);         /* likewise, as many as that */
 void ss_fft_scratch_free(double *scratch);
 
 /* Of a plan for windows: what one costs [s], the samples of which every window must begin at a
@@ -108,6 +132,12 @@ void ss_fft_scratch_free(double *scratch);
 double ss_fft_cost(const struct fft *fft);
 size_t ss_fft_unit(const ss_morlet *plan);
 size_t ss_fft_places(const struct fft *fft, size_t i);
+
+/* The spectra of a record for all engines of a plan; to be freed, forward failed or not.
+ * Then what one thread needs beside them: NULL if nothing, else ss_fft_scratch_free's. */
+ss_status ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out);
+void ss_morlet_spectra_free(spectra *s);
+ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 
 /* A part of scale i, in the norm and the samples' own size: by its engine, or by the definition if
  * s is NULL.  scratch is ss_fft_scratch's; wave may be NULL; *most as above. */

@@ -173,11 +173,11 @@ wing(const place *at, const double *x, const double *re, const double *im, ptrdi
 
 /* Only the first width of at->g are needed. */
 static void
-locate(place *at, const kernel *ker, double b, double rate, size_t width)
+locate(place *at, const kernel *ker, spot b, size_t width)
 {
-    double c = rint(b * rate), fine[ROOT];
-    at->c = (ptrdiff_t)c;
-    at->tau = c / rate == b ? 0 : fma(b, rate, -c);
+    double fine[ROOT];
+    at->c = (ptrdiff_t)b.c;
+    at->tau = b.tau;
     at->q = at->tau * ker->d * ker->d;
     for (size_t j = 0; j < ROOT; j++)
         fine[j] = at->q == 0 ? 1 : exp(at->q * (double)j);
@@ -190,13 +190,12 @@ locate(place *at, const kernel *ker, double b, double rate, size_t width)
 
 /* Add to w, in units of a^1/2, the taps from <= |k| < to of the coefficient at b. */
 static void
-add_taps(const kernel *ker, const record *rec, double rate, double b, size_t from, size_t to,
-         double w[2])
+add_taps(const kernel *ker, const record *rec, spot b, size_t from, size_t to, double w[2])
 {
     double sum[2], second[2] = { 0, 0 }, part[2];
     const double *x = rec->x;
     place at;
-    locate(&at, ker, b, rate, 2 * to);
+    locate(&at, ker, b, 2 * to);
     at.c -= rec->origin;
     ptrdiff_t first = -at.c, last = (ptrdiff_t)rec->n - 1 - at.c, out = (ptrdiff_t)to - 1;
     ptrdiff_t lo = first > -out ? first : -out, hi = last < out ? last : out;
@@ -288,7 +287,7 @@ add_to_part(const kernel *ker, const record *rec, double rate, const ss_scale *s
 {
     double most = 0;
     for (size_t i = 0; i < part.n; i++, w += 2) {
-        add_taps(ker, rec, rate, ss_scale_b(scale, part.first + i), from, to, w);
+        add_taps(ker, rec, ss_scale_spot(scale, part.first + i, rate), from, to, w);
         most = fmax(most, w[0] * w[0] + w[1] * w[1]);
     }
     return sqrt(most);
@@ -323,10 +322,10 @@ ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *
 
 /* Add to x Re(w h) of a coefficient, all its taps. */
 static void
-add_wavelet(const kernel *ker, size_t n, double rate, double b, const double w[2], double *x)
+add_wavelet(const kernel *ker, size_t n, spot b, const double w[2], double *x)
 {
     place at;
-    locate(&at, ker, b, rate, 2 * ker->taps);
+    locate(&at, ker, b, 2 * ker->taps);
     ptrdiff_t out = (ptrdiff_t)ker->taps - 1, last = (ptrdiff_t)n - 1 - at.c;
     ptrdiff_t lo = -at.c > -out ? -at.c : -out, hi = last < out ? last : out;
     double u = at.tau * ker->d, scale = PI_M14 * ker->d * exp(-u * u / 2);
@@ -350,7 +349,7 @@ ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wav
     fill_tables(&wave->ker, wave->room);
     for (size_t k = 0; k < scale->n; k++) {
         double part[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
-        add_wavelet(&wave->ker, plan->n, plan->rate, ss_scale_b(scale, k), part, x);
+        add_wavelet(&wave->ker, plan->n, ss_scale_spot(scale, k, plan->rate), part, x);
     }
 }
 
@@ -374,28 +373,35 @@ ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale)
     return COST_TABLE * taps_tried(plan, scale);
 }
 
-/* Coefficients at any b, in units of a^1/2, as exactly as double precision allows. */
-static ss_status
-points(const ss_morlet_opts *opts, double rate, const record *rec, double a, const double *b,
-       size_t n, double *w)
+ss_status
+ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                     const size_t *k, size_t n, double *w)
 {
-    wavelet *wave = ss_wavelet_new(opts, a, rate, rec->n);
+    wavelet *wave = ss_wavelet_new(&plan->opts, scale->a, plan->rate, rec->n);
     if (wave == NULL)
         return SS_ENOMEM;
     fill_tables(&wave->ker, wave->room);
     for (size_t i = 0; i < n; i++) {
         w[2 * i] = w[2 * i + 1] = 0;
-        add_taps(&wave->ker, rec, rate, b[i], 0, wave->room, w + 2 * i);
+        add_taps(&wave->ker, rec, ss_scale_spot(scale, k[i], plan->rate), 0, wave->room, w + 2 * i);
     }
     ss_wavelet_free(wave);
     return SS_OK;
 }
 
-ss_status
-ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
-                     const double *b, size_t n, double *w)
+/* The coefficient at any b, in units of a^1/2. */
+static ss_status
+one_point(const ss_morlet_opts *opts, double rate, const record *rec, double a, double b,
+          double w[2])
 {
-    return points(&plan->opts, plan->rate, rec, scale->a, b, n, w);
+    wavelet *wave = ss_wavelet_new(opts, a, rate, rec->n);
+    if (wave == NULL)
+        return SS_ENOMEM;
+    fill_tables(&wave->ker, wave->room);
+    w[0] = w[1] = 0;
+    add_taps(&wave->ker, rec, ss_spot_of(b, rate), 0, wave->room, w);
+    ss_wavelet_free(wave);
+    return SS_OK;
 }
 
 ss_status
@@ -416,7 +422,7 @@ ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *op
                        (double)(n - 1) / rate);
     if ((st = ss_morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
         return st;
-    if ((st = points(opts, rate, &rec, a, &b, 1, w)) == SS_OK)
+    if ((st = one_point(opts, rate, &rec, a, b, w)) == SS_OK)
         st = ss_morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
     free(rec.x);
     return st;

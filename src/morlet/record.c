@@ -85,3 +85,16 @@ ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_
     }
     return SS_OK;
 }
+
+ss_status
+ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
+{
+    double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
+    for (size_t i = 0; i < 2 * n; i++) {
+        w[i] = ldexp(w[i] * factor, exponent);
+        if (!isfinite(w[i]))
+            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
+                           a);
+    }
+    return SS_OK;
+}

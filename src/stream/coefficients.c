@@ -215,6 +215,7 @@ read_options(reader *r)
     ss_status st;
     r->opts = ss_morlet_defaults;
     r->opts.dense = says_yes(r, "dense");
+    r->opts.exact = ss_header_find_note(coef->head, "lattice") == NULL;
     if (!says_yes(r, "stream") && (st = required_number(r, "samples", 0x1p53, &samples)) != SS_OK)
         return st;
     if ((st = required_number(r, "center", 1000, &r->opts.center)) != SS_OK

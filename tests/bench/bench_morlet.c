@@ -133,6 +133,21 @@ run_work(const struct work *work, double accuracy)
     return !(differs <= accuracy);
 }
 
+/* Nanoseconds a coefficient on the default grid, the same with exact steps, and dense. */
+static void
+compare_grids(size_t n)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    double ns[3];
+    size_t count;
+    for (int i = 0; i < 3; i++) {
+        opts.exact = i == 1, opts.dense = i == 2;
+        ns[i] = run(NOISE, n, &opts, NULL, &count) / (double)count * 1e9;
+    }
+    printf("%7zu  %7.3g  %5.3g  %5.3g  %8.3g  %.3g\n", n, ns[0], ns[1], ns[2], ns[1] / ns[0],
+           ns[2] / ns[0]);
+}
+
 int
 main(void)
 {
@@ -172,6 +187,9 @@ main(void)
         double seconds = run(WEAK_BURST, n, &opts, NULL, &count);
         printf("%7zu  %12zu  %.3g\n", n, count, seconds);
     }
+    printf("samples  default  exact  dense, ns a coefficient  exact/default  dense/default\n");
+    compare_grids(10000);
+    compare_grids(200000);
     printf("      accuracy   1 FFT/s         s   ratio      plan  difference/max|W|\n");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         for (size_t j = 0; j < sizeof accuracy / sizeof *accuracy; j++)

@@ -44,7 +44,7 @@
 
 enum {
     TERMS = KAISER_AT_ONCE,         /* terms at a time */
-    LANES = 8                       /* samples at a time */
+    LANES = POINT_LANES             /* samples at a time */
 };
 
 /* --- the series of a scale -------------------------------------------------------------------- */
@@ -91,10 +91,16 @@ exponentials(const double *restrict y, double scale, double *restrict g)
 #define REAL double
 #define NAMED(name) name
 #include "morlet/fft/points.h"
+#include "morlet/fft/circle.h"
+#undef REAL
+#undef NAMED
 
 #define REAL float
 #define NAMED(name) name##_single
 #include "morlet/fft/points.h"
+#include "morlet/fft/circle.h"
+#undef REAL
+#undef NAMED
 
 /* The admissible wavelet's second term, v being that of the first: y becomes its exponents. */
 static void
@@ -152,9 +158,8 @@ write_anywhere(const struct fft *f, const route *r, const band *b, const ss_scal
     double per_sample = (double)r->length / (double)circle_of(lev), most = 0;
     size_t circle = circle_of(lev);
     for (size_t i = 0; i < part.n; i++) {
-        double at = ss_scale_b(scale, part.first + i), c = rint(at * f->rate);
-        double tau = c / f->rate == at ? 0 : fma(at, f->rate, -c);
-        c -= (double)origin;
+        spot at = ss_scale_spot(scale, part.first + i, f->rate);
+        double c = at.c - (double)origin, tau = at.tau;
         double weight[KAISER_TAPS_MAX], e[2], re = 0, im = 0;
         uint64_t whole = (uint64_t)c * r->length / circle;  /* both below 2^32 */
         double rest = (double)((uint64_t)c * r->length % circle) / (double)circle
@@ -391,11 +396,22 @@ ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *
     }
 }
 
+size_t
+ss_fft_room(const struct fft *fft)
+{
+    return 2 * (fft->longest + 2 * MARGIN + APART) + ss_dense_room(fft->n);
+}
+
+double *
+ss_fft_doubles(size_t n)
+{
+    return fftw_malloc(n * sizeof(double));
+}
+
 double *
 ss_fft_scratch(const struct fft *fft)
 {
-    size_t room = 2 * (fft->longest + 2 * MARGIN + APART) + ss_dense_room(fft->n);
-    return fftw_malloc(room * sizeof(double));
+    return ss_fft_doubles(ss_fft_room(fft));
 }
 
 void

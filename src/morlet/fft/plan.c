@@ -20,6 +20,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "morlet/dense.h"
+#include "morlet/fft/blocks.h"
 #include "morlet/fft/plan.h"
 #include "morlet/kaiser.h"
 #include "morlet/plan.h"
@@ -34,8 +35,6 @@
 #define COST_TAP 1.5e-9
 
 enum { BLOCKS = 32768 };            /* of terms, about */
-
-pthread_mutex_t ss_fftw_planner = PTHREAD_MUTEX_INITIALIZER;
 
 /* --- bounds and circles ----------------------------------------------------------------------- */
 
@@ -141,7 +140,8 @@ choose_levels(struct fft *f, const ss_morlet *plan)
     f->levels = 1;
     for (size_t i = 0; i < plan->n_scales; i++) {
         size_t reach = samples_reached(&plan->scale[i], f->rate);
-        if (reach <= zero->reach || reach / 64 > f->n)      /* the longest by their sum */
+        if (reach <= zero->reach || reach / 64 > f->n       /* the longest by their sum */
+            || ss_blocks_covers(plan->blocks, i))
             continue;
         far = reach > far ? reach : far;
         near = reach < near ? reach : near;
@@ -163,10 +163,16 @@ static size_t
 lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy,
                int window)
 {
-    double circle = (double)circle_of(lev);
-    int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5, dense = scale->b_den != 1;
+    double circle = (double)circle_of(lev), whole = ss_scale_parts(scale, f->rate);
+    int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5;
+    int dense = whole == 1 && scale->b_num == 1;
     double step = dense ? 1 : scale->b_num * f->rate, parts = rint(circle / step);
     double off = (fabs(circle / parts - step) + 2e-16 * step) * (double)scale->n;
+    if (whole > 0 && !dense) {          /* translations lie at multiples of b_num/whole samples */
+        parts = circle * whole / scale->b_num;
+        int fits = parts == floor(parts) && parts >= (double)scale->n && parts < INT_MAX;
+        return fits && !window ? (size_t)parts : 0;
+    }
     double allow = accuracy / 20 * scale->a * f->rate / (f->center + REACH);
     int near = !dense && scale->b_num <= scale->a && off < allow;
     if (!(parts >= (double)scale->n && parts < INT_MAX))
@@ -281,6 +287,8 @@ choose_routes(struct fft *f, const ss_morlet *plan)
         route *r = &f->route[i];
         size_t reach = samples_reached(&plan->scale[i], f->rate);
         r->level = reach > f->level[0].reach;
+        if (ss_blocks_covers(plan->blocks, i))
+            continue;
         if (r->level == 1 && (f->levels == 1 || reach > f->level[1].reach))
             continue;
         double cost = choose_route(f, plan, i);

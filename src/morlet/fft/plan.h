@@ -96,20 +96,26 @@ circle_of(const level *lev)
     return lev->points * lev->samples;
 }
 
-/* h in two parts: k h is needed to the last bit where k is large. */
+/* The terms |v| <= half of a circle of so many samples.  h in two parts: k h is needed to the last
+ * bit where k is large. */
 static inline band
-band_of(const struct fft *f, const level *lev, double a, double half)
+band_around(double center, double half, double a, double rate, double points)
 {
     const double two_pi = 6.2831853071795865, two_pi_low = 2.4492935982947064e-16;
-    double points = (double)circle_of(lev);
-    double p = a * f->rate, p_low = fma(a, f->rate, -p);
+    double p = a * rate, p_low = fma(a, rate, -p);
     double s = two_pi * p, s_low = fma(two_pi, p, -s) + two_pi * p_low + two_pi_low * p;
     band b = { .h = s / points };
     b.h_low = (fma(-b.h, points, s) + s_low) / points;
-    b.lo = (ptrdiff_t)ceil((f->center - half) / b.h);
-    b.mid = (ptrdiff_t)rint(f->center / b.h);
-    b.hi = (ptrdiff_t)floor((f->center + half) / b.h);
+    b.lo = (ptrdiff_t)ceil((center - half) / b.h);
+    b.mid = (ptrdiff_t)rint(center / b.h);
+    b.hi = (ptrdiff_t)floor((center + half) / b.h);
     return b;
+}
+
+static inline band
+band_of(const struct fft *f, const level *lev, double a, double half)
+{
+    return band_around(f->center, half, a, f->rate, (double)circle_of(lev));
 }
 
 /* Cycles a point that the band reaches from its middle with L points. */

@@ -1,4 +1,4 @@
-/* points.h -- the terms and points of a series in fft.c, of numbers of type REAL.
+/* points.h -- the terms and points of a series, of numbers of type REAL.
  *
  * Included once for each precision, with REAL and NAMED(name) defined. */
 
@@ -33,25 +33,14 @@ NAMED(add_terms)(const double *x, size_t m, ptrdiff_t k, const double *g, size_t
     }
 }
 
-/* Make the points before and after the circle repeat it. */
-static void
-NAMED(close_circle)(REAL *v, size_t length)
-{
-    for (size_t i = 0; i < MARGIN; i++) {
-        size_t left = (length - 1 - i % length), right = i % length;
-        memcpy(v - 2 * (i + 1), v + 2 * left, 2 * sizeof *v);
-        memcpy(v + 2 * (length + i), v + 2 * right, 2 * sizeof *v);
-    }
-}
-
-/* LATTICE: values of the series as they are.  Returns the largest |w|^2 in units of factor. */
+/* Values of a series as they are.  Returns the largest |w|^2 in units of factor. */
 VERSIONS static double
 NAMED(write_lattice)(const REAL *restrict v, size_t n, double factor, double *restrict w)
 {
-    REAL most[LANES] = { 0 };
+    REAL most[POINT_LANES] = { 0 };
     size_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (size_t l = 0; l < LANES; l++) {
+    for (; i + POINT_LANES <= n; i += POINT_LANES)
+        for (size_t l = 0; l < POINT_LANES; l++) {
             REAL re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
             most[l] = size > most[l] ? size : most[l];
             w[2 * (i + l)] = re * factor;
@@ -63,10 +52,7 @@ NAMED(write_lattice)(const REAL *restrict v, size_t n, double factor, double *re
         w[2 * i] = re * factor;
         w[2 * i + 1] = im * factor;
     }
-    for (size_t l = 1; l < LANES; l++)
+    for (size_t l = 1; l < POINT_LANES; l++)
         most[0] = most[l] > most[0] ? most[l] : most[0];
     return most[0];
 }
-
-#undef REAL
-#undef NAMED

@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "morlet/fft/plan.h"
 
+pthread_mutex_t ss_fftw_planner = PTHREAD_MUTEX_INITIALIZER;
+
 /* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW aborts the
  * program over flags that do not fit where it keeps them, in 20, 20 and 9 bits. */
 static int

@@ -79,11 +79,9 @@ refer_scale(trial *t, const ss_morlet *plan, const record *rec, size_t i, ss_err
 {
     const ss_scale *scale = &plan->scale[i];
     scale_reference *ref = &t->reference[i];
-    double b[EACH], began = ss_trade_cpu_time();
+    double began = ss_trade_cpu_time();
     choose_places(ref, scale, t->w + 2 * scale->offset);
-    for (size_t c = 0; c < EACH; c++)
-        b[c] = ss_scale_b(scale, ref->k[c]);
-    ss_status st = ss_quadrature_points(plan, scale, rec, b, EACH, ref->w);
+    ss_status st = ss_quadrature_points(plan, scale, rec, ref->k, EACH, ref->w);
     t->by_sum += (ss_trade_cpu_time() - began) * (double)scale->n / EACH;
     if (st == SS_OK)
         st = ss_morlet_finish(ref->w, EACH, scale->a, plan->opts.norm, rec->exponent, err);
