@@ -80,7 +80,7 @@ discard_and_die(int number)
     raise(number);
 }
 
-/* --- what is read must not be written -------------------------------------------------------- */
+/* --- no output replaces an input -------------------------------------------------------------- */
 
 /* Keep that this file is read, or written; dies if it is both. */
 static void

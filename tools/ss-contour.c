@@ -71,7 +71,7 @@ open_coefficients(drawing *d, const char *path)
     d->opts.source_user = d->reader;
 }
 
-/* Panel (a) shows the time of panel (b), so a signal that is none of that time or clock is told. */
+/* Panel (a) shows the time of panel (b), so a signal of another time or clock causes a warning. */
 static void
 compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients *c)
 {

@@ -158,7 +158,7 @@ check_request(request *req)
     req->kind = tool_output_kind(req->output, TOOL_SIGNALS, req->kind);
 }
 
-/* A library call's failure, told with the input's name. */
+/* Report a library call's failure with the input's name. */
 static void
 check(ss_status status, const ss_error *err, const char *path)
 {

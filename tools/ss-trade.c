@@ -1,5 +1,5 @@
 /* ss-trade -- what accuracy costs on a scene, or in the transform of a signal, method by method,
- * measured here and now. */
+ * measured on this machine. */
 #include <ctype.h>
 #include <float.h>
 #include <getopt.h>
@@ -94,7 +94,7 @@ reads_as_scene(FILE *in)
             p++;
         return *p == '=';
     }
-    return 1;       /* of nothing at all the scene's reader says best what is wrong */
+    return 1;       /* the reader of scenes has the best message for an empty file */
 }
 
 static int
@@ -107,7 +107,7 @@ is_scene(const char *path)
         keep_input();
     FILE *in = standard ? stdin : fopen(tool_reads(path), "rb");
     if (in == NULL)
-        return 1;               /* shipped, or a name that is told to be wrong */
+        return 1;               /* shipped, or a wrong name, which the reader of scenes reports */
     scene = reads_as_scene(in);
     if (!standard)
         fclose(in);
