@@ -70,10 +70,5 @@ const ss_coefficients *ss_store_reader_grid(const ss_store_reader *reader);
 ss_status ss_store_reader_scale(ss_store_reader *reader, size_t i, double *w, ss_error *err);
 void ss_store_reader_free(ss_store_reader *reader);     /* NULL is allowed */
 
-/* Open path, with any contents: a stream, delimited text, HDF5, or HDF5 followed by
- * ":/path/to/dataset". */
-ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts,
-                         ss_error *err);
-
 SS_END_DECLARATIONS
 #endif
