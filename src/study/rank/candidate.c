@@ -132,8 +132,8 @@ ss_candidate_run(const ss_scene *scene, int pick, double *value, double *clear, 
                  double *steps)
 {
     taken t = { pick, 0, n, value, clear, scene->rate };
-    ss_sim_opts opts = { .method = ss_model_is_linear(scene->model) ? "exact" : "rkck", .tol = 1e-7, .max_steps = STEPS_MOST,
-                         .samples = take, .events = clear != NULL ? clear_event : NULL, .user = &t };
+    ss_sim_opts opts = { .method = ss_model_is_linear(scene->model) ? "exact" : "rkck",
+                         .tol = 1e-7, .max_steps = STEPS_MOST, .samples = take, .events = clear != NULL ? clear_event : NULL, .user = &t };
     ss_sim_stats stats = { .steps = 0 };
     for (size_t i = 0; clear != NULL && i < n; i++)
         clear[i] = INFINITY;

@@ -26,7 +26,6 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
 #define FAR 10.0
 #define LOW 0.1                         /* of f_k / (k Z_e): below, sticks are too short to fit */
-#define DECISIVE 25                     /* twice a logarithm of likelihood: five standard errors */
 #define SHORT 0.25                      /* periods of the contact */
 #define VAGUE 0.3                       /* a standard error above this part tells nothing */
 
@@ -102,13 +101,13 @@ search(work *w, const ss_signal *signal, size_t column, const ss_stretch *progre
     return st;
 }
 
-/* Do two matches have the same parameters, within DECISIVE of their errors? */
+/* Do two matches have the same parameters, within MATCH_DECISIVE of their errors? */
 static int
 are_same(const match *a, const match *b)
 {
     for (size_t i = 0; i < CANDIDATE_KEYS; i++) {
         double d = a->key[i] - b->key[i];
-        if (d * d > DECISIVE * a->left * a->covariance[i][i] + 1e-12)
+        if (d * d > MATCH_DECISIVE * a->left * a->covariance[i][i] + 1e-12)
             return 0;
     }
     return 1;
@@ -269,15 +268,17 @@ judge(ss_fit *fit, const work *w)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
     else if (!ss_match_explains(m, w->noise))
         snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
-                 "%.3g times the noise", 100 * fit->residual_started, sqrt(ss_match_excess(m, w->noise)));
-    else if ((w->rival - m->left) * (double)m->compared < DECISIVE * m->left)
+                 "%.3g times the noise", 100 * fit->residual_started,
+                 sqrt(ss_match_excess(m, w->noise)));
+    else if ((w->rival - m->left) * (double)m->compared < MATCH_DECISIVE * m->left)
         snprintf(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
                  "signal, %.3g %%", 100 * fit->residual_started);
     else if (periods < SHORT)
         snprintf(fit->why, sizeof fit->why, "the longest stick lasts %.2g periods of the contact's "
                  "oscillation: less than %g shows no stiffness", periods, SHORT);
     else if (vague != NULL && isinf(error))
-        snprintf(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague, value);
+        snprintf(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague,
+                 value);
     else if (vague != NULL)
         snprintf(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
                  value, error);
@@ -315,8 +316,8 @@ fit_signal(ss_fit *fit, work *w, const ss_signal *signal, size_t column, const s
     if (st == SS_OK)
         st = match_all(w, &matching);
     if (st == SS_OK && w->c.steps > BUDGET)
-        return ss_fail(err, SS_EBUDGET, "scenes like it take more than %.0e integration steps to be fitted",
-                       BUDGET);
+        return ss_fail(err, SS_EBUDGET, "scenes like it take more than %.0e integration steps to be "
+                       "fitted", BUDGET);
     if (st != SS_OK)
         return st;
     report(fit, w);

@@ -29,10 +29,10 @@
 
 enum { PASSES = 24, TRIALS = 6 };       /* of a descent, and of the damping in each */
 enum { LAGS = 32 };
-enum { LOOKED_AT = 128 };               /* samples of half a cycle where the fastest slip is looked for */
+enum { LOOKED_AT = 128 };               /* samples of half a cycle, to find the fastest slip */
 enum { UNKNOWNS = MATCH_UNKNOWNS, MOVED = MATCH_SIZE };     /* MOVED: those that move the motion */
 #define FARTHEST 0.2                    /* of one step, of a key, a radian, or a start */
-#define UNLIKELY 0.2                    /* of the power, if the search leaves it: not adjusted further */
+#define UNLIKELY 0.2                    /* of the power: if the search leaves that, it is the end */
 #define LOST 0.03                       /* of the power: no start makes up for that */
 #define RIDGE 1e-12                     /* of a diagonal: directions that the record does not show */
 
@@ -454,7 +454,6 @@ report(work *w, point *at, match *m)
     m->compared = (size_t)w->used;
     m->scene = ss_candidate_resized(w->c, scene_at(w, at->p), at->size);
     memcpy(m->key, at->p, sizeof m->key);
-    m->offset = at->offset;
 }
 
 static void

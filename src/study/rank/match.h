@@ -7,10 +7,14 @@
 #include "base/progress.h"
 #include "study/rank/candidate.h"
 
-/* What is adjusted: the keys of the candidate, then these; all but FREQUENCY ... V0 stand in a
- * covariance as logarithms, which is where errors are read. */
+/* The unknowns: the keys of the candidate, then these.  In a covariance keys, FREQUENCY and SIZE stand
+ * as logarithms. */
 enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_SIZE, MATCH_OFFSET,
        MATCH_UNKNOWNS };
+
+/* Twice a difference of logarithms of likelihood, or the square of one in standard errors, that is
+ * no accident. */
+#define MATCH_DECISIVE 25
 
 typedef struct match_record {
     const double *x;            /* n samples */
@@ -23,7 +27,6 @@ typedef struct match_record {
 typedef struct match {
     ss_scene scene;             /* its record is the one matched, but for the offset and what is left */
     double key[CANDIDATE_KEYS];
-    double offset;
     double left;                /* mean square of what is left of the samples away from events */
     double left_all;            /* and of all that are not missing */
     double power;               /* of these about their mean */

@@ -46,7 +46,6 @@ const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0
 enum { STARTS = 32, KEEP = 4, STEPS = 80 };      /* of the search */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
-#define DECISIVE 25                     /* twice a logarithm of likelihood: five standard errors */
 #define SPAN 80.0                       /* [dB] of a contour map */
 
 /* --- what a signal shows ------------------------------------------------------------------- */
@@ -320,8 +319,8 @@ rank_scene(ss_rank_row *row, found *f, const work *w, const ss_scene *scene,
     if (st == SS_OK)
         st = match_scene(f, w, &matching);
     if (st == SS_OK && f->candidate.steps > BUDGET)
-        return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be adjusted: "
-                       "it is too stiff to be ranked", row->scene + 1, BUDGET);
+        return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be "
+                       "adjusted: it is too stiff to be ranked", row->scene + 1, BUDGET);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     const match *m = &f->match;
@@ -425,8 +424,9 @@ judge(ss_ranking *r, const work *w, const found *f)
                  "%.3g times the noise", 100 * best->left / best->power,
                  ss_match_excess(best, w->noise));
     } else if (is_sinusoid(w, m)) {
-        snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no transitions");
-    } else if (lead_of(best, m, w->noise) > DECISIVE) {
+        snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no "
+                 "transitions");
+    } else if (lead_of(best, m, w->noise) > MATCH_DECISIVE) {
         snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
                  "power, and another, which leaves %.3g %%, shows other transitions",
                  100 * m->left / m->power, 100 * best->left / best->power);
@@ -436,7 +436,7 @@ judge(ss_ranking *r, const work *w, const found *f)
     for (size_t i = 1; r->verdict == SS_NAMED && i < r->n; i++)
         if (r->row[i].adjusted.model != first->adjusted.model
             && ss_match_explains(&f[r->row[i].scene].match, w->noise)
-            && lead_of(m, &f[r->row[i].scene].match, w->noise) < DECISIVE) {
+            && lead_of(m, &f[r->row[i].scene].match, w->noise) < MATCH_DECISIVE) {
             r->verdict = SS_UNDECIDED;
             snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
                      ss_model_name(first->adjusted.model), ss_model_name(r->row[i].adjusted.model));
