@@ -47,7 +47,8 @@ typedef struct ss_steady_opts {
     const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
                                    else as ss_sim_run chooses */
     unsigned long max_steps;    /* > 0: stop after so many, or after 20 right-hand sides for
-                                   each of them */
+                                   each of them; and in a forcing cycle after a tenth of them,
+                                   10^6 at least, where the tolerance forces short steps */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64 };
 extern const ss_range ss_steady_tolerances;     /* of tol */

@@ -4,10 +4,6 @@
 #include <string.h>
 #include "base/error.h"
 
-/* A step that takes more right-hand sides than this counts as more than one: it is what rk8pd takes
- * with its events, while a step of an implicit method may take hundreds. */
-enum { RHS_PER_STEP = 20 };
-
 ss_status
 ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err)
 {

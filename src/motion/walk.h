@@ -7,6 +7,10 @@
 
 #include "motion/engine.h"
 
+/* A step that takes more right-hand sides than this counts as more than one: it is what rk8pd takes
+ * with its events, while a step of an implicit method may take hundreds. */
+enum { RHS_PER_STEP = 20 };
+
 typedef struct walk {
     motion m;                       /* at the start of the leg; engines point at it: do not copy */
     engine *e;

@@ -169,6 +169,31 @@ section_units(const state *m)
 
 /* --- walking ------------------------------------------------------------------------------- */
 
+/* A point takes many cycles: one that costs much more than the motion asks for is refused before it has
+ * used up the steps of the point.  A cycle has a tenth of those, 10^6 at least, and always three times
+ * what the fastest period of the mode asks for; each is worth RHS_PER_STEP right-hand sides, which
+ * unlike steps cost about the same in every method. */
+#define CYCLE_STEPS 1e6
+
+static double
+cycle_work(const finder *f)
+{
+    double tenth = (double)f->opts->max_steps / 10;
+    double needed = 1 / f->scene->base_frequency / ss_step_cap(&f->w.m.now);
+    return RHS_PER_STEP * fmax(fmax(CYCLE_STEPS, tenth), 3 * needed);
+}
+
+static ss_status
+check_work(const finder *f, double since, int cycles)
+{
+    double most = cycles * cycle_work(f);
+    if (f->opts->max_steps == 0 || (double)f->w.e->rhs - since <= most)
+        return SS_OK;
+    return ss_fail(f->err, SS_EBUDGET, "more than %.2g right-hand sides in a forcing cycle at t = %.9g s: "
+                   "the tolerance forces short steps", most / cycles,
+                   f->w.m.origin.hi + f->w.m.now.u);
+}
+
 /* Walk so many forcing cycles, with a meter and a tangent unless they are NULL. */
 static ss_status
 go(finder *f, int cycles, meter *r, tangent *t)
@@ -176,11 +201,14 @@ go(finder *f, int cycles, meter *r, tangent *t)
     walk *w = &f->w;
     double period = 1 / f->scene->base_frequency, none = 4 * DBL_EPSILON * period;
     instant end = instant_sample(f->n + cycles, f->scene->base_frequency);
+    double since = (double)w->e->rhs;
     for (double left; (left = instant_diff(end, w->m.origin) - w->m.now.u) > none;) {
         ss_event event;
         double q[MAX_DIM], rates[MAX_DIM];
         int is_event, mode = w->m.now.mode;
-        ss_status st = ss_walk_leg(w, fmin(left, period), f->err);
+        ss_status st = check_work(f, since, cycles);
+        if (st == SS_OK)
+            st = ss_walk_leg(w, fmin(left, period), f->err);
         if (st != SS_OK)
             return st;
         if (r != NULL)
