@@ -194,6 +194,102 @@ hard_links_do_not_multiply_what_a_file_may_claim(void **state)
                         "than a file of this size can hold");
 }
 
+/* An attribute of the root whose text of variable length is n times this letter. */
+static void
+put_variable_text(hid_t file, const char *name, size_t n, int letter)
+{
+    hid_t type = H5Tcopy(H5T_C_S1), scalar = H5Screate(H5S_SCALAR);
+    char *text = calloc(n + 1, 1);
+    assert_non_null(memset(text, letter, n));
+    H5Tset_size(type, H5T_VARIABLE);
+    hid_t id = H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(id, type, &text) >= 0);
+    H5Aclose(id);
+    H5Sclose(scalar);
+    H5Tclose(type);
+    free(text);
+}
+
+/* Where the file refers to a text of n bytes: its length (4 bytes), the address of a global heap (8)
+ * and an index in it (4), see IV.B of the HDF5 file format. */
+static unsigned char *
+find_reference(unsigned char *bytes, size_t size, uint32_t n)
+{
+    for (size_t i = 0; i + 16 <= size; i++) {
+        uint64_t heap;
+        memcpy(&heap, bytes + i + 4, 8);
+        if (memcmp(bytes + i, &n, 4) == 0 && heap + 4 <= size && memcmp(bytes + heap, "GCOL", 4) == 0)
+            return bytes + i;
+    }
+    fail_msg("no text of %u bytes", (unsigned)n);
+    return NULL;
+}
+
+static void
+one_text_under_many_names_is_not_read_many_times(void **state)
+{
+    enum { NAMES = 20, LARGE = 600000, SMALL = 1000 };
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    char name[32];
+    size_t size;
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Gclose(open_signal_without_values(file, 3));
+    put_variable_text(file, "large", LARGE, 'a');
+    for (int i = 0; i < NAMES; i++) {
+        snprintf(name, sizeof name, "small%d", i);
+        put_variable_text(file, name, (size_t)(SMALL + i), 'b');
+    }
+    H5Fclose(file);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, NULL), SS_OK);
+    assert_int_equal(strlen(ss_header_find_note(signal->head, "large")), LARGE);
+    assert_int_equal(strlen(ss_header_find_note(signal->head, "small7")), SMALL + 7);
+    ss_signal_free(signal);
+    signal = NULL;
+    unsigned char *bytes = (unsigned char *)read_bytes(&size);
+    const unsigned char *large = find_reference(bytes, size, LARGE);
+    for (int i = 0; i < NAMES; i++)
+        memcpy(find_reference(bytes, size, (uint32_t)(SMALL + i)), large, 16);
+    FILE *out = fopen(path, "wb");
+    assert_int_equal(fwrite(bytes, 1, size, out), size);
+    fclose(out);
+    free(bytes);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_null(signal);
+    assert_string_equal(err.text + strlen(path), ":/: attributes claim more text than the file holds");
+}
+
+/* The root, so many types, an array: 10,000 objects are looked at, not one more. */
+static void
+the_list_of_arrays_ends_after_10000_objects(void **state)
+{
+    static const ss_read_opts opts = { .rate = 1 };
+    ss_signal *signal = NULL;
+    ss_error err = { "" };
+    char name[32];
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    for (int i = 0; i < 9998; i++) {
+        snprintf(name, sizeof name, "type%d", i);
+        hid_t type = H5Tcopy(H5T_IEEE_F64LE);
+        assert_true(H5Tcommit2(file, name, type, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        H5Tclose(type);
+    }
+    put_array(file, "x", H5T_IEEE_F64LE, 6, H5P_DEFAULT);
+    H5Fclose(file);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, &opts, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "no /signal in it; choose one as"));
+    assert_non_null(strstr(err.text, " /x"));
+    file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Gclose(H5Gcreate2(file, "group", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Fclose(file);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, &opts, &err), SS_EDATA);
+    assert_string_equal(err.text + strlen(path), ": no /signal in it, nor any array of real numbers");
+    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_OK);
+    ss_signal_free(signal);
+}
+
 /* In the order of writing, in a time that grows as their number does: one by one it were minutes. */
 static void
 many_columns_without_an_index_are_listed_at_once(void **state)
@@ -372,6 +468,8 @@ main(void)
         cmocka_unit_test(flipped_bits_are_refused_or_harmless),
         cmocka_unit_test(nothing_leads_out_of_a_file_or_claims_more_than_it_holds),
         cmocka_unit_test(hard_links_do_not_multiply_what_a_file_may_claim),
+        cmocka_unit_test(one_text_under_many_names_is_not_read_many_times),
+        cmocka_unit_test(the_list_of_arrays_ends_after_10000_objects),
         cmocka_unit_test(many_columns_without_an_index_are_listed_at_once),
         cmocka_unit_test(the_sources_of_a_virtual_dataset_are_not_opened),
         cmocka_unit_test(only_filters_that_bound_what_they_make_are_run),
