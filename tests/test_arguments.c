@@ -399,6 +399,24 @@ sweeps_refuse_null(void **state)
     fclose(in);
 }
 
+static void
+rankings_refuse_null(FILE *out)
+{
+    static const char *const names[] = { "mine" };
+    static ss_rank_row row;
+    const ss_ranking ranking = { .n = 1, .row = &row }, empty = { .n = 0 };
+    const ss_ranking_text about = { "s", "a", "its name", names };
+    const ss_rank_opts unknown = { .quantity = (ss_quantity)SS_QUANTITIES };
+    assert_int_equal(ss_ranking_write(NULL, &about, NULL, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_ranking_write(&empty, &about, NULL, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_ranking_write(&ranking, NULL, NULL, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_ranking_write(&ranking, &(ss_ranking_text){ "s", "a", "its name", NULL }, NULL,
+                                      out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_ranking_write(&ranking, &about, &unknown, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_ranking_write(&ranking, &about, NULL, NULL, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_ranking_write(&ranking, &about, NULL, out, SS_AU), SS_EINVAL);
+}
+
 /* Of what tools write as text: NULL, a column that is not there, a format that has no words. */
 static void
 writers_of_rows_refuse_null(void **state)
@@ -431,6 +449,7 @@ writers_of_rows_refuse_null(void **state)
     assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU), SS_EINVAL);
+    rankings_refuse_null(out);
     ss_table *table = NULL;
     ss_error e = { "" };
     assert_refused(ss_table_read(NULL, out, "out", "events", &e), &e);

@@ -651,6 +651,62 @@ reads_back_the_events_that_it_writes(void **state)
     fclose(text);
 }
 
+/* A ranking of two scenes, the second first, whose criteria have the values 1, 2 ... of exact text. */
+static ss_ranking
+make_ranking(ss_rank_row row[2], ss_verdict verdict)
+{
+    ss_ranking r = { .verdict = verdict, .forcing_frequency = 1.25, .noise = NAN, .n = 2, .row = row };
+    for (size_t i = 0; i < 2; i++) {
+        row[i] = (ss_rank_row){ .scene = 1 - i, .explained = 0.99975, .total = 0.5 + 10 * (double)i };
+        for (int k = 0; k < SS_CRITERIA; k++) {
+            row[i].value[k] = k == SS_BY_MAP ? NAN : k + 1;
+            row[i].distance[k] = (double)i * ss_criterion_rules[k].threshold;
+            r.value[k] = -k;
+        }
+    }
+    return r;
+}
+
+static void
+reads_back_the_ranking_that_it_writes(void **state)
+{
+    static const char *const scene[] = { "mine", "other[x=1]" };
+    const ss_ranking_text about = { "run.tsv", "acc", "its unit", scene };
+    (void)state;
+    for (ss_verdict verdict = SS_UNDECIDED; verdict <= SS_NAMED; verdict++) {
+        ss_rank_row row[2];
+        ss_ranking r = make_ranking(row, verdict);
+        FILE *text = tmpfile();
+        strcpy(r.why, verdict == SS_NAMED ? "" : "it is near");
+        assert_int_equal(ss_ranking_write(&r, &about, NULL, text, SS_TSV), SS_OK);
+        ss_table *t = read_table(text, "ranking");
+        assert_string_equal(ss_table_note(t, "signal_name"), "run.tsv");
+        assert_string_equal(ss_table_note(t, "quantity"), "a (its unit)");
+        assert_string_equal(ss_table_note(t, "forcing_frequency"), "1.25");
+        assert_string_equal(ss_table_note(t, "noise"), "- % of the power, at most");
+        assert_string_equal(ss_table_note(t, "answer"), verdict == SS_NAMED
+                            ? "other[x=1] explains 99.975 % of the signal's power"
+                            : "cannot tell: it is near; other[x=1] explains most, 99.975 %");
+        assert_int_equal(t->n, 2);
+        assert_int_equal(t->n_columns, 3 + 2 * SS_CRITERIA);
+        assert_string_equal(t->column[3 + 2 * SS_BY_SLOPE].name, "slope");
+        assert_string_equal(t->column[3 + 2 * SS_BY_SLOPE].unit, "dB/octave");
+        for (size_t i = 0; i < 2; i++) {
+            double rank = ss_table_number(t, i, 0);
+            assert_true(verdict == SS_NAMED ? rank == (double)i + 1 : isnan(rank));
+            assert_string_equal(t->cell[i * t->n_columns + 1], scene[1 - i]);
+            assert_true(ss_table_number(t, i, 2) == row[i].total);
+            for (size_t k = 0; k < SS_CRITERIA; k++) {
+                double value = ss_table_number(t, i, 3 + 2 * k);
+                assert_true(k == SS_BY_MAP ? isnan(value) : value == row[i].value[k]);
+                assert_true(ss_table_number(t, i, 4 + 2 * k) == (double)i);
+            }
+        }
+        ss_table_free(t);
+        fclose(text);
+    }
+}
+
 static void
 refuses_tables_that_are_malformed(void **state)
 {
@@ -694,6 +750,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_each_format_that_is_written),
         cmocka_unit_test(reads_back_the_events_that_it_writes),
+        cmocka_unit_test(reads_back_the_ranking_that_it_writes),
         cmocka_unit_test(refuses_tables_that_are_malformed),
         cmocka_unit_test(keeps_the_record_s_bound_whatever_comes_together),
         cmocka_unit_test(keeps_the_bound_from_window_to_window),

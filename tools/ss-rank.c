@@ -32,6 +32,7 @@ typedef struct job {
     const char *signal_path, *column_name, *as, *known_by, *output;
     const char **settings, **scenes;
     size_t n_settings, n_scenes;
+    tool_kind kind;
     ss_rank_opts opts;
 } job;
 
@@ -44,8 +45,6 @@ signal_name(const char *path)
 }
 
 /* --- the quantity -------------------------------------------------------------------------- */
-
-static const char *const quantities[] = { "x", "v", "a", "f", NULL };
 
 /* Of a force or a length; of a length over time, "mm/s" or as in names "mm_s"; -1: none of these. */
 static int
@@ -103,8 +102,8 @@ quantity_of_ending(const char *name)
 static int
 quantity_of_name(const char *name)
 {
-    for (int i = 0; quantities[i] != NULL; i++)
-        if (strcmp(name, quantities[i]) == 0)
+    for (int i = 0; ss_quantity_names[i] != NULL; i++)
+        if (strcmp(name, ss_quantity_names[i]) == 0)
             return i;
     return strcmp(name, "F") == 0 ? SS_FORCE : quantity_of_word(name);
 }
@@ -116,7 +115,7 @@ quantity_of(const ss_column *column, const char *as, const char **by)
     int found = -1;
     *by = "--as";
     if (as != NULL)
-        return (ss_quantity)tool_choice("--as", as, quantities);
+        return (ss_quantity)tool_choice("--as", as, ss_quantity_names);
     *by = "its name";
     if ((found = quantity_of_name(column->name)) >= 0)
         return (ss_quantity)found;
@@ -139,117 +138,6 @@ find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
         int of = i != column ? quantity_of_name(head->column[i].name) : -1;
         if (of >= 0)
             also[of] = (int)i;
-    }
-}
-
-/* --- rows ---------------------------------------------------------------------------------- */
-
-static void
-put(FILE *out, double x, const char *behind)
-{
-    if (isnan(x))
-        fputs("-", out);
-    else
-        fprintf(out, "%.4g", x);
-    fputs(behind, out);
-}
-
-/* A part of the signal's power in per cent, so that two digits of the rest are seen: 99.98. */
-static void
-put_explained(FILE *out, double part)
-{
-    double left = fmax(1 - part, 1e-9);
-    int digits = (int)fmax(ceil(-log10(left)) - 2, 0) + 1;
-    fprintf(out, "%.*f %%", digits, 100 * (1 - left));
-}
-
-static void
-write_answer(FILE *out, const ss_ranking *r, char *const name[])
-{
-    const ss_rank_row *best = &r->row[0];
-    for (size_t i = 1; i < r->n; i++)
-        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
-            best = &r->row[i];
-    if (r->verdict == SS_NAMED)
-        fprintf(out, "# answer: %s explains ", name[best->scene]);
-    else
-        fprintf(out, "# answer: %s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell",
-                r->why);
-    if (r->verdict != SS_NAMED && !isnan(r->forcing_frequency))
-        fprintf(out, "; %s explains most, ", name[best->scene]);
-    if (!isnan(r->forcing_frequency))
-        put_explained(out, best->explained);
-    fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
-}
-
-static void
-write_head(FILE *out, const ss_ranking *r, const char *column, ss_quantity quantity,
-           const char *known_by, char *const name[])
-{
-    fprintf(out, "# column: %s\n# quantity: %s (%s)\n", column, quantities[quantity], known_by);
-    fputs("# forcing_frequency: ", out);
-    put(out, r->forcing_frequency, "\n# thresholds:");
-    for (int i = 0; i < SS_CRITERIA; i++)
-        fprintf(out, "%s %s %.4g", i ? "," : "", ss_criterion_rules[i].name,
-                ss_criterion_rules[i].threshold);
-    fputs("\n# signal:", out);
-    for (int i = SS_BY_MAXIMUM; i < SS_BY_MAP; i++) {
-        fprintf(out, "%s %s ", i > SS_BY_MAXIMUM ? "," : "", ss_criterion_rules[i].name);
-        put(out, r->value[i], "");
-    }
-    fputs("\n# noise: ", out);
-    put(out, 100 * r->noise, " % of the power, at most\n");
-    write_answer(out, r, name);
-}
-
-/* Where a threshold 20 % lower or higher changes the order, the order that it gives. */
-static void
-write_orders(FILE *out, const ss_ranking *r, char *const name[])
-{
-    static const double factor[] = { 0.8, 1.2 };
-    size_t *order = calloc(r->n, sizeof *order);
-    int changes = 0;
-    if (order == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int i = 0; i < SS_CRITERIA; i++)
-        for (size_t k = 0; k < 2; k++) {
-            if (!ss_ranking_order(r, (ss_criterion)i, factor[k], order))
-                continue;
-            changes++;
-            fprintf(out, "# order with %s x %g:", ss_criterion_rules[i].name, factor[k]);
-            for (size_t j = 0; j < r->n; j++)
-                fprintf(out, " %s", name[r->row[order[j]].scene]);
-            fputc('\n', out);
-        }
-    if (changes == 0)
-        fputs("# order: the same with any threshold 20 % lower or higher\n", out);
-    free(order);
-}
-
-static void
-write_rows(FILE *out, const ss_ranking *r, char *const name[])
-{
-    fputs("# columns: rank scene total", out);
-    for (int i = 0; i < SS_CRITERIA; i++) {
-        const ss_criterion_rule *rule = &ss_criterion_rules[i];
-        fprintf(out, " %s%s%s %s_score", rule->name, *rule->unit ? "/" : "", rule->unit,
-                rule->name);
-    }
-    fputc('\n', out);
-    for (size_t i = 0; i < r->n; i++) {
-        const ss_rank_row *row = &r->row[i];
-        int compared = !isnan(r->forcing_frequency);
-        if (r->verdict == SS_NAMED)
-            fprintf(out, "%zu\t%s\t", i + 1, name[row->scene]);
-        else
-            fprintf(out, "-\t%s\t", name[row->scene]);
-        put(out, compared ? row->total : NAN, "");
-        for (int k = 0; k < SS_CRITERIA; k++) {
-            fputc('\t', out);
-            put(out, compared ? row->value[k] : NAN, "\t");
-            put(out, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, "");
-        }
-        fputc('\n', out);
     }
 }
 
@@ -291,14 +179,10 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
     }
     tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
     note_work(r, name, opts);
-    FILE *out = tool_output(j->output);
-    fprintf(out, "# stickslip ranking 1\n# signal_name: %s\n", signal_name(j->signal_path));
-    fprintf(out, "# spread: %.4g\n", 100 * opts->spread);
-    write_head(out, r, signal->head->column[column].name, opts->quantity,
-               j->known_by, name);
-    if (!isnan(r->forcing_frequency))
-        write_orders(out, r, name);
-    write_rows(out, r, name);
+    const ss_ranking_text about = {
+        .signal = signal_name(j->signal_path), .column = signal->head->column[column].name,
+        .known_by = j->known_by, .scene = (const char *const *)name };
+    tool_check(ss_ranking_write(r, &about, opts, tool_output(j->output), tool_stream(j->kind)), NULL);
     for (size_t i = 0; i < j->n_scenes; i++)
         free(name[i]);
     free(name);
@@ -348,7 +232,7 @@ main(int argc, char *argv[])
     for (int c; (c = getopt_long(argc, argv, "c:a:s:p:F:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 'c': j.column_name = optarg; break;
-        case 'a': j.as = quantities[tool_choice("--as", optarg, quantities)]; break;
+        case 'a': j.as = ss_quantity_names[tool_choice("--as", optarg, ss_quantity_names)]; break;
         case 's': j.settings[j.n_settings++] = optarg; break;
         case 'p': j.opts.spread = tool_number("--spread", optarg, 0, 99) / 100; break;
         case 'F': j.opts.forcing_frequency = tool_number("--forcing", optarg, 1e-9, 1e12); break;
@@ -361,7 +245,7 @@ main(int argc, char *argv[])
     if (fits)
         tool_writes(j.output);
     else
-        tool_output_kind(j.output, TOOL_WORDS, TOOL_TSV);
+        j.kind = tool_output_kind(j.output, TOOL_WORDS, TOOL_TSV);
     j.signal_path = optind < argc ? argv[optind] : "-";
     const char *shipped[16];
     size_t n = 0;
@@ -376,7 +260,7 @@ main(int argc, char *argv[])
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
     j.opts.quantity = quantity_of(&signal->head->column[column], j.as, &j.known_by);
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
-              signal->n, signal->head->column[column].name, quantities[j.opts.quantity],
+              signal->n, signal->head->column[column].name, ss_quantity_names[j.opts.quantity],
               j.known_by);
     find_others(j.opts.also, signal->head, column);
     j.opts.progress = (ss_progress){ tool_progress, &j };

@@ -3,6 +3,7 @@
 #define STICKSLIP_RANK_H
 
 #include <stddef.h>
+#include <stdio.h>
 #include <stickslip/status.h>
 #include <stickslip/scene.h>
 #include <stickslip/signal.h>
@@ -38,6 +39,7 @@ extern const ss_criterion_rule ss_criterion_rules[SS_CRITERIA];
 #define SS_SCORE_MOST 3
 
 enum { SS_QUANTITIES = SS_FORCE + 1 };
+extern const char *const ss_quantity_names[SS_QUANTITIES + 1];     /* "x", "v", "a", "f", NULL */
 
 typedef struct ss_rank_opts {
     ss_quantity quantity;       /* that the column is of */
@@ -92,6 +94,20 @@ double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double fact
  * into order[0 ... n-1]; 1 if it is another than theirs. */
 int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
                      size_t *order);
+
+/* What the text of a ranking says that the ranking does not know. */
+typedef struct ss_ranking_text {
+    const char *signal;         /* names of the signal and of the column that was ranked */
+    const char *column;
+    const char *known_by;       /* by what the column's quantity is known: "its unit" */
+    const char *const *scene;   /* names of the scenes, in the order in which they were given */
+} ss_ranking_text;
+
+/* Write it as text, as ss-rank(1) describes; opts are those of ss_ranking_new, or NULL.  No name may
+ * hold a tab or the end of a line.  SS_EINVAL: nothing to rank, or the format holds numbers only;
+ * SS_EIO, SS_ENOMEM.  ss_table_read reads it as a "ranking". */
+ss_status ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about,
+                           const ss_rank_opts *opts, FILE *out, ss_format format);
 
 /* --- the scene that fits ------------------------------------------------------------------- */
 

@@ -103,18 +103,32 @@ ss_number_text(char text[SS_NUMBER_MAX], double x)
     return text;
 }
 
-const char *
-ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits)
+/* The number that printf wrote, whatever the locale's decimal point, of one byte or more. */
+static const char *
+copy_number(char text[SS_NUMBER_MAX], const char *raw)
 {
-    char raw[SS_NUMBER_MAX], *to = text;
-    snprintf(raw, sizeof raw, "%.*g", digits, x);
-    if (isnan(x))
-        strcpy(raw, "-");
+    char *to = text;
     for (const char *from = raw; *from != '\0'; from++)
         if (((unsigned char)*from < 0x80 && isalnum((unsigned char)*from)) || *from == '-' || *from == '+')
             *to++ = *from;
-        else if (to[-1] != '.')         /* the locale's decimal point, of one byte or more */
+        else if (to[-1] != '.')
             *to++ = '.';
     *to = '\0';
     return text;
+}
+
+const char *
+ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits)
+{
+    char raw[SS_NUMBER_MAX];
+    snprintf(raw, sizeof raw, "%.*g", digits, x);
+    return copy_number(text, isnan(x) ? "-" : raw);
+}
+
+const char *
+ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals)
+{
+    char raw[SS_NUMBER_MAX];
+    snprintf(raw, sizeof raw, "%.*f", decimals, x);
+    return copy_number(text, isnan(x) ? "-" : raw);
 }

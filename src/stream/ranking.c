@@ -1,0 +1,174 @@
+/* ranking.c -- a ranking of scenes as text. */
+#include <stickslip/rank.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include "stream/output.h"
+#include "stream/rows.h"
+
+enum { DIGITS = 4 };            /* more than a criterion deserves */
+
+static void
+write_rounded(struct rows *rows, double x)
+{
+    char text[SS_NUMBER_MAX];
+    ss_rows_word(rows, ss_number_rounded(text, x, DIGITS));
+}
+
+/* --- notes --------------------------------------------------------------------------------- */
+
+/* A part of the signal's power in per cent, with two digits of the rest: 99.98. */
+static void
+write_explained(FILE *out, double part)
+{
+    char text[SS_NUMBER_MAX];
+    double left = fmax(1 - part, 1e-9);
+    int decimals = (int)fmax(ceil(-log10(left)) - 2, 0) + 1;
+    fprintf(out, "%s %%", ss_number_fixed(text, 100 * (1 - left), decimals));
+}
+
+/* Without a scene named, the one that explains most. */
+static const ss_rank_row *
+find_best(const ss_ranking *r)
+{
+    const ss_rank_row *best = &r->row[0];
+    for (size_t i = 1; i < r->n; i++)
+        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
+            best = &r->row[i];
+    return best;
+}
+
+static void
+write_answer(FILE *out, const ss_ranking *r, const char *const *scene)
+{
+    const ss_rank_row *best = find_best(r);
+    if (r->verdict == SS_NAMED)
+        fprintf(out, "# answer: %s explains ", scene[best->scene]);
+    else
+        fprintf(out, "# answer: %s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell",
+                r->why);
+    if (r->verdict != SS_NAMED && !isnan(r->forcing_frequency))
+        fprintf(out, "; %s explains most, ", scene[best->scene]);
+    if (!isnan(r->forcing_frequency))
+        write_explained(out, best->explained);
+    fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
+}
+
+/* "# key: name number, name number" of the criteria from the first up to the last, without it. */
+static void
+write_criteria(FILE *out, const char *key, int first, int last, const ss_ranking *values)
+{
+    char text[SS_NUMBER_MAX];
+    fprintf(out, "# %s:", key);
+    for (int i = first; i < last; i++) {
+        double x = values != NULL ? values->value[i] : ss_criterion_rules[i].threshold;
+        fprintf(out, "%s %s %s", i > first ? "," : "", ss_criterion_rules[i].name,
+                ss_number_rounded(text, x, DIGITS));
+    }
+    fputc('\n', out);
+}
+
+static void
+write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const ss_rank_opts *opts)
+{
+    char text[SS_NUMBER_MAX];
+    fprintf(out, "# signal_name: %s\n", about->signal);
+    fprintf(out, "# spread: %s\n", ss_number_rounded(text, 100 * opts->spread, DIGITS));
+    fprintf(out, "# column: %s\n", about->column);
+    fprintf(out, "# quantity: %s (%s)\n", ss_quantity_names[opts->quantity], about->known_by);
+    fprintf(out, "# forcing_frequency: %s\n", ss_number_rounded(text, r->forcing_frequency, DIGITS));
+    write_criteria(out, "thresholds", 0, SS_CRITERIA, NULL);
+    write_criteria(out, "signal", SS_BY_MAXIMUM, SS_BY_MAP, r);
+    fprintf(out, "# noise: %s %% of the power, at most\n",
+            ss_number_rounded(text, 100 * r->noise, DIGITS));
+    write_answer(out, r, about->scene);
+}
+
+/* Where a threshold 20 % lower or higher changes the order, the order that it gives. */
+static void
+write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *order)
+{
+    static const double factor[] = { 0.8, 1.2 };
+    char text[SS_NUMBER_MAX];
+    int changes = 0;
+    for (int i = 0; i < SS_CRITERIA; i++)
+        for (size_t k = 0; k < 2; k++) {
+            if (!ss_ranking_order(r, (ss_criterion)i, factor[k], order))
+                continue;
+            changes++;
+            fprintf(out, "# order with %s x %s:", ss_criterion_rules[i].name,
+                    ss_number_rounded(text, factor[k], 2));
+            for (size_t j = 0; j < r->n; j++)
+                fprintf(out, " %s", scene[r->row[order[j]].scene]);
+            fputc('\n', out);
+        }
+    if (changes == 0)
+        fputs("# order: the same with any threshold 20 % lower or higher\n", out);
+}
+
+/* --- rows ---------------------------------------------------------------------------------- */
+
+/* The unit of a criterion stands as it is, "slope/dB/octave": readers divide at the first bar. */
+static void
+write_columns(struct rows *rows)
+{
+    char label[64];
+    ss_rows_column(rows, "rank", "");
+    ss_rows_column(rows, "scene", "");
+    ss_rows_column(rows, "total", "");
+    for (int i = 0; i < SS_CRITERIA; i++) {
+        const ss_criterion_rule *rule = &ss_criterion_rules[i];
+        snprintf(label, sizeof label, "%s%s%s", rule->name, *rule->unit ? "/" : "", rule->unit);
+        ss_rows_column(rows, label, "");
+        snprintf(label, sizeof label, "%s_score", rule->name);
+        ss_rows_column(rows, label, "");
+    }
+    ss_rows_end(rows);
+}
+
+static void
+write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene)
+{
+    const ss_rank_row *row = &r->row[i];
+    int compared = !isnan(r->forcing_frequency);
+    if (r->verdict == SS_NAMED)
+        ss_rows_count(rows, i + 1);
+    else
+        ss_rows_number(rows, NAN);
+    ss_rows_word(rows, scene[row->scene]);
+    write_rounded(rows, compared ? row->total : NAN);
+    for (int k = 0; k < SS_CRITERIA; k++) {
+        write_rounded(rows, compared ? row->value[k] : NAN);
+        write_rounded(rows, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN);
+    }
+    ss_rows_end(rows);
+}
+
+ss_status
+ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const ss_rank_opts *opts,
+                 FILE *out, ss_format format)
+{
+    struct rows rows;
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    if (ranking == NULL || ranking->n == 0 || about == NULL || about->signal == NULL
+        || about->column == NULL || about->known_by == NULL || about->scene == NULL
+        || (unsigned)opts->quantity > SS_FORCE || out == NULL)
+        return SS_EINVAL;
+    size_t *order = calloc(ranking->n, sizeof *order);
+    if (order == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_rows_begin(&rows, out, format, "ranking");
+    if (st == SS_OK) {
+        if (rows.format->has_notes)
+            write_notes(out, ranking, about, opts);
+        if (rows.format->has_notes && !isnan(ranking->forcing_frequency))
+            write_orders(out, ranking, about->scene, order);
+        write_columns(&rows);
+        for (size_t i = 0; i < ranking->n; i++)
+            write_row(&rows, ranking, i, about->scene);
+        st = ss_output_flush(out);
+    }
+    free(order);
+    return st;
+}
