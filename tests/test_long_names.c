@@ -1,0 +1,299 @@
+/* test_long_names.c -- names of 10,000 letters wherever the library is given one: each call works or gives
+ * a status, and the text of an error is one line that ends within its room. */
+#include "store_file.h"
+#include "shipped.h"
+
+#include <ctype.h>
+
+enum { LETTERS = 10000, ROWS = 50 };
+static char longest[LETTERS + 1], control[LETTERS + 1];
+
+static int
+make_names(void **state)
+{
+    memset(longest, 'a', LETTERS);
+    for (size_t i = 0; i < LETTERS; i++)
+        control[i] = "\n\r\t\033\177%s"[i % 7];
+    return make_dir(state);
+}
+
+/* An error that was full of something else before the call. */
+static ss_error
+new_error(void)
+{
+    ss_error err;
+    memset(err.text, '\n', sizeof err.text);
+    return err;
+}
+
+/* The call that was given err either worked or said why not, in one printable line. */
+static void
+assert_told(ss_status status, const ss_error *err)
+{
+    if (status == SS_OK)
+        return;
+    const char *end = memchr(err->text, '\0', sizeof err->text);
+    assert_non_null(end);
+    assert_true(end > err->text);
+    for (const char *p = err->text; p < end; p++)
+        if (iscntrl((unsigned char)*p))
+            fail_msg("byte %d of a message is 0x%02x", (int)(p - err->text), (unsigned char)*p);
+}
+
+static void
+assert_fails(ss_status status, const ss_error *err)
+{
+    assert_int_not_equal(status, SS_OK);
+    assert_told(status, err);
+}
+
+/* Two columns, one with this name and unit, and notes with this key and value. */
+static ss_signal *
+signal_named(const char *name)
+{
+    ss_signal *signal = NULL;
+    ss_header *head = ss_header_new(10, 0);
+    assert_int_equal(ss_header_add_column(head, name, name), SS_OK);
+    assert_int_equal(ss_header_add_column(head, name, "m"), SS_OK);
+    ss_status keyed = ss_header_note(head, name, "value");
+    assert_true(keyed == SS_OK || keyed == SS_EINVAL);
+    assert_int_equal(ss_header_note(head, "scene", name), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, ROWS), SS_OK);
+    ss_header_free(head);
+    for (size_t i = 0; i < 2 * ROWS; i++)
+        signal->values[i] = sin((double)(i * i));
+    return signal;
+}
+
+static void
+assert_same_header(const ss_header *a, const ss_header *b)
+{
+    assert_int_equal(a->n_columns, b->n_columns);
+    for (size_t i = 0; i < a->n_columns; i++) {
+        assert_string_equal(a->column[i].name, b->column[i].name);
+        assert_string_equal(a->column[i].unit, b->column[i].unit);
+    }
+    assert_same_notes(a, b);
+}
+
+/* HDF5 may have no room for such a name; then it says so. */
+static void
+signals_keep_long_names_in_every_form(void **state)
+{
+    ss_signal *signal = signal_named(longest), *back = NULL;
+    (void)state;
+    assert_int_equal(strlen(signal->head->column[0].name), LETTERS);
+    assert_string_equal(ss_header_find_note(signal->head, longest), "value");
+    assert_int_equal(ss_header_column(signal->head, longest), 0);
+    for (int format = SS_TSV; format <= SS_AU; format++) {
+        FILE *file = tmpfile();
+        assert_int_equal(ss_signal_write(signal, file, (ss_format)format, NULL), SS_OK);
+        rewind(file);
+        assert_int_equal(ss_signal_read(&back, file, "in", NULL, NULL), SS_OK);
+        assert_same_header(signal->head, back->head);
+        ss_signal_free(back);
+        fclose(file);
+    }
+    ss_error err = new_error();
+    ss_status st = ss_store_write(path, &(ss_record){ .signal = signal }, &err);
+    assert_told(st, &err);
+    if (st == SS_OK) {
+        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+        assert_same_header(signal->head, back->head);
+        ss_signal_free(back);
+    }
+    ss_signal_free(signal);
+}
+
+static void
+signals_with_long_names_are_drawn(void **state)
+{
+    const char *const name[] = { longest, control };
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        ss_signal *signal = signal_named(name[i]);
+        ss_coefficients *c = transform(signal, 0);
+        ss_plot_opts titled = ss_plot_defaults, opts = ss_plot_defaults, output = ss_plot_defaults;
+        ss_contour_opts contour = ss_contour_defaults;
+        FILE *out = tmpfile();
+        ss_error err = new_error();
+        titled.title = name[i];
+        contour.signal = signal;
+        assert_int_equal(ss_plot_signal(out, signal, NULL, 0, &opts, NULL), SS_OK);
+        assert_int_equal(ss_plot_signal(out, signal, NULL, 0, &titled, NULL), SS_OK);
+        assert_int_equal(ss_plot_xy(out, signal, 0, 1, &titled, NULL), SS_OK);
+        assert_told(ss_plot_contour(out, c, &contour, &titled, &err), &err);
+        output.output = name[i];
+        assert_fails(ss_plot_signal(out, signal, NULL, 0, &output, &err), &err);
+        output.format = name[i];
+        assert_fails(ss_plot_signal(out, signal, NULL, 0, &output, &err), &err);
+        ss_coefficients_free(c);
+        ss_signal_free(signal);
+        fclose(out);
+    }
+}
+
+static void
+paths_of_10000_letters_are_refused(void **state)
+{
+    const char *const name[] = { longest, control };
+    ss_signal *signal = signal_named("x"), *read = NULL;
+    ss_coefficients *c = NULL;
+    ss_store_reader *reader = NULL;
+    ss_scene scene;
+    (void)state;
+    assert_int_equal(ss_store_write(path, &(ss_record){ .signal = signal }, NULL), SS_OK);
+    for (int i = 0; i < 2; i++) {
+        ss_error err = new_error();
+        assert_fails(ss_signal_load(&read, name[i], NULL, &err), &err);
+        assert_fails(ss_store_read_signal(&read, name[i], NULL, NULL, &err), &err);
+        assert_fails(ss_store_read_signal(&read, path, name[i], NULL, &err), &err);
+        assert_fails(ss_store_read_coefficients(&c, name[i], &err), &err);
+        assert_fails(ss_store_reader_new(&reader, name[i], &err), &err);
+        assert_fails(ss_store_write(name[i], &(ss_record){ .signal = signal }, &err), &err);
+        assert_fails(ss_scene_load(&scene, name[i], NULL, 0, &err), &err);
+        assert_false(ss_store_is_hdf5(name[i]));
+        assert_false(ss_store_has_signal(name[i]));
+    }
+    ss_signal_free(signal);
+}
+
+/* Names of files in messages, and text that is one long word. */
+static void
+readers_stand_long_words_in_files_of_long_names(void **state)
+{
+    const char *const name[] = { longest, control };
+    static const char *const before[] = { "", "# stickslip signal 1\n# columns: ", "# stickslip sweep 1\n# columns: ",
+        "# stickslip features 1\n", "# stickslip events 1\n", "# stickslip coefficients 1\n# ", "mass = ",
+        "# stickslip sweep 1\n# vary: ", "t," };
+    (void)state;
+    for (size_t i = 0; i < 2 * sizeof before / sizeof *before; i++) {
+        FILE *in = tmpfile();
+        const char *word = name[i % 2];
+        ss_scene scene;
+        ss_signal *signal = NULL;
+        ss_coefficients *c = NULL;
+        ss_sweep_table *sweep = NULL;
+        ss_table *table = NULL;
+        ss_overlay *overlay = NULL;
+        double *time = NULL;
+        size_t n;
+        ss_error err = new_error();
+        fprintf(in, "%s%s\n%s\n", before[i / 2], word, word);
+        rewind(in);
+        assert_fails(ss_scene_read(&scene, in, word, &err), &err);
+        rewind(in);
+        assert_told(ss_signal_read(&signal, in, word, NULL, &err), &err);
+        rewind(in);
+        assert_fails(ss_coefficients_read(&c, in, word, &err), &err);
+        rewind(in);
+        assert_told(ss_sweep_read(&sweep, in, word, &err), &err);
+        rewind(in);
+        assert_fails(ss_table_read(&table, in, word, word, &err), &err);
+        rewind(in);
+        assert_told(ss_overlay_read(&overlay, in, word, &err), &err);
+        rewind(in);
+        assert_told(ss_event_times_read(&time, &n, in, word, &err), &err);
+        rewind(in);
+        assert_fails(ss_wisdom_read(in, &err), &err);
+        ss_signal_free(signal);
+        ss_sweep_table_free(sweep);
+        ss_overlay_free(overlay);
+        free(time);
+        fclose(in);
+    }
+}
+
+static void
+keys_and_options_of_10000_letters_are_refused(void **state)
+{
+    const char *const name[] = { longest, control };
+    ss_signal *signal = signal_named("x"), *read = NULL;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char setting[LETTERS + 20];
+        const char *const set[] = { setting };
+        ss_scene scene = read_shipped_named("coulomb");
+        ss_sim_opts sim = ss_sim_defaults;
+        ss_steady steady;
+        ss_steady_opts opts = ss_steady_defaults;
+        ss_read_opts timed = { .time = name[i] };
+        ss_axis axis;
+        ss_format format;
+        ss_error err = new_error();
+        assert_null(ss_scene_number(&scene, name[i], NULL, &err));
+        assert_told(SS_EINVAL, &err);
+        snprintf(setting, sizeof setting, "%s=1", name[i]);
+        assert_fails(ss_scene_load(&scene, "coulomb", set, 1, &err), &err);
+        snprintf(setting, sizeof setting, "mass=%s", name[i]);
+        assert_fails(ss_scene_load(&scene, "coulomb", set, 1, &err), &err);
+        snprintf(setting, sizeof setting, "model=%s", name[i]);
+        assert_fails(ss_scene_load(&scene, "coulomb", set, 1, &err), &err);
+        snprintf(setting, sizeof setting, "%s=1:2:3", name[i]);
+        assert_fails(ss_axis_parse(&axis, setting, &err), &err);
+        assert_fails(ss_axis_parse(&axis, name[i], &err), &err);
+        sim.method = name[i];
+        assert_fails(ss_sim_run(&scene, &sim, NULL, &err), &err);
+        opts.method = name[i];
+        assert_fails(ss_steady_find(&steady, &scene, &opts, &err), &err);
+        assert_int_equal(ss_header_column(signal->head, name[i]), -1);
+        assert_null(ss_header_find_note(signal->head, name[i]));
+        assert_false(ss_format_find(&format, name[i]));
+        FILE *in = tmpfile();
+        fputs("t,x\n0,1\n1,2\n", in);
+        rewind(in);
+        assert_fails(ss_signal_read(&read, in, "in", &timed, &err), &err);
+        fclose(in);
+    }
+    ss_signal_free(signal);
+}
+
+/* A sweep of a scene of such a name, and a map of columns of such names. */
+static void
+sweeps_keep_long_names(void **state)
+{
+    (void)state;
+    const ss_scene scene = read_shipped_named("coulomb");
+    const ss_measure measure[] = { SS_AMPLITUDE };
+    ss_axis axis;
+    assert_int_equal(ss_axis_parse(&axis, "mass=1:2:2", NULL), SS_OK);
+    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = &axis, .n_axes = 1, .shards = 1,
+                           .threads = 1 };
+    char *header = NULL;
+    opts.steady.measures = 1u << SS_AMPLITUDE;
+    ss_status st = ss_sweep_header(&header, &(ss_sweep_text){ longest, &scene, &opts, measure, 1, SS_TSV });
+    assert_int_equal(st, SS_OK);
+    assert_non_null(strstr(header, longest));
+    free(header);
+    FILE *in = tmpfile(), *out = tmpfile();
+    fprintf(in, "# stickslip sweep 1\n# scene: %s\n# columns: index %s/%s y/m z%s status\n", longest, longest,
+            longest, longest);
+    for (int i = 0; i < 4; i++)
+        fprintf(in, "%d\t%d\t%d\t%d\tok\n", i, i / 2, i % 2, i * i);
+    rewind(in);
+    ss_sweep_table *table = NULL;
+    ss_error err = new_error();
+    if (ss_sweep_read(&table, in, "in", &err) != SS_OK)
+        fail_msg("%.300s", err.text);
+    assert_string_equal(table->scene, longest);
+    assert_string_equal(table->name[1], longest);
+    const ss_map_opts map = { .x = 1, .y = 2, .z = { 3 }, .n_z = 1 };
+    assert_int_equal(ss_plot_map(out, table, &map, &ss_plot_defaults, &err), SS_OK);
+    ss_sweep_table_free(table);
+    fclose(in);
+    fclose(out);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(signals_keep_long_names_in_every_form),
+        cmocka_unit_test(signals_with_long_names_are_drawn),
+        cmocka_unit_test(paths_of_10000_letters_are_refused),
+        cmocka_unit_test(readers_stand_long_words_in_files_of_long_names),
+        cmocka_unit_test(keys_and_options_of_10000_letters_are_refused),
+        cmocka_unit_test(sweeps_keep_long_names),
+    };
+    return cmocka_run_group_tests_name("long names", tests, make_names, remove_dir);
+}
