@@ -46,7 +46,7 @@ find_clearest(row *best, const row_source *source, size_t rows, ss_error *err)
 
 /* The peaks of the row above the threshold, those within range. */
 static ss_status
-take(ss_bursts *found, row *r, double threshold, double range)
+collect_bursts(ss_bursts *found, row *r, double threshold, double range)
 {
     size_t n = 0;
     if (r->n > 1)
@@ -91,8 +91,9 @@ ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, const ss
         return SS_ENOMEM;
     st = find_clearest(&best, &source, rows, err);
     if (st == SS_OK)
-        st = take(found, &best, ss_row_threshold(length, shortest, rows,
-                                                 ss_spike_defaults.false_alarms), opts->range);
+        st = collect_bursts(found, &best,
+                            ss_row_threshold(length, shortest, rows, ss_spike_defaults.false_alarms),
+                            opts->range);
     free(best.peak);
     if (st != SS_OK) {
         ss_bursts_free(found);

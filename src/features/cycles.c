@@ -1,18 +1,19 @@
 /* cycles.c -- whether a signal repeats itself from cycle to cycle, and how regularly.
  *
  * The autocorrelation of the whole record (period.c) proposes a period; it has no honest error, as
- * it knows nothing of the single cycles, and it also has peaks where nothing repeats.  So each cycle
+ * it does not see the single cycles, and it also has peaks where nothing repeats.  So each cycle
  * is compared with the next: the lag at which their difference is least (de Cheveigne and Kawahara
  * 2002) is the period of that cycle.  Unlike the peak of a correlation it has no bias from the
  * length of the window, and is exact where the signal is periodic.  The median of the cycles'
  * frequencies is the answer, so that ramps at the ends of a record do not move it.
  *
  * Its standard error is a sum in quadrature of three:
- * - the scatter of the cycles, by its median where they are many, over the root of their number, of independent ones: neighbours that
- *   are correlated by rho count (1 - rho) / (1 + rho); with Student's factor where they are few;
- * - of drift of the waveform: what changes from cycle to cycle, and twice as much over two cycles, is
- *   no noise.  It may shift the lag by its rms over that of the derivative, in every cycle alike;
- * - of the interpolation between samples, from the vertices of two parabolas.
+ * - the scatter of the cycles, by its median where they are many, over the root of the number of
+ *   independent ones: neighbours that are correlated by rho count (1 - rho) / (1 + rho); Student's
+ *   factor is applied where they are few;
+ * - the drift of the waveform: a change from cycle to cycle that doubles over two cycles is no noise.
+ *   It may shift the lag of every cycle alike, by its rms over the rms of the derivative;
+ * - the error of the interpolation between samples, from the vertices of two parabolas.
  *
  * A signal does not repeat itself
  * - if the median cycle explains less of the variance of the next than asked for;
@@ -249,7 +250,7 @@ overtones(const double *x, size_t n, double period)
     return power > 0 ? fmax(0, 1 - 2 * (c * c + s * s) / ((double)n * power)) : 0;
 }
 
-/* Correlation of neighbours; 0 where they are too few to tell. */
+/* Correlation of neighbours; 0 where there are too few of them. */
 static double
 neighbours(const double *v, size_t n, double mean, double variance)
 {
@@ -323,7 +324,7 @@ judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cyc
 }
 
 static ss_status
-look(const double *x, size_t n, double period, double likeness, ss_cycles *out)
+find_at(const double *x, size_t n, double period, double likeness, ss_cycles *out)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
@@ -373,5 +374,5 @@ ss_cycles_find(const double *x, size_t n, double likeness, ss_cycles *out)
         out->why = "no cycle resembles the next one";
         return SS_OK;
     }
-    return look(x, n, start.value, likeness, out);
+    return find_at(x, n, start.value, likeness, out);
 }

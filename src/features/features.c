@@ -72,7 +72,7 @@ drop_noise(search *s)
     s->n_found = kept;
 }
 
-/* Those above the threshold are what is reported. */
+/* Only maxima above the threshold are reported. */
 static ss_status
 keep_prominent(search *s)
 {
@@ -85,7 +85,7 @@ keep_prominent(search *s)
     return SS_OK;
 }
 
-/* --- what transitions have in common --------------------------------------------------------- */
+/* --- values that transitions have in common -------------------------------------------------- */
 
 /* How many transitions a second, by the mean of the times between them; a gap between two may hide
  * more. */
@@ -135,7 +135,7 @@ forget_ringing(ss_features *out)
     out->why_ringing = "the slips are not known";
 }
 
-/* What is sharp does not repeat with the cycle.  A cycle of dry friction has a slip all the same: one,
+/* Sharp events do not repeat with the cycle.  A cycle of dry friction has a slip all the same: one,
  * unless its second half mirrors the first, as then it has as many either way; a sinusoid need not
  * have any. */
 static void
@@ -215,7 +215,7 @@ find_stiffness(ss_features *out, double m, double k)
         out->contact_stiffness = (ss_value){ total - k, out->total_stiffness.error };
 }
 
-/* The other route to the contact's stiffness, over what was fitted. */
+/* The contact's stiffness found the other way, over the fitted spans. */
 static ss_status
 find_slope(search *s)
 {
@@ -245,15 +245,15 @@ find_slope(search *s)
 #define FITTED 0.9
 
 static ss_status
-come_to(const search *s, double part)
+report_progress(const search *s, double part)
 {
     return ss_progress_at(&s->opts->progress, part);
 }
 
 static int
-transformed(double done, void *user)
+report_transform(double done, void *user)
 {
-    return come_to(user, TRANSFORMED * done) != SS_OK;
+    return report_progress(user, TRANSFORMED * done) != SS_OK;
 }
 
 /* From the lowest usable frequency on; SS_ESCALE where there is none. */
@@ -267,7 +267,7 @@ transform(search *s, size_t column, ss_error *err)
     opts.norm = s->opts->norm;
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
-    opts.progress = (ss_progress){ transformed, s };
+    opts.progress = (ss_progress){ report_transform, s };
     if (s->n_gaps == 0)
         return ss_morlet_transform(&s->coef, s->signal, column, &opts, err);
     ss_signal *bridged = NULL;          /* zeros in a gap are steep */
@@ -319,9 +319,9 @@ find_all(search *s)
     sharp.gap = s->gap;
     sharp.n_gaps = s->n_gaps;
     if ((st = ss_spikes_find(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL)) != SS_OK
-        || (st = find_maxima(s)) != SS_OK || (st = come_to(s, FLOODED)) != SS_OK)
+        || (st = find_maxima(s)) != SS_OK || (st = report_progress(s, FLOODED)) != SS_OK)
         return st;
-    if ((st = ss_transitions_find(s)) != SS_OK || (st = come_to(s, FITTED)) != SS_OK)
+    if ((st = ss_transitions_find(s)) != SS_OK || (st = report_progress(s, FITTED)) != SS_OK)
         return st;
     find_slip_rate(s);
     find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
@@ -384,7 +384,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
     }
     ss_gaps_bridge(s.x, s.n, s.rate, s.gap, s.n_gaps);
-    s.quantity = ss_quantity_of(&signal->head->column[column]);
+    s.quantity = ss_column_quantity(&signal->head->column[column]);
     s.out->slips = (ss_value){ 0, NAN };
     s.out->slip_rate = s.out->repetition_frequency = s.out->frequency_raw = s.out->frequency
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness

@@ -5,7 +5,7 @@
  * cycle, whose second half mirrors the first, belongs to motion to and fro: it breaks away once after
  * each reversal, and whatever chatters until the next one is of the same slip.
  *
- * Falls need a height (drops.c), else they are not told from the noise.  Reversals are counted with a
+ * Falls need a height (drops.c) that separates them from the noise.  Reversals are counted with a
  * hysteresis of half the level at which the force stays, so that ramps in which nothing breaks away
  * are none. */
 #include "features/force.h"
@@ -50,8 +50,8 @@ set_falls(search *s, const ss_drop *drop, size_t n)
     return st;
 }
 
-/* Without the column's name, falls must be quicker than what loads them, as slips are: by the sign
- * test at three standard deviations. */
+/* If neither name nor unit says that the column is a force, falls must be quicker than their rises, as
+ * slips are: the sign test decides at three standard deviations. */
 static int
 falls_are_quick(const ss_drop *drop, size_t n)
 {
@@ -98,7 +98,7 @@ find_typical_falls(search *s, const double *x, int *decided)
 
 /* --- reversals ------------------------------------------------------------------------------- */
 
-/* The level at which the force stays: the median of what is above half of its largest. */
+/* The level at which the force stays: the median of the samples above half of the largest. */
 static double
 level_of(const double *x, size_t n, double *copy)
 {

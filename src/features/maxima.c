@@ -9,7 +9,7 @@
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
  * where the map was cut, not a maximum; it is not reported, but it is higher ground for others.  So
- * is what gaps reach: a map cut there would make islands of what lies between. */
+ * are places within the reach of gaps: a map cut there would fall apart into islands. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

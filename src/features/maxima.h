@@ -4,7 +4,7 @@
 
 #include <stickslip/features.h>
 
-/* ss_maxima_find without what is not above floor, a |W| >= 0: a saddle there counts as one at floor. */
+/* ss_maxima_find of the map above floor, a |W| >= 0: a lower saddle counts as one at floor. */
 ss_status ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                           double min_prominence, double floor);
 

@@ -1,8 +1,8 @@
 /* quantity.c -- the physical quantity of a column, by its unit or its name.
  *
- * A slip is a fall in a force and not in a displacement, and no shape of a signal tells them apart
- * for certain.  So the words are read that people write above columns; what they do not tell is
- * unknown. */
+ * A slip is a fall in a force and not in a displacement, and the shape of a signal does not
+ * separate them for certain.  So the quantity follows from the words that people write above columns;
+ * without such words it is unknown. */
 #include "features/quantity.h"
 
 #include <ctype.h>
@@ -44,8 +44,8 @@ has_word(const char *name, const char *const *list)
     return 0;
 }
 
-ss_quantity
-ss_quantity_of(const ss_column *column)
+column_quantity
+ss_column_quantity(const ss_column *column)
 {
     for (const char *const *unit = force_units; *unit != NULL; unit++)
         if (strcmp(*unit, column->unit) == 0)

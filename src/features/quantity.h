@@ -4,10 +4,10 @@
 
 #include <stickslip/signal.h>
 
-typedef enum ss_quantity {
+typedef enum column_quantity {
     QUANTITY_UNKNOWN, QUANTITY_FORCE, QUANTITY_MOTION   /* displacement, velocity or acceleration */
-} ss_quantity;
+} column_quantity;
 
-ss_quantity ss_quantity_of(const ss_column *column);
+column_quantity ss_column_quantity(const ss_column *column);
 
 #endif

@@ -26,7 +26,7 @@
 
 /* In periods of the oscillation. */
 #define CORE 1.25               /* fits into a stick of two wherever that lies */
-#define LEAST 2.0               /* shorter ones cannot tell oscillation, line and decay apart */
+#define LEAST 2.0               /* shorter ones cannot separate oscillation, line and decay */
 #define MOST 16.0               /* longer ones know no more, as the oscillation has decayed */
 #define BLOCK 0.125             /* a step of growth */
 #define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
@@ -40,7 +40,7 @@
 #define MISFIT 1e-3             /* of the oscillation's amplitude: passes for noise */
 #define LATEST 32.0             /* behind a window, see rings_on */
 #define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
-#define LASTS 0.15              /* of its amplitude at its end: what is gone rang no two periods */
+#define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
 #define APART 3.0               /* periods a transition, or half-cycle of the base: two and a slip */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
@@ -48,25 +48,25 @@
 enum { FEW = 4 };               /* windows that a jackknife needs */
 enum { PLACES = 16 };           /* of the core, a period */
 
-typedef struct work {
+typedef struct fitter {
     varpro fit;
     size_t n;                   /* samples */
     double noise;               /* variance */
     double *limit;              /* see belong; 0: not known yet */
     size_t n_gaps;
     const ss_window *gap;
-} work;
+} fitter;
 
 static const ss_value nothing = { NAN, NAN };
 
 static double
-period(const work *k)
+period(const fitter *k)
 {
     return 2 * M_PI / k->fit.w;
 }
 
 static size_t
-periods(const work *k, double n)
+periods(const fitter *k, double n)
 {
     return (size_t)ceil(n * period(k));
 }
@@ -76,7 +76,7 @@ periods(const work *k, double n)
 /* What of the sum of squares the noise makes: its median over the windows, robust to those that
  * hold something else; not less than the misfit allowed for. */
 static ss_status
-find_noise(work *k, const ss_window *window, size_t n)
+find_noise(fitter *k, const ss_window *window, size_t n)
 {
     double *variance = malloc(2 * n * sizeof *variance);
     size_t used = 0;
@@ -100,7 +100,7 @@ find_noise(work *k, const ss_window *window, size_t n)
 
 /* How many gaps begin before sample i. */
 static size_t
-gaps_before(const work *k, size_t i)
+gaps_before(const fitter *k, size_t i)
 {
     size_t lo = 0, hi = k->n_gaps;
     while (lo < hi) {
@@ -114,7 +114,7 @@ gaps_before(const work *k, size_t i)
 }
 
 static int
-has_gap(const work *k, ss_window win)
+has_gap(const fitter *k, ss_window win)
 {
     size_t g = gaps_before(k, win.end);
     return g > 0 && k->gap[g - 1].end > win.first;
@@ -123,7 +123,7 @@ has_gap(const work *k, ss_window win)
 /* The window of so many periods about an anchor where the line and the oscillation leave least,
  * among the places where there is at least a quarter of the most oscillation. */
 static ss_window
-place(work *k, size_t anchor, double size_in_periods)
+place(fitter *k, size_t anchor, double size_in_periods)
 {
     size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1);
@@ -149,7 +149,7 @@ place(work *k, size_t anchor, double size_in_periods)
 
 /* Do the q samples that raise the sum of squares by rise belong to the stick? */
 static int
-belong(work *k, double rise, size_t q)
+belong(fitter *k, double rise, size_t q)
 {
     if (!(k->limit[q] > 0))
         k->limit[q] = gsl_cdf_chisq_Qinv(CHANCE, (double)q);
@@ -158,7 +158,7 @@ belong(work *k, double rise, size_t q)
 
 /* Move one end of the window outwards, in steps down to one sample, at most room samples. */
 static ss_window
-grow(work *k, ss_window win, size_t room, int backwards)
+grow(fitter *k, ss_window win, size_t room, int backwards)
 {
     double start = ss_varpro_project(&k->fit, win).rss, rss = start;
     size_t added = 0;
@@ -180,7 +180,7 @@ grow(work *k, ss_window win, size_t room, int backwards)
 }
 
 static ss_window
-grow_both(work *k, ss_window core, size_t low, size_t high, size_t longest)
+grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
 {
     if (ss_window_length(core) >= longest)
         return core;
@@ -206,7 +206,7 @@ typedef struct score {
 
 /* Add a window's at the places first, first + step, ... */
 static void
-add_scores(work *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
+add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
 {
     size_t n = ss_window_length(win);
     double **j = k->fit.j;
@@ -221,7 +221,7 @@ add_scores(work *k, ss_window win, size_t first, size_t step, size_t n_places, s
                 j[3][i] = fitted.b * c - fitted.a * s;
             }
             for (int p = 2; p < PARAMETERS; p++)
-                ss_varpro_take_out(&k->fit, j[p], n);
+                ss_varpro_project_out(&k->fit, j[p], n);
         }
         for (int p = 0; p < used; p++) {
             for (int q = 0; q < used; q++)
@@ -249,7 +249,7 @@ statistic(score *at)
 
 /* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
 static ss_status
-find_break(work *k, const ss_window *window, size_t n, size_t *at)
+find_break(fitter *k, const ss_window *window, size_t n, size_t *at)
 {
     size_t step = periods(k, BLOCK), longest = 0;
     for (size_t i = 0; i < n; i++)
@@ -278,7 +278,7 @@ find_break(work *k, const ss_window *window, size_t n, size_t *at)
 
 /* Empty the window whose gain, taken by itself, changes most at a place. */
 static void
-drop_worst(work *k, ss_window *window, size_t n, size_t at)
+drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
 {
     size_t worst = n;
     double most = 0;
@@ -299,7 +299,7 @@ drop_worst(work *k, ss_window *window, size_t n, size_t at)
 
 /* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
 static ss_window
-cut(const work *k, ss_window win, size_t longest)
+cut(const fitter *k, ss_window win, size_t longest)
 {
     size_t least = periods(k, LEAST), end = periods(k, TRIM_END);
     if (ss_window_length(win) <= longest)
@@ -311,7 +311,7 @@ cut(const work *k, ss_window win, size_t longest)
 
 /* Keep off both ends as growth found them. */
 static ss_window
-trim(const work *k, ss_window win)
+trim(const fitter *k, ss_window win)
 {
     size_t least = periods(k, LEAST), start = periods(k, TRIM_START);
     if (ss_window_length(win) < least)
@@ -323,7 +323,7 @@ trim(const work *k, ss_window win)
 
 /* Windows about the cores, as the w, s and noise at hand show them. */
 static void
-find_windows(work *k, const ss_window *core, ss_window *window, size_t n, size_t limit)
+find_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit)
 {
     for (size_t i = 0; i < n; i++) {
         size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
@@ -338,13 +338,13 @@ find_windows(work *k, const ss_window *core, ss_window *window, size_t n, size_t
     }
 }
 
-/* --- what goes on behind the windows ------------------------------------------------------- */
+/* --- oscillations that go on behind the windows -------------------------------------------- */
 
 /* So many periods behind the window, in one of the least length and before limit: is there an
  * oscillation of this frequency, of more than twice the amplitude that the fit leaves it?  -1: that
  * cannot be looked at. */
 static int
-rings_behind(work *k, ss_window win, double late_by, size_t limit)
+rings_behind(fitter *k, ss_window win, double late_by, size_t limit)
 {
     size_t first = win.end + periods(k, late_by);
     ss_window late = { first, first + periods(k, LEAST) };
@@ -363,7 +363,7 @@ rings_behind(work *k, ss_window win, double late_by, size_t limit)
  * it; a hum goes on, too.  So all windows are looked behind at growing distances; more than half of
  * them decide. */
 static int
-rings_on(work *k, const ss_window *window, size_t n)
+rings_on(fitter *k, const ss_window *window, size_t n)
 {
     for (double late_by = 2; late_by <= LATEST; late_by *= 2) {
         size_t seen = 0, on = 0, limit = k->n;
@@ -387,7 +387,7 @@ typedef struct normal {
 } normal;
 
 static normal
-normal_of(work *k, ss_window win)
+normal_of(fitter *k, ss_window win)
 {
     size_t n = ss_window_length(win);
     const double *j_w = k->fit.j[0], *j_s = k->fit.j[1], *r = k->fit.r;
@@ -407,7 +407,7 @@ errors_of_fit(const normal *h, double variance, ss_value value[2])
 
 /* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i. */
 static ss_status
-jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
+jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     normal *each = malloc(n * sizeof *each), all = { 0 };
     double moved[2] = { 0, 0 }, mean[2] = { 0, 0 };
@@ -445,7 +445,7 @@ jackknife(work *k, const ss_window *window, size_t n, ss_value value[2])
 /* The variances of w and s from the curvature of the sum of squares of all windows; *variance: of
  * the samples, found if it is not known (negative). */
 static void
-variances(work *k, const ss_window *window, size_t n, double *variance, double of[2])
+variances(fitter *k, const ss_window *window, size_t n, double *variance, double of[2])
 {
     normal all = { 0 };
     ss_value value[2];
@@ -469,7 +469,7 @@ variances(work *k, const ss_window *window, size_t n, double *variance, double o
  * what noise moves them by: its variance is that of the cut fit less that of the whole (Hausman
  * 1978). */
 static ss_status
-add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
+add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     const double at[2] = { k->fit.w, k->fit.s };
     double most[2] = { 0, 0 }, whole[2], less[2], variance = -1;
@@ -503,11 +503,11 @@ add_misfit(work *k, const ss_window *window, size_t n, ss_value value[2])
     return st;
 }
 
-/* What is left beyond white noise is not of the model: it may lie in the band of the oscillation, where
- * all of its energy in a window tells on the fit, not the share that white noise has there.  The fit
- * is no finer than its tolerance, either. */
+/* A residual above the white noise is no part of the model.  It may lie in the band of the oscillation:
+ * then all of its energy in a window disturbs the fit, not only the share that white noise has there.
+ * Nor is the fit finer than its tolerance. */
 static void
-add_colour(work *k, const ss_window *window, size_t n, double white, ss_value value[2])
+add_colour(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2])
 {
     double variance = -1, unused[2];
     size_t used = 0, samples = ss_window_total(window, n);
@@ -531,7 +531,7 @@ add_colour(work *k, const ss_window *window, size_t n, double white, ss_value va
 /* --- each transition by itself ------------------------------------------------------------- */
 
 static ss_status
-fit_one(work *k, ss_window win, ss_value each[2], linear *fitted)
+fit_one(fitter *k, ss_window win, ss_value each[2], linear *fitted)
 {
     int ok;
     double w = k->fit.w, s = k->fit.s;
@@ -548,7 +548,7 @@ fit_one(work *k, ss_window win, ss_value each[2], linear *fitted)
 }
 
 static ss_status
-fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
+fit_each(fitter *k, const ss_window *window, size_t n, ss_value *each)
 {
     linear fitted;
     ss_status st = SS_OK;
@@ -560,7 +560,7 @@ fit_each(work *k, const ss_window *window, size_t n, ss_value *each)
 
 /* Windows of the least length, each fitted by itself and kept if the oscillation explains it well. */
 static ss_status
-fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
+fit_rough(fitter *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
 {
     ss_status st = SS_OK;
     for (size_t i = 0; i < n && st == SS_OK; i++) {
@@ -580,11 +580,11 @@ fit_rough(work *k, const size_t *anchor, size_t n, ss_window *window, ss_value *
     return st;
 }
 
-/* The median of those fitted one by one, from their scatter.  What is left of the windows may lie in
+/* The median of the single fits, and its error from their scatter.  The residual of a window may lie in
  * the band of the oscillation, which moves a fit by the root of half the samples of a window more than
  * white noise would.  Where the fits do not scatter by that, they may all be moved alike. */
 static ss_status
-take_median(const ss_window *window, size_t n, const ss_value *each, ss_value value[2])
+median_of_fits(const ss_window *window, size_t n, const ss_value *each, ss_value value[2])
 {
     double *v = malloc((n + 1) * sizeof *v);
     if (v == NULL)
@@ -617,7 +617,7 @@ take_median(const ss_window *window, size_t n, const ss_value *each, ss_value va
 /* --- all of it ----------------------------------------------------------------------------- */
 
 static ss_status
-fit_all(work *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
+fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
 {
     double start = k->fit.w;
@@ -684,7 +684,7 @@ clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_v
 }
 
 static ss_status
-fit_with(work *k, const size_t *anchor, size_t n, double white, ss_window *window,
+fit_with(fitter *k, const size_t *anchor, size_t n, double white, ss_window *window,
          ss_value value[2], ss_value *each)
 {
     ss_window *core = malloc((n + 1) * sizeof *core);
@@ -698,7 +698,7 @@ fit_with(work *k, const size_t *anchor, size_t n, double white, ss_window *windo
 
 /* With either slow part; the one whose w is known better is kept. */
 static ss_status
-fit_both(work *k, const size_t *anchor, size_t n, double white, ss_window *window,
+fit_both(fitter *k, const size_t *anchor, size_t n, double white, ss_window *window,
          ss_value value[2], ss_value *each, double forcing)
 {
     double w = k->fit.w;
@@ -728,14 +728,14 @@ ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, size_t n_a
                      const ss_window *gap, size_t n_gaps, ss_window *window, ss_value value[2],
                      ss_value *each)
 {
-    work k = { .n = n, .n_gaps = n_gaps, .gap = gap };
+    fitter k = { .n = n, .n_gaps = n_gaps, .gap = gap };
     clear(anchor, n_anchors, window, value, each);
     ss_status st = ss_varpro_init(&k.fit, x, (size_t)ceil(4 * LEAST * M_PI / w) + 2 * VARPRO_COLUMNS);
     ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
         st = fit_rough(&k, anchor, n_anchors, window, each);
     if (st == SS_OK)
-        st = take_median(window, n_anchors, each, value);
+        st = median_of_fits(window, n_anchors, each, value);
     ss_varpro_free(&k.fit);
     return st;
 }
@@ -745,7 +745,7 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
                 double forcing, double white, const ss_window *gap, size_t n_gaps,
                 ss_window *window, ss_value value[2], ss_value *each)
 {
-    work k = { .n = n, .n_gaps = n_gaps, .gap = gap };
+    fitter k = { .n = n, .n_gaps = n_gaps, .gap = gap };
     const double turn = 2 * M_PI / w;
     clear(anchor, n_anchors, window, value, each);
     double apart = n_anchors < 2 ? 0

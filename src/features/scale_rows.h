@@ -1,6 +1,6 @@
 /* scale_rows.h -- |W| along single scales: its maxima, its noise, and the threshold between them. */
-#ifndef ROWS_H
-#define ROWS_H
+#ifndef SCALE_ROWS_H
+#define SCALE_ROWS_H
 
 #include <stddef.h>
 #include <stickslip/spikes.h>

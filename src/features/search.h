@@ -1,4 +1,4 @@
-/* search.h -- what is known while the features of a signal are looked for. */
+/* search.h -- the state of the search for the features of a signal. */
 #ifndef SEARCH_H
 #define SEARCH_H
 
@@ -24,7 +24,7 @@ typedef struct search {
     ss_coefficients *coef;
     ss_maximum *found;          /* maxima, slight ones too */
     size_t n_found;
-    ss_quantity quantity;
+    column_quantity quantity;
     ss_cycles cycles;
     int spiked;                 /* transitions end with their last spike, anywhere before the next */
     ss_features *out;

@@ -1,9 +1,9 @@
 /* spikes.c -- jumps, kinks and glitches from the maxima of |W| along the shortest scales.
  *
- * Rows of |W|, one a scale, are taken from the shortest scale on.  A maximum along a row that is
+ * Rows of |W|, one a scale, are computed from the shortest scale on.  A maximum along a row that is
  * above the threshold, has one above the threshold beside it in the next row, and lies clear of all
  * spikes found at shorter scales is a spike.  Once a row shows one, the rows of REACH octaves more
- * are looked at: weaker spikes and blunter ones appear there, and what appears only later is no
+ * are searched: weaker spikes and blunter ones appear there; a maximum that appears only later is no
  * longer sharp.
  */
 #include <math.h>
@@ -15,8 +15,8 @@
 #include "features/scale_rows.h"
 #include <stickslip/spikes.h>
 
-#define DEEPEST 5.0             /* octaves looked at for the first: 100 samples are smooth */
-#define REACH 2.0               /* octaves looked at from the first row with a spike on */
+#define DEEPEST 5.0             /* octaves searched for the first: 100 samples are smooth */
+#define REACH 2.0               /* octaves searched from the first row with a spike on */
 #define CLEAR 2.0               /* scales that two spikes are apart at least */
 #define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
 #define CONCLUSIVE 6.0          /* dB that the clearest spike is above the threshold at least */
@@ -24,7 +24,7 @@
 
 const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7, NULL, 0 };
 
-typedef struct search {
+typedef struct spike_search {
     row_source source;
     const ss_spike_opts *opts;
     size_t n_rows;
@@ -32,7 +32,7 @@ typedef struct search {
     double threshold;
     size_t room;
     ss_spikes *found;
-} search;
+} spike_search;
 
 static int
 is_smooth(const ss_spikes *found)
@@ -79,7 +79,7 @@ nearest(const row *r, double t, double within)
 }
 
 static int
-stands_out(const search *s, const row *r, const peak *p)
+stands_out(const spike_search *s, const row *r, const peak *p)
 {
     return p != NULL && p->level > s->threshold * r->rms;
 }
@@ -87,7 +87,7 @@ stands_out(const search *s, const row *r, const peak *p)
 /* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most;
  * what it has above the noise where that is most, into *clearest. */
 static double
-slope_of(const search *s, size_t i, const peak *p, double *clearest)
+slope_of(const spike_search *s, size_t i, const peak *p, double *clearest)
 {
     *clearest = p->level / s->row[i].rms;
     double sum = 0, weight = 0, base = log(p->level);
@@ -121,7 +121,7 @@ kind_of(double slope, size_t i)
 }
 
 static ss_status
-add_spike(search *s, size_t i, const peak *p)
+add_spike(spike_search *s, size_t i, const peak *p)
 {
     ss_spikes *found = s->found;
     const row *r = &s->row[i];
@@ -159,15 +159,15 @@ is_clear(const ss_spikes *found, size_t n, double t, double distance)
 
 /* Neither the row nor those that its slope is read from may see a gap. */
 static int
-sees_gap(const search *s, const row *r, double t)
+sees_gap(const spike_search *s, const row *r, double t)
 {
     const row_source *source = &s->source;
     return ss_gaps_near(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
 }
 
-/* The spikes that row i is the shortest to show. */
+/* Add the spikes that no row shorter than row i shows. */
 static ss_status
-take_row(search *s, size_t i)
+add_row_spikes(spike_search *s, size_t i)
 {
     const row *r = &s->row[i], *next = &s->row[i + 1];
     size_t before = s->found->n;
@@ -185,7 +185,7 @@ take_row(search *s, size_t i)
 }
 
 static ss_status
-search_rows(search *s, double f, ss_error *err)
+search_rows(spike_search *s, double f, ss_error *err)
 {
     const row_source *src = &s->source;
     double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
@@ -206,7 +206,7 @@ search_rows(search *s, double f, ss_error *err)
         s->n_rows = i + 1;
         if (s->row[i].top > s->threshold * s->row[i].rms && last == rows - 1)
             last = i + reach < last ? i + reach : last;
-        if (i > 0 && (st = take_row(s, i - 1)) != SS_OK)
+        if (i > 0 && (st = add_row_spikes(s, i - 1)) != SS_OK)
             return st;
     }
     return SS_OK;
@@ -216,7 +216,7 @@ search_rows(search *s, double f, ss_error *err)
 
 /* Spike i's time from the fit, which sees no farther than its neighbours. */
 static double
-refined(const search *s, size_t i)
+refined(const spike_search *s, size_t i)
 {
     const ss_spikes *found = s->found;
     const ss_spike *spike = &found->spike[i];
@@ -233,7 +233,7 @@ refined(const search *s, size_t i)
 }
 
 static void
-classify(search *s, ss_spike *spike)
+classify(spike_search *s, ss_spike *spike)
 {
     double clearest;
     size_t i = 0;
@@ -246,7 +246,7 @@ classify(search *s, ss_spike *spike)
 }
 
 static void
-finish(search *s)
+finish(spike_search *s)
 {
     ss_spikes *found = s->found;
     found->threshold = s->threshold;
@@ -279,7 +279,7 @@ ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
 {
     if (out == NULL || x == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    search s = { .opts = opts };
+    spike_search s = { .opts = opts };
     ss_status st = check(rate, opts, err);
     if (st == SS_OK)
         st = ss_row_source_init(&s.source, x, n, rate, opts->precision, opts->gap, opts->n_gaps,

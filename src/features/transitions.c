@@ -163,10 +163,9 @@ set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_valu
     *ratio = (ss_value){ s / r, hypot(w * w * fit[1].error, w * s * fit[0].error) / (r * r * r) };
 }
 
-/* Move the onset, of what was fitted or of the swell, to the nearest jump or kink of the spikes
- * found, within half a period; the end to
- * the last one that comes within a period of another: what is released again sticks no longer than
- * that. */
+/* Move the onset, which the fit or the swell gave, to the nearest jump or kink within half a period;
+ * move the end to the last one that follows another within a period: the mass sticks no longer than
+ * that before it is released again. */
 static void
 snap_to_spikes(const search *s, ss_transition *tr, double period)
 {
@@ -369,8 +368,8 @@ fit_and_judge(search *s, const double *about, double f, int singly, ss_window *w
     return st;
 }
 
-/* Where a swell is all that is known of a transition: from what is fitted, or the swell, to the jumps
- * and kinks beside. */
+/* Refine a transition of which only a swell is known: fit its oscillation, then move its ends from the
+ * fit, or from the swell, to the jumps and kinks beside them. */
 static ss_status
 refine(search *s, const ss_maximum *swell, double f)
 {
@@ -620,8 +619,8 @@ spike_reach(const ss_spikes *found)
     return 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * f);
 }
 
-/* Spikes that begin and end a transition may be half a period before and a period behind what was
- * fitted. */
+/* The first spike of a transition may lie half a period before the fitted window, and the last one a
+ * period behind it. */
 static void
 count_spikes(const search *s)
 {
@@ -637,9 +636,9 @@ count_spikes(const search *s)
     }
 }
 
-/* By what rings, prominently or slightly; else by spikes where the signal repeats itself, which tells
- * how far apart those that begin transitions are; else as single events, each of which may have many
- * spikes. */
+/* Find transitions by their ringing, prominent or slight.  If none rings and the signal repeats itself,
+ * find them by their spikes: the period says how far apart the first spikes of two transitions are.
+ * Else find single events, each of which may have many spikes. */
 static ss_status
 find_transitions(search *s)
 {

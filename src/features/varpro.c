@@ -1,4 +1,5 @@
-/* varpro.c -- a damped oscillation fitted to windows of a signal, what is linear projected out.
+/* varpro.c -- a damped oscillation fitted to windows of a signal; its linear parameters are
+ * projected out.
  *
  * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) and a slow part of two or
  * three columns. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
@@ -58,9 +59,9 @@ ss_dot(const double *a, const double *b, size_t n)
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
-/* Take its part along the unit vector q out of v; the part. */
+/* Subtract from v its component along the unit vector q; returns the component. */
 static double
-take_out(double *v, const double *q, size_t n)
+project_out(double *v, const double *q, size_t n)
 {
     double part = ss_dot(q, v, n);
     for (size_t i = 0; i < n; i++)
@@ -92,7 +93,7 @@ extend(wave *to, double w, double s, size_t n)
     }
 }
 
-/* The slow part, about the middle of the window: what is not of unit size is made so. */
+/* The slow part, about the middle of the window: its columns are scaled to unit size. */
 static void
 slow_columns(varpro *v, double **q, size_t n)
 {
@@ -125,7 +126,7 @@ make_basis(varpro *v, size_t n)
     memcpy(b->q[c + 1], v->ring.sin, n * sizeof(double));
     for (size_t j = 0; j < v->columns; j++) {
         for (size_t l = 0; l < j; l++)
-            b->cross = take_out(b->q[j], b->q[l], n);   /* the last one: of sin along cos */
+            b->cross = project_out(b->q[j], b->q[l], n);   /* the last one: of sin along cos */
         b->norm[j] = normalise(b->q[j], n);
     }
 }
@@ -139,7 +140,7 @@ ss_varpro_project(varpro *v, ss_window win)
     make_basis(v, n);
     memcpy(v->r, v->x + win.first, n * sizeof *v->r);
     for (size_t j = 0; j < v->columns; j++)
-        z[j] = take_out(v->r, p->q[j], n);
+        z[j] = project_out(v->r, p->q[j], n);
     double b = z[s] / p->norm[s];
     return (linear){ ss_dot(v->r, v->r, n), z[c] * z[c] + z[s] * z[s],
                      (z[c] - p->cross * b) / p->norm[c], b };
@@ -166,10 +167,10 @@ residuals(const gsl_vector *at, void *user, gsl_vector *f)
 }
 
 void
-ss_varpro_take_out(const varpro *v, double *y, size_t n)
+ss_varpro_project_out(const varpro *v, double *y, size_t n)
 {
     for (size_t j = 0; j < v->columns; j++)
-        take_out(y, v->basis.q[j], n);
+        project_out(y, v->basis.q[j], n);
 }
 
 /* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
@@ -184,8 +185,8 @@ ss_varpro_derive(varpro *v, ss_window win)
         j_w[i] = fit.a * s - fit.b * c;
         j_s[i] = fit.a * c + fit.b * s;
     }
-    ss_varpro_take_out(v, j_w, n);
-    ss_varpro_take_out(v, j_s, n);
+    ss_varpro_project_out(v, j_w, n);
+    ss_varpro_project_out(v, j_s, n);
     return fit;
 }
 

@@ -1,4 +1,5 @@
-/* varpro.h -- a damped oscillation fitted to windows of a signal, what is linear projected out. */
+/* varpro.h -- a damped oscillation fitted to windows of a signal; its linear
+ * parameters are projected out. */
 #ifndef VARPRO_H
 #define VARPRO_H
 
@@ -15,8 +16,8 @@ typedef struct wave {
     double *cos, *sin;
 } wave;
 
-/* What is projected out of windows of n samples, orthonormal; the oscillation's are the last two
- * columns.  Windows of one length share it. */
+/* The orthonormal columns that are projected out of windows of n samples; the last two are the
+ * oscillation's.  Windows of one length share it. */
 typedef struct basis {
     size_t n;                   /* 0: none yet */
     double w, s, forcing;
@@ -58,8 +59,8 @@ linear ss_varpro_project(varpro *v, ss_window win);
 /* The same, and the derivatives of r by w and by s into j[0] and j[1]. */
 linear ss_varpro_derive(varpro *v, ss_window win);
 
-/* Take what was projected out last out of n samples of y. */
-void ss_varpro_take_out(const varpro *v, double *y, size_t n);
+/* Subtract from n samples of y the columns that were projected out last. */
+void ss_varpro_project_out(const varpro *v, double *y, size_t n);
 
 /* Fit w and s to n windows, from where they stand, to a relative tolerance.  *ok: they have
  * converged. */

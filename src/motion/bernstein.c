@@ -11,8 +11,8 @@
  * (ode.c), less than the rounding of the coefficients, 2^-50 of the largest and of what the guard's
  * derivatives are made of.  (Differences of the coefficients fall with their order within the caps;
  * of any polynomial they may grow as 2^order, and the rounding to 81 ulp / 2.)  A coefficient within
- * that has no sign.  Where only such are left, the guard touches 0 and rounding decides: that is
- * said. */
+ * that has no sign.  Where only such are left, the guard touches 0 and rounding decides: the result
+ * says so. */
 #include "motion/bernstein.h"
 
 #include <float.h>

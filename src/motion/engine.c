@@ -54,8 +54,8 @@ ss_engine_derive(engine *e)
     e->has_start = e->has_end = 1;
 }
 
-/* A guard is its value at the origin and a sum of q and v, which its rates of change tell; in stick
- * that sum is limited on either side. */
+/* A guard is its value at the origin and a sum of q and v, whose factors follow from its rates of
+ * change; in stick that sum is limited on either side. */
 static step_guard
 guard_of_step(const engine *e)
 {
@@ -132,8 +132,8 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
     return 1;
 }
 
-/* A step, unless it leads to what is not finite: then a rate of change is not, since each part of
- * the state is in one (and those that a model does not have are 0). */
+/* Make a step, unless it leads to a state that is not finite: then a rate of change is not finite
+ * either, since each part of the state is in one (and those that a model does not have are 0). */
 ss_status
 ss_engine_step(engine *e, double h_max, ss_error *err)
 {

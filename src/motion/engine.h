@@ -1,4 +1,4 @@
-/* engine.h -- what carries a motion from one event to the next: a GSL stepper or a closed form. */
+/* engine.h -- an engine carries a motion from one event to the next: a GSL stepper or a closed form. */
 #ifndef ENGINE_H
 #define ENGINE_H
 
@@ -20,7 +20,7 @@ struct engine_type {
      * cannot reach 0 within it. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
     /* Look for the end of the mode without steps, up to s_max from now: 1 and *s_event, or 0 if it
-     * is later; then h, q1 and dq1 are those of s_max.  -1: only steps can tell.  May be NULL. */
+     * is later; then h, q1 and dq1 are those of s_max.  -1: only steps can find it.  May be NULL. */
     int (*ahead)(engine *e, double s_max, double *s_event);
     /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change; base
      * is the phase there. */
@@ -45,7 +45,7 @@ struct engine {
     unsigned long steps, rhs, events;
 };
 
-#define EXACT "exact"                       /* what methods in closed form are called */
+#define EXACT "exact"                       /* the name of the method in closed form */
 /* An engine by its method's name, for the motion as it stands. */
 ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err);
 

@@ -220,7 +220,7 @@ safe_distance(const exact *x, double g, double slope, double bend)
 
 /* The next event by going safe distances until they vanish, which near a crossing they do as
  * quadratically as Newton's: about ten evaluations a mode, where steps and a search in the last of
- * them take fifty.  Microstick has a limit on either side; the guard tells of the nearer. */
+ * them take fifty.  Microstick has a limit on either side; the guard is that of the nearer. */
 static int
 exact_ahead(engine *e, double s_max, double *s_event)
 {

@@ -24,7 +24,7 @@ ss_event_kind_name(ss_event_kind kind)
 
 enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */
 
-typedef struct record {
+typedef struct sampler {
     const ss_scene *scene;
     const ss_sim_opts *opts;
     instant end;                        /* of the record, from the start of settling */
@@ -34,14 +34,14 @@ typedef struct record {
     turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
     size_t filled;
     ss_sample buffer[256];
-} record;
+} sampler;
 
-/* Base and motion are carried from sample to sample by turning further, and taken up anew at each of
- * which the number divides by this: the error is at most 16 times 3 eps / 2 of their size. */
+/* Base and motion are carried from sample to sample by turning further, and computed anew at each
+ * sample whose number divides by this: the error is at most 16 times 3 eps / 2 of their size. */
 enum { RENEWAL = 16 };
 
 static ss_status
-flush(record *r)
+flush(sampler *r)
 {
     size_t filled = r->filled;
     r->filled = 0;
@@ -59,7 +59,7 @@ base_turns(const ss_scene *scene)
 
 /* t seconds of settling and record are done. */
 static ss_status
-report(const record *r, double t)
+report(const sampler *r, double t)
 {
     const ss_sim_opts *o = r->opts;
     double all = r->scene->settle + r->scene->duration;
@@ -67,21 +67,21 @@ report(const record *r, double t)
 }
 
 static instant
-instant_of_sample(const record *r, size_t i)
+instant_of_sample(const sampler *r, size_t i)
 {
     return instant_add(instant_sample((double)i, r->scene->rate), r->scene->settle);
 }
 
 /* The time from now to the i-th sample of the record. */
 static double
-until_sample(const record *r, const motion *m, size_t i)
+until_sample(const sampler *r, const motion *m, size_t i)
 {
     return instant_diff(instant_of_sample(r, i), m->origin) - m->now.u;
 }
 
 /* The i-th sample, s from now. */
 static void
-fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
+fill_sample(ss_sample *sample, sampler *r, engine *e, int still, double s)
 {
     const motion *m = e->m;
     double q[MAX_DIM], dqdt[MAX_DIM] = { 0 };
@@ -98,7 +98,7 @@ fill_sample(ss_sample *sample, record *r, engine *e, int still, double s)
 }
 
 static ss_status
-fail_sample(const record *r, const ss_sample *s, ss_error *err)
+fail_sample(const sampler *r, const ss_sample *s, ss_error *err)
 {
     static const char name[] = "xvafyz";
     const double value[] = { s->x, s->v, s->a, s->f, s->y, s->z };
@@ -118,7 +118,7 @@ is_finite(const ss_sample *s)
 
 /* All samples up to, not including, h from now. */
 static ss_status
-write_samples(record *r, engine *e, int still, double h, ss_error *err)
+write_samples(sampler *r, engine *e, int still, double h, ss_error *err)
 {
     ss_status st = SS_OK;
     if (r->i == r->n)
@@ -141,7 +141,7 @@ write_samples(record *r, engine *e, int still, double h, ss_error *err)
 }
 
 static ss_status
-write_event(record *r, const motion *m, ss_event *e)
+write_event(sampler *r, const motion *m, ss_event *e)
 {
     instant t = instant_add(m->origin, m->now.u);
     e->t = (t.hi - r->scene->settle) + t.lo;
@@ -158,7 +158,7 @@ write_event(record *r, const motion *m, ss_event *e)
 /* --- from event to event ------------------------------------------------------------------- */
 
 static ss_status
-change_mode(record *r, engine *e, int still, double s)
+change_mode(sampler *r, engine *e, int still, double s)
 {
     ss_event event;
     ss_status st = SS_OK;
@@ -186,14 +186,14 @@ work_allowed(const ss_scene *scene)
 }
 
 static int
-has_budget(const record *r, const engine *e)
+has_budget(const sampler *r, const engine *e)
 {
     return r->opts->max_steps > 0 ? e->steps < r->opts->max_steps : (double)e->rhs < r->work;
 }
 
 /* Why a run was too long for its budget, and how long it would have been. */
 static ss_status
-over_budget(const record *r, const engine *e, double cap, ss_error *err)
+over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
 {
     const motion *m = e->m;
     const char *what;
@@ -215,10 +215,10 @@ over_budget(const record *r, const engine *e, double cap, ss_error *err)
                    budget, t, all, estimate, cap, STEPS_PER_PERIOD, what);
 }
 
-/* Refuse at once what is sure to be too long: by the mode that the scene begins in, where no budget
- * would do; by its slip, the slower mode, where the budget would not. */
+/* Refuse at once a run that is sure to be too long: because of the mode in which the scene begins, if
+ * no budget would suffice; because of its slip, the slower mode, if this budget would not. */
 static ss_status
-check_length(const record *r, const state *m, int exact, ss_error *err)
+check_length(const sampler *r, const state *m, int exact, ss_error *err)
 {
     const char *what;
     const ss_scene *s = r->scene;
@@ -240,7 +240,7 @@ check_length(const record *r, const state *m, int exact, ss_error *err)
 }
 
 static ss_status
-run(record *r, engine *e, ss_error *err)
+run(sampler *r, engine *e, ss_error *err)
 {
     motion *m = e->m;
     const state *now = &m->now;
@@ -294,7 +294,7 @@ run(record *r, engine *e, ss_error *err)
 
 /* A start in slip is an event at t = 0. */
 static ss_status
-begin(record *r, engine *e, int slips)
+begin(sampler *r, engine *e, int slips)
 {
     ss_event event = { .kind = SS_SLIP, .direction = e->m->now.mode };
     ss_status st = SS_OK;
@@ -322,7 +322,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     ss_status st = ss_record_check(scene, err);
     if (st != SS_OK)
         return st;
-    record r = { .scene = scene, .opts = opts,
+    sampler r = { .scene = scene, .opts = opts,
                  .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate, .work = work_allowed(scene),

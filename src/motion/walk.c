@@ -40,9 +40,9 @@ ss_walk_at(walk *w, double s, double q[], double dqdt[])
     memset(dqdt, 0, sizeof m->q);
 }
 
-/* A leg by steps, as ss_sim_run takes them. */
+/* A leg by steps, as ss_sim_run makes them. */
 static ss_status
-take_step(walk *w, double longest, ss_error *err)
+advance(walk *w, double longest, ss_error *err)
 {
     double cap = ss_step_cap(&w->m.now);
     ss_status st = ss_engine_step(w->e, fmin(cap, longest), err);
@@ -79,7 +79,7 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
     }
     w->h = longest;
     w->ends = e->type->ahead != NULL ? e->type->ahead(e, longest, &w->h) : -1;
-    return w->ends >= 0 ? SS_OK : take_step(w, longest, err);
+    return w->ends >= 0 ? SS_OK : advance(w, longest, err);
 }
 
 ss_status

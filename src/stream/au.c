@@ -14,7 +14,7 @@
 #include "stream/frames.h"
 #include "stream/reader.h"
 
-/* What is believed; the annotation is the rest of the header. */
+/* Limits of a header that is believed; the annotation is the rest of it. */
 enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 
 #define UNKNOWN_SIZE UINT32_C(0xffffffff)
@@ -136,7 +136,7 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 enum { ANNOTATION_UNIT = 8 };
 
 static void
-put_big_endian(char *p, uint64_t x, size_t n)
+encode_big_endian(char *p, uint64_t x, size_t n)
 {
     for (; n-- > 0; x >>= 8)
         p[n] = (char)(x & 0xff);
@@ -149,7 +149,7 @@ write_header(FILE *out, const ss_header *head, const char *text, size_t length, 
     uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), UNKNOWN_SIZE,
                           ENCODING_DOUBLE, whole_rate(head->rate), (uint32_t)head->n_columns };
     for (int i = 0; i < 6; i++)
-        put_big_endian(fixed + 4 * i, field[i], 4);
+        encode_big_endian(fixed + 4 * i, field[i], 4);
     fwrite(fixed, 1, sizeof fixed, out);
     fwrite(text, 1, length, out);
     fwrite("\0\0\0\0\0\0\0", 1, padding, out);
@@ -174,7 +174,7 @@ begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 }
 
 static size_t
-put_number(char *to, double x, int last)
+encode_number(char *to, double x, int last)
 {
     (void)last;
     uint64_t bits;
@@ -191,5 +191,5 @@ const struct format ss_format_au = {
     .magic = ".snd",
     .open = ss_au_open,
     .begin = begin_au,
-    .number = put_number,
+    .number = encode_number,
 };

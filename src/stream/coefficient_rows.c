@@ -73,10 +73,10 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
 {
     if (writer == NULL || scale == NULL || w == NULL)
         return SS_EINVAL;
-    size_t (*put)(char *, double, int) = writer->format->number;
+    size_t (*write_number)(char *, double, int) = writer->format->number;
     char m_and_a[2 * SS_NUMBER_MAX] = { 0 }, f[SS_NUMBER_MAX] = { 0 };
-    size_t f_length = put(f, scale->f, 0), length = put(m_and_a, scale->m, 0);
-    length += put(m_and_a + length, scale->a, 0);
+    size_t f_length = write_number(f, scale->f, 0), length = write_number(m_and_a, scale->m, 0);
+    length += write_number(m_and_a + length, scale->a, 0);
     for (size_t i = 0; i < n; i++, w += 2) {
         double b = ss_scale_b(scale, first + i);
         int edge = ss_scale_edge(scale, first + i, samples, writer->rate)
@@ -85,12 +85,12 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
         char *to = writer->out.buffer + writer->out.used;
         memcpy(to, m_and_a, sizeof m_and_a);    /* a known size is copied without a call */
         to += length;
-        to += put(to, b, 0);
+        to += write_number(to, b, 0);
         memcpy(to, f, sizeof f);
         to += f_length;
-        to += put(to, w[0], 0);
-        to += put(to, w[1], 0);
-        to += put(to, edge, 1);
+        to += write_number(to, w[0], 0);
+        to += write_number(to, w[1], 0);
+        to += write_number(to, edge, 1);
         writer->out.used = (size_t)(to - writer->out.buffer);
         if (writer->out.used > OUTPUT_ROOM - LONGEST) {
             ss_status st = ss_output_drain(&writer->out);

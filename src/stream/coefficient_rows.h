@@ -1,4 +1,4 @@
-/* coefficient_rows.h -- what readers and writers of coefficients share. */
+/* coefficient_rows.h -- declarations that readers and writers of coefficients share. */
 #ifndef COEFFICIENT_ROWS_H
 #define COEFFICIENT_ROWS_H
 

@@ -324,7 +324,7 @@ edge_fits(const reader *r, part *p, double edge)
 }
 
 static ss_status
-take_row(reader *r, const double number[COEFFICIENT_COLUMNS])
+append_row(reader *r, const double number[COEFFICIENT_COLUMNS])
 {
     ss_status st = find_part(r, number);
     if (st != SS_OK)
@@ -340,8 +340,8 @@ take_row(reader *r, const double number[COEFFICIENT_COLUMNS])
     return append(p, number[4], number[5]);
 }
 
-/* What only the length of the record tells: the translations of each scale, and where the cone of
- * influence of its end begins. */
+/* Check all that depends on the length of the record: the translations of each scale, and where the
+ * cone of influence of its end begins. */
 static ss_status
 check_tail(reader *r, part *p)
 {
@@ -363,7 +363,7 @@ check_tail(reader *r, part *p)
 
 /* The length of the record, which ends a stream. */
 static ss_status
-take_length(reader *r, double samples)
+set_length(reader *r, double samples)
 {
     ss_status st = SS_OK;
     if (r->coef->n > 0)
@@ -385,9 +385,9 @@ read_text_rows(reader *r)
     ss_status st;
     while ((st = next_line(r, &line)) == SS_OK && line != NULL) {
         if (strncmp(line, length, sizeof length - 1) == 0)
-            st = take_length(r, ss_number_parse(line + sizeof length - 1, &end));
+            st = set_length(r, ss_number_parse(line + sizeof length - 1, &end));
         else if (line[0] != '#' && (st = read_numbers(r, line, number)) == SS_OK)
-            st = take_row(r, number);
+            st = append_row(r, number);
         if (st != SS_OK)
             return st;
     }
@@ -406,8 +406,8 @@ read_au_rows(reader *r)
         for (size_t i = 0; i < n; i++) {
             const double *number = rows + i * COEFFICIENT_COLUMNS;
             r->row++;
-            st = number[1] == 0 ? take_length(r, rint(number[2] * r->coef->head->rate) + 1)
-                                : take_row(r, number);
+            st = number[1] == 0 ? set_length(r, rint(number[2] * r->coef->head->rate) + 1)
+                                : append_row(r, number);
             if (st != SS_OK)
                 return st;
         }

@@ -37,7 +37,7 @@ append(reader *r, double (**list)[2], size_t *n, size_t *room, const double pair
     return SS_OK;
 }
 
-/* A number, or a hyphen for what is not known, which is NaN. */
+/* A number, or a hyphen for an unknown value, which is NaN. */
 static ss_status
 read_field(const reader *r, const char **text, double *x, ss_error *err)
 {

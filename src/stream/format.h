@@ -12,9 +12,9 @@
 #define COEFFICIENTS_MAGIC "# stickslip coefficients 1"
 
 struct format {
-    const char *name;           /* "au": what users call it; a file's ending is that behind a dot */
+    const char *name;           /* "au": the name for users; a file's ending is a dot and this */
 
-    /* Reading a signal: the bytes with which it begins, "?" for any; NULL: what no other is. */
+    /* Reading a signal: the bytes with which it begins, "?" for any; NULL: tried last. */
     const char *magic;
     ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
 

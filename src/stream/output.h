@@ -13,7 +13,7 @@ struct output {
     char buffer[OUTPUT_ROOM];
 };
 
-/* Write what is gathered; SS_EIO if the file refuses it. */
+/* Write the gathered bytes; SS_EIO if the file refuses it. */
 ss_status ss_output_drain(struct output *out);
 /* Have the file write all that it holds; SS_EIO if any of it failed. */
 ss_status ss_output_flush(FILE *file);

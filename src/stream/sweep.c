@@ -69,7 +69,7 @@ add_column(reader *r, char *label, ss_error *err)
 /* "# columns: index friction/N contact_damping/(N s/m) ... status": blanks in brackets are the
  * unit's.  The status, which is last, is no number and stays out. */
 static ss_status
-take_columns(reader *r, char *text, ss_error *err)
+read_columns(reader *r, char *text, ss_error *err)
 {
     ss_status st = SS_OK;
     if (r->columns != NULL)                 /* shards one after the other: the header again */
@@ -94,9 +94,9 @@ take_columns(reader *r, char *text, ss_error *err)
     return st;
 }
 
-/* A number, aperiodic, or - for what is not known. */
+/* A number, aperiodic, or - for an unknown value. */
 static ss_status
-take_cell(const reader *r, const char *cell, double *value, ss_error *err)
+read_cell(const reader *r, const char *cell, double *value, ss_error *err)
 {
     char *end;
     *value = ss_number_parse(cell, &end);
@@ -111,7 +111,7 @@ take_cell(const reader *r, const char *cell, double *value, ss_error *err)
 }
 
 static ss_status
-take_row(reader *r, char *line, ss_error *err)
+append_row(reader *r, char *line, ss_error *err)
 {
     ss_sweep_table *t = r->table;
     ss_status st = SS_OK;
@@ -132,14 +132,14 @@ take_row(reader *r, char *line, ss_error *err)
     for (size_t i = 0; st == SS_OK && i < t->n_columns; i++) {
         char *end = strchr(line, '\t');
         *end = '\0';
-        st = take_cell(r, line, &row[i], err);
+        st = read_cell(r, line, &row[i], err);
         line = end + 1;
     }
     return st;
 }
 
 static ss_status
-take_line(reader *r, char *line, ss_error *err)
+read_form_line(reader *r, char *line, ss_error *err)
 {
     static const char columns[] = "# columns: ", scene[] = "# scene: ";
     if (r->in.line == 1 && strcmp(line, "# stickslip sweep 1") != 0
@@ -149,11 +149,11 @@ take_line(reader *r, char *line, ss_error *err)
         return ss_fail(err, SS_EKIND, "%s:1: not a sweep, which begins '# stickslip sweep 1'",
                        r->in.name);
     if (strncmp(line, columns, strlen(columns)) == 0)
-        return take_columns(r, line + strlen(columns), err);
+        return read_columns(r, line + strlen(columns), err);
     if (strncmp(line, scene, strlen(scene)) == 0 && r->table->scene == NULL
         && (r->table->scene = strdup(line + strlen(scene))) == NULL)
         return no_memory(err);
-    return line[0] == '#' || line[0] == '\0' ? SS_OK : take_row(r, line, err);
+    return line[0] == '#' || line[0] == '\0' ? SS_OK : append_row(r, line, err);
 }
 
 /* Rows become columns. */
@@ -182,7 +182,7 @@ ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err)
     char *line = NULL;
     size_t length;
     while (st == SS_OK && (st = ss_input_line(&r.in, &line, &length, err)) == SS_OK && line != NULL)
-        st = take_line(&r, line, err);
+        st = read_form_line(&r, line, err);
     if (st == SS_OK && r.in.line == 0)
         st = ss_fail(err, SS_EDATA, "%s: empty", name);
     if (st == SS_OK && r.columns == NULL)

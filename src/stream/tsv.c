@@ -24,7 +24,7 @@ cell_name(const ss_header *head, size_t i)
     return head->column[i - (head->has_time != 0)].name;
 }
 
-/* Say what is wrong with a row that could not be read. */
+/* The error of a row that could not be read. */
 static ss_status
 refuse_row(const ss_reader *reader, const char *line, ss_error *err)
 {
@@ -67,7 +67,7 @@ check_time(const ss_reader *reader, double t, ss_error *err)
 }
 
 static ss_status
-take_row(ss_reader *reader, char *line, size_t length, double *row, ss_error *err)
+read_row(ss_reader *reader, char *line, size_t length, double *row, ss_error *err)
 {
     size_t n = n_cells(reader->head);
     const int time = reader->head->has_time != 0;
@@ -98,7 +98,7 @@ text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
             return st;
         if (line[0] == '#' || line[strspn(line, " \t")] == '\0')
             continue;
-        st = take_row(reader, line, length, rows + *n * reader->head->n_columns, err);
+        st = read_row(reader, line, length, rows + *n * reader->head->n_columns, err);
         if (st != SS_OK)
             return st;
         ++*n;
@@ -167,7 +167,7 @@ begin_text(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 }
 
 static size_t
-put_number(char *to, double x, int last)
+format_number(char *to, double x, int last)
 {
     size_t n = ss_number_format(to, x);
     to[n] = last ? '\n' : '\t';
@@ -179,7 +179,7 @@ const struct format ss_format_tsv = {
     .magic = "# stickslip",
     .open = open_text,
     .begin = begin_text,
-    .number = put_number,
+    .number = format_number,
     .has_time = 1,
     .has_notes = 1,
     .separator = '\t',

@@ -36,7 +36,7 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
 }
 
 static void
-put_value(ss_writer *writer, double x, int last)
+write_value(ss_writer *writer, double x, int last)
 {
     struct output *out = &writer->out;
     out->used += writer->format->number(out->buffer + out->used, x, last);
@@ -51,14 +51,14 @@ ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
     size_t columns = head->n_columns;
     for (size_t i = 0; i < n; i++, writer->row++) {
         if (head->has_time && writer->format->has_time)
-            put_value(writer, head->start + (double)writer->row / head->rate, columns == 0);
+            write_value(writer, head->start + (double)writer->row / head->rate, columns == 0);
         for (size_t c = 0; c < columns; c++) {
             if (writer->out.used > OUTPUT_ROOM - 2 * SS_NUMBER_MAX) {
                 ss_status st = ss_output_drain(&writer->out);
                 if (st != SS_OK)
                     return st;
             }
-            put_value(writer, *rows++, c + 1 == columns);
+            write_value(writer, *rows++, c + 1 == columns);
         }
     }
     return ss_output_drain(&writer->out);

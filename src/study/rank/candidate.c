@@ -3,7 +3,7 @@
  * A scene names one set of parameters and the rig that was measured has another, known to within
  * some tenths; a model is judged by the best that it can do within these.  Size and phase are free
  * and found in closed form (cycle.c): motion is proportional to f_k and Z_e together, if alpha
- * goes down as they go up.  What is left to search is two to four numbers.  Events move, appear
+ * goes down as they go up.  Two to four numbers are left to search.  Events move, appear
  * and vanish as these change, so the misfit has steps and creases; hence no slopes but points all
  * over the range (Sobol's, always the same) and a simplex (Nelder and Mead 1965) from the best of
  * them. */
@@ -90,17 +90,17 @@ ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double 
 
 enum { STEPS_MOST = 1000000 };          /* of one run */
 
-typedef struct taken {
+typedef struct sampled {
     int pick;
     size_t n, room;
     double *value, *clear, rate;
-} taken;
+} sampled;
 
 static int
-take(const ss_sample *s, size_t n, void *user)
+append_samples(const ss_sample *s, size_t n, void *user)
 {
     const ss_sim_columns all = { 0, SS_SIM_COLUMNS, { 0, 1, 2, 3, 4, 5, 6 } };
-    taken *t = user;
+    sampled *t = user;
     for (size_t i = 0; i < n && t->n < t->room; i++) {
         double row[SS_SIM_COLUMNS];
         ss_sim_row(&all, &s[i], row);
@@ -112,7 +112,7 @@ take(const ss_sample *s, size_t n, void *user)
 static int
 clear_event(const ss_event *e, void *user)
 {
-    taken *t = user;
+    sampled *t = user;
     double at = e->t * t->rate, first = fmax(ceil(at - CANDIDATE_REACH), 0);
     for (double i = first; i < (double)t->room && i <= at + CANDIDATE_REACH; i++)
         t->clear[(size_t)i] = fmin(t->clear[(size_t)i], fabs(i - at));
@@ -131,9 +131,10 @@ ss_status
 ss_candidate_run(const ss_scene *scene, int pick, double *value, double *clear, size_t n,
                  double *steps)
 {
-    taken t = { pick, 0, n, value, clear, scene->rate };
+    sampled t = { pick, 0, n, value, clear, scene->rate };
     ss_sim_opts opts = { .method = ss_model_is_linear(scene->model) ? "exact" : "rkck",
-                         .tol = 1e-7, .max_steps = STEPS_MOST, .samples = take, .events = clear != NULL ? clear_event : NULL, .user = &t };
+                         .tol = 1e-7, .max_steps = STEPS_MOST, .samples = append_samples,
+                         .events = clear != NULL ? clear_event : NULL, .user = &t };
     ss_sim_stats stats = { .steps = 0 };
     for (size_t i = 0; clear != NULL && i < n; i++)
         clear[i] = INFINITY;
@@ -147,7 +148,7 @@ typedef struct problem {
     const cycle *goal;
     const ss_stretch *progress;
     double runs, expected;      /* so far, and about how many there will be */
-    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once told to stop; all
+    ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once asked to stop; all
                                    others are a bad fit */
 } problem;
 
@@ -173,7 +174,7 @@ misfit(problem *p, const double key[], double *size, double *shift)
     return ss_cycle_misfit(goal, value, size, shift);
 }
 
-/* Any u gives keys in range: what is fixed has no u. */
+/* Any u gives keys in range; a fixed key has no u. */
 static void
 keys_of(const candidate *c, const double *u, double key[CANDIDATE_KEYS])
 {

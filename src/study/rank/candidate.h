@@ -11,7 +11,7 @@
 
 enum { CANDIDATE_STIFFNESS, CANDIDATE_RATIO, CANDIDATE_OWN, CANDIDATE_KEYS = CANDIDATE_OWN + PARAMETERS };
 enum { CANDIDATE_SETTLE = 6 };      /* cycles from rest to the one compared */
-enum { CANDIDATE_KEPT = 8 };        /* starts for what follows, at most */
+enum { CANDIDATE_KEPT = 8 };        /* at most so many starts are kept */
 
 /* Where a search ended: the scene of the keys leaves so much of the cycle, see ss_cycle_misfit. */
 typedef struct candidate_start {
@@ -20,15 +20,15 @@ typedef struct candidate_start {
 } candidate_start;
 
 /* Its keys: the stiffness k (at the same k Z_e), f_k / (k Z_e), and the parameters that the model
- * says.  The mass is left alone, as no motion tells it: what counts is the ratios
- * to it. */
+ * says.  The mass is not adjusted: no motion determines it, only the ratios to it
+ * count. */
 typedef struct candidate {
     const struct model *model;
     ss_scene scene;             /* as given, normalised */
-    int pick;                   /* what is compared: an index of ss_sim_row's */
+    int pick;                   /* the compared quantity: an index of ss_sim_row's */
     size_t n;                   /* keys that the model has */
     double own[CANDIDATE_KEYS];             /* the scene's, as logarithms */
-    double lo[CANDIDATE_KEYS], hi[CANDIDATE_KEYS];  /* of the search; the same for what is fixed */
+    double lo[CANDIDATE_KEYS], hi[CANDIDATE_KEYS];  /* of the search; equal for a fixed key */
     candidate_start start[CANDIDATE_KEPT];          /* the best first, no two the same */
     size_t n_starts;
     double steps;               /* of all runs so far: what they cost */

@@ -1,6 +1,6 @@
 /* cycle.c -- fold a signal at its period, and compare two cycles whatever their phase and size.
  *
- * What repeats adds up over the cycles of a record and noise does not, so that a mean cycle is
+ * The repeated part of a record adds up over its cycles and noise does not, so that a mean cycle is
  * a better and much smaller thing to fit than the record: a model's settled motion is one cycle
  * too.  Its phase and its size need no search: the correlation of two cycles, at all shifts at once
  * by their spectra, gives the best of both in closed form. */

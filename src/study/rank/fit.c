@@ -27,20 +27,20 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 #define FAR 10.0
 #define LOW 0.1                         /* of f_k / (k Z_e): below, sticks are too short to fit */
 #define SHORT 0.25                      /* periods of the contact */
-#define VAGUE 0.3                       /* a standard error above this part tells nothing */
+#define VAGUE 0.3                       /* a parameter of a larger standard error is not determined */
 
-typedef struct work {
+typedef struct fitting {
     const double *x;                    /* the column, of n samples */
     const char *missing;                /* NULL: none */
     size_t n;
     double rate;
     cycle goal;
     candidate c;
-    match_record record;                /* what of it is fitted */
+    match_record record;                /* the part of it that is fitted */
     match best;
     double noise;                       /* variance, at most */
     double rival;                       /* what the best of other parameters leaves; infinite: none */
-} work;
+} fitting;
 
 /* --- matches ------------------------------------------------------------------------------- */
 
@@ -81,7 +81,8 @@ wide(const ss_scene *start, ss_quantity quantity)
 
 /* Starts from about what the transitions show, and from all over the range. */
 static ss_status
-search(work *w, const ss_signal *signal, size_t column, const ss_stretch *progress, ss_error *err)
+search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stretch *progress,
+              ss_error *err)
 {
     const ss_stretch first = ss_stretch_part(progress, 0, 0.5);
     const ss_stretch second = ss_stretch_part(progress, 0.5, 1);
@@ -114,7 +115,7 @@ are_same(const match *a, const match *b)
 }
 
 static ss_status
-match_all(work *w, const ss_stretch *progress)
+match_all(fitting *w, const ss_stretch *progress)
 {
     match found[CANDIDATE_KEPT] = { { .left = INFINITY } };
     size_t best = 0, n = w->c.n_starts;
@@ -145,7 +146,7 @@ scaled(double value, double variance)
 
 /* The scene from rest, settled and in step with the whole record. */
 static ss_scene
-settled_scene(const work *w)
+settled_scene(const fitting *w)
 {
     ss_scene s = w->best.scene;
     s.phase = remainder(s.phase + 2 * M_PI * s.base_frequency * (s.settle - w->record.from), 2 * M_PI);
@@ -156,7 +157,7 @@ settled_scene(const work *w)
 }
 
 static void
-report(ss_fit *fit, const work *w)
+report(ss_fit *fit, const fitting *w)
 {
     const match *m = &w->best;
     const ss_scene *s = &fit->scene;
@@ -193,7 +194,7 @@ variance(const double *x, const char *missing, size_t n)
 
 /* Of the record less the settled scene's, the offset between them apart. */
 static ss_status
-find_residual(ss_fit *fit, const work *w)
+find_residual(ss_fit *fit, const fitting *w)
 {
     double *y = malloc((w->n + 1) * sizeof *y), steps = 0;
     if (y == NULL)
@@ -237,7 +238,7 @@ find_longest_stick(double *periods, const ss_scene *scene)
 
 /* The first parameter that stands at an end of its range or has an error too large; NULL: none. */
 static const char *
-vague_parameter(const ss_fit *fit, const work *w, double *value, double *error)
+vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *error)
 {
     const struct { const char *what; ss_value v; int key; } known[] = {
         { "friction", fit->friction, CANDIDATE_RATIO },
@@ -256,7 +257,7 @@ vague_parameter(const ss_fit *fit, const work *w, double *value, double *error)
 }
 
 static ss_status
-judge(ss_fit *fit, const work *w)
+judge(ss_fit *fit, const fitting *w)
 {
     const match *m = &w->best;
     double value, error, periods = 0;
@@ -291,7 +292,7 @@ judge(ss_fit *fit, const work *w)
 /* The record from half a cycle on, if it is long: a motion that starts from rest with the record is
  * none that began in a slip before. */
 static match_record
-fitted_part(const work *w)
+fitted_part(const fitting *w)
 {
     double samples = w->goal.period * w->rate;
     size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
@@ -302,7 +303,7 @@ fitted_part(const work *w)
 }
 
 static ss_status
-fit_signal(ss_fit *fit, work *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
+fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
            ss_error *err)
 {
     const ss_stretch whole = { opts->progress, 0, 1 };
@@ -312,7 +313,7 @@ fit_signal(ss_fit *fit, work *w, const ss_signal *signal, size_t column, const s
     w->record = fitted_part(w);
     ss_status st = ss_match_noise(&w->noise, &w->record, w->goal.period * w->rate);
     if (st == SS_OK)
-        st = search(w, signal, column, &searching, err);
+        st = search_starts(w, signal, column, &searching, err);
     if (st == SS_OK)
         st = match_all(w, &matching);
     if (st == SS_OK && w->c.steps > BUDGET)
@@ -358,11 +359,11 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
         return st;
     const ss_stretch at_once = { opts->progress, 0, 0 };    /* the fit takes longer */
     char *missing = NULL;
-    work *w = malloc(sizeof *w);
+    fitting *w = malloc(sizeof *w);
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN, .noise = NAN };
     if (w == NULL)
         return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
-    *w = (work){ .x = signal->values + column * signal->n, .n = signal->n, .rate = signal->head->rate };
+    *w = (fitting){ .x = signal->values + column * signal->n, .n = signal->n, .rate = signal->head->rate };
     st = ss_gaps_missing(&missing, signal);
     w->missing = missing;
     if (st == SS_OK)

@@ -1,7 +1,7 @@
 /* match.c -- adjust a scene to a record, sample by sample.
  *
- * The mean cycle finds the right motion (candidate.c), but a record seldom is settled to the last
- * digit, and what is not would go into the parameters or pass for an error of the model.  So the
+ * The mean cycle finds the right motion (candidate.c), but a record is seldom settled to the last
+ * digit, and the rest of the transient would shift the parameters or seem an error of the model.  So the
  * motion is fitted to the record itself, with a start of its own: position and velocity within a
  * slip half a cycle or more before the record, where they are all the state there is, or what else
  * there is has died out when the record begins.
@@ -49,7 +49,7 @@ typedef struct point {
     double left;                        /* mean square over the samples used; infinite: no motion */
 } point;
 
-typedef struct work {
+typedef struct matching {
     candidate *c;
     const match_record *r;
     const ss_stretch *progress;
@@ -64,10 +64,10 @@ typedef struct work {
     double *motion, *slope[UNKNOWNS];   /* at the present point, and by each of moved, size, offset */
     double *clear, *weight;             /* of the point evaluated last: see ss_candidate_run */
     double used;                        /* sum of the weights */
-} work;
+} matching;
 
 static size_t
-unknowns(const work *w)
+unknowns(const matching *w)
 {
     return w->n_moved + 2;
 }
@@ -75,7 +75,7 @@ unknowns(const work *w)
 /* --- a point ------------------------------------------------------------------------------- */
 
 static ss_scene
-scene_at(const work *w, const double p[MOVED])
+scene_at(const matching *w, const double p[MOVED])
 {
     double frequency = w->frequency * exp(w->turn * p[MATCH_FREQUENCY]);
     ss_scene s = ss_candidate_scene(w->c, p, 1 / frequency);
@@ -91,7 +91,7 @@ scene_at(const work *w, const double p[MOVED])
 
 /* Run the motion at p; 0 if there is none. */
 static int
-run(work *w, const double p[MOVED], double *motion, double *clear)
+run(matching *w, const double p[MOVED], double *motion, double *clear)
 {
     ss_scene s = scene_at(w, p);
     if (w->status == SS_OK)
@@ -105,7 +105,7 @@ run(work *w, const double p[MOVED], double *motion, double *clear)
 }
 
 static void
-weigh(work *w)
+weigh(matching *w)
 {
     const match_record *r = w->r;
     w->used = 0;
@@ -118,7 +118,7 @@ weigh(work *w)
 
 /* Size and offset of the motion that leave least of the samples used, and what that is. */
 static void
-regress(const work *w, const double *motion, point *at)
+regress(const matching *w, const double *motion, point *at)
 {
     const double *x = w->r->x;
     double mean_m = 0, mean_x = 0, mm = 0, mx = 0, squares = 0;
@@ -141,7 +141,7 @@ regress(const work *w, const double *motion, point *at)
 }
 
 static void
-evaluate(work *w, point *at, double *motion)
+evaluate(matching *w, point *at, double *motion)
 {
     at->left = INFINITY;
     if (!run(w, at->p, motion, w->clear))
@@ -161,7 +161,7 @@ typedef struct normal {
 /* Over which slopes are differences: what a method of simulation resolves, but wider for the start
  * while the way is long, as what follows it can change unevenly. */
 static double
-step_of(const work *w, size_t j)
+step_of(const matching *w, size_t j)
 {
     if (w->wide > 1 && (j == MATCH_X0 || j == MATCH_V0))
         return 0.01;
@@ -170,7 +170,7 @@ step_of(const work *w, size_t j)
 
 /* Slopes of the motion, as large as the record's; 0 if one has none. */
 static int
-find_slopes(work *w, const point *at)
+find_slopes(matching *w, const point *at)
 {
     for (size_t k = 0; k < w->n_moved; k++) {
         double *slope = w->slope[k];
@@ -190,7 +190,7 @@ find_slopes(work *w, const point *at)
 }
 
 static void
-find_normal(const work *w, const point *at, normal *e)
+find_normal(const matching *w, const point *at, normal *e)
 {
     e->n = unknowns(w);
     memset(e->a, 0, sizeof e->a);
@@ -244,7 +244,7 @@ substitute(const normal *e, double l[UNKNOWNS][UNKNOWNS], double *b)
 /* How far the unknown k may go: within its range, and no step so far that slopes mean nothing there.
  * (What the record hardly shows, as the start where all of it dies out, else goes anywhere.) */
 static double
-limited(const work *w, const point *at, size_t k, double step)
+limited(const matching *w, const point *at, size_t k, double step)
 {
     if (k >= w->n_moved)
         return step;
@@ -256,7 +256,7 @@ limited(const work *w, const point *at, size_t k, double step)
 /* The damped step within the ranges: unknowns that would leave theirs go to its end, and the others
  * are solved for again. */
 static void
-find_step(const work *w, const point *at, const normal *e, double damping, double step[UNKNOWNS])
+find_step(const matching *w, const point *at, const normal *e, double damping, double step[UNKNOWNS])
 {
     int held[UNKNOWNS] = { 0 }, again = 1;
     double l[UNKNOWNS][UNKNOWNS];
@@ -291,7 +291,7 @@ gain_of(const normal *e, const double step[UNKNOWNS])
 
 /* From at to where least is left. */
 static void
-descend(work *w, point *at)
+descend(matching *w, point *at)
 {
     /* noise moves the sum of squares by once its variance: a thousandth of that is nothing */
     double damping = 1e-3, least = w->wide > 1 ? 1e-3 : 1e-3 / (double)w->r->n;
@@ -334,7 +334,7 @@ find_fastest(const ss_sample *s, size_t n, void *user)
 
 /* The settled scene from the first sample of the record on. */
 static ss_scene
-settled(const work *w, const candidate_start *start, double period)
+settled(const matching *w, const candidate_start *start, double period)
 {
     ss_scene s = ss_candidate_scene(w->c, start->key, period);
     s.phase = 2 * M_PI * (w->r->from / period - start->shift);
@@ -345,7 +345,7 @@ settled(const work *w, const candidate_start *start, double period)
 
 /* Begin from rest, CANDIDATE_SETTLE cycles before the record, as the search did. */
 static void
-begin_at_rest(work *w, const candidate_start *start, double period, point *at)
+begin_at_rest(matching *w, const candidate_start *start, double period, point *at)
 {
     double cycles = (double)w->r->n / w->r->rate / period;
     w->frequency = 1 / period;
@@ -360,7 +360,7 @@ begin_at_rest(work *w, const candidate_start *start, double period, point *at)
  * later: where it slips fastest, if in a slip x and v are all the state there is.  0 if it does not
  * slip. */
 static int
-free_start(work *w, double cycles, point *at)
+free_start(matching *w, double cycles, point *at)
 {
     ss_sample fastest = { .v = 0 };
     ss_scene s = scene_at(w, at->p);
@@ -393,7 +393,7 @@ free_start(work *w, double cycles, point *at)
 
 /* The least of half the mean square differences over a lag: see the head of this file. */
 static double
-whiteness(const work *w, const double *left)
+whiteness(const matching *w, const double *left)
 {
     double least = INFINITY;
     for (size_t lag = 1; lag <= LAGS && lag < w->r->n / 4; lag++) {
@@ -411,7 +411,7 @@ whiteness(const work *w, const double *left)
 }
 
 static void
-find_covariance(const work *w, const normal *e, match *m)
+find_covariance(const matching *w, const normal *e, match *m)
 {
     const int held[UNKNOWNS] = { 0 };
     double l[UNKNOWNS][UNKNOWNS], unit[UNKNOWNS];
@@ -432,7 +432,7 @@ find_covariance(const work *w, const normal *e, match *m)
 }
 
 static void
-report(work *w, point *at, match *m)
+report(matching *w, point *at, match *m)
 {
     normal e;
     const match_record *r = w->r;
@@ -457,7 +457,7 @@ report(work *w, point *at, match *m)
 }
 
 static void
-descend_all(work *w, point *at)
+descend_all(matching *w, point *at)
 {
     static const double wide[] = { CANDIDATE_REACH - 1, 4, 1 };
     for (size_t i = 0; i < sizeof wide / sizeof *wide; i++) {
@@ -470,7 +470,7 @@ descend_all(work *w, point *at)
  * record is nearly forgotten there, so that what is left changes slowly with it; from one cycle before
  * descents end on the way, unless they begin near. */
 static void
-solve(work *w, point *at, double misfit, match *m)
+solve(matching *w, point *at, double misfit, match *m)
 {
     static const double cycles[] = { 3, 1 };
     w->n_moved -= 2;
@@ -510,7 +510,7 @@ ss_status
 ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
               const match_record *record, const ss_stretch *progress)
 {
-    work w = { .c = c, .r = record, .progress = progress, .expected = 1 };
+    matching w = { .c = c, .r = record, .progress = progress, .expected = 1 };
     size_t n = record->n;
     point at = { .left = INFINITY };
     for (size_t j = 0; j < MOVED; j++)

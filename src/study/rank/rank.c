@@ -1,4 +1,4 @@
-/* rank.c -- which scene explains a signal: its samples, and what its contours show.
+/* rank.c -- which scene explains a signal: its samples, and the features of its contours.
  *
  * A scene stands for all rigs within the spread of its parameters.  So each is first adjusted to
  * the signal's mean cycle (candidate.c), then to its samples (match.c), and run for as long and with
@@ -23,8 +23,8 @@
 #include "study/rank/match.h"
 #include "signal/gaps.h"
 
-/* Thresholds are what can be told apart, not what was seen in some signal: twice the power; the
- * spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the
+/* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the power;
+ * the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the
  * damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
  * contour. */
 const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
@@ -50,14 +50,14 @@ enum { STARTS = 32, KEEP = 4, STEPS = 80 };      /* of the search */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
 #define SPAN 80.0                       /* [dB] of a contour map */
 
-/* --- what a signal shows ------------------------------------------------------------------- */
+/* --- what is observed of a signal ---------------------------------------------------------- */
 
-typedef struct look {
+typedef struct observation {
     double value[SS_CRITERIA];
     int countable;                      /* spikes can be counted */
     int has_slope;                      /* there are columns for df/dx */
     ss_coefficients *map;
-} look;
+} observation;
 
 static int
 by_size(const void *a, const void *b)
@@ -76,7 +76,7 @@ median(double *x, size_t n)
 }
 
 static double
-level(const look *l, size_t c, double top)
+level(const observation *l, size_t c, double top)
 {
     double size = hypot(l->map->w[2 * c], l->map->w[2 * c + 1]);
     return fmax(size > 0 ? 20 * log10(size / top) : -SPAN, -SPAN);
@@ -85,7 +85,7 @@ level(const look *l, size_t c, double top)
 /* The median over half cycles of the largest |W| in each along the shortest scale [dB re the
  * map's]. */
 static ss_status
-look_at_jumps(look *l, double half)
+measure_jumps(observation *l, double half)
 {
     const ss_scale *s = &l->map->scale[l->map->n_scales - 1];
     double top = ss_coefficients_max(l->map), rate = l->map->head->rate;
@@ -107,7 +107,8 @@ look_at_jumps(look *l, double half)
 
 /* Spikes not more than 20 dB below the strongest: how many a half cycle, and how smooth. */
 static ss_status
-look_at_spikes(look *l, const double *x, const ss_header *head, size_t n, double half, ss_error *err)
+measure_spikes(observation *l, const double *x, const ss_header *head, size_t n, double half,
+               ss_error *err)
 {
     ss_spikes *found = NULL;
     ss_span *gap = NULL;
@@ -135,7 +136,7 @@ look_at_spikes(look *l, const double *x, const ss_header *head, size_t n, double
 }
 
 static ss_status
-look_at_transitions(look *l, const ss_signal *signal, size_t column, double half, ss_error *err)
+measure_transitions(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts = ss_features_defaults;
@@ -155,14 +156,14 @@ look_at_transitions(look *l, const ss_signal *signal, size_t column, double half
 }
 
 static void
-look_away(look *l)
+observation_free(observation *l)
 {
     ss_coefficients_free(l->map);
     l->map = NULL;
 }
 
 static ss_status
-look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error *err)
+observe(observation *l, const ss_signal *signal, size_t column, double period, ss_error *err)
 {
     const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = ss_morlet_defaults;
@@ -173,15 +174,15 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
     for (size_t i = 0; i < SS_CRITERIA; i++)
         l->value[i] = NAN;
     l->map = NULL;
-    st = look_at_transitions(l, signal, column, period / 2, err);
+    st = measure_transitions(l, signal, column, period / 2, err);
     if (st == SS_OK)
-        st = look_at_spikes(l, x, signal->head, signal->n, period / 2, err);
+        st = measure_spikes(l, x, signal->head, signal->n, period / 2, err);
     if (st == SS_OK)
         st = ss_morlet_transform(&l->map, signal, column, &opts, err);
     if (st == SS_OK)
-        st = look_at_jumps(l, period / 2);
+        st = measure_jumps(l, period / 2);
     if (st != SS_OK)
-        look_away(l);
+        observation_free(l);
     return st;
 }
 
@@ -189,7 +190,7 @@ look_at(look *l, const ss_signal *signal, size_t column, double period, ss_error
 
 /* The rms difference of the levels of two maps on one grid, every octave counting the same. */
 static double
-map_distance(const look *a, const look *b)
+map_distance(const observation *a, const observation *b)
 {
     double top_a = ss_coefficients_max(a->map), top_b = ss_coefficients_max(b->map), sum = 0;
     if (!(top_a > 0 && top_b > 0))
@@ -220,13 +221,13 @@ distance(ss_criterion c, double a, double b)
 }
 
 static void
-compare(ss_rank_row *row, const look *signal, const look *model)
+compare(ss_rank_row *row, const observation *signal, const observation *model)
 {
     for (size_t i = SS_BY_MAXIMUM; i < SS_CRITERIA; i++) {
         row->value[i] = model->value[i];
         row->distance[i] = distance((ss_criterion)i, signal->value[i], model->value[i]);
     }
-    /* where noise hides spikes, their number and kind tell of the noise */
+    /* where noise hides spikes, their number and kind describe the noise */
     if (!signal->countable)
         row->distance[SS_BY_SPIKES] = row->distance[SS_BY_SLOPE] = 0;
     if (!signal->has_slope) {
@@ -238,7 +239,7 @@ compare(ss_rank_row *row, const look *signal, const look *model)
 
 /* --- a scene ------------------------------------------------------------------------------- */
 
-typedef struct work {
+typedef struct comparison {
     const ss_signal *signal;            /* the window */
     const char *missing;                /* of its samples; NULL: none */
     size_t column;
@@ -248,8 +249,8 @@ typedef struct work {
     cycle goal;
     double from;                        /* start of the window in the record [s] */
     double noise;                       /* variance, at most */
-    look look;                          /* of the signal */
-} work;
+    observation observation;            /* of the signal */
+} comparison;
 
 /* A scene's best match, which is kept for the answer. */
 typedef struct found {
@@ -258,7 +259,7 @@ typedef struct found {
 } found;
 
 static match_record
-record_of(const work *w, size_t column)
+record_of(const comparison *w, size_t column)
 {
     return (match_record){ .x = w->signal->values + column * w->signal->n, .missing = w->missing,
                            .n = w->signal->n, .rate = w->signal->head->rate, .from = w->from };
@@ -266,7 +267,8 @@ record_of(const work *w, size_t column)
 
 /* The adjusted scene as the signal's window would show it, its gaps included. */
 static ss_status
-look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long seed, ss_error *err)
+observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, unsigned long seed,
+              ss_error *err)
 {
     ss_signal *run = NULL;
     size_t column = (size_t)w->opts->quantity;
@@ -282,14 +284,14 @@ look_at_scene(look *l, const work *w, const ss_scene *adjusted, unsigned long se
     for (size_t c = 0; c < run->head->n_columns; c++)
         ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)
-        st = look_at(l, run, column, w->goal.period, err);
+        st = observe(l, run, column, w->goal.period, err);
     ss_signal_free(run);
     return st;
 }
 
 /* The best of the matches from each start of the search. */
 static ss_status
-match_scene(found *f, const work *w, const ss_stretch *progress)
+match_scene(found *f, const comparison *w, const ss_stretch *progress)
 {
     candidate *c = &f->candidate;
     const match_record record = record_of(w, w->column);
@@ -308,10 +310,10 @@ match_scene(found *f, const work *w, const ss_stretch *progress)
 }
 
 static ss_status
-rank_scene(ss_rank_row *row, found *f, const work *w, const ss_scene *scene,
+rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scene,
            const ss_stretch *progress, ss_error *err)
 {
-    look l;
+    observation l;
     double spread = w->opts->spread;
     const ss_stretch search = ss_stretch_part(progress, 0, 0.5);
     const ss_stretch matching = ss_stretch_part(progress, 0.5, 1);
@@ -327,11 +329,11 @@ rank_scene(ss_rank_row *row, found *f, const work *w, const ss_scene *scene,
         return ss_fail(err, st, "%s", ss_strerror(st));
     const match *m = &f->match;
     row->adjusted = m->scene;
-    st = look_at_scene(&l, w, &row->adjusted, 1, err);
+    st = observe_scene(&l, w, &row->adjusted, 1, err);
     if (st != SS_OK)
         return st;
-    compare(row, &w->look, &l);
-    look_away(&l);
+    compare(row, &w->observation, &l);
+    observation_free(&l);
     row->explained = 1 - m->left_all / m->power;
     row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(m->left, 1e-12 * m->power) / m->power);
     row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&f->candidate, m->key);
@@ -399,7 +401,7 @@ lead_of(const match *m, const match *over, double noise)
 
 /* A motion without transitions, as any linear rig has it. */
 static int
-is_sinusoid(const work *w, const match *m)
+is_sinusoid(const comparison *w, const match *m)
 {
     const match_record record = record_of(w, w->column);
     match sinusoid = *m;
@@ -409,7 +411,7 @@ is_sinusoid(const work *w, const match *m)
 
 /* What the verdict is, by what the scenes leave of the column. */
 static void
-judge(ss_ranking *r, const work *w, const found *f)
+judge(ss_ranking *r, const comparison *w, const found *f)
 {
     const ss_rank_row *first = &r->row[0];
     const match *m = &f[first->scene].match;
@@ -448,7 +450,7 @@ judge(ss_ranking *r, const work *w, const found *f)
 /* Does the scene that is named explain the other columns too?  Its model may do so with other
  * parameters, as it could if it were asked for that column alone. */
 static ss_status
-ask_other_columns(ss_ranking *r, const work *w, const found *f)
+ask_other_columns(ss_ranking *r, const comparison *w, const found *f)
 {
     const found *named = &f[r->row[0].scene];
     const ss_scene *s = &named->match.scene;
@@ -482,7 +484,7 @@ ask_other_columns(ss_ranking *r, const work *w, const found *f)
 }
 
 static ss_status
-settle(ss_ranking *r, work *w, const found *f)
+settle(ss_ranking *r, comparison *w, const found *f)
 {
     double least = INFINITY;
     for (size_t i = 0; i < r->n; i++) {
@@ -497,7 +499,7 @@ settle(ss_ranking *r, work *w, const found *f)
     }
     qsort(r->row, r->n, sizeof *r->row, less_first);
     for (size_t i = 0; i < SS_CRITERIA; i++)
-        r->value[i] = w->look.value[i];
+        r->value[i] = w->observation.value[i];
     judge(r, w, f);
     return r->verdict == SS_NAMED ? ask_other_columns(r, w, f) : SS_OK;
 }
@@ -546,7 +548,7 @@ rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
 }
 
 static ss_status
-rank_scenes(ss_ranking *r, found *f, const ss_scene *scene, work *w, const ss_stretch *progress,
+rank_scenes(ss_ranking *r, found *f, const ss_scene *scene, comparison *w, const ss_stretch *progress,
             ss_error *err)
 {
     ss_status st = SS_OK;
@@ -561,8 +563,8 @@ rank_scenes(ss_ranking *r, found *f, const ss_scene *scene, work *w, const ss_st
 }
 
 static ss_status
-rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_scene *scene, work *w,
-         const ss_stretch *progress, ss_error *err)
+rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_scene *scene,
+         comparison *w, const ss_stretch *progress, ss_error *err)
 {
     double rate = signal->head->rate, most = WINDOW * w->goal.period * rate;
     size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
@@ -580,13 +582,13 @@ rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_s
     for (size_t c = 0; st == SS_OK && c < window->head->n_columns; c++)
         ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
     if (st == SS_OK)
-        st = look_at(&w->look, window, w->column, w->goal.period, err);
+        st = observe(&w->observation, window, w->column, w->goal.period, err);
     const match_record record = record_of(w, w->column);
     if (st == SS_OK)
         st = ss_match_noise(&w->noise, &record, w->goal.period * rate);
     if (st == SS_OK)
         st = rank_scenes(r, f, scene, w, progress, err);
-    look_away(&w->look);
+    observation_free(&w->observation);
     free(w->gap);
     free(f);
     ss_signal_free(window);
@@ -607,7 +609,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     if (st != SS_OK)
         return st;
     ss_ranking *r = calloc(1, sizeof *r);
-    work *w = calloc(1, sizeof *w);
+    comparison *w = calloc(1, sizeof *w);
     if (r != NULL)
         r->row = calloc(n, sizeof *r->row);
     if (r == NULL || w == NULL || r->row == NULL) {
@@ -618,7 +620,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     r->n = n;
     for (size_t i = 0; i < n; i++)
         r->row[i].scene = i;
-    *w = (work){ .column = column, .opts = opts };
+    *w = (comparison){ .column = column, .opts = opts };
     const ss_stretch whole = { opts->progress, 0, 1 };
     const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(n + 1));
     char *missing = NULL;
