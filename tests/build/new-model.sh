@@ -62,7 +62,7 @@ echo '-- ss-rank'
 bin/ss-sim copied.scene > signal.tsv
 ss-sim --list coulomb > coulomb.scene
 bin/ss-rank signal.tsv coulomb.scene copied.scene > ranking.tsv
-grep '^# answer' ranking.tsv
+sed -n 's/^\(# answer.*explains\).*/\1/p' ranking.tsv
 refused bin/ss-rank --fit signal.tsv copied.scene
 
 echo '-- ss-sweep'
@@ -93,7 +93,7 @@ sim --accuracy 1e-8 --events stepped.scene | grep -vc '^# '
 bin/ss-trade -b 0.1 -s duration=0.2 -s settle=0 stepped.scene | sed '/^#/d' | cut -f 1 | uniq -c
 bin/ss-sim stepped.scene > signal.tsv
 ss-sim --list state-variable > other.scene
-bin/ss-rank signal.tsv other.scene stepped.scene | grep '^# answer'
+bin/ss-rank signal.tsv other.scene stepped.scene | sed -n 's/^\(# answer.*explains\).*/\1/p'
 for scene in stepped original; do
     bin/ss-sweep --vary friction=0.5:1:2 --measure stops,stick,amplitude $scene.scene |
         grep -v '^#' > $scene.tsv

@@ -11,7 +11,7 @@ ss-signal step -d 4 --at 2 | answer
 ss-signal sine -d 0 | answer
 ss-signal sine -d 4 --amplitude 0 | answer
 ss-sim state-variable | ss-noise --snr 20 | answer
-cut -f 1,2 rows | grep -v '^#'
+cut -f 1,2 rows | grep -v '^#' | head -n 1
 # a force, by its column; another rig by its mass
 ss-sim compliant-light | answer -c f
 # not in SI units, and named otherwise
