@@ -11,10 +11,10 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* What a signal is of; the order of the columns of ss_sim_signal. */
+/* The quantity of a signal, in the order of the columns of ss_sim_signal. */
 typedef enum ss_quantity { SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE } ss_quantity;
 
-/* What models are judged by: a number of the signal and of each scene, and their distance. */
+/* Models are judged by a number of the signal, the same of each scene, and their distance. */
 typedef enum ss_criterion {
     SS_BY_RESIDUAL,             /* power of the mean cycle that is left, above the least [dB] */
     SS_BY_ADJUSTMENT,           /* of the scene's parameters, rms in units of the spread */
@@ -112,7 +112,7 @@ ss_status ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *abo
 /* --- the scene that fits ------------------------------------------------------------------- */
 
 typedef struct ss_fit {
-    int conclusive;             /* 0: the parameters cannot be told, the scene is the one given */
+    int conclusive;             /* 0: the parameters are not determined, scene is that given */
     char why[256];              /* why not */
     ss_scene scene;             /* settled, in step with the record from its first sample */
     ss_value friction, base_amplitude;              /* with standard errors */

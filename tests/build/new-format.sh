@@ -61,7 +61,7 @@ begin_fish(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 }
 
 static size_t
-put_fish(char *to, double x, int last)
+format_fish(char *to, double x, int last)
 {
     size_t n = ss_number_format(to, x);
     to[n] = last ? '\n' : '|';
@@ -70,7 +70,7 @@ put_fish(char *to, double x, int last)
 
 const struct format ss_format_fish = {
     .name = "fish", .magic = "FISH", .open = open_fish,
-    .begin = begin_fish, .number = put_fish, .separator = '|'
+    .begin = begin_fish, .number = format_fish, .separator = '|'
 };
 C
 for file in "$SRC"/src/stream/*.c src/stream/fish.c; do
@@ -100,4 +100,5 @@ echo '-- what writes rows'
 ss-morlet --voices 1 --format fish ring.fish | head -n 2 | tail -n 1
 ss-features ring.fish -o features.fish && head -n 1 features.fish
 ss-sim --events -s settle=0 -s duration=0.5 coulomb -o events.fish && head -n 2 events.fish
+ss-rank -q ring.fish coulomb -o ranking.fish && head -n 1 ranking.fish | cut -d '|' -f 1-5
 ss-sweep coulomb --vary friction=0.5:1:2 --measure stops -o sweep.fish && cat sweep.fish
