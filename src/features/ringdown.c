@@ -13,7 +13,8 @@
  * Errors: by the jackknife over windows, in its linearised form. What it cannot see is a misfit that
  * all windows share, of the slow part or the ends: that moves the fit as the windows change. So all
  * are cut at their starts, or at their ends, and half of what that moves the fit by, noise apart, is
- * added in quadrature.  What is left beyond white noise adds a third part, see add_colour. */
+ * added in quadrature.  So is all that the fit moves by, noise apart, when the slow part may bend,
+ * see add_slow_part; and what is left beyond white noise, see add_colour. */
 #include "features/ringdown.h"
 
 #include <gsl/gsl_cdf.h>
@@ -38,6 +39,7 @@
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
 #define WHITE 1.2               /* of the white noise's variance: more is coloured */
 #define MISFIT 1e-3             /* of the oscillation's amplitude: passes for noise */
+#define SEEN 2.0                /* standard deviations: a move that noise does not make */
 #define LATEST 32.0             /* behind a window, see rings_on */
 #define EXPLAINED 0.9           /* of the sum of squares, to keep a window all the same */
 #define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
@@ -503,6 +505,33 @@ add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     return st;
 }
 
+/* What a filter leaves of a slip goes on into every stick, slowly and alike: neither the jackknife nor
+ * shorter windows see all of it.  If the fit moves by more than SEEN standard deviations of what noise
+ * moves it by (Hausman again) where the slow part may bend as a cubic, it is off by as much. */
+static ss_status
+add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    const double at[2] = { k->fit.w, k->fit.s };
+    double whole[2], bent[2], variance = -1;
+    int ok;
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_COLUMNS + 2)
+            return SS_OK;
+    variances(k, window, n, &variance, whole);
+    ss_varpro_bend(&k->fit, 1);
+    ss_status st = ss_varpro_fit(&k->fit, window, n, FINE, &ok);
+    if (st == SS_OK && ok) {
+        variances(k, window, n, &variance, bent);
+        const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
+        for (int j = 0; j < 2; j++)
+            if (moved[j] * moved[j] > SEEN * SEEN * fmax(bent[j] - whole[j], 0))
+                value[j].error = hypot(value[j].error, moved[j]);
+    }
+    ss_varpro_bend(&k->fit, 0);
+    k->fit.w = at[0], k->fit.s = at[1];
+    return st;
+}
+
 /* A residual above the white noise is no part of the model.  It may lie in the band of the oscillation:
  * then all of its energy in a window disturbs the fit, not only the share that white noise has there.
  * Nor is the fit finer than its tolerance. */
@@ -668,6 +697,8 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
     st = jackknife(k, window, n, value);
     if (st == SS_OK)
         st = add_misfit(k, window, n, value);
+    if (st == SS_OK)
+        st = add_slow_part(k, window, n, value);
     if (st == SS_OK)
         add_colour(k, window, n, white, value);
     return st == SS_OK ? fit_each(k, window, n, each) : st;

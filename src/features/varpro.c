@@ -1,8 +1,8 @@
 /* varpro.c -- a damped oscillation fitted to windows of a signal; its linear parameters are
  * projected out.
  *
- * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) and a slow part of two or
- * three columns. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
+ * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) and a slow part of two to
+ * four columns. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
  * projected out of each window (variable projection, Golub and Pereyra 1973, with Kaufman's
  * Jacobian), and two numbers are left to fit to all windows at once, by GSL's Levenberg-Marquardt. */
 #include "features/varpro.h"
@@ -41,7 +41,14 @@ ss_varpro_start(varpro *v, double w, double s, double forcing)
 {
     v->w = w, v->s = s;
     v->forcing = forcing;
-    v->columns = forcing > 0 ? VARPRO_COLUMNS : VARPRO_COLUMNS - 1;
+    ss_varpro_bend(v, 0);
+}
+
+void
+ss_varpro_bend(varpro *v, int is_cubic)
+{
+    v->is_cubic = is_cubic;
+    v->columns = is_cubic ? VARPRO_COLUMNS : v->forcing > 0 ? VARPRO_COLUMNS - 1 : VARPRO_COLUMNS - 2;
 }
 
 /* In lanes, which do not wait for each other. */
@@ -103,11 +110,17 @@ slow_columns(varpro *v, double **q, size_t n)
         extend(&v->slow, v->forcing, 0, n);
     for (size_t i = 0; i < n; i++) {
         q[0][i] = 1;
+        double t = (double)i - middle;
         if (v->forcing > 0) {
             q[1][i] = v->slow.sin[i] * c - v->slow.cos[i] * s;
             q[2][i] = v->slow.cos[i] * c + v->slow.sin[i] * s;
-        } else
-            q[1][i] = (double)i - middle;
+        } else {
+            q[1][i] = t;
+            if (v->is_cubic)
+                q[2][i] = t * t;
+        }
+        if (v->is_cubic)
+            q[3][i] = t * t * t;
     }
 }
 
@@ -117,9 +130,10 @@ make_basis(varpro *v, size_t n)
 {
     basis *b = &v->basis;
     size_t c = v->columns - 2;
-    if (b->n == n && b->w == v->w && b->s == v->s && b->forcing == v->forcing)
+    if (b->n == n && b->columns == v->columns && b->w == v->w && b->s == v->s
+        && b->forcing == v->forcing)
         return;
-    b->n = n, b->w = v->w, b->s = v->s, b->forcing = v->forcing;
+    b->n = n, b->columns = v->columns, b->w = v->w, b->s = v->s, b->forcing = v->forcing;
     slow_columns(v, b->q, n);
     extend(&v->ring, v->w, v->s, n);
     memcpy(b->q[c], v->ring.cos, n * sizeof(double));

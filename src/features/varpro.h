@@ -7,7 +7,7 @@
 #include <stickslip/status.h>
 #include "features/window.h"
 
-enum { VARPRO_COLUMNS = 5, VARPRO_DERIVATIVES = 4 };
+enum { VARPRO_COLUMNS = 6, VARPRO_DERIVATIVES = 4 };
 
 /* exp(-s t) cos(w t) and exp(-s t) sin(w t), t in samples, as many samples as were asked for yet. */
 typedef struct wave {
@@ -19,7 +19,7 @@ typedef struct wave {
 /* The orthonormal columns that are projected out of windows of n samples; the last two are the
  * oscillation's.  Windows of one length share it. */
 typedef struct basis {
-    size_t n;                   /* 0: none yet */
+    size_t n, columns;          /* n is 0: none yet */
     double w, s, forcing;
     double *q[VARPRO_COLUMNS];
     double norm[VARPRO_COLUMNS], cross;        /* of a column less those before; of sin along cos */
@@ -30,6 +30,7 @@ typedef struct varpro {
     size_t room;                /* samples of the longest window */
     double w, s;                /* of the oscillation, per sample */
     double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
+    int is_cubic;               /* t^2 (of the line only) and t^3 are in the slow part, too */
     size_t columns;             /* of the slow part and of the oscillation */
     wave slow, ring;            /* cos and sin of the forcing; the oscillation */
     basis basis;
@@ -52,6 +53,9 @@ void ss_varpro_free(varpro *v);
 
 /* Start from w and s; forcing: see above. */
 void ss_varpro_start(varpro *v, double w, double s, double forcing);
+
+/* Let the slow part bend as a cubic does, or no more. */
+void ss_varpro_bend(varpro *v, int is_cubic);
 
 /* Fit the amplitudes to a window of more samples than columns: makes the basis, fills r. */
 linear ss_varpro_project(varpro *v, ss_window win);

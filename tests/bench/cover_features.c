@@ -249,7 +249,7 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
     ss_features *f = NULL;
     ss_features_opts opts = ss_features_defaults;
     opts.mass = d->scene.mass;
-    if (ss_signal_select(&signal, d->signal, &column, 1, 0, n) != SS_OK)
+    if (ss_signal_select(&signal, d->signal, &column, 1, 0, n, NULL) != SS_OK)
         exit(1);
     if (c->apply != NULL)
         c->apply(signal->values, n, d, c->by);
