@@ -32,7 +32,7 @@ append_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
     (void)group, (void)info;
     if (more != NULL)
         links->name = more;
-    if (links->n == MAX_COLUMNS)
+    if (links->n == MAX_COLUMNS + 1)            /* and t */
         links->status = SS_EDATA;
     else if (more == NULL || (more[links->n] = strdup(name)) == NULL)
         links->status = SS_ENOMEM;
