@@ -48,7 +48,7 @@ acceleration(const ss_scene *scene, double snr, unsigned long seed)
     ss_signal *all = NULL, *one = NULL;
     ss_error err;
     if (ss_sim_signal(&all, scene, &err) != SS_OK
-        || ss_signal_select(&one, all, &a, 1, 0, all->n) != SS_OK) {
+        || ss_signal_select(&one, all, &a, 1, 0, all->n, &err) != SS_OK) {
         printf("# %s\n", err.text);
         exit(1);
     }
