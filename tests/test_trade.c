@@ -360,7 +360,7 @@ counts_the_events_that_a_method_loses(void **state)
     ss_trade *trade = NULL;
     (void)state;
     size_t events = truth(&s, &a);
-    assert_int_equal(ss_trade_measure(&trade, &s, &(ss_trade_opts){ .budget = 0.02 }, NULL), SS_OK);
+    assert_int_equal(ss_trade_measure(&trade, &s, &(ss_trade_opts){ .budget = 0.2 }, NULL), SS_OK);
     const ss_trade_row *row = row_of(trade, "rk1imp", 1e-2);
     assert_int_equal(trade->events, events);
     assert_int_equal(run_scene(&b, &s, "rk1imp", 1e-2, 0, NULL), SS_OK);
