@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/sort.h"
 #include "features/scale_rows.h"
 
 #define LONGEST 20.0            /* scales in the record at least: some of them must be quiet */
@@ -15,13 +16,6 @@ stronger_first(const void *a, const void *b)
 {
     double p = ((const peak *)a)->level, q = ((const peak *)b)->level;
     return (p < q) - (p > q);
-}
-
-static int
-earlier_first(const void *a, const void *b)
-{
-    double p = ((const ss_burst *)a)->t, q = ((const ss_burst *)b)->t;
-    return (p > q) - (p < q);
 }
 
 /* The clearest row, left in *best; rows: how many there are. */
@@ -65,7 +59,7 @@ collect_bursts(ss_bursts *found, row *r, double threshold, double range)
         }
         found->burst[found->n++] = (ss_burst){ r->peak[n].t, level, r->peak[n].level / r->rms };
     }
-    qsort(found->burst, found->n, sizeof *found->burst, earlier_first);
+    qsort(found->burst, found->n, sizeof *found->burst, ss_ascending);
     return SS_OK;
 }
 

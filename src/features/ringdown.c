@@ -704,8 +704,8 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
     return st == SS_OK ? fit_each(k, window, n, each) : st;
 }
 
-static void
-clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
+void
+ss_ringdown_clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2], ss_value *each)
 {
     value[0] = value[1] = nothing;
     for (size_t i = 0; i < n; i++) {
@@ -721,7 +721,7 @@ fit_with(fitter *k, const size_t *anchor, size_t n, double white, ss_window *win
     ss_window *core = malloc((n + 1) * sizeof *core);
     if (core == NULL)
         return SS_ENOMEM;
-    clear(anchor, n, window, value, each);
+    ss_ringdown_clear(anchor, n, window, value, each);
     ss_status st = fit_all(k, anchor, n, white, core, window, value, each);
     free(core);
     return st;
@@ -760,7 +760,7 @@ ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, size_t n_a
                      ss_value *each)
 {
     fitter k = { .n = n, .n_gaps = n_gaps, .gap = gap };
-    clear(anchor, n_anchors, window, value, each);
+    ss_ringdown_clear(anchor, n_anchors, window, value, each);
     ss_status st = ss_varpro_init(&k.fit, x, (size_t)ceil(4 * LEAST * M_PI / w) + 2 * VARPRO_COLUMNS);
     ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
@@ -778,7 +778,7 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
 {
     fitter k = { .n = n, .n_gaps = n_gaps, .gap = gap };
     const double turn = 2 * M_PI / w;
-    clear(anchor, n_anchors, window, value, each);
+    ss_ringdown_clear(anchor, n_anchors, window, value, each);
     double apart = n_anchors < 2 ? 0
         : (double)(anchor[n_anchors - 1] - anchor[0]) / (double)(n_anchors - 1);
     if (!(apart >= APART * turn) || (forcing > 0 && M_PI / forcing < APART * turn))

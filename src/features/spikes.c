@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/list.h"
+#include "base/sort.h"
 #include "features/breakpoint.h"
 #include "features/scale_rows.h"
 #include <stickslip/spikes.h>
@@ -134,18 +135,11 @@ add_spike(spike_search *s, size_t i, const peak *p)
     return SS_OK;
 }
 
-static int
-earlier_first(const void *a, const void *b)
-{
-    const ss_spike *p = a, *q = b;
-    return (p->t > q->t) - (p->t < q->t);
-}
-
 static void
 sort(ss_spikes *found)
 {
     if (found->n > 1)
-        qsort(found->spike, found->n, sizeof *found->spike, earlier_first);
+        qsort(found->spike, found->n, sizeof *found->spike, ss_ascending);
 }
 
 /* Is t clear of the n spikes found at shorter scales, which are in time order? */

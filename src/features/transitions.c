@@ -6,6 +6,7 @@
 #include "features/fold.h"
 #include "features/force.h"
 #include "base/list.h"
+#include "base/sort.h"
 #include "features/ringdown.h"
 #include "features/scale_rows.h"
 #include "features/search.h"
@@ -79,13 +80,6 @@ static int
 is_event(const ss_spike *spike)
 {
     return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
-}
-
-static int
-earlier(const void *a, const void *b)
-{
-    const ss_transition *p = a, *q = b;
-    return (p->onset > q->onset) - (p->onset < q->onset);
 }
 
 ss_status
@@ -293,16 +287,6 @@ judge_fit(const ss_value all[2], size_t used, size_t crossed)
     return NULL;
 }
 
-static void
-forget_fit(const size_t *anchor, size_t n, ss_window *window, ss_value all[2], ss_value *each)
-{
-    all[0] = all[1] = unknown;
-    for (size_t i = 0; i < n; i++) {
-        window[i] = (ss_window){ anchor[i], anchor[i] };
-        each[2 * i] = each[2 * i + 1] = unknown;
-    }
-}
-
 /* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
  * smaller one does little harm, so that windows are kept off jumps, and then off kinks, only where
  * nothing can be fitted else that deserves it.  *why: it is no ringing. */
@@ -349,7 +333,7 @@ fit_and_judge(search *s, const double *about, double f, int singly, ss_window *w
     if (st == SS_OK && singly)
         out->why_ringing = judge_fit(all, n, 0);
     if (st == SS_OK && out->why_ringing != NULL)
-        forget_fit(anchor, n, window, all, each);
+        ss_ringdown_clear(anchor, n, window, all, each);
     if (st == SS_OK) {
         set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
         if (!(out->damping_ratio.value > POSITIVE * out->damping_ratio.error))
@@ -438,7 +422,7 @@ find_ringing(search *s, double label)
     if (st == SS_OK && out->n > 0)
         st = refine(s, swell, true_frequency(s, label));
     if (out->n > 0)
-        qsort(out->transition, out->n, sizeof *out->transition, earlier);
+        qsort(out->transition, out->n, sizeof *out->transition, ss_ascending);
     free(swell);
     return st;
 }

@@ -16,6 +16,7 @@
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_qrng.h>
 #include "base/error.h"
+#include "base/sort.h"
 #include "scene/model.h"
 
 enum { STARTS_MOST = 256 };
@@ -202,13 +203,6 @@ typedef struct start {
     double height, u[CANDIDATE_KEYS];
 } start;
 
-static int
-lower_first(const void *a, const void *b)
-{
-    double x = ((const start *)a)->height, y = ((const start *)b)->height;
-    return (x > y) - (x < y);
-}
-
 static ss_status
 scatter(start *s, size_t starts, size_t free, problem *p)
 {
@@ -223,7 +217,7 @@ scatter(start *s, size_t starts, size_t free, problem *p)
         s[i].height = height(&u.vector, p);
     }
     gsl_qrng_free(sobol);
-    qsort(s, starts, sizeof *s, lower_first);
+    qsort(s, starts, sizeof *s, ss_ascending);
     return p->status;
 }
 
@@ -283,7 +277,7 @@ ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
         st = scatter(s, starts, free, &p);
         for (size_t i = 0; st == SS_OK && i < keep; i++)
             st = descend(&s[i], free, steps, &p);
-        qsort(s, keep, sizeof *s, lower_first);
+        qsort(s, keep, sizeof *s, ss_ascending);
     }
     for (size_t i = 0; st == SS_OK && i < (free > 0 ? keep : 1); i++) {
         keep_start(&p, s[i].u);

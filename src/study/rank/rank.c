@@ -19,6 +19,7 @@
 #include <stickslip/spikes.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/sort.h"
 #include "study/rank/candidate.h"
 #include "study/rank/match.h"
 #include "signal/gaps.h"
@@ -59,19 +60,12 @@ typedef struct observation {
     ss_coefficients *map;
 } observation;
 
-static int
-by_size(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 static double
 median(double *x, size_t n)
 {
     if (n == 0)
         return NAN;
-    qsort(x, n, sizeof *x, by_size);
+    qsort(x, n, sizeof *x, ss_ascending);
     return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
 }
 
