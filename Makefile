@@ -114,6 +114,13 @@ $(BUILD)/scenes.c: data/embed.sh $(SCENES)
 	@mkdir -p $(@D)
 	sh data/embed.sh $(SCENES) > $@.new && mv $@.new $@
 
+$(BUILD)/src/base/number.o: ALL_CFLAGS += -I$(BUILD)
+$(BUILD)/src/base/number.o: $(BUILD)/number_pow10.h
+
+$(BUILD)/number_pow10.h: data/number_pow10.sh
+	@mkdir -p $(@D)
+	sh data/number_pow10.sh > $@.new && mv $@.new $@
+
 $(STATIC): $(LIB_OBJ)
 	rm -f $@ && $(AR) rcs $@ $^
 
@@ -194,8 +201,8 @@ fuzz:
 
 fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
 
-lint:
-	@CC=gcc FLAGS=$(call quote,-std=c11 -D_XOPEN_SOURCE=700 -Iinclude -Isrc $(INCLUDES)) sh tests/lint.sh
+lint: $(BUILD)/number_pow10.h
+	@CC=gcc FLAGS=$(call quote,-std=c11 -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) $(INCLUDES)) sh tests/lint.sh
 
 # Lines of src/ that the tests run, with gcc's gcov; what they do not is in $(BUILD)-coverage/report.
 coverage:

@@ -15,7 +15,7 @@
 #include <xlocale.h>
 #endif
 #include <stickslip/number.h>
-#include "base/number_pow10.h"
+#include "number_pow10.h"       /* made by data/number_pow10.sh */
 
 struct wide {
     uint64_t hi, lo;
