@@ -170,11 +170,30 @@ open_signal_without_values(hid_t file, hsize_t n)
     return group;
 }
 
+/* A dataset of n values beside t, without storage. */
 static void
-hard_links_do_not_multiply_what_a_file_may_claim(void **state)
+put_without_values(hid_t group, const char *name, hsize_t n)
+{
+    hid_t space = H5Screate_simple(1, &n, NULL);
+    hid_t id = H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(id >= 0);
+    H5Dclose(id);
+    H5Sclose(space);
+}
+
+static void
+assert_signal_refused(const char *words)
 {
     ss_signal *signal = NULL;
     ss_error err = { "" };
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_null(signal);
+    assert_string_equal(err.text + strlen(path), words);
+}
+
+static void
+many_datasets_together_claim_no_more_than_one_may(void **state)
+{
     char name[32];
     struct stat st;
     (void)state;
@@ -182,16 +201,65 @@ hard_links_do_not_multiply_what_a_file_may_claim(void **state)
     hid_t group = open_signal_without_values(file, 1 << 24);
     for (int i = 0; i < 12; i++) {
         snprintf(name, sizeof name, "x%d", i);
-        H5Lcreate_hard(group, "t", group, name, H5P_DEFAULT, H5P_DEFAULT);
+        put_without_values(group, name, 1 << 24);
     }
     H5Gclose(group);
     H5Fclose(file);
     assert_int_equal(stat(path, &st), 0);
     assert_true(st.st_size < 10000);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
-    assert_null(signal);
-    assert_string_equal(err.text + strlen(path), ":/signal/x1: with those before, claims more values "
-                        "than a file of this size can hold");
+    assert_signal_refused(":/signal/x1: with those before, claims more values than a file of this size "
+                          "can hold");
+}
+
+/* Hard links and soft ones, of t and of a column. */
+static void
+a_dataset_under_two_names_is_refused(void **state)
+{
+    static const struct { const char *from, *to; int soft; const char *words; } row[] = {
+        { "t", "y", 0, ":/signal/y: is another name of a dataset that was read before it" },
+        { "x", "y", 0, ":/signal/y: is another name of a dataset that was read before it" },
+        { "t", "y", 1, ":/signal/y: is another name of a dataset that was read before it" },
+        { "/signal/x", "y", 1, ":/signal/y: is another name of a dataset that was read before it" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        hid_t group = open_signal_without_values(file, 3);
+        put_without_values(group, "x", 3);
+        if (row[i].soft)
+            H5Lcreate_soft(row[i].from, group, row[i].to, H5P_DEFAULT, H5P_DEFAULT);
+        else
+            H5Lcreate_hard(group, row[i].from, group, row[i].to, H5P_DEFAULT, H5P_DEFAULT);
+        H5Gclose(group);
+        H5Fclose(file);
+        assert_signal_refused(row[i].words);
+    }
+    ss_signal *signal = new_signal(100);
+    ss_coefficients *c = transform(signal, 0), *back = NULL;
+    ss_error err = { "" };
+    write_ok(&(ss_record){ .coefficients = c });
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, "/wavelet/scale000/im", H5P_DEFAULT);
+    H5Lcreate_hard(file, "/wavelet/scale000/re", file, "/wavelet/scale000/im", H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(file);
+    assert_int_equal(ss_store_read_coefficients(&back, path, &err), SS_EDATA);
+    assert_string_equal(err.text + strlen(path), ":/wavelet/scale000/im: is another name of a dataset "
+                        "that was read before it");
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+/* Memory is not asked for as many columns as t is long before they are seen to be shorter. */
+static void
+a_column_shorter_than_t_is_refused(void **state)
+{
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t group = open_signal_without_values(file, 1 << 24);
+    put_without_values(group, "x", 1);
+    H5Gclose(group);
+    H5Fclose(file);
+    assert_signal_refused(":/signal/x: not as long as t");
 }
 
 /* An attribute of the root whose text of variable length is n times this letter. */
@@ -302,7 +370,7 @@ many_columns_without_an_index_are_listed_at_once(void **state)
     hid_t group = open_signal_without_values(file, 3);
     for (int i = COLUMNS; i > 0; i--) {
         snprintf(name, sizeof name, "x%d", i);
-        H5Lcreate_hard(group, "t", group, name, H5P_DEFAULT, H5P_DEFAULT);
+        put_without_values(group, name, 3);
     }
     H5Gclose(group);
     H5Fclose(file);
@@ -467,7 +535,9 @@ main(void)
         cmocka_unit_test(a_truncated_file_is_refused),
         cmocka_unit_test(flipped_bits_are_refused_or_harmless),
         cmocka_unit_test(nothing_leads_out_of_a_file_or_claims_more_than_it_holds),
-        cmocka_unit_test(hard_links_do_not_multiply_what_a_file_may_claim),
+        cmocka_unit_test(many_datasets_together_claim_no_more_than_one_may),
+        cmocka_unit_test(a_dataset_under_two_names_is_refused),
+        cmocka_unit_test(a_column_shorter_than_t_is_refused),
         cmocka_unit_test(one_text_under_many_names_is_not_read_many_times),
         cmocka_unit_test(the_list_of_arrays_ends_after_10000_objects),
         cmocka_unit_test(many_columns_without_an_index_are_listed_at_once),

@@ -5,6 +5,7 @@
 #include "store/h5.h"
 
 #include <math.h>
+#include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +23,13 @@ ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const
     return ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, colon, where, slash, name, text);
 }
 
+static int
+compare_addresses(const void *a, const void *b)
+{
+    haddr_t x = *(const haddr_t *)a, y = *(const haddr_t *)b;
+    return (x > y) - (x < y);
+}
+
 ss_status
 ss_h5_open(h5_file *file)
 {
@@ -32,6 +40,18 @@ ss_h5_open(h5_file *file)
     if (file->id < 0)
         return ss_h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
     return SS_OK;
+}
+
+void
+ss_h5_close(h5_file *file)
+{
+    while (file->seen != NULL) {
+        void *address = *(void **)file->seen;
+        tdelete(address, &file->seen, compare_addresses);
+        free(address);
+    }
+    if (file->id >= 0)
+        H5Fclose(file->id);
 }
 
 /* --- objects ------------------------------------------------------------------------------- */
@@ -159,17 +179,42 @@ ss_h5_refuse_values(hid_t dataset)
     return wrong;
 }
 
-const char *
-ss_h5_claim(h5_file *file, hid_t dataset)
+/* One dataset under many names would be read many times. */
+static ss_status
+refuse_second_name(h5_file *file, hid_t dataset, const char **wrong)
 {
-    const char *wrong = ss_h5_refuse_values(dataset);
-    if (wrong != NULL)
-        return wrong;
+    H5O_info_t info;
+    *wrong = "cannot be read";
+    if (H5Oget_info(dataset, &info) < 0)
+        return SS_EDATA;
+    haddr_t *address = malloc(sizeof *address), **node;
+    if (address == NULL)
+        return SS_ENOMEM;
+    *address = info.addr;
+    node = tsearch(address, &file->seen, compare_addresses);
+    if (node != NULL && *node == address)
+        return SS_OK;
+    free(address);
+    *wrong = "is another name of a dataset that was read before it";
+    return node != NULL ? SS_EDATA : SS_ENOMEM;
+}
+
+/* Count the values of a dataset among those that the file claims, once, before they are read. */
+static ss_status
+claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
+{
+    *wrong = ss_h5_refuse_values(dataset);
+    if (*wrong != NULL)
+        return SS_EDATA;
+    ss_status status = refuse_second_name(file, dataset, wrong);
+    if (status != SS_OK)
+        return status;
     hid_t space = H5Dget_space(dataset);
-    file->claimed += 8 * (double)H5Sget_simple_extent_npoints(space);
+    *n = (size_t)H5Sget_simple_extent_npoints(space);
     H5Sclose(space);
-    return file->claimed > largest_claim(dataset)
-        ? "with those before, claims more values than a file of this size can hold" : NULL;
+    file->claimed += 8 * (double)*n;
+    *wrong = "with those before, claims more values than a file of this size can hold";
+    return file->claimed > largest_claim(dataset) ? SS_EDATA : SS_OK;
 }
 
 /* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good there is no mask: then all is 0. */
@@ -359,12 +404,10 @@ ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
     hid_t id = ss_h5_open_dataset(group, name);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    const char *wrong = ss_h5_claim(file, id);
-    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
-    *n = wrong == NULL ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
-    H5Sclose(space);
+    const char *wrong;
+    ss_status status = claim(file, id, n, &wrong);
     H5Dclose(id);
-    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, name, wrong);
+    return status == SS_EDATA ? ss_h5_fail(file, status, group, name, wrong) : status;
 }
 
 ss_status

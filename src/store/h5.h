@@ -20,6 +20,7 @@ typedef struct h5_file {
     ss_error *err;
     double claimed;             /* bytes of the values read so far, as doubles */
     double text;                /* and of text in attributes */
+    void *seen;                 /* the datasets among them, a tree of tsearch() by their addresses */
 } h5_file;
 
 /* SS_EIO or the given status, with the text "PATH:GROUP/NAME: TEXT"; group 0 for the file itself. */
@@ -28,6 +29,8 @@ ss_status ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *n
 
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */
 ss_status ss_h5_open(h5_file *file);
+/* Close it, if it is open. */
+void ss_h5_close(h5_file *file);
 
 /* The file on disk that HDF5 writes to, open there; error is the errno of what failed first, or 0
  * (disk.c).  A list of file access that leads there, to be closed, or < 0. */
@@ -44,9 +47,6 @@ hid_t ss_h5_open_group(hid_t group, const char *name);
 /* Why the values of a dataset are not to be read, or NULL: not plain real numbers of this file, or
  * more of them than the file can hold. */
 const char *ss_h5_refuse_values(hid_t dataset);
-/* Count the values of a dataset among those that the file claims; why they are too many, or NULL.
- * Called once before they are read, so that names of one dataset do not multiply it. */
-const char *ss_h5_claim(h5_file *file, hid_t dataset);
 
 /* Load no plugin from here on, for any filter of a file; returns the value that restores it. */
 unsigned ss_h5_forbid_plugins(void);
@@ -65,7 +65,8 @@ ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double
 
 /* SS_EDATA with the place of the first value that is not finite. */
 ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
-/* The number of values of a 1-D or 2-D dataset, which are counted as claimed. */
+/* The number of values of a dataset that is read after this, by one name only: they are counted as
+ * claimed, and a second name of it is refused. */
 ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n);
 
 /* Rate, start and whether the text form has a column of time, from a group into a new header, with the

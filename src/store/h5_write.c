@@ -130,7 +130,7 @@ ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims
     }
     if (good && scales == NULL)
         good = H5DSset_scale(id, v->name) >= 0;
-    for (int i = 0; good && scales != NULL && i < rank; i++) {
+    for (int i = 0; good && scales != NULL && i < rank && scales[i] != NULL; i++) {
         hid_t scale = H5Dopen2(group, scales[i], H5P_DEFAULT);
         good = H5DSattach_scale(id, scale, (unsigned)i) >= 0;
         H5Dclose(scale);

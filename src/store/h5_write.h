@@ -36,8 +36,8 @@ hid_t ss_h5_new_group(hid_t parent, const char *name);
 /* The clock of a signal as attributes of its group. */
 int ss_h5_write_clock(hid_t group, const ss_header *head);
 
-/* Make one dataset on the given dimension scales (NULL: it is a scale itself), and write its values if
- * it has any; < 0 if HDF5 fails. */
+/* Make one dataset on the given dimension scales (NULL: it is a scale itself; { NULL }: on none), and
+ * write its values if it has any; < 0 if HDF5 fails. */
 hid_t ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
                         const char *const scales[]);
 /* n lists of one length that are there at once, of which the first is the scale of the others. */

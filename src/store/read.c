@@ -27,8 +27,7 @@ struct ss_store_reader {
 static ss_status
 finish(h5_file *file, ss_status status)
 {
-    if (file->id >= 0)
-        H5Fclose(file->id);
+    ss_h5_close(file);
     if (status == SS_ENOMEM)
         return ss_fail(file->err, status, "%s: %s", file->path, ss_strerror(status));
     return status;

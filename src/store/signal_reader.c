@@ -53,17 +53,19 @@ list_links(h5_file *file, hid_t group, struct links *links)
     return links->status;
 }
 
-/* Add the dataset at a link as a column of the header; the caller keeps ownership of *link. */
+/* Add the dataset at a link, of n values, as a column of the header. */
 static ss_status
-add_column(h5_file *file, hid_t group, const char *link, ss_header *head)
+add_column(h5_file *file, hid_t group, const char *link, size_t n, ss_header *head)
 {
-    hid_t id = ss_h5_open_dataset(group, link);
-    if (id < 0)
-        return ss_h5_fail(file, SS_EDATA, group, link, "not a dataset");
-    const char *wrong = ss_h5_claim(file, id);
+    size_t own;
     char *name = NULL, *unit = NULL;
-    ss_status status = wrong == NULL ? ss_h5_get_text(file, id, "column", &name)
-                                     : ss_h5_fail(file, SS_EDATA, group, link, wrong);
+    ss_status status = ss_h5_read_size(file, group, link, &own);
+    if (status != SS_OK)
+        return status;
+    if (own != n)
+        return ss_h5_fail(file, SS_EDATA, group, link, "not as long as t");
+    hid_t id = ss_h5_open_dataset(group, link);
+    status = ss_h5_get_text(file, id, "column", &name);
     if (status == SS_OK)
         status = ss_h5_get_text(file, id, "units", &unit);
     if (status == SS_OK)
@@ -82,7 +84,7 @@ read_columns(h5_file *file, hid_t group, ss_header *head, const struct links *li
     ss_status status = ss_h5_read_size(file, group, "t", &n);
     for (size_t i = 0; status == SS_OK && i < links->n; i++)
         if (strcmp(links->name[i], "t") != 0)
-            status = add_column(file, group, links->name[i], head);
+            status = add_column(file, group, links->name[i], n, head);
     if (status == SS_OK)
         status = ss_signal_new(out, head, n);
     double *values = status == SS_OK ? (*out)->values : NULL;

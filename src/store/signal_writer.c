@@ -43,10 +43,14 @@ link_name(char link[256], hid_t group, const char *name)
         sprintf(link + length, "_%d", i);
 }
 
+/* HDF5 writes the list of what is attached to t anew for each column.  A list of more than 64 kB it does
+ * not keep in the header of t but appends each time: 32768 columns would take a minute and 1 GB. */
+enum { MOST_ATTACHED = 4000 };
+
 static ss_status
-open_column(signal_writer *w, hid_t group, const ss_column *column, hsize_t chunk)
+open_column(signal_writer *w, hid_t group, const ss_column *column, hsize_t chunk,
+            const char *const scales[])
 {
-    static const char *const scales[] = { "t" };
     char link[256];
     hsize_t dims = w->length;
     link_name(link, group, column->name);
@@ -61,6 +65,7 @@ open_column(signal_writer *w, hid_t group, const ss_column *column, hsize_t chun
 ss_status
 ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_header *head, size_t length)
 {
+    const char *const scales[] = { head->n_columns <= MOST_ATTACHED ? "t" : NULL };
     hsize_t dims = length;
     hsize_t chunk = pieces->growing ? ss_h5_growing_chunk(8 * (head->n_columns + 1)) : 0;
     const h5_dataset t = { .name = "t", .unit = "s", .long_name = "time",
@@ -76,7 +81,7 @@ ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_header *head
         return ss_h5_fail_write(pieces->file, 0, "/signal");
     ss_status st = SS_OK;
     for (size_t c = 0; st == SS_OK && c < head->n_columns; c++)
-        st = open_column(w, group, &head->column[c], chunk);
+        st = open_column(w, group, &head->column[c], chunk, scales);
     H5Gclose(group);
     return st;
 }

@@ -15,12 +15,22 @@ open_image(const uint8_t *bytes, size_t size)
     return id;
 }
 
+/* As if the file were opened again. */
+static void
+begin(h5_file *file)
+{
+    h5_file again = { .id = -1, .path = file->path, .err = file->err, .seen = file->seen };
+    ss_h5_close(&again);
+    again.id = file->id;
+    *file = again;
+    file->err->text[0] = '\0';
+}
+
 static void
 read_signal(h5_file *file, const char *dataset, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
-    file->err->text[0] = '\0';
-    file->claimed = file->text = 0;
+    begin(file);
     ss_status status = ss_h5_read_signal(&signal, file, dataset, opts);
     if (status == SS_OK)
         fuzz_check_signal(signal);
@@ -33,8 +43,7 @@ static void
 read_coefficients(h5_file *file)
 {
     ss_coefficients *c = NULL;
-    file->err->text[0] = '\0';
-    file->claimed = file->text = 0;
+    begin(file);
     ss_status status = ss_h5_read_coefficients(&c, file);
     if (status != SS_OK && status != SS_ENOMEM)
         fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
@@ -56,7 +65,7 @@ LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
             read_signal(&file, "/y", &opts);
             read_signal(&file, "/signal/a", NULL);
             read_coefficients(&file);
-            H5Fclose(file.id);
+            ss_h5_close(&file);
         }
     } H5E_END_TRY
     return 0;
