@@ -18,8 +18,9 @@ struct target {
     size_t n, row;
 };
 
-/* Samples between the first and the last of n values. */
-static int
+/* Samples between the first and the last of n values; SS_ERANGE: one is not finite, as differences of
+ * values and stamps are not. */
+static ss_status
 fill_piece(const struct target *to, const double *t, const double *value, size_t n)
 {
     double first = ceil((t[0] - to->from) * to->rate - AT_END);
@@ -27,38 +28,39 @@ fill_piece(const struct target *to, const double *t, const double *value, size_t
     gsl_interp *spline = n > 1 ? gsl_interp_alloc(n > 2 ? gsl_interp_cspline : gsl_interp_linear, n)
                                : NULL;
     gsl_interp_accel at = { 0, 0, 0 };
-    if (n > 1 && (spline == NULL || gsl_interp_init(spline, t, value, n) != GSL_SUCCESS)) {
-        gsl_interp_free(spline);
-        return 0;
-    }
-    for (double i = fmax(first, 0); i <= last && i < (double)to->n; i++) {
+    if (n > 1 && spline == NULL)
+        return SS_ENOMEM;
+    int good = n == 1 || gsl_interp_init(spline, t, value, n) == GSL_SUCCESS;
+    for (double i = fmax(first, 0); good && i <= last && i < (double)to->n; i++) {
         double s = fmin(fmax(to->from + i / to->rate, t[0]), t[n - 1]);
-        to->x[(size_t)i * to->row] = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
+        double x = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
+        to->x[(size_t)i * to->row] = x;
+        good = isfinite(x);
     }
     gsl_interp_free(spline);
-    return 1;
+    return good ? SS_OK : SS_ERANGE;
 }
 
 /* One column of n values, a row apart: a spline through each piece without a gap, NaN between. */
-static int
+static ss_status
 fill_column(const struct target *to, const double *t, const double *value, size_t row, size_t n,
             double longest, double *kept, double *kept_t)
 {
     size_t k = 0;
+    ss_status st = SS_OK;
     for (size_t i = 0; i < to->n; i++)
         to->x[i * to->row] = NAN;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
         int there = !isnan(value[i * row]);
         if (k > 0 && (!there || t[i] - kept_t[k - 1] > longest)) {
-            if (!fill_piece(to, kept_t, kept, k))
-                return 0;
+            st = fill_piece(to, kept_t, kept, k);
             k = 0;
         }
         kept_t[k] = t[i];
         kept[k] = value[i * row];
         k += (size_t)there;
     }
-    return k == 0 || fill_piece(to, kept_t, kept, k);
+    return st == SS_OK && k > 0 ? fill_piece(to, kept_t, kept, k) : st;
 }
 
 /* The number of samples from the first stamp to the last; 0: more than memory holds. */
@@ -76,17 +78,18 @@ ss_resample(double **out, size_t *n_out, const double *t, const double *value, s
     *n_out = count_samples(t, n, rate, columns);
     double *kept = malloc(2 * n * sizeof *kept);
     *out = *n_out > 0 ? malloc(*n_out * columns * sizeof **out) : NULL;
-    int done = kept != NULL && *out != NULL;
-    for (size_t c = 0; done && c < columns; c++) {
+    ss_status st = kept != NULL && *out != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t c = 0; st == SS_OK && c < columns; c++) {
         struct target to = { t[0], rate, *out + c, *n_out, columns };
-        done = fill_column(&to, t, value + c, columns, n, LONGEST * usual_step, kept, kept + n);
+        st = fill_column(&to, t, value + c, columns, n, LONGEST * usual_step, kept, kept + n);
     }
     free(kept);
-    if (done)
-        return SS_OK;
+    if (st == SS_OK)
+        return st;
     free(*out);
     *out = NULL;
-    return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", name);
+    return ss_fail(err, st, st == SS_ERANGE ? "%s: a resampled value exceeds what a double holds"
+                   : "%s: no memory for a record this long", name);
 }
 
 ss_status
@@ -102,26 +105,24 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_err
                        n == 1 ? "" : "s", rate);
     double *t = malloc(n * sizeof *t);
     ss_header *new_head = ss_header_copy(head);
-    int done = t != NULL && new_head != NULL;
-    for (size_t i = 0; done && i < n; i++)
+    ss_status st = t != NULL && new_head != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < n; i++)
         t[i] = head->start + (double)i / head->rate;
-    size_t n_out = done ? count_samples(t, n, rate, head->n_columns + 1) : 0;
-    if (done)
+    size_t n_out = st == SS_OK ? count_samples(t, n, rate, head->n_columns + 1) : 0;
+    if (st == SS_OK)
         new_head->rate = rate;
-    done = n_out > 0 && ss_signal_new(out, new_head, n_out) == SS_OK;
-    for (size_t c = 0; done && c < head->n_columns; c++) {
+    if (st == SS_OK)
+        st = n_out > 0 ? ss_signal_new(out, new_head, n_out) : SS_ENOMEM;
+    for (size_t c = 0; st == SS_OK && c < head->n_columns; c++) {
         struct target to = { t[0], rate, (*out)->values + c * n_out, n_out, 1 };
-        done = fill_piece(&to, t, signal->values + c * n, n);
+        st = fill_piece(&to, t, signal->values + c * n, n);
     }
     ss_header_free(new_head);
     free(t);
-    double zero = 0;                    /* NaN once a value is not finite */
-    for (size_t i = 0; done && i < n_out * head->n_columns; i++)
-        zero += 0 * (*out)->values[i];
-    if (done && zero == 0)
-        return SS_OK;
+    if (st == SS_OK)
+        return st;
     ss_signal_free(*out);
     *out = NULL;
-    return done ? ss_fail(err, SS_ERANGE, "a resampled value exceeds what a double holds")
-        : ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+    return st == SS_ERANGE ? ss_fail(err, st, "a resampled value exceeds what a double holds")
+        : ss_fail(err, st, "%s", ss_strerror(st));
 }

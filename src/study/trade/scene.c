@@ -32,7 +32,12 @@ enum { MOST = 19997 };
 enum { REPEATS = 5 };               /* of short rows */
 #define SHORT 0.1                   /* [s] */
 #define OUTRAGEOUS 300              /* times the steps of the reference: SS_EBUDGET */
-#define REFERENCE_BUDGET 100        /* times a row's: what each run of the reference may take */
+
+/* What each run of the reference may take, times a row's CPU time.  It is time and not steps, as the
+ * user's budget is, and no byte of a measurement depends on it: a reference that exceeds it is refused,
+ * never replaced by a looser one.  ss_trade_choose, whose choice must not depend on the machine, bounds
+ * its runs by right-hand sides only. */
+#define REFERENCE_BUDGET 100
 
 static const double tolerance[] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
                                     1e-11, 1e-12, 1e-13, 1e-14 };
