@@ -11,76 +11,9 @@
 #include <cmocka.h>
 
 #include "extremes/runs.h"
+#include "random_scene.h"
 
-enum { DEFAULT_SCENES = 150, SAMPLES = 400, STEPS = 4000 };
-
-/* --- drawing ------------------------------------------------------------------------------- */
-
-typedef struct rng { uint64_t s; } rng;
-
-/* splitmix64 (Steele, Lea & Flood 2014) */
-static double
-uniform(rng *r)
-{
-    uint64_t z = r->s += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
-/* Within the named range; one time in eight 0, where that is in it. */
-static double
-draw(rng *r, const char *name)
-{
-    const ss_scene_range *range = NULL;
-    for (ss_model m = SS_COULOMB; range == NULL; m++)
-        for (size_t i = 0; (range = ss_model_range(m, i)) != NULL && strcmp(range->name, name) != 0;)
-            i++;
-    double u = uniform(r), zero = uniform(r);
-    return range->zero && zero < 0.125 ? 0 : range->from * pow(range->to / range->from, u);
-}
-
-static ss_scene
-random_scene(uint64_t number)
-{
-    rng r = { number * UINT64_C(0xd1342543de82ef95) + 1 };
-    ss_scene s = ss_scene_defaults;
-    double omega = 2 * M_PI * draw(&r, "omega_n/(2 pi)"), X = draw(&r, "X");
-    s.model = (ss_model)(3 * uniform(&r));
-    s.mass = draw(&r, "m");
-    s.stiffness = s.mass * omega * omega;
-    double base = draw(&r, "Omega/omega_n"), start = uniform(&r), angle = 2 * M_PI * uniform(&r);
-    s.base_frequency = base * omega / (2 * M_PI);
-    s.phase = 2 * M_PI * uniform(&r);
-    s.base_amplitude = start < 0.25 ? X * uniform(&r) : X;
-    if (start < 0.5) {
-        s.x0 = X * cos(angle);
-        s.v0 = X * omega * sin(angle);
-    }
-    double largest = fmax(s.base_amplitude, fmax(fabs(s.x0), fabs(s.v0) / omega));
-    if (largest > 0) {
-        s.base_amplitude *= X / largest;
-        s.x0 *= X / largest;
-        s.v0 *= X / largest;
-    }
-    s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
-    double fastest = fmax(1, base);
-    if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = draw(&r, "K_y/k") * s.stiffness;
-        double k = s.stiffness + s.contact_stiffness, zeta = draw(&r, "c/(2 sqrt((k + K_y) m))");
-        s.contact_damping = zeta * 2 * sqrt(k) * sqrt(s.mass);
-        s.release = uniform(&r) < 0.5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
-        fastest = fmax(fastest, sqrt(k / s.stiffness) * (zeta + sqrt(fmax(1, zeta * zeta))));
-    } else if (s.model == SS_STATE_VARIABLE) {
-        s.alpha = draw(&r, "alpha X omega_n") / (X > 0 ? X * omega : 1);
-        s.gamma = draw(&r, "gamma/omega_n") * omega;
-    }
-    /* ten of the slowest periods, or STEPS of the longest steps if that is less */
-    double slow = base > 0 ? fmin(1, base) : 1;
-    s.duration = fmin(10 / slow, STEPS / 40. / fastest) * 2 * M_PI / omega;
-    s.rate = SAMPLES / s.duration;
-    return s;
-}
+enum { DEFAULT_SCENES = 150 };
 
 static size_t
 from_environment(const char *name, size_t otherwise)
@@ -102,7 +35,7 @@ typedef struct trial {
     double nudged;
 } trial;
 
-enum { BUDGET = 40 * STEPS };           /* of a run whose tolerance forces no shorter steps */
+enum { BUDGET = 40 * RANDOM_STEPS };           /* of a run whose tolerance forces no shorter steps */
 enum { LONG_BUDGET = 100000000 };       /* of one that swings in the front of tanh: 35 million seen */
 
 enum { MOST_SAMPLES = 200000 };         /* friction that is faster than that is not added up */
@@ -188,7 +121,7 @@ agrees_with_another_method(const trial *t)
     int stiff = state_variable && strcmp(t->method, "bsimp") == 0;
     double tol = stiff ? 1e-8 : state_variable ? 1e-10 : 1e-12;
     run b = run_with(&t->scene, stiff ? "rk4imp" : state_variable ? "rkck" : "rk8pd", tol,
-                     state_variable ? 2 * STEPS : BUDGET);
+                     state_variable ? 2 * RANDOM_STEPS : BUDGET);
     if (ended(t, &b)) {
         if (t->run.stats.unresolved + b.stats.unresolved == 0 && !same_events(t, &b))
             complain(t, "events", (double)b.n_events, (double)t->run.n_events);
@@ -358,9 +291,9 @@ static double
 samples_needed(const ss_scene *s)
 {
     if (s->model != SS_STATE_VARIABLE)
-        return 8 * STEPS;
+        return 8 * RANDOM_STEPS;
     double swing = sqrt(s->gamma * s->friction * s->alpha / s->mass);
-    return fmax(4 * STEPS, 8 * s->duration * fmax(s->gamma, swing));
+    return fmax(4 * RANDOM_STEPS, 8 * s->duration * fmax(s->gamma, swing));
 }
 
 /* The work of the base is the change of energy and what the friction took.  Power is a product, of

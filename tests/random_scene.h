@@ -1,0 +1,78 @@
+/* random_scene.h -- scenes drawn log-uniformly from the ranges that the library says it supports. */
+#ifndef RANDOM_SCENE_H
+#define RANDOM_SCENE_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#include <stickslip.h>
+
+enum { RANDOM_SAMPLES = 400, RANDOM_STEPS = 4000 };
+
+typedef struct rng { uint64_t s; } rng;
+
+/* splitmix64 (Steele, Lea & Flood 2014) */
+static inline double
+uniform(rng *r)
+{
+    uint64_t z = r->s += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+/* Within the named range; one time in eight 0, where that is in it. */
+static inline double
+draw(rng *r, const char *name)
+{
+    const ss_scene_range *range = NULL;
+    for (ss_model m = SS_COULOMB; range == NULL; m++)
+        for (size_t i = 0; (range = ss_model_range(m, i)) != NULL && strcmp(range->name, name) != 0;)
+            i++;
+    double u = uniform(r), zero = uniform(r);
+    return range->zero && zero < 0.125 ? 0 : range->from * pow(range->to / range->from, u);
+}
+
+static inline ss_scene
+random_scene(uint64_t number)
+{
+    rng r = { number * UINT64_C(0xd1342543de82ef95) + 1 };
+    ss_scene s = ss_scene_defaults;
+    double omega = 2 * M_PI * draw(&r, "omega_n/(2 pi)"), X = draw(&r, "X");
+    s.model = (ss_model)(3 * uniform(&r));
+    s.mass = draw(&r, "m");
+    s.stiffness = s.mass * omega * omega;
+    double base = draw(&r, "Omega/omega_n"), start = uniform(&r), angle = 2 * M_PI * uniform(&r);
+    s.base_frequency = base * omega / (2 * M_PI);
+    s.phase = 2 * M_PI * uniform(&r);
+    s.base_amplitude = start < 0.25 ? X * uniform(&r) : X;
+    if (start < 0.5) {
+        s.x0 = X * cos(angle);
+        s.v0 = X * omega * sin(angle);
+    }
+    double largest = fmax(s.base_amplitude, fmax(fabs(s.x0), fabs(s.v0) / omega));
+    if (largest > 0) {
+        s.base_amplitude *= X / largest;
+        s.x0 *= X / largest;
+        s.v0 *= X / largest;
+    }
+    s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
+    double fastest = fmax(1, base);
+    if (s.model == SS_COMPLIANT) {
+        s.contact_stiffness = draw(&r, "K_y/k") * s.stiffness;
+        double k = s.stiffness + s.contact_stiffness, zeta = draw(&r, "c/(2 sqrt((k + K_y) m))");
+        s.contact_damping = zeta * 2 * sqrt(k) * sqrt(s.mass);
+        s.release = uniform(&r) < 0.5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+        fastest = fmax(fastest, sqrt(k / s.stiffness) * (zeta + sqrt(fmax(1, zeta * zeta))));
+    } else if (s.model == SS_STATE_VARIABLE) {
+        s.alpha = draw(&r, "alpha X omega_n") / (X > 0 ? X * omega : 1);
+        s.gamma = draw(&r, "gamma/omega_n") * omega;
+    }
+    /* ten of the slowest periods, or RANDOM_STEPS of the longest steps if that is less */
+    double slow = base > 0 ? fmin(1, base) : 1;
+    s.duration = fmin(10 / slow, RANDOM_STEPS / 40. / fastest) * 2 * M_PI / omega;
+    s.rate = RANDOM_SAMPLES / s.duration;
+    return s;
+}
+
+#endif
