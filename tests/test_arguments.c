@@ -629,11 +629,32 @@ every_status_has_words_of_its_own(void **state)
     }
 }
 
+/* Letters of UTF-8 stay; what drives a terminal of 7 or 8 bits, or of UTF-8, does not. */
+static void
+a_printable_text_drives_no_terminal(void **state)
+{
+    static const struct { const char *text, *is; } row[] = {
+        { "", "" }, { "a b~", "a b~" }, { "\033[2J\a\n\r\t\177", "?[2J?????" },
+        { "\303\233 \342\200\233 \360\237\220\233", "\303\233 \342\200\233 \360\237\220\233" },
+        { "\2332J", "?2J" }, { "\302\2332J", "??2J" }, { "a\237\233b", "a??b" },
+        { "\302\240\302\251", "\302\240\302\251" }, { "\302", "\302" }, { "\302\302\233", "\302??" },
+    };
+    (void)state;
+    assert_null(ss_printable(NULL));
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char text[32];
+        strcpy(text, row[i].text);
+        assert_ptr_equal(ss_printable(text), text);
+        assert_string_equal(text, row[i].is);
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(readers_refuse_null),
+        cmocka_unit_test(a_printable_text_drives_no_terminal),
         cmocka_unit_test(makers_and_writers_refuse_null),
         cmocka_unit_test(headers_and_samples_refuse_null),
         cmocka_unit_test(simulations_refuse_null),

@@ -90,6 +90,19 @@ tool_end_at_rows(const char *path)
         catch_signals(ask_to_stop);
 }
 
+/* getopt would show a long option that it does not know as it is: a file may have such a name. */
+static void
+refuse_control(char *argv[])
+{
+    for (char **arg = argv + 1; *arg != NULL && strcmp(*arg, "--") != 0; arg++) {
+        size_t n = strcspn(*arg, "=");
+        char *option = strncmp(*arg, "--", 2) == 0 ? strndup(*arg, n) : NULL;
+        if (option != NULL && strncmp(ss_printable(option), *arg, n) != 0)
+            tool_usage("unrecognized option '%s'", option);
+        free(option);
+    }
+}
+
 void
 tool_begin(char *argv[], const char *name, const char *usage)
 {
@@ -99,6 +112,7 @@ tool_begin(char *argv[], const char *name, const char *usage)
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
     gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
     signal(SIGXFSZ, SIG_IGN);           /* a file over the limit is a failed write, not a signal */
+    refuse_control(argv);
 }
 
 /* One line, whatever stands in the names of files. */
@@ -107,10 +121,8 @@ say(const char *format, va_list args)
 {
     char text[2 * PATH_MAX];
     vsnprintf(text, sizeof text, format, args);
-    for (char *p = text; *p != '\0'; p++)
-        *p = iscntrl((unsigned char)*p) ? '?' : *p;
     clear_progress();
-    fprintf(stderr, "%s: %s\n", tool_name, text);
+    fprintf(stderr, "%s: %s\n", tool_name, ss_printable(text));
 }
 
 #define SAY(format) do { \

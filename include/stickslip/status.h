@@ -63,6 +63,9 @@ typedef struct ss_progress {
 } ss_progress;
 
 const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
+/* Make a text one line that no terminal obeys: control characters, those of ISO 8859 (0x80 to 0x9f, in
+ * UTF-8 U+0080 to U+009F) among them, become question marks.  The texts of ss_error are so already. */
+char *ss_printable(char *text);
 const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */
 
 SS_END_DECLARATIONS

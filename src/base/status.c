@@ -1,5 +1,4 @@
 /* status.c -- status codes to text. */
-#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,21 +33,37 @@ ss_version(void)
     return SS_VERSION;
 }
 
+/* A byte from 0x80 to 0x9f is a control character by itself and behind 0xc2, else a part of a letter. */
+char *
+ss_printable(char *text)
+{
+    unsigned char before = 0;
+    for (char *p = text; p != NULL && *p != '\0'; p++) {
+        unsigned char c = (unsigned char)*p;
+        int is_c1 = c >= 0x80 && c < 0xa0 && (before < 0x80 || before == 0xc2);
+        if (is_c1 && before == 0xc2)
+            p[-1] = '?';
+        if (is_c1 || c < ' ' || c == 0x7f)
+            *p = '?';
+        before = (unsigned char)*p;
+    }
+    return text;
+}
+
 /* What is too long loses its middle: it begins with the name of a file and ends with what is wrong. */
 static void
 format_text(char *text, size_t size, const char *format, va_list args)
 {
-    char whole[8192];
-    int n = vsnprintf(whole, sizeof whole, format, args);
-    size_t length = n < (int)sizeof whole ? (size_t)n : sizeof whole - 1, first = size / 4;
+    char whole[8192] = "";
+    vsnprintf(whole, sizeof whole, format, args);
+    size_t length = strlen(whole), first = size / 4;
     if (length < size)
         memcpy(text, whole, length + 1);
     else
         snprintf(text, size, "%.*s ... %s", (int)first, whole, whole + length - (size - first - 6));
 }
 
-/* These texts contain names of files and parts of input: a character that would break the line or
- * control the terminal is shown as a question mark. */
+/* These texts contain names of files and parts of input. */
 ss_status
 ss_fail(ss_error *err, ss_status status, const char *format, ...)
 {
@@ -57,8 +72,7 @@ ss_fail(ss_error *err, ss_status status, const char *format, ...)
         va_start(args, format);
         format_text(err->text, sizeof err->text, format, args);
         va_end(args);
-        for (char *p = err->text; *p != '\0'; p++)
-            *p = iscntrl((unsigned char)*p) ? '?' : *p;
+        ss_printable(err->text);
     }
     return status;
 }

@@ -43,3 +43,8 @@ printf 'mo\033[2Jdel = 1\n' | refused ss-sim -
 refused ss-cat "$(printf 'no\nsuch\rfile')"
 printf '\n\n\n' | refused ss-cat
 printf '# stickslip coefficients 1\n# start: 1e999\n' | refused ss-contour
+
+# Control characters of 8 bits drive a terminal, too: alone, in UTF-8, and not as parts of letters.
+printf 't;x\n0;1\n1;a\2332Jb\302\2332J\303\233\342\200\233\n' | refused ss-cat
+refused ss-cat "$(printf -- '--\033[2J=x')"
+refused ss-cat "$(printf -- '-c\303\233')" run.tsv
