@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <stickslip.h>
 
 static const ss_scene scene = { .model = SS_COMPLIANT, .mass = 1, .stiffness = 1, .friction = 1,

@@ -71,21 +71,46 @@ names_chunk(const char *name)
     return 1;
 }
 
-/* Behind the data that the header gives there must be nothing, or another chunk, at an even place: else
- * which of the two is right? */
+static ss_status
+refuse_rest(const ss_reader *reader, ss_error *err)
+{
+    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
+                   "cuts it there", reader->in.name, (unsigned long long)reader->row,
+                   (unsigned long long)reader->end);
+}
+
+/* Pass over chunks, each of four letters, a length and so many bytes, to the end of the file.  Samples
+ * seldom look like this.  A byte that makes a length even may be missing at the end. */
+static ss_status
+skip_chunks(ss_reader *reader, ss_error *err)
+{
+    enum { CHUNK_HEADER = 8 };
+    struct input *in = &reader->in;
+    for (uint64_t left = reader->end % 2;;) {
+        ss_status st = ss_input_skip(in, &left, err);
+        if (st == SS_OK)
+            st = ss_input_need(in, CHUNK_HEADER, err);
+        if (st != SS_OK || (in->hi == in->lo && left <= 1))
+            return st;
+        const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
+        if (in->hi - in->lo < CHUNK_HEADER || !names_chunk((const char *)p))
+            return refuse_rest(reader, err);
+        left = p[4] | (uint64_t)p[5] << 8 | (uint64_t)p[6] << 16 | (uint64_t)p[7] << 24;
+        left += left % 2;
+        in->lo += CHUNK_HEADER;
+    }
+}
+
+/* Behind the data that the header gives there must be nothing, or other chunks: else which of the two is
+ * right? */
 static ss_status
 refuse_more(ss_reader *reader, ss_error *err)
 {
     struct input *in = &reader->in;
-    size_t odd = reader->is_chunk ? reader->end % 2 : 0;
-    ss_status st = ss_input_need(in, odd + 4, err);
-    if (st != SS_OK || in->hi - in->lo <= odd)
-        return st;
-    if (reader->is_chunk && in->hi - in->lo >= odd + 4 && names_chunk(in->buffer + in->lo + odd))
-        return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
-                   "cuts it there", in->name, (unsigned long long)reader->row,
-                   (unsigned long long)reader->end);
+    if (reader->is_chunk)
+        return skip_chunks(reader, err);
+    ss_status st = ss_input_need(in, 1, err);
+    return st == SS_OK && in->hi > in->lo ? refuse_rest(reader, err) : st;
 }
 
 static ss_status

@@ -94,6 +94,18 @@ ss_input_need(struct input *in, size_t n, ss_error *err)
     return SS_OK;
 }
 
+ss_status
+ss_input_skip(struct input *in, uint64_t *n, ss_error *err)
+{
+    ss_status st = SS_OK;
+    while (*n > 0 && (st = ss_input_need(in, 1, err)) == SS_OK && in->hi > in->lo) {
+        size_t step = in->hi - in->lo < *n ? in->hi - in->lo : (size_t)*n;
+        in->lo += step;
+        *n -= step;
+    }
+    return st;
+}
+
 /* The end of the next line, or NULL if it is not in the buffer. */
 static char *
 find_newline(struct input *in)

@@ -3,6 +3,7 @@
 #define INPUT_H
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stickslip/status.h>
 
@@ -23,6 +24,8 @@ ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error
 void ss_input_close(struct input *in);
 /* Have n bytes in the buffer, or all that there are until the end. */
 ss_status ss_input_need(struct input *in, size_t n, ss_error *err);
+/* Pass over *n bytes, which may be more than memory holds; *n becomes how many there were too few. */
+ss_status ss_input_skip(struct input *in, uint64_t *n, ss_error *err);
 /* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0
  * and *line = NULL at the end of the stream. */
 ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error *err);

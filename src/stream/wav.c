@@ -40,20 +40,14 @@ need(struct input *in, size_t n, ss_error *err)
     return st;
 }
 
-/* Pass over a chunk, in pieces, as it may be longer than memory. */
 static ss_status
 skip(struct input *in, uint32_t length, ss_error *err)
 {
-    enum { PIECE = 4096 };
-    for (uint64_t left = (uint64_t)length + length % 2; left > 0;) {
-        size_t n = left < PIECE ? (size_t)left : PIECE;
-        ss_status st = need(in, n, err);
-        if (st != SS_OK)
-            return st;
-        in->lo += n;
-        left -= n;
-    }
-    return SS_OK;
+    uint64_t left = (uint64_t)length + length % 2;
+    ss_status st = ss_input_skip(in, &left, err);
+    if (st == SS_OK && left > 0)
+        return ss_fail(err, SS_EDATA, "%s: truncated WAV header", in->name);
+    return st;
 }
 
 static ss_status

@@ -55,3 +55,10 @@ ss-cat --rate 44100 pcm8.wav > out || echo "exit $?"
 for bits in 0 7 64 65535; do { riff 0; fmt 1 1 "$bits"; data 8; le 4 0 0; } > "bits$bits.wav"; done
 { riff 0; fmt 1 65535 16; data 8; le 4 0 0; } > many.wav
 for f in small zero small-odd wide bits0 bits7 bits64 bits65535 many; do ss-cat $f.wav > out || echo "exit $?"; done
+# what follows the data are chunks up to the end, or samples that look like the name of one
+{ riff 0; fmt 1 1 8; data 1; byte 192 0; printf LIST; le 4 1; byte 7 0; printf 'id3 '; le 4 3; byte 1 2 3; } > chunks.wav
+{ riff 0; fmt 1 1 16; data 4; printf 'abcdefghijklmnop'; } > letters.wav
+{ riff 0; fmt 1 1 16; data 4; le 2 1 2; printf LIST; le 4 9; byte 1 2 3; } > long.wav
+{ riff 0; fmt 1 1 16; data 4; le 2 1 2; printf LIST; le 2 0; } > half-chunk.wav
+rows chunks.wav
+for f in letters long half-chunk; do ss-cat $f.wav > out || echo "exit $?"; done
