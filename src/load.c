@@ -35,7 +35,7 @@ ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_e
         return load_stream(out, path, opts, err);
     char *file = strndup(path, (size_t)(colon - path));
     if (file == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s: %s", path, ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, path);
     ss_status status = ss_store_is_hdf5(file)
                        ? ss_store_read_signal(out, file, colon + 1, opts, err)
                        : stat(file, &st) != 0

@@ -11,7 +11,7 @@ static inline ss_morlet *
 plan_of(size_t n, double rate, const ss_morlet_opts *opts)
 {
     ss_morlet *plan = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (ss_morlet_new(&plan, n, rate, opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     return plan;

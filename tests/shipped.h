@@ -11,7 +11,7 @@ static inline ss_scene
 read_shipped_named(const char *name)
 {
     ss_scene scene;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (ss_scene_load(&scene, name, NULL, 0, &err) != SS_OK) {
         fprintf(stderr, "%s\n", err.text);
         exit(1);

@@ -38,7 +38,7 @@ static inline ss_signal *
 read_text(const char *text, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (read_bytes(&signal, text, strlen(text), opts, &err) != SS_OK)
         fail_msg("%s: %s", text, err.text);
     return signal;
@@ -61,7 +61,7 @@ static inline ss_signal *
 wave(ss_wave kind, ss_wave_opts opts)
 {
     ss_signal *s;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (ss_wave_new(&s, kind, &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     return s;

@@ -58,7 +58,7 @@ static inline ss_coefficients *
 transform(const ss_signal *signal, int dense)
 {
     ss_coefficients *c = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_morlet_opts opts = ss_morlet_defaults;
     opts.dense = dense;
     opts.voices = 5;
@@ -71,7 +71,7 @@ transform(const ss_signal *signal, int dense)
 static inline void
 write_ok(const ss_record *record)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (ss_store_write(path, record, &err) != SS_OK)
         fail_msg("%s", err.text);
 }

@@ -28,7 +28,7 @@ static void
 readers_refuse_null(void **state)
 {
     FILE *in = tmpfile();
-    ss_error e = { "" };
+    ss_error e = { 0 };
     ss_scene read;
     ss_reader *reader;
     ss_signal *signal;
@@ -66,7 +66,7 @@ static void
 makers_and_writers_refuse_null(void **state)
 {
     static const ss_record record;
-    ss_error e = { "" };
+    ss_error e = { 0 };
     ss_header *head = ss_header_new(1, 0);
     ss_signal *signal;
     ss_writer *writer;
@@ -136,7 +136,7 @@ headers_and_samples_refuse_null(void **state)
     ss_noise *noise = NULL;
     double x[2] = { 1, 2 };
     size_t n;
-    ss_error e = { "" };
+    ss_error e = { 0 };
     (void)state;
     assert_null(ss_header_copy(NULL));
     assert_null(ss_header_find_note(NULL, "key"));
@@ -179,7 +179,7 @@ headers_and_samples_refuse_null(void **state)
 static void
 simulations_refuse_null(void **state)
 {
-    ss_error e = { "" };
+    ss_error e = { 0 };
     ss_scene copy = scene;
     ss_signal *signal = NULL;
     ss_sim_columns columns;
@@ -220,7 +220,7 @@ transforms_refuse_null(void **state)
 {
     const ss_morlet_opts *const opts = &ss_morlet_defaults;
     static const ss_scale scale;
-    ss_error e = { "" };
+    ss_error e = { 0 };
     ss_header *head = ss_header_new(1, 0), *made;
     ss_morlet *plan = NULL;
     ss_stream *stream = NULL;
@@ -300,7 +300,7 @@ static void
 conclusions_refuse_null(void **state)
 {
     static const ss_coefficients none;
-    ss_error e = { "" };
+    ss_error e = { 0 };
     ss_header *head = ss_header_new(1, 0);
     ss_signal *signal = NULL;
     ss_maximum *maxima;
@@ -350,11 +350,10 @@ conclusions_refuse_null(void **state)
 static void
 sweeps_refuse_null(void **state)
 {
-    ss_error e = { "" };
+    ss_error e = { 0 };
     FILE *in = tmpfile();
     ss_axis axis = { .n = 0 };
     ss_steady steady = { { 0 } };
-    ss_sweep_table *table;
     ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = &axis, .n_axes = 1, .shards = 1,
                            .threads = 1, .sink = no_rows }, no_axis = opts, no_sink = opts;
     size_t n;
@@ -393,9 +392,6 @@ sweeps_refuse_null(void **state)
     assert_refused(ss_sweep_resume(NULL, in, "in", &n, &end, &e), &e);
     assert_refused(ss_sweep_resume(&text, NULL, "in", &n, &end, &e), &e);
     assert_int_equal(ss_sweep_resume(&text, in, "in", &n, &end, &e), SS_EINVAL);
-    assert_refused(ss_sweep_read(NULL, in, "in", &e), &e);
-    assert_refused(ss_sweep_read(&table, NULL, "in", &e), &e);
-    assert_refused(ss_sweep_read(&table, in, NULL, &e), &e);
     assert_int_equal(axis.n, 0);
     fclose(in);
 }
@@ -452,11 +448,11 @@ writers_of_rows_refuse_null(void **state)
     assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU), SS_EINVAL);
     rankings_refuse_null(out);
     ss_table *table = NULL;
-    ss_error e = { "" };
-    assert_refused(ss_table_read(NULL, out, "out", "events", &e), &e);
-    assert_refused(ss_table_read(&table, NULL, "out", "events", &e), &e);
-    assert_refused(ss_table_read(&table, out, NULL, "events", &e), &e);
-    assert_refused(ss_table_read(&table, out, "out", NULL, &e), &e);
+    ss_error e = { 0 };
+    assert_refused(ss_table_read(NULL, out, "out", SS_KIND_EVENTS, &e), &e);
+    assert_refused(ss_table_read(&table, NULL, "out", SS_KIND_EVENTS, &e), &e);
+    assert_refused(ss_table_read(&table, out, NULL, SS_KIND_EVENTS, &e), &e);
+    assert_int_equal(ss_table_read(&table, out, "out", SS_KIND_SIGNAL, &e), SS_EINVAL);
     assert_null(ss_table_note(NULL, "scene"));
     assert_int_equal(ss_table_column(NULL, "t"), -1);
     assert_true(isnan(ss_table_number(NULL, 0, 0)));
@@ -494,11 +490,11 @@ plots_refuse_null(void **state)
     static const ss_signal signal;
     static const ss_coefficients c;
     static const ss_trade trade;
-    static const ss_sweep_table table;
+    static const ss_table table;
     static const ss_map_opts map;
     const ss_plot_opts *const opts = &ss_plot_defaults;
     const ss_contour_opts *const contour = &ss_contour_defaults;
-    ss_error e = { "" };
+    ss_error e = { 0 };
     FILE *out = tmpfile();
     (void)state;
     assert_refused(ss_plot_signal(NULL, &signal, NULL, 0, opts, &e), &e);
@@ -616,7 +612,6 @@ nothing_is_freed_without_complaint(void **state)
     ss_bursts_free(NULL);
     ss_features_free(NULL);
     ss_ranking_free(NULL);
-    ss_sweep_table_free(NULL);
 }
 
 static void

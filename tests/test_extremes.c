@@ -23,7 +23,7 @@ scene_of(const char *name, const char *list)
     char text[1024];
     size_t n = 0;
     ss_scene scene;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     snprintf(text, sizeof text, "settle=0 duration=1 %s", list);
     for (char *word = strtok(text, " "); word != NULL; word = strtok(NULL, " ")) {
         size_t i = 0, length = strcspn(word, "=");  /* what is given twice counts as given last */

@@ -71,7 +71,7 @@ transform_is_inverted_as_well_as_is_said(void **state)
     for (size_t i = 0; i < LENGTH(fine); i++)
         for (size_t k = 0; k < LENGTH(tol); k++) {
             ss_morlet_opts opts = fine[i];
-            ss_error err = { "" };
+            ss_error err = { 0 };
             double said = NAN;
             opts.threads = 1;
             ss_signal *signal = some_signal(i == 0 ? size[k] : 1), *back;
@@ -94,7 +94,7 @@ static void
 assert_refused(const ss_coefficients *coef, double tol, ss_status status, const char *says)
 {
     ss_signal *back = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_status st = ss_morlet_inverse(&back, coef, tol, NULL, (ss_progress){ NULL, NULL }, &err);
     if (st != status || back != NULL || strstr(err.text, says) == NULL)
         fail_msg("'%s' expected, not %d, '%s'", says, st, err.text);

@@ -147,7 +147,7 @@ __wrap_free(void *p)
 /* Made before, with all the memory that it takes. */
 static ss_scene scene[3];               /* one a model */
 static ss_signal *signal, *cycles;      /* a tenth of a second; some slips in noise */
-static ss_sweep_table *sweep;
+static ss_table *sweep;
 static ss_coefficients *coefficients;
 static ss_trade *trade;
 static char text[2][20000], path[64];   /* as text, as AU; an HDF5 file */
@@ -491,12 +491,12 @@ sweeps(int variant)
 static ss_status
 read_sweeps(int variant)
 {
-    ss_sweep_table *back = NULL;
+    ss_table *back = NULL;
     FILE *in = fmemopen(sweep_text, sizeof sweep_text - 1, "r");
     (void)variant;
-    ss_status st = ss_sweep_read(&back, in, "in", &err);
+    ss_status st = ss_table_read(&back, in, "in", SS_KIND_SWEEP, &err);
     fclose(in);
-    ss_sweep_table_free(back);
+    ss_table_free(back);
     return st;
 }
 
@@ -507,7 +507,7 @@ read_tables(int variant)
     ss_table *table = NULL;
     FILE *in = fmemopen(rows, sizeof rows - 1, "r");
     (void)variant;
-    ss_status st = ss_table_read(&table, in, "in", "events", &err);
+    ss_status st = ss_table_read(&table, in, "in", SS_KIND_EVENTS, &err);
     fclose(in);
     ss_table_free(table);
     return st;
@@ -674,7 +674,7 @@ set_up(void **state)
     coefficient_length = (size_t)ftell(out);
     fclose(out);
     FILE *in = fmemopen(sweep_text, sizeof sweep_text - 1, "r");
-    ss_status st = ss_sweep_read(&sweep, in, "in", NULL);
+    ss_status st = ss_table_read(&sweep, in, "in", SS_KIND_SWEEP, NULL);
     fclose(in);
     if (st != SS_OK)
         return -1;
@@ -694,7 +694,7 @@ tear_down(void **state)
     fclose(scrap);
     ss_signal_free(signal);
     ss_signal_free(cycles);
-    ss_sweep_table_free(sweep);
+    ss_table_free(sweep);
     ss_coefficients_free(coefficients);
     ss_trade_free(trade);
     return 0;

@@ -303,7 +303,7 @@ scales_come_one_by_one_to_the_last_bit(void **state)
     assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_STOP);
     assert_true(done > 0.5 && s.next < ss_morlet_scales(plan));
     x[77] = INFINITY;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     assert_int_equal(ss_morlet_each(plan, x, follow, &s, &err), SS_EINVAL);
     assert_non_null(strstr(err.text, "sample 78"));
     ss_morlet_free(plan);
@@ -352,7 +352,7 @@ wisdom_is_kept_and_keeps_the_bound(void **state)
     enum { N = 401 };
     double x[N];
     ss_morlet_opts opts = ss_morlet_defaults;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *file = tmpfile();
     static char text[1 << 20];          /* with all that the tests before have planned */
     (void)state;

@@ -303,7 +303,7 @@ refuses_what_is_not_usable(void **state)
     for (size_t i = 0; i < LENGTH(refusal); i++) {
         struct refusal r = refusal[i];
         ss_morlet *plan = NULL;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         ss_morlet_opts opts = ss_morlet_defaults;
         opts.fmin = r.fmin, opts.fmax = r.fmax, opts.force = r.force;
         ss_status st = ss_morlet_new(&plan, r.n, r.rate, &opts, &err);
@@ -366,7 +366,7 @@ refuses_coefficients_that_overflow(void **state)
 {
     enum { N = 4000 };
     double *x = malloc(N * sizeof *x), w[2];
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     for (size_t i = 0; i < N; i++)
         x[i] = DBL_MAX * (cos(6. / 64 * (double)i) > 0 ? 1 : -1);
@@ -451,7 +451,7 @@ static void
 refuses_samples_that_are_not_finite(void **state)
 {
     double x[100] = { 0 }, w[2];
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     x[41] = NAN;
     assert_int_equal(ss_morlet_point(x, 100, 1, &ss_morlet_defaults, (ss_point){ 4, 40 }, w, &err), SS_EINVAL);

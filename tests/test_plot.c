@@ -123,7 +123,7 @@ signal_script(const ss_signal *signal, const ss_plot_opts *opts)
 {
     char *text = NULL;
     size_t size;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *out = open_memstream(&text, &size);
     if (ss_plot_signal(out, signal, NULL, 0, opts, &err) != SS_OK)
         fail_msg("%s", err.text);
@@ -241,7 +241,7 @@ values_that_gnuplot_cannot_draw_are_refused(void **state)
     ss_signal *signal = new_signal(10, 10, 0, "a", "");
     (void)state;
     for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
-        ss_error err = { "" };
+        ss_error err = { 0 };
         signal->values[3] = value[i];
         assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &ss_plot_defaults, &err), SS_EINVAL);
         assert_non_null(strstr(err.text, "a cannot be drawn"));
@@ -269,7 +269,7 @@ what_lies_outside_the_record_is_refused(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof span / sizeof *span; i++) {
         ss_plot_opts opts = ss_plot_defaults;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         opts.from = span[i][0];
         opts.to = span[i][1];
         assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &opts, &err), SS_EINVAL);
@@ -330,7 +330,7 @@ contour_script(const ss_coefficients *c, const ss_contour_opts *contour)
 {
     char *text = NULL;
     size_t size;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *out = open_memstream(&text, &size);
     if (ss_plot_contour(out, c, contour, &ss_plot_defaults, &err) != SS_OK)
         fail_msg("%s", err.text);
@@ -406,7 +406,7 @@ static void
 coefficients_and_scales_that_cannot_be_drawn_are_refused(void **state)
 {
     static const double value[] = { NAN, INFINITY, 1.7e308 };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_coefficients *c = new_coefficients();
     (void)state;
     for (size_t i = 0; i < sizeof value / sizeof *value; i++) {

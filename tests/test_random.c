@@ -79,7 +79,7 @@ static trial
 trial_of(uint64_t number)
 {
     trial t = { .number = number, .scene = random_scene(number) };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (ss_scene_check(&t.scene, &err) != SS_OK || ss_scene_supported(&t.scene, &err) != SS_OK)
         complain(&t, err.text, 0, 0);
     t.method = t.scene.model == SS_STATE_VARIABLE ? ss_sim_method_for(&t.scene) : "exact";

@@ -41,7 +41,7 @@ rank(const ss_signal *signal)
 {
     ss_scene scene[MODELS];
     ss_ranking *r = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     for (int i = 0; i < MODELS; i++)
         scene[i] = shipped(i);
     if (ss_ranking_new(&r, signal, 0, scene, MODELS, NULL, &err) != SS_OK)

@@ -111,7 +111,7 @@ compare(const char *name, const char *method, double tol, double allow_t, double
 {
     static reference ref;
     static run r;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_sim_opts opts = { .method = method, .tol = tol, .samples = keep_samples,
                          .events = keep_event, .user = &r };
     double max_x = 0, max_a = 0, worst_t = 0, worst_x = 0, worst_v = 0, worst_a = 0;

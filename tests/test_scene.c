@@ -30,7 +30,7 @@ static void
 reads_what_is_given_and_defaults_the_rest(void **state)
 {
     ss_scene s;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     assert_int_equal(read_text(&s, "", NULL, 0, &err), SS_EDATA);
     assert_int_equal(read_text(&s, coulomb, NULL, 0, &err), SS_OK);
@@ -44,7 +44,7 @@ static void
 takes_comments_blanks_crlf_and_a_last_line_without_newline(void **state)
 {
     ss_scene s;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     assert_int_equal(read_text(&s, "# a scene\r\n\r\n  model\t=  coulomb # yes\r\nmass=2\r\n"
                                "stiffness = 5e1\r\nfriction = 1\r\nbase_amplitude = 1E-1\r\n"
@@ -58,7 +58,7 @@ writes_what_it_reads(void **state)
     (void)state;
     for (const ss_shipped_scene *shipped = ss_shipped_scenes; shipped->name; shipped++) {
         ss_scene a, b;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         char text[2000] = "";
         assert_int_equal(read_text(&a, shipped->text, NULL, 0, &err), SS_OK);
         a.x0 = 0.1 + 0.2;
@@ -90,7 +90,7 @@ loads_a_shipped_scene_by_its_name_and_a_file_by_its_path(void **state)
     static const char *const setting[] = { "mass = 3" };
     char path[] = "/tmp/stickslip-scene-XXXXXX", wanted[512];
     ss_scene a, b;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     for (const ss_shipped_scene *shipped = ss_shipped_scenes; shipped->name; shipped++) {
         assert_int_equal(read_text(&a, shipped->text, setting, 1, &err), SS_OK);
@@ -153,7 +153,7 @@ says_what_is_wrong_and_where(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         ss_scene s, before;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         memset(&s, 7, sizeof s);
         before = s;
         assert_int_equal(read_text(&s, bad[i].text, &bad[i].setting, bad[i].setting != NULL,
@@ -169,7 +169,7 @@ settings_take_the_place_of_lines(void **state)
     static const char *const set[] = { "mass = 3", "rate=20" }, *const twice[] = { "rate=1",
                                                                                   "rate=2" };
     ss_scene s;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     assert_int_equal(read_text(&s, coulomb, set, 2, &err), SS_OK);
     assert_true(s.mass == 3 && s.rate == 20);
@@ -181,7 +181,7 @@ static void
 checks_scenes_made_by_hand(void **state)
 {
     ss_scene s = ss_scene_defaults;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
     assert_string_equal(err.text, "mass = 0 is out of range, it must be > 0");
@@ -225,7 +225,7 @@ refuses_bytes_that_are_not_text(void **state)
     static const char nul[] = "model = coulomb\nmass = 2\0\n";
     char *longest = malloc(5000);
     ss_scene s;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     FILE *in = fmemopen((void *)nul, sizeof nul - 1, "r");
     assert_int_equal(ss_scene_read(&s, in, "my.scene", &err), SS_EDATA);

@@ -132,7 +132,7 @@ static void
 refuses_options_that_a_clock_excludes(void **state)
 {
     ss_signal *s;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     const char *text = HEAD "0\t1\t2\n";
     (void)state;
     ss_read_opts rate = { .rate = 20 }, time = { .time = "x" }, same = { .rate = 10 };
@@ -156,7 +156,7 @@ reads_the_measured_recordings(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         char path[128];
         ss_signal *s;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         snprintf(path, sizeof path, "../shared/data/measured/%s", row[i].name);
         FILE *f = fopen(path, "r");
         if (f == NULL) {

@@ -329,7 +329,7 @@ exact_and_integrated_agree_where_formulas_are_singular(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
         ss_scene s;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         size_t n = 0;
         const char *set[8] = { "settle=0", "duration=3" };
         while (n < 6 && hard[i].set[n] != NULL)
@@ -715,7 +715,7 @@ refuses_what_it_cannot_do(void **state)
 {
     ss_scene s = scene_named("coulomb", 10, 2000);
     ss_sim_opts opts = ss_sim_defaults;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     opts.tol = NAN;
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);

@@ -17,7 +17,7 @@ static ss_spikes *
 find(const double *x, size_t n, double rate)
 {
     ss_spikes *found = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (ss_spikes_find(&found, x, n, rate, &ss_spike_defaults, &err) != SS_OK)
         fail_msg("%s", err.text);
     return found;

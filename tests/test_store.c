@@ -97,7 +97,7 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
         for (int row = 0; row < 4; row++) {
             ss_signal *signal = new_signal(length[k]), *back = NULL;
             ss_coefficients *c, *again = NULL;
-            ss_error err = { "" };
+            ss_error err = { 0 };
             ss_morlet_opts opts = ss_morlet_defaults;
             opts.voices = 2, opts.dense = row % 2;
             assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
@@ -128,7 +128,7 @@ scales_can_be_read_one_by_one(void **state)
         ss_signal *signal = new_signal(500);
         ss_coefficients *c = transform(signal, dense);
         ss_store_reader *reader;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         double *w = malloc(2 * c->scale[c->n_scales - 1].n * sizeof *w);
         write_ok(&(ss_record){ .signal = signal, .coefficients = c });
         assert_int_equal(ss_store_reader_new(&reader, path, NULL), SS_OK);

@@ -13,7 +13,7 @@ a_file_that_is_not_brought_to_its_end_is_no_file(void **state)
         ss_coefficients *c = transform(signal, 1), grid = *c;
         const ss_scale *scale = c->scale;
         ss_store_writer *writer = NULL;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         grid.n = row % 2 ? c->n : 0;
         assert_int_equal(ss_store_writer_new(&writer, path, signal->head, &grid, NULL), SS_OK);
         ss_status st = ss_store_writer_signal(writer, signal->values, 300, 1, 300, &err);
@@ -46,7 +46,7 @@ static void
 a_write_that_fails_says_why_and_leaves_no_file(void **state)
 {
     struct rlimit old, small;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
@@ -83,7 +83,7 @@ a_disk_full_at_any_byte_leaves_no_file(void **state)
         assert_int_equal(write_pieces(signal, c, known, NULL), SS_OK);
         assert_int_equal(stat(path, &st), 0);
         for (off_t limit = 0; limit < st.st_size; limit += st.st_size / 25) {
-            ss_error err = { "" };
+            ss_error err = { 0 };
             small = old;
             small.rlim_cur = (rlim_t)limit;
             assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
@@ -103,7 +103,7 @@ a_disk_full_at_any_byte_leaves_no_file(void **state)
 static void
 a_device_gets_a_copy(void **state)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     ss_signal *signal = new_signal(50);
     assert_int_equal(ss_store_write("/dev/null", &(ss_record){ .signal = signal }, &err), SS_OK);
@@ -119,7 +119,7 @@ a_device_gets_a_copy(void **state)
 static void
 a_target_that_cannot_be_opened_says_why(void **state)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     assert_int_equal(ss_store_write("/nonexistent/run.h5", &(ss_record){ .has_events = 1 }, &err),
                      SS_EIO);

@@ -16,7 +16,7 @@ arrays_of_others_are_read_by_their_path(void **state)
         assert_true(ss_store_is_hdf5(path));
         for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
             ss_signal *signal = NULL;
-            ss_error err = { "" };
+            ss_error err = { 0 };
             char where[128];
             snprintf(where, sizeof where, "%s:%s", path, row[i].path);
             if (ss_signal_load(&signal, where, &opts, &err) != SS_OK)
@@ -64,7 +64,7 @@ what_cannot_be_read_is_refused_in_clear_words(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         char words[256], expected[512];
         ss_signal *signal = NULL;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         snprintf(words, sizeof words, row[i].words, path);
         snprintf(expected, sizeof expected, "%s%s%s: %s", path, i > 0 ? ":" : "", row[i].dataset,
                  words);
@@ -79,7 +79,7 @@ static void
 a_file_without_coefficients_says_so(void **state)
 {
     ss_coefficients *c = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     write_foreign(0);
     assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EKIND);
@@ -92,7 +92,7 @@ a_clock_of_its_own_is_not_exchanged(void **state)
     static const ss_read_opts other = { .rate = 5 }, column = { .time = "a" };
     ss_signal *signal = new_signal(10), *back = NULL;
     const ss_read_opts same = { .rate = signal->head->rate };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     write_ok(&(ss_record){ .signal = signal });
     assert_int_equal(ss_store_read_signal(&back, path, NULL, &other, &err), SS_EDATA);

@@ -13,7 +13,7 @@ a_truncated_file_is_refused(void **state)
     char *bytes = read_bytes(&size);
     for (size_t cut = 0; cut < size; cut += 997) {
         ss_coefficients *back = NULL;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         assert_int_equal(truncate(path, (off_t)(size - 1 - cut)), 0);
         assert_int_not_equal(ss_store_read_coefficients(&back, path, &err), SS_OK);
         assert_null(back);
@@ -40,7 +40,7 @@ flipped_bits_are_refused_or_harmless(void **state)
     for (size_t i = 0; i < size; i += 61) {
         ss_signal *read = NULL;
         ss_coefficients *back = NULL;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         bytes[i] ^= (unsigned char)(1u << i / 61 % 8);
         out = fopen(path, "wb");
         assert_int_equal(fwrite(bytes, 1, size, out), size);
@@ -129,7 +129,7 @@ nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
     static const ss_read_opts opts = { .rate = 1 };
     char other[80];
     ss_coefficients *c = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     write_foreign(0);
     snprintf(other, sizeof other, "%s.other", path);
@@ -185,7 +185,7 @@ static void
 assert_signal_refused(const char *words)
 {
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
     assert_null(signal);
     assert_string_equal(err.text + strlen(path), words);
@@ -236,7 +236,7 @@ a_dataset_under_two_names_is_refused(void **state)
     }
     ss_signal *signal = new_signal(100);
     ss_coefficients *c = transform(signal, 0), *back = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     write_ok(&(ss_record){ .coefficients = c });
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
     H5Ldelete(file, "/wavelet/scale000/im", H5P_DEFAULT);
@@ -298,7 +298,7 @@ one_text_under_many_names_is_not_read_many_times(void **state)
 {
     enum { NAMES = 20, LARGE = 600000, SMALL = 1000 };
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     char name[32];
     size_t size;
     (void)state;
@@ -334,7 +334,7 @@ the_list_of_arrays_ends_after_10000_objects(void **state)
 {
     static const ss_read_opts opts = { .rate = 1 };
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     char name[32];
     (void)state;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -392,7 +392,7 @@ the_sources_of_a_virtual_dataset_are_not_opened(void **state)
     static const ss_read_opts opts = { .rate = 1 };
     char fifo[80];
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     snprintf(fifo, sizeof fifo, "%s.fifo", path);
     assert_int_equal(mkfifo(fifo, 0600), 0);
@@ -439,7 +439,7 @@ only_filters_that_bound_what_they_make_are_run(void **state)
     static const H5Z_filter_t plain[] = { H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32, 0 },
         twice[] = { H5Z_FILTER_DEFLATE, H5Z_FILTER_DEFLATE, 0 }, other[] = { 32001, 0 };
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     unsigned before, after;
     (void)state;
     H5PLget_loading_state(&before);
@@ -475,7 +475,7 @@ static void
 assert_refused(const char *words)
 {
     ss_coefficients *c = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     assert_int_equal(ss_store_read_coefficients(&c, path, &err), SS_EDATA);
     assert_null(c);
     if (strstr(err.text, words) == NULL)

@@ -108,7 +108,7 @@ every_stepper_keeps_its_tolerance_or_refuses(void **state)
         for (size_t m = 1; ss_sim_method_name(m) != NULL; m++) {
             size_t measured = 0;
                 for (int k = 1; k <= 14; k++) {
-                ss_error err = { "" };
+                ss_error err = { 0 };
                 double tol = pow(10, -k), error;
                 ss_status st = run_scene(&b, &s, ss_sim_method_name(m), tol, STEPS, &err);
                 if (st == SS_EBUDGET)
@@ -136,7 +136,7 @@ a_budget_says_what_forces_the_steps(void **state)
         { 2.5, 1e-12, "rk1imp", "the tolerance forces steps of" } };
     (void)state;
     for (int i = 0; i < 3; i++) {
-        ss_error err = { "" };
+        ss_error err = { 0 };
         ss_scene s = shipped(1, 0, 10, 500);
         s.base_frequency = row[i].hz;
         assert_int_equal(run_scene(&b, &s, row[i].method, row[i].tol, 1000, &err), SS_EBUDGET);
@@ -153,7 +153,7 @@ refuses(const ss_scene *s, size_t events, const char *method, double accuracy, c
 {
     int slow = method != NULL && strstr("rk1imp rk2imp", method) != NULL;    /* 1 us a step */
     ss_sim_opts opts = { .method = method, .max_steps = slow ? 30000 : 0 };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_status st = ss_trade_choose(&opts, s, accuracy, &err);
     if (st == SS_ETOL || st == SS_EBUDGET || st == SS_ECHATTER) {
         assert_true(err.text[0] != '\0');
@@ -274,7 +274,7 @@ refuses_an_accuracy_that_cannot_be(void **state)
 {
     ss_scene s = shipped(1, 0, 10, 500);
     ss_sim_opts opts = { .method = "rk1imp" };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     (void)state;
     opts.max_steps = 20000;
     assert_int_equal(ss_trade_choose(&opts, &s, 1e-6, &err), SS_EBUDGET);

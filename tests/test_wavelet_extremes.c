@@ -108,7 +108,7 @@ extreme_records_keep_the_bound(void **state)
             double *x = record_of(r->shape, r->n, r->size, r->offset);
             ss_morlet_opts opts = options_of(r);
             ss_morlet *plan = NULL;
-            ss_error err = { "" };
+            ss_error err = { 0 };
             opts.engine = k % 2 ? SS_ENGINE_QUADRATURE : SS_ENGINE_FFT;
             opts.accuracy = accuracy[k / 2];
             if (ss_morlet_new(&plan, r->n, r->rate, &opts, &err) != SS_OK)
@@ -185,7 +185,7 @@ what_cannot_be_is_refused_in_words(void **state)
         double *x = record_of(r->shape, r->n, r->size, 0), *w = NULL;
         ss_morlet_opts opts = ss_morlet_defaults;
         ss_morlet *plan = NULL;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         opts.center = r->center;
         if (r->spoil != 0)
             x[17] = r->spoil;

@@ -220,7 +220,7 @@ bands_without_a_frequency_are_refused(void **state)
 {
     static const double wrong[][2] = { { -1, 5 }, { 5, 2 }, { 5, 1001 }, { 5.1, 5.2 }, { NAN, 5 } };
     double x[100] = { 0 };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_noise *noise;
     (void)state;
     ss_noise_new(&noise, 1);

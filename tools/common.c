@@ -170,34 +170,35 @@ tool_note(const char *format, ...)
         SAY(format);
 }
 
-/* What reads files of another kind, or makes the kind that is wanted, by the library's words. */
-static const struct kind_hint {
-    const char *kind, *hint;
-} kind_hints[] = {
-    { ": a signal, not", "; ss-morlet makes coefficients of it, ss-plot draws it" },
-    { ": wavelet coefficients, not", "; ss-contour reads them, and ss-morlet --inverse" },
-    { ": a list of features, not", "; ss-contour --features reads it" },
-    { ": a list of events, not", "; ss-contour --events reads it" },
-    { ": a sweep, not", "; ss-plot --map reads it" },
-    { ": a trade of accuracy for time, not", "; ss-trade -o FILE.png draws one" },
-    { ": a Sun AU stream, not", "; ss-cat, ss-morlet and ss-contour read it" },
-    { ": an HDF5 file, not", "; ss-cat, ss-morlet and ss-contour read it" },
-    { ": a scene, not", "; ss-sim makes a signal of it" },
-    { ":1: not wavelet coefficients", "; ss-morlet makes them of a signal" },
-    { ": AU without wavelet coefficients", "; ss-morlet makes them of a signal" },
-    { ": no /wavelet in it", "; ss-morlet -o FILE.h5 makes one" },
-    { ":1: not a sweep", "; ss-sweep makes one" },
-    { ": a table of numbers or names, not",
-      "; ss-cat, ss-morlet, ss-features and ss-plot read a signal in it" },
-};
+/* What reads a file of another kind, or else makes the kind that is wanted. */
+static const char *
+kind_hint(ss_kind found, ss_kind wanted)
+{
+    static const char *const reads[] = {
+        [SS_KIND_SIGNAL] = "; ss-morlet makes coefficients of it, ss-plot draws it",
+        [SS_KIND_COEFFICIENTS] = "; ss-contour reads them, and ss-morlet --inverse",
+        [SS_KIND_FEATURES] = "; ss-contour --features reads it",
+        [SS_KIND_EVENTS] = "; ss-contour --events reads it",
+        [SS_KIND_SWEEP] = "; ss-plot --map reads it",
+        [SS_KIND_TRADE] = "; ss-trade -o FILE.png draws one",
+        [SS_KIND_SCENE] = "; ss-sim makes a signal of it",
+        [SS_KIND_TABLE] = "; ss-cat, ss-morlet, ss-features and ss-plot read a signal in it",
+        [SS_KIND_AU] = "; ss-cat, ss-morlet and ss-contour read it",
+        [SS_KIND_HDF5] = "; ss-cat, ss-morlet and ss-contour read it",
+    };
+    static const char *const makes[SS_KIND_HDF5 + 1] = {
+        [SS_KIND_COEFFICIENTS] = "; ss-morlet makes coefficients of a signal",
+        [SS_KIND_SWEEP] = "; ss-sweep makes one",
+    };
+    const char *hint = found != SS_KIND_UNKNOWN ? reads[found] : makes[wanted];
+    return hint != NULL ? hint : "";
+}
 
 const char *
 tool_hint(ss_status status, const ss_error *err)
 {
-    for (size_t i = 0; status == SS_EKIND && i < sizeof kind_hints / sizeof *kind_hints; i++)
-        if (strstr(err->text, kind_hints[i].kind) != NULL)
-            return kind_hints[i].hint;
     switch (status) {
+    case SS_EKIND:   return err != NULL ? kind_hint(err->found, err->wanted) : "";
     case SS_ECLOCK:  return "; ss-cat --time NAME names a column of time, --rate HZ gives the sample rate";
     case SS_EGAPS:   return "; ss-cat --gaps=split or interpolate fills the gap";
     case SS_EUNEVEN: return "; ss-cat --resample HZ makes time stamps uniform, --rate HZ takes the rows so";
@@ -342,7 +343,7 @@ ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (strcmp(tool_reads(path), "-") == 0)
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
@@ -354,7 +355,7 @@ ss_coefficients *
 tool_read_coefficients(const char *path)
 {
     ss_coefficients *coefficients = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (tool_is_hdf5(tool_reads(path))) {
         tool_check(ss_store_read_coefficients(&coefficients, path, &err), &err);
         return coefficients;
@@ -370,7 +371,7 @@ ss_scene
 tool_read_scene(const char *path, const char *const settings[], size_t n)
 {
     ss_scene scene;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_status st = strcmp(tool_reads(path), "-") == 0
                  ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings, n, &err)
                  : ss_scene_load(&scene, path, settings, n, &err);
@@ -536,7 +537,7 @@ tool_method(const char *text)
 void
 tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (kind == TOOL_H5)
         tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
                    &err);
@@ -666,7 +667,7 @@ tool_style(const char *text)
 void
 tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     tool_kind kind = tool_output_kind(path, TOOL_PICTURES, TOOL_GP);
     FILE *out = tool_output(path), *script = kind == TOOL_GP ? out : tmpfile();
     if (script == NULL)

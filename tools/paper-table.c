@@ -171,7 +171,7 @@ print_contact(const char *path, const char *name, const char *column_name)
 {
     ss_signal *signal = NULL;
     ss_features *f = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_features_opts opts = ss_features_defaults;
     int said = strncmp(name, "figure2", 7) != 0 && strncmp(name, "figure3", 7) != 0;
     tool_check(ss_signal_load(&signal, path, NULL, &err), &err);
@@ -199,7 +199,7 @@ static void
 print_figure(const char *path)
 {
     ss_coefficients *c = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     char name[64];
     tool_check(ss_store_read_coefficients(&c, path, &err), &err);
     name_figure(name, path);

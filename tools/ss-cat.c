@@ -65,7 +65,7 @@ static void
 copy_whole(tool_kind kind, const ss_read_opts *opts)
 {
     ss_signal *signal = tool_read_signal(path, opts), *chosen;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (opts->resample > 0 && (signal->head->rate < opts->resample
                                || signal->head->rate > opts->resample)) {
         if (signal->n < 2)
@@ -97,7 +97,7 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
     ss_reader *reader;
     ss_writer *writer;
     ss_header *chosen;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     size_t n, got, row = 0, written = 0;
     FILE *in = tool_open(path);
     tool_check(ss_reader_new(&reader, in, tool_input_name(path), opts, &err), &err);

@@ -59,7 +59,7 @@ read_scale(size_t i, double *w, void *user, ss_error *err)
 static void
 open_coefficients(drawing *d, const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     d->opts.progress = (ss_progress){ tool_progress, d };
     if (!tool_is_hdf5(path)) {
         d->coefficients = d->own = tool_read_coefficients(path);
@@ -111,7 +111,7 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
 static void
 read_events(drawing *d, const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *in = tool_open(path);
     tool_check(ss_event_times_read(&d->event, &d->opts.n_events, in, tool_input_name(path), &err), &err);
     if (in != stdin)
@@ -122,7 +122,7 @@ read_events(drawing *d, const char *path)
 static void
 read_features(drawing *d, const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *in = tool_open(path);
     tool_check(ss_overlay_read(&d->overlay, in, tool_input_name(path), &err), &err);
     if (in != stdin)

@@ -85,7 +85,7 @@ main(int argc, char *argv[])
 {
     request req = { .opts = ss_features_defaults };
     ss_features *features = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     tool_begin(argv, "ss-features", usage);
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)

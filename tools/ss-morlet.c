@@ -179,7 +179,7 @@ now(void)
 static void
 read_wisdom(const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     struct stat st;
     if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
         tool_die("%s: not a regular file, which --wisdom needs", path);
@@ -297,7 +297,7 @@ static void
 compare(const ss_morlet *plan, const double *x, const double *w, const char *path)
 {
     enum { EACH = 20 };                 /* coefficients of a scale */
-    ss_error err = { "" };
+    ss_error err = { 0 };
     double difference;
     check(ss_morlet_compare(plan, x, w, EACH, &difference, &err), &err, path);
     tool_warn("differs from the other method by at most %.2g of the largest |W| of a scale, "
@@ -324,7 +324,7 @@ transform_whole(const request *req, const char *path)
 {
     flow f = { .text = NULL };
     ss_morlet *plan = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_signal *signal = tool_read_signal(path, NULL);
     size_t column = tool_column(signal->head, path, req->column);
     const double *x = signal->values + column * signal->n;
@@ -353,7 +353,7 @@ invert(const request *req, const char *path)
 {
     ss_coefficients *coef = tool_read_coefficients(path);
     ss_signal *signal;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     double error, accuracy = req->accurate ? req->opts.accuracy : 1e-3;
     const ss_progress progress = { tool_progress, NULL };
     check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
@@ -373,7 +373,7 @@ invert(const request *req, const char *path)
 static void
 push_samples(flow *f, const double *x, size_t n, const request *req, const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     int one_by_one = req->opts.engine == SS_ENGINE_QUADRATURE;
     size_t step = one_by_one ? 1 : n;
     for (size_t i = 0; i < n; i += step) {
@@ -390,7 +390,7 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
     enum { PIECE = 8192 };
     size_t columns = ss_reader_header(reader)->n_columns, n = 1;
     double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
-    ss_error bad = { "" }, err = { "" };
+    ss_error bad = { 0 }, err = { 0 };
     if (rows == NULL || x == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     while (n > 0 && !tool_stopping()) {
@@ -412,7 +412,7 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
 static void
 open_flow(flow *f, const request *req, const ss_header *head, size_t column, const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     check(ss_stream_new(&f->stream, head->rate, &req->opts, write_rows, f, &err), &err, path);
     open_output(f, req, head, column, 0, ss_stream_scale(f->stream, 0),
                 ss_stream_scales(f->stream));
@@ -421,7 +421,7 @@ open_flow(flow *f, const request *req, const ss_header *head, size_t column, con
 static void
 close_flow(flow *f, const char *path)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     size_t scales = ss_stream_scales(f->stream);
     check_flow(f, ss_stream_end(f->stream, &err), &err, path);
     close_output(f, ss_stream_samples(f->stream));

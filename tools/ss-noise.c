@@ -54,7 +54,7 @@ static size_t n_converted, n_clipped;
 static void
 convert(double *x, size_t n)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     tool_check(ss_samples_quantise(x, n, (int)bits, range, &n_clipped, &err), &err);
     n_converted += n;
 }
@@ -107,7 +107,7 @@ static void
 add_noise(ss_noise *noise, ss_signal *signal, const double *level)
 {
     size_t n = signal->n, columns = signal->head->n_columns;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (isnan(band[0]))
         tool_check(ss_noise_add(noise, signal->values, n, 1, columns, n, level), NULL);
     for (size_t c = 0; c < columns && !isnan(band[0]); c++)
@@ -147,7 +147,7 @@ change_stream(tool_kind kind, ss_noise *noise)
 {
     ss_reader *reader;
     ss_writer *writer;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     size_t n;
     char text[128];
     FILE *in = tool_open(path), *out;

@@ -71,18 +71,19 @@ cut_pair(char *pair, const char *name[2])
 /* --- maps ---------------------------------------------------------------------------------- */
 
 typedef struct map_drawing {
-    ss_sweep_table *table;
+    ss_table *table;
     ss_map_opts map;
 } map_drawing;
 
 static size_t
-find_column(const ss_sweep_table *t, const char *path, const char *name, size_t length)
+find_column(const ss_table *t, const char *path, const char *name, size_t length)
 {
     char list[512] = "";
     for (size_t i = 0; i < t->n_columns; i++) {
-        if (strlen(t->name[i]) == length && strncmp(t->name[i], name, length) == 0)
+        const char *known = t->column[i].name;
+        if (strlen(known) == length && strncmp(known, name, length) == 0)
             return i;
-        tool_list(list, sizeof list, t->name[i]);
+        tool_list(list, sizeof list, known);
     }
     tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, name, list);
 }
@@ -151,17 +152,17 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
          ss_plot_opts *opts)
 {
     map_drawing d = { NULL, { 0 } };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *in = tool_open(path);
     double *curve = line != NULL ? read_line(line, &d.map.n_curve) : NULL;
-    tool_check(ss_sweep_read(&d.table, in, tool_input_name(path), &err), &err);
+    tool_check(ss_table_read(&d.table, in, tool_input_name(path), SS_KIND_SWEEP, &err), &err);
     if (in != stdin)
         fclose(in);
     find_columns(&d, path, names);
     d.map.curve = curve;
     tool_note("%s: %zu points", tool_input_name(path), d.table->n);
     tool_draw(output, opts, write_map, &d);
-    ss_sweep_table_free(d.table);
+    ss_table_free(d.table);
     free(curve);
 }
 

@@ -170,7 +170,7 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
     ss_scene *scene = calloc(j->n_scenes + 1, sizeof *scene);
     char **name = calloc(j->n_scenes + 1, sizeof *name);
     ss_ranking *r = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (scene == NULL || name == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < j->n_scenes; i++) {
@@ -195,7 +195,7 @@ fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *op
 {
     ss_scene start = tool_read_scene(j->scenes[0], j->settings, j->n_settings);
     ss_fit f;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     tool_check(ss_scene_fit(&f, signal, column, &start, opts, &err), &err);
     if (!f.conclusive)
         tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);

@@ -76,7 +76,7 @@ main(int argc, char *argv[])
     tool_kind kind = TOOL_TSV;
     unsigned used = 0;                          /* set of indices in only[] */
     ss_signal *signal;
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     tool_begin(argv, "ss-signal", usage);
     for (int c; (c = getopt_long(argc, argv, "r:d:a:f:o:qvh", longopts, NULL)) != -1;) {

@@ -58,7 +58,7 @@ static void
 begin_samples(output *o)
 {
     ss_format format = tool_stream(o->req->kind);
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (o->writer == NULL)
         tool_check(ss_writer_new(&o->writer, tool_output(o->req->path), format, o->head, &err),
                    &err);
@@ -149,7 +149,7 @@ write_scene(const request *req, const ss_scene *scene)
 static void
 set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (accuracy > 0) {
         ss_status st = ss_trade_choose(opts, scene, accuracy, &err);
         if (st == SS_EINVAL)
@@ -203,7 +203,7 @@ parse(request *req, int argc, char *argv[])
         { "list", no_argument, NULL, 'l' },
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     ss_sim_opts *opts = &req->opts;
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     for (int c; (c = getopt_long(argc, argv, "s:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
         switch (c) {
@@ -242,7 +242,7 @@ parse(request *req, int argc, char *argv[])
 static void
 finish(output *o, int has_events)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (o->signal != NULL) {
         ss_record record = { .signal = o->signal, .events = o->events, .n_events = o->n_events,
                              .has_events = has_events };
@@ -267,7 +267,7 @@ main(int argc, char *argv[])
     request req = { .kind = TOOL_TSV, .opts.progress.function = tool_progress };
     output o = { .req = &req };
     ss_sim_stats stats = { 0 };
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     tool_begin(argv, "ss-sim", usage);
     req.settings = calloc((size_t)argc, sizeof *req.settings);

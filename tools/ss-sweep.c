@@ -130,7 +130,7 @@ parse(request *req, int argc, char *argv[])
         { "shard", required_argument, NULL, OPT_SHARD },
         { "resume", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
     ss_steady_opts *steady = &req->opts.steady;
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     for (int c; (c = getopt_long(argc, argv, "y:m:s:t:j:r:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
@@ -194,7 +194,7 @@ open_rows(request *req)
 {
     char *header;
     long end = 0;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (req->resume == NULL) {
         req->out = tool_output(req->path);
     } else {
@@ -229,7 +229,7 @@ main(int argc, char *argv[])
 {
     request req = { .opts = { .steady = ss_steady_defaults, .shards = 1, .threads = 1,
                               .sink = write_row, .progress.function = report } };
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     tool_begin(argv, "ss-sweep", usage);
     req.settings = calloc((size_t)argc, sizeof *req.settings);

@@ -120,7 +120,7 @@ static ss_trade *
 measure_scene(request *req)
 {
     ss_trade *trade = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     if (req->column != NULL || req->dense)
         tool_usage("--column and --dense are for a signal, and %s is a scene", req->path);
     ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
@@ -135,7 +135,7 @@ static ss_trade *
 measure_signal(request *req)
 {
     ss_trade *trade = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_morlet_opts grid = ss_morlet_defaults;
     if (req->n_settings > 0)
         tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));

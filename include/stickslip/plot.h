@@ -9,7 +9,7 @@
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/overlay.h>
-#include <stickslip/sweep.h>
+#include <stickslip/table.h>
 #include <stickslip/trade.h>
 
 SS_BEGIN_DECLARATIONS
@@ -68,8 +68,9 @@ typedef struct ss_map_opts {
 } ss_map_opts;
 
 /* A map of a sweep over two parameters: a column of at most ten different values as regions, any other
- * as lines of equal value.  opts->from and to do not apply. */
-ss_status ss_plot_map(FILE *out, const ss_sweep_table *table, const ss_map_opts *map,
+ * as lines of equal value; "-" is no value, and "aperiodic" a period of 0.  opts->from and to do not
+ * apply.  SS_EDATA: another word in a drawn column. */
+ss_status ss_plot_map(FILE *out, const ss_table *table, const ss_map_opts *map,
                       const ss_plot_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS

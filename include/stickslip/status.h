@@ -30,7 +30,7 @@ typedef enum ss_status {
     SS_ENOMEM,      /* an allocation failed */
     SS_EIO,         /* reading or writing failed; errno says why */
     SS_EDATA,       /* malformed input; the text names file and line */
-    SS_EKIND,       /* a file of another kind than the call reads; the text says which kind it is */
+    SS_EKIND,       /* a file of another kind than the call reads; see ss_error.found */
     SS_ECLOCK,      /* a signal without a clock: ss_read_opts.rate or .time gives one */
     SS_EGAPS,       /* samples are missing, or not numbers: ss_read_opts.gaps says what to do */
     SS_EUNEVEN,     /* time stamps are not uniform: ss_read_opts.resample or .rate makes them so */
@@ -42,10 +42,18 @@ typedef enum ss_status {
     SS_ERANGE       /* a value is not finite: the numbers lie beyond double precision */
 } ss_status;
 
+/* Kinds of files that the library knows, the first seven being texts that it writes. */
+typedef enum ss_kind {
+    SS_KIND_UNKNOWN, SS_KIND_SIGNAL, SS_KIND_COEFFICIENTS, SS_KIND_FEATURES, SS_KIND_EVENTS,
+    SS_KIND_SWEEP, SS_KIND_RANKING, SS_KIND_TRADE, SS_KIND_SCENE, SS_KIND_TABLE, SS_KIND_AU,
+    SS_KIND_HDF5
+} ss_kind;
+
 /* The reason of a failure, one line without a newline: "run.tsv:17: expected 4 columns, found 3".
  * Filled in on failure only.  Wherever a function takes an ss_error *, NULL is allowed. */
 typedef struct ss_error {
     char text[512];
+    ss_kind found, wanted;      /* of SS_EKIND: what the file is, or if it is of no known kind, should be */
 } ss_error;
 
 enum { SS_THREADS_MAX = 256 };  /* that one call may be given */

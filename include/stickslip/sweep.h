@@ -149,18 +149,5 @@ ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row
 ss_status ss_sweep_resume(const ss_sweep_text *sweep, FILE *file, const char *name, size_t *rows,
                           long *end, ss_error *err);
 
-/* A sweep's rows: every column but the status, as numbers; NaN for "-", 0 for "aperiodic". */
-typedef struct ss_sweep_table {
-    size_t n_columns, n;
-    char **name;                /* of the columns: "index", "friction", ..., without units */
-    char **unit;
-    double *value;              /* column after column */
-    char *scene;                /* what the header calls it; NULL if it does not */
-} ss_sweep_table;
-
-/* Read what ss-sweep writes, rows in any order.  SS_EDATA with file and line; SS_EIO. */
-ss_status ss_sweep_read(ss_sweep_table **out, FILE *in, const char *name, ss_error *err);
-void ss_sweep_table_free(ss_sweep_table *table);    /* NULL is allowed */
-
 SS_END_DECLARATIONS
 #endif

@@ -14,9 +14,17 @@ ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);
 #define SS_FAIL_NULL(err) ss_fail(err, SS_EINVAL, "an argument is NULL")
 /* SS_EIO for a file, with the system's text for this errno; strerror is not safe for threads. */
 ss_status ss_fail_errno(ss_error *err, const char *name, int number);
-/* SS_EKIND, with the kind, for a file whose first n bytes show a known kind other than the wanted one
- * ("a signal", "wavelet coefficients", "a scene", "a sweep").  Else SS_OK. */
-ss_status ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n,
-                       const char *wanted);
+/* SS_ENOMEM of a call that reads or writes a file, or of one that does not (name NULL). */
+ss_status ss_fail_memory(ss_error *err, const char *name);
+
+/* The first line of text of a kind; NULL: it has none. */
+const char *ss_kind_magic(ss_kind kind);
+/* SS_EKIND, with both kinds, for a file whose first n bytes show a known kind other than the wanted one.
+ * Else SS_OK. */
+ss_status ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, ss_kind wanted);
+/* The same for text whose first line is not that of the wanted kind; NULL: it has no line. */
+ss_status ss_fail_magic(ss_error *err, const char *name, const char *line, ss_kind wanted);
+/* Add the wanted kind to a failure of this status, which is returned. */
+ss_status ss_fail_wanted(ss_status status, ss_kind wanted, ss_error *err);
 
 #endif

@@ -1,37 +1,45 @@
-/* kind.c -- the kind of a file that was not expected, by its first bytes. */
+/* kind.c -- the kind of a file, by its first bytes. */
 #include <string.h>
 #include "base/error.h"
 
-#define PICTURE "a picture", "give what it was drawn from"
-#define NETCDF "a netCDF 3 file", "nccopy -k nc4 makes HDF5 of it"
-#define UTF16 "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"
-#define SOUND "a sound file", "sox FILE -t au - makes a signal of it"
-
-static const struct kind {
-    const char *magic, *what;
-    const char *remedy;         /* with other programs; may be NULL */
+static const struct {
+    const char *what, *magic;
 } kinds[] = {
-    { "# stickslip signal ", "a signal", NULL },
-    { "# stickslip coefficients ", "wavelet coefficients", NULL },
-    { "# stickslip features ", "a list of features", NULL },
-    { "# stickslip events ", "a list of events", NULL },
-    { "# stickslip sweep ", "a sweep", NULL },
-    { "# stickslip ranking ", "a ranking", NULL },
-    { "# stickslip trade ", "a trade of accuracy for time", NULL },
-    { "# Made by libstickslip ", "a gnuplot script", "gnuplot -p FILE shows it" },
-    { ".snd", "a Sun AU stream", NULL },
-    { "\211HDF", "an HDF5 file", NULL },
+    [SS_KIND_SIGNAL] = { "a signal", "# stickslip signal 1" },
+    [SS_KIND_COEFFICIENTS] = { "wavelet coefficients", "# stickslip coefficients 1" },
+    [SS_KIND_FEATURES] = { "a list of features", "# stickslip features 1" },
+    [SS_KIND_EVENTS] = { "a list of events", "# stickslip events 1" },
+    [SS_KIND_SWEEP] = { "a sweep", "# stickslip sweep 1" },
+    [SS_KIND_RANKING] = { "a ranking", "# stickslip ranking 1" },
+    [SS_KIND_TRADE] = { "a trade of accuracy for time", "# stickslip trade 1" },
+    [SS_KIND_SCENE] = { "a scene", NULL },
+    [SS_KIND_TABLE] = { "a table of numbers or names", NULL },
+    [SS_KIND_AU] = { "a Sun AU stream", ".snd" },
+    [SS_KIND_HDF5] = { "an HDF5 file", "\211HDF" },
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+#define PICTURE "a picture", "; give what it was drawn from"
+#define NETCDF "a netCDF 3 file", "; nccopy -k nc4 makes HDF5 of it"
+#define UTF16 "text in UTF-16", "; iconv -f UTF-16 -t UTF-8 converts it"
+#define SOUND "a sound file", "; sox FILE -t au - makes a signal of it"
+
+/* Files of other programs, and how these make a file that can be read. */
+static const struct foreign {
+    const char *magic, *what, *remedy;
+} foreign[] = {
+    { "# Made by libstickslip ", "a gnuplot script", "; gnuplot -p FILE shows it" },
     { "\211PNG", PICTURE }, { "%PDF-", PICTURE }, { "<?xml", PICTURE }, { "<svg", PICTURE },
     { "\377\330\377", PICTURE },
     { "RIFF", SOUND }, { "fLaC", SOUND }, { "OggS", SOUND },
     { "ID3\003", SOUND }, { "ID3\004", SOUND },
-    { "\037\213", "a gzip file", "gunzip unpacks it" },
+    { "\037\213", "a gzip file", "; gunzip unpacks it" },
     { "\377\376", UTF16 }, { "\376\377", UTF16 },
-    { "PK\003\004", "a workbook or another zip archive", "save its sheet as CSV" },
-    { "\320\317\021\340", "a workbook", "save its sheet as CSV" },
+    { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV" },
+    { "\320\317\021\340", "a workbook", "; save its sheet as CSV" },
     { "MATLAB 5.0 MAT-file", "a MATLAB file older than v7.3",
-      "in MATLAB, save('FILE', '-v7.3') writes one that can be read" },
-    { "TDSm", "a LabVIEW TDMS file", "export it as text" },
+      "; in MATLAB, save('FILE', '-v7.3') writes one that can be read" },
+    { "TDSm", "a LabVIEW TDMS file", "; export it as text" },
     { "CDF\001", NETCDF }, { "CDF\002", NETCDF },
 };
 
@@ -63,20 +71,60 @@ is_table(const char *p, const char *end)
     return 0;
 }
 
-ss_status
-ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, const char *wanted)
+/* Our own text of another version is of the kind, too. */
+static int
+has_magic(ss_kind kind, const char *bytes, size_t n)
 {
-    static const struct kind scene = { "", "a scene", NULL };
-    static const struct kind table = { "", "a table of numbers or names", NULL };
-    const struct kind *found = is_scene(bytes, bytes + n) ? &scene
-        : strcmp(wanted, "a scene") == 0 && is_table(bytes, bytes + n) ? &table : NULL;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        size_t length = strlen(kinds[i].magic);
-        if (n >= length && memcmp(bytes, kinds[i].magic, length) == 0)
-            found = &kinds[i];
-    }
-    if (found == NULL || strcmp(found->what, wanted) == 0)
+    const char *magic = kinds[kind].magic;
+    size_t length = magic != NULL ? strlen(magic) - (magic[0] == '#') : 0;
+    return magic != NULL && n >= length && memcmp(bytes, magic, length) == 0;
+}
+
+const char *
+ss_kind_magic(ss_kind kind)
+{
+    return (unsigned)kind < KINDS ? kinds[kind].magic : NULL;
+}
+
+ss_status
+ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, ss_kind wanted)
+{
+    ss_kind found = is_scene(bytes, bytes + n) ? SS_KIND_SCENE
+        : wanted == SS_KIND_SCENE && is_table(bytes, bytes + n) ? SS_KIND_TABLE : SS_KIND_UNKNOWN;
+    const char *what = kinds[found].what, *remedy = "";
+    for (int i = 0; i < KINDS; i++)
+        if (has_magic((ss_kind)i, bytes, n)) {
+            found = (ss_kind)i;
+            what = kinds[i].what;
+        }
+    for (size_t i = 0; what == NULL && i < sizeof foreign / sizeof *foreign; i++)
+        if (n >= strlen(foreign[i].magic) && memcmp(bytes, foreign[i].magic, strlen(foreign[i].magic)) == 0) {
+            what = foreign[i].what;
+            remedy = foreign[i].remedy;
+        }
+    if (what == NULL || found == wanted)
         return SS_OK;
-    return ss_fail(err, SS_EKIND, "%s: %s, not %s%s%s", name, found->what, wanted,
-                   found->remedy != NULL ? "; " : "", found->remedy != NULL ? found->remedy : "");
+    ss_fail(err, SS_EKIND, "%s: %s, not %s%s", name, what, kinds[wanted].what, remedy);
+    if (err != NULL && found != SS_KIND_UNKNOWN)
+        err->found = found;
+    return SS_EKIND;
+}
+
+ss_status
+ss_fail_magic(ss_error *err, const char *name, const char *line, ss_kind wanted)
+{
+    if (line == NULL)
+        return ss_fail(err, SS_EDATA, "%s: empty", name);
+    if (ss_fail_kind(err, name, line, strlen(line), wanted) != SS_OK)
+        return SS_EKIND;
+    return ss_fail_wanted(ss_fail(err, SS_EKIND, "%s:1: not %s, of which the first line is '%s'", name,
+                                  kinds[wanted].what, kinds[wanted].magic), wanted, err);
+}
+
+ss_status
+ss_fail_wanted(ss_status status, ss_kind wanted, ss_error *err)
+{
+    if (err != NULL)
+        err->wanted = wanted;
+    return status;
 }

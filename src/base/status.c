@@ -73,6 +73,7 @@ ss_fail(ss_error *err, ss_status status, const char *format, ...)
         format_text(err->text, sizeof err->text, format, args);
         va_end(args);
         ss_printable(err->text);
+        err->found = err->wanted = SS_KIND_UNKNOWN;
     }
     return status;
 }
@@ -84,4 +85,11 @@ ss_fail_errno(ss_error *err, const char *name, int number)
     if (strerror_r(number, text, sizeof text) != 0)
         snprintf(text, sizeof text, "error %d of the system", number);
     return ss_fail(err, SS_EIO, "%s: %s", name, text);
+}
+
+ss_status
+ss_fail_memory(ss_error *err, const char *name)
+{
+    return ss_fail(err, SS_ENOMEM, "%s%s%s", name != NULL ? name : "", name != NULL ? ": " : "",
+                   ss_strerror(SS_ENOMEM));
 }

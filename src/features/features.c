@@ -381,7 +381,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         || ss_gaps_of(&s.gap, &s.n_gaps, signal->head, s.n) != SS_OK) {
         free(s.x);
         free(s.out);
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     }
     ss_gaps_bridge(s.x, s.n, s.rate, s.gap, s.n_gaps);
     s.quantity = ss_column_quantity(&signal->head->column[column]);
@@ -400,7 +400,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         st = SS_OK;
     if (st == SS_OK && s.out->spikes == NULL
         && (s.out->spikes = calloc(1, sizeof *s.out->spikes)) == NULL)
-        st = ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        st = ss_fail_memory(err, NULL);
     if (st == SS_OK)
         *out = s.out;
     else

@@ -47,7 +47,7 @@ compute_scales(void *user)
     }
     while (queue->next > 0) {
         size_t i = --queue->next;
-        ss_error err = { "" };
+        ss_error err = { 0 };
         pthread_mutex_unlock(&queue->lock);
         ss_status st = one_scale(queue, i, scratch, &err);
         pthread_mutex_lock(&queue->lock);

@@ -432,7 +432,7 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
     if (s == NULL || (x == NULL && n > 0))
         return SS_FAIL_NULL(err);
-    ss_error why = { "" };
+    ss_error why = { 0 };
     ss_status st = s->status;
     if (st == SS_OK && s->ended)
         st = ss_fail(&why, SS_EINVAL, "the stream has ended");
@@ -451,7 +451,7 @@ ss_stream_drain(ss_stream *s, ss_error *err)
 {
     if (s == NULL)
         return SS_FAIL_NULL(err);
-    ss_error why = { "" };
+    ss_error why = { 0 };
     ss_status st = s->status;
     for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
         const group *g = &s->group[i];
@@ -469,7 +469,7 @@ ss_stream_end(ss_stream *s, ss_error *err)
 {
     if (s == NULL)
         return SS_FAIL_NULL(err);
-    ss_error why = { "" };
+    ss_error why = { 0 };
     ss_status st = s->status;
     if (st == SS_OK && s->samples == 0)
         st = ss_fail(&why, SS_EINVAL, "the record is empty");

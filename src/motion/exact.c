@@ -320,7 +320,7 @@ ss_exact_new(engine **out, motion *m, ss_error *err)
         return st;
     exact *x = calloc(1, sizeof *x);
     if (x == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     x->base = (engine){ .type = &exact_type, .m = m };
     *out = &x->base;
     return SS_OK;

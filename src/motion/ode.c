@@ -343,7 +343,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
                        "the %s model are found", name, m->model->name);
     ode *o = calloc(1, sizeof *o);
     if (o == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     o->base = (engine){ .type = &ode_type, .m = of,
                         .lands_on_samples = method[i].multistep && m->model->guard == NULL };
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
@@ -370,7 +370,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
     if (o->driver == NULL || (sides && o->side == NULL)
         || (sides && gsl_odeiv2_step_set_driver(o->side, o->driver) != GSL_SUCCESS)) {
         ode_free(&o->base);
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     }
     *out = &o->base;
     return SS_OK;

@@ -56,7 +56,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         return status;
     trace_scale *scale_of = malloc(panels * sizeof *scale_of);
     if (scale_of == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     ss_script_write_title(out, opts, head, NULL);
     ss_script_write_span(out, &span);
     fputs("colour = '#0072b2'\n", out);

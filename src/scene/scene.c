@@ -307,7 +307,7 @@ read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error
     while ((c = getc(in)) != EOF && c != '\n' && c != '\0' && n + 1 < size)
         line[n++] = (char)c;
     line[n] = '\0';
-    if (at.line == 1 && ss_fail_kind(err, at.name, line, n, "a scene") != SS_OK)
+    if (at.line == 1 && ss_fail_kind(err, at.name, line, n, SS_KIND_SCENE) != SS_OK)
         return SS_EKIND;
     if (c == '\0' || (c != EOF && c != '\n'))
         return fail_at(at, err, c == '\0' ? "NUL byte: this is not a text file" : "line too long");

@@ -73,7 +73,7 @@ ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss
     }
     free(text);
     free(missing);
-    return st != SS_ENOMEM ? st : ss_fail(err, st, "%s: %s", name, ss_strerror(st));
+    return st == SS_ENOMEM ? ss_fail_memory(err, name) : st;
 }
 
 ss_status

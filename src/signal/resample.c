@@ -124,5 +124,5 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_err
     ss_signal_free(*out);
     *out = NULL;
     return st == SS_ERANGE ? ss_fail(err, st, "a resampled value exceeds what a double holds")
-        : ss_fail(err, st, "%s", ss_strerror(st));
+        : ss_fail_memory(err, NULL);
 }

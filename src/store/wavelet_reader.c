@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/error.h"
 #include "signal/header.h"
 #include "store/groups.h"
 
@@ -196,7 +197,8 @@ ss_wavelet_reader_open(wavelet_reader *r, h5_file *file)
     if (r->grid == NULL)
         return SS_ENOMEM;
     if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
-        return ss_h5_fail(file, SS_EKIND, 0, "", "no /wavelet in it");
+        return ss_fail_wanted(ss_h5_fail(file, SS_EKIND, 0, "", "no /wavelet in it"),
+                              SS_KIND_COEFFICIENTS, file->err);
     r->group = ss_h5_open_group(file->id, "wavelet");
     if (r->group < 0)
         return ss_h5_fail(file, SS_EDATA, 0, "/wavelet", "not a group of this file");

@@ -8,7 +8,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "signal/header.h"
-#include "stream/au.h"
 #include "stream/clock.h"
 #include "stream/format.h"
 #include "stream/frames.h"
@@ -67,7 +66,7 @@ static ss_status
 make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
 {
     ss_header *head;
-    ss_status st = read_annotation(&head, reader->magic, annotation);
+    ss_status st = read_annotation(&head, ss_kind_magic(reader->kind), annotation);
     if (st != SS_OK)
         return st;
     if (head != NULL && head->n_columns == channels) {
@@ -82,8 +81,8 @@ make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
     return st;
 }
 
-ss_status
-ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+static ss_status
+open_au(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
     ss_status st = ss_input_need(in, FIXED_HEADER, err);
@@ -113,9 +112,8 @@ ss_au_open(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
     char *annotation = strndup(in->buffer + in->lo + FIXED_HEADER, offset - FIXED_HEADER);
-    const char *wanted = strcmp(reader->magic, SIGNAL_MAGIC) == 0 ? "a signal" : "wavelet coefficients";
     if (annotation != NULL
-        && ss_fail_kind(err, in->name, annotation, strlen(annotation), wanted) != SS_OK) {
+        && ss_fail_kind(err, in->name, annotation, strlen(annotation), reader->kind) != SS_OK) {
         free(annotation);
         return SS_EKIND;
     }
@@ -189,7 +187,8 @@ encode_number(char *to, double x, int last)
 const struct format ss_format_au = {
     .name = "au",
     .magic = ".snd",
-    .open = ss_au_open,
+    .has_header = 1,
+    .open = open_au,
     .begin = begin_au,
     .number = encode_number,
 };

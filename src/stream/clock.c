@@ -61,7 +61,7 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
                        t[n - 1]);
     double *step = malloc(n * sizeof *step);
     if (step == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s: %s", file, ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, file);
     for (size_t i = 1; i < n; i++)
         step[i - 1] = t[i] - t[i - 1];
     qsort(step, n - 1, sizeof *step, ss_ascending);

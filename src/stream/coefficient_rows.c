@@ -11,6 +11,9 @@
 #include "stream/format.h"
 #include "stream/output.h"
 
+const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2] = {
+    { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" }, { "edge", "" } };
+
 enum { LONGEST = COEFFICIENT_COLUMNS * SS_NUMBER_MAX };
 
 struct ss_coefficient_writer {
@@ -25,16 +28,13 @@ struct ss_coefficient_writer {
 static ss_status
 write_header(const ss_header *head, FILE *out, const struct format *format, ss_error *err)
 {
-    static const char *const label[COEFFICIENT_COLUMNS][2] = {
-        { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" },
-        { "edge", "" } };
     ss_header *own;
     ss_status st = ss_header_select(&own, head, NULL, 0, 0);
     for (int i = 0; st == SS_OK && i < COEFFICIENT_COLUMNS; i++)
-        st = ss_header_add_column(own, label[i][0], label[i][1]);
+        st = ss_header_add_column(own, ss_coefficient_columns[i][0], ss_coefficient_columns[i][1]);
     if (st == SS_OK) {
         own->has_time = 0;
-        st = format->begin(out, own, COEFFICIENTS_MAGIC, err);
+        st = format->begin(out, own, ss_kind_magic(SS_KIND_COEFFICIENTS), err);
     }
     ss_header_free(own);
     return st;

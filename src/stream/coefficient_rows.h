@@ -2,6 +2,7 @@
 #ifndef COEFFICIENT_ROWS_H
 #define COEFFICIENT_ROWS_H
 
-enum { COEFFICIENT_COLUMNS = 7 };       /* m a/s b/s f/Hz re im edge */
+enum { COEFFICIENT_COLUMNS = 7 };
+extern const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2];        /* name and unit */
 
 #endif

@@ -13,12 +13,7 @@
 #include "base/list.h"
 #include "morlet/plan.h"
 #include "stream/coefficient_rows.h"
-#include "signal/header.h"
-#include "stream/au.h"
-#include "stream/format.h"
 #include "stream/reader.h"
-
-static const char columns[] = "# columns: m a/s b/s f/Hz re im edge";
 
 /* 1 if nearer to a gap than the cone of influence is wide. */
 static int
@@ -36,10 +31,8 @@ typedef struct part {
 } part;
 
 typedef struct reader {
-    ss_reader in;
+    ss_reader in;               /* comes first */
     ss_error *err;
-    int au;
-    size_t row;                 /* the current line, or row of AU */
     ss_coefficients *coef;      /* its n is 0 until the length is known */
     ss_morlet_opts opts;        /* what the grid follows from */
     part *part;
@@ -49,7 +42,7 @@ typedef struct reader {
 
 enum { LARGEST_M = 500 };       /* |log2 a| */
 
-/* SS_EDATA, and what is wrong with the current row. */
+/* SS_EDATA, and what is wrong with the current line of text, or row of AU. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -57,121 +50,34 @@ static ss_status
 refuse(const reader *r, const char *format, ...)
 {
     char why[256];
+    unsigned long line = r->in.in.line;
     va_list args;
     va_start(args, format);
     vsnprintf(why, sizeof why, format, args);
     va_end(args);
-    return ss_fail(r->err, SS_EDATA, "%s:%s%zu: %s", r->in.in.name, r->au ? " row " : "", r->row,
-                   why);
+    return ss_fail(r->err, SS_EDATA, "%s:%s%lu: %s", r->in.in.name, line > 0 ? "" : " row ",
+                   line > 0 ? line : (unsigned long)r->in.row, why);
 }
 
-/* The next line without its end, NULL if there is none. */
+/* --- header */
+
+/* All but the columns of the stream's header, if these are those of coefficients. */
 static ss_status
-next_line(reader *r, char **line)
+take_header(reader *r)
 {
-    size_t length;
-    ss_status st = ss_input_line(&r->in.in, line, &length, r->err);
-    r->row = r->in.in.line;
-    if (st == SS_OK && *line != NULL && strlen(*line) != length)
-        return refuse(r, "a NUL byte in text");
+    const ss_header *head = r->in.head;
+    int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
+    for (size_t i = 0; known && i < COEFFICIENT_COLUMNS; i++)
+        known = strcmp(head->column[i].name, ss_coefficient_columns[i][0]) == 0
+            && strcmp(head->column[i].unit, ss_coefficient_columns[i][1]) == 0;
+    if (!known)
+        return ss_fail_wanted(ss_fail(r->err, SS_EKIND, "%s: the columns are not those of wavelet "
+                                      "coefficients, m a/s b/s f/Hz re im edge", r->in.in.name),
+                              SS_KIND_COEFFICIENTS, r->err);
+    ss_status st = ss_header_select(&r->coef->head, head, NULL, 0, 0);
+    if (st == SS_OK)
+        r->coef->head->has_time = 1;
     return st;
-}
-
-/* --- header lines */
-
-static ss_status
-read_note(reader *r, const char *key, const char *value)
-{
-    char *end;
-    ss_header *head = r->coef->head;
-    double *number = strcmp(key, "rate") == 0 ? &head->rate
-        : strcmp(key, "start") == 0 ? &head->start : NULL;
-    if (number == NULL) {
-        if (head->n_notes == MAX_NOTES)
-            return refuse(r, "more than 4096 notes");
-        ss_status st = ss_header_note(head, key, value);
-        return st != SS_EINVAL ? st : refuse(r, "'%s' cannot be the key of a note", key);
-    }
-    *number = ss_number_parse(value, &end);
-    if (end == value || *end != '\0' || !isfinite(*number))
-        return refuse(r, "%s '%s' is not a number", key, value);
-    return SS_OK;
-}
-
-static ss_status
-check_magic(const reader *r, const char *line)
-{
-    const char *name = r->in.in.name;
-    if (line == NULL)
-        return ss_fail(r->err, SS_EDATA, "%s: empty, no coefficients", name);
-    if (strcmp(line, COEFFICIENTS_MAGIC) != 0
-        && ss_fail_kind(r->err, name, line, strlen(line), "wavelet coefficients") != SS_OK)
-        return SS_EKIND;
-    if (strcmp(line, COEFFICIENTS_MAGIC) != 0)
-        return ss_fail(r->err, SS_EKIND, "%s:1: not wavelet coefficients, which begin '%s'",
-                       name, COEFFICIENTS_MAGIC);
-    return SS_OK;
-}
-
-/* Everything up to and with the line of columns. */
-static ss_status
-read_text_header(reader *r)
-{
-    char *line;
-    ss_status st = next_line(r, &line);
-    if (st != SS_OK || (st = check_magic(r, line)) != SS_OK)
-        return st;
-    while ((st = next_line(r, &line)) == SS_OK && line != NULL && strcmp(line, columns) != 0) {
-        char *colon = strstr(line, ": ");
-        if (strncmp(line, "# ", 2) != 0 || strncmp(line, columns, 10) == 0)
-            return refuse(r, "expected '%s'", columns);
-        if (colon == NULL)
-            continue;                   /* a comment of someone's */
-        *colon = '\0';
-        if ((st = read_note(r, line + 2, colon + 2)) != SS_OK)
-            return st;
-    }
-    if (st == SS_OK && line == NULL)
-        return ss_fail(r->err, SS_EDATA, "%s: ends before '%s'", r->in.in.name, columns);
-    return st;
-}
-
-/* The header of AU holds the same lines. */
-static ss_status
-read_au_header(reader *r)
-{
-    static const ss_read_opts no_opts;
-    ss_header *head;
-    ss_status st = ss_au_open(&r->in, &no_opts, r->err);
-    if (st != SS_OK)
-        return st;
-    if (r->in.head->n_columns != COEFFICIENT_COLUMNS
-        || strcmp(r->in.head->column[0].name, "m") != 0)
-        return ss_fail(r->err, SS_EKIND, "%s: AU without wavelet coefficients", r->in.in.name);
-    if ((st = ss_header_select(&head, r->in.head, NULL, 0, 0)) != SS_OK)
-        return st;
-    head->has_time = 1;
-    ss_header_free(r->coef->head);
-    r->coef->head = head;
-    return SS_OK;
-}
-
-static ss_status
-read_header(reader *r)
-{
-    struct input *in = &r->in.in;
-    ss_status st = ss_input_need(in, 4, r->err);
-    if (st != SS_OK)
-        return st;
-    const char *bytes = in->buffer + in->lo;
-    size_t n = in->hi - in->lo;
-    r->au = n >= 4 && memcmp(bytes, ".snd", 4) == 0;
-    if (n >= 4 && memcmp(bytes, "\211HDF", 4) == 0)
-        return ss_fail(r->err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path",
-                       in->name);
-    if (!r->au && ss_fail_kind(r->err, in->name, bytes, n, "wavelet coefficients") != SS_OK)
-        return SS_EKIND;
-    return r->au ? read_au_header(r) : read_text_header(r);
 }
 
 static ss_status
@@ -229,7 +135,7 @@ read_options(reader *r)
     coef->n = (size_t)samples;
     coef->center = r->opts.center;
     r->opts.voices = (int)voices;
-    ss_error why = { "" };
+    ss_error why = { 0 };
     if (ss_morlet_check(coef->n > 0 ? coef->n : 1, coef->head->rate, &r->opts, &why) != SS_OK)
         return ss_fail(r->err, SS_EDATA, "%s: %s", name, why.text);
     unit = ss_header_find_note(coef->head, "unit");
@@ -239,24 +145,9 @@ read_options(reader *r)
 /* --- rows */
 
 static ss_status
-read_numbers(const reader *r, const char *at, double number[COEFFICIENT_COLUMNS])
-{
-    for (int i = 0; i < COEFFICIENT_COLUMNS; i++) {
-        char *end;
-        number[i] = ss_number_parse(at, &end);
-        if (end == at || !isfinite(number[i]))
-            return refuse(r, "column %d is not a number", i + 1);
-        if (*end != (i + 1 < COEFFICIENT_COLUMNS ? '\t' : '\0'))
-            return refuse(r, "expected %d numbers separated by tabs", COEFFICIENT_COLUMNS);
-        at = end + 1;
-    }
-    return SS_OK;
-}
-
-static ss_status
 new_part(reader *r, int j, const double number[])
 {
-    ss_error why = { "" };
+    ss_error why = { 0 };
     part *parts = ss_list_room(r->part, &r->room, r->n_parts, sizeof *parts);
     if (parts == NULL)
         return SS_ENOMEM;
@@ -348,7 +239,7 @@ check_tail(reader *r, part *p)
     ss_scale *sc = &p->scale;
     double rate = r->coef->head->rate;
     size_t n = r->coef->n;
-    ss_error why = { "" };
+    ss_error why = { 0 };
     if (ss_morlet_scale_at(sc, sc->j, sc->a, n, rate, &r->opts, &why) != SS_OK)
         return refuse(r, "%s", why.text);
     if (p->n > sc->n)
@@ -376,41 +267,29 @@ set_length(reader *r, double samples)
     return st;
 }
 
+/* A line "# samples: N" among the rows ends a stream. */
 static ss_status
-read_text_rows(reader *r)
+read_late_note(ss_reader *in, char *line, ss_error *err)
 {
     static const char length[] = "# samples: ";
-    double number[COEFFICIENT_COLUMNS];
-    char *line, *end;
+    (void)err;
+    if (strncmp(line, length, sizeof length - 1) != 0)
+        return SS_OK;
+    return set_length((reader *)in, ss_number_parse(line + sizeof length - 1, NULL));
+}
+
+/* In AU, a row at scale 0 does: its b is the last sample's. */
+static ss_status
+read_rows_of_scales(reader *r)
+{
+    double row[COEFFICIENT_COLUMNS];
+    size_t n;
     ss_status st;
-    while ((st = next_line(r, &line)) == SS_OK && line != NULL) {
-        if (strncmp(line, length, sizeof length - 1) == 0)
-            st = set_length(r, ss_number_parse(line + sizeof length - 1, &end));
-        else if (line[0] != '#' && (st = read_numbers(r, line, number)) == SS_OK)
-            st = append_row(r, number);
+    while ((st = ss_reader_rows(&r->in, row, 1, &n, r->err)) == SS_OK && n > 0) {
+        st = row[1] == 0 ? set_length(r, rint(row[2] * r->coef->head->rate) + 1) : append_row(r, row);
         if (st != SS_OK)
             return st;
     }
-    return st;
-}
-
-/* A row at scale 0 ends a stream: its b is the last sample's. */
-static ss_status
-read_au_rows(reader *r)
-{
-    enum { PIECE = 256 };
-    double rows[PIECE * COEFFICIENT_COLUMNS];
-    size_t n;
-    ss_status st;
-    while ((st = ss_reader_rows(&r->in, rows, PIECE, &n, r->err)) == SS_OK && n > 0)
-        for (size_t i = 0; i < n; i++) {
-            const double *number = rows + i * COEFFICIENT_COLUMNS;
-            r->row++;
-            st = number[1] == 0 ? set_length(r, rint(number[2] * r->coef->head->rate) + 1)
-                                : append_row(r, number);
-            if (st != SS_OK)
-                return st;
-        }
     return st;
 }
 
@@ -457,27 +336,26 @@ assemble(reader *r)
 static ss_status
 read_all(reader *r, FILE *in, const char *name)
 {
-    ss_status st = ss_input_open(&r->in.in, in, name, r->err);
+    ss_status st = ss_reader_open(&r->in, in, name, SS_KIND_COEFFICIENTS, NULL, r->err);
     if (st != SS_OK)
         return st;
-    r->in.head = ss_header_new(0, 0);
     r->coef = calloc(1, sizeof *r->coef);
-    if (r->in.head == NULL || r->coef == NULL || (r->coef->head = ss_header_new(0, 0)) == NULL)
+    if (r->coef == NULL)
         return SS_ENOMEM;
-    if ((st = read_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
+    if ((st = take_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
         || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
         return st;
     r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
     if (r->part_of == NULL)
         return SS_ENOMEM;
-    st = r->au ? read_au_rows(r) : read_text_rows(r);
+    st = read_rows_of_scales(r);
     return st == SS_OK ? assemble(r) : st;
 }
 
 ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
-    reader r = { .in = { .magic = COEFFICIENTS_MAGIC }, .err = err };
+    reader r = { .in = { .late_note = read_late_note }, .err = err };
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = read_all(&r, in, name);
@@ -485,8 +363,7 @@ ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error
         free(r.part[i].w);
     free(r.part);
     free(r.part_of);
-    ss_input_close(&r.in.in);
-    ss_header_free(r.in.head);
+    ss_reader_close(&r.in);
     if (st == SS_OK)
         *out = r.coef;
     else

@@ -14,14 +14,14 @@ read_times(double **time, size_t *n, struct input *in, ss_error *err)
 {
     char *line;
     size_t room = 0;
-    ss_status st = ss_input_begin(in, "# stickslip events 1", "events", err);
+    ss_status st = ss_input_begin(in, SS_KIND_EVENTS, err);
     while (st == SS_OK && (st = ss_input_row(in, &line, err)) == SS_OK && line != NULL) {
         const char *text = line;
         if (*text == '#')
             continue;
         double *more = ss_list_room(*time, &room, *n, sizeof *more);
         if (more == NULL)
-            return ss_fail(err, SS_ENOMEM, "%s: %s", in->name, ss_strerror(SS_ENOMEM));
+            return ss_fail_memory(err, in->name);
         *time = more;
         st = ss_input_number(in, &text, "a time in seconds", &(*time)[(*n)++], err);
     }
@@ -65,7 +65,7 @@ ss_event_writer_new(ss_event_writer **out_writer, FILE *out, ss_format format, c
     *out_writer = NULL;
     if (writer == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&writer->rows, out, format, "events");
+    ss_status st = ss_rows_begin(&writer->rows, out, format, SS_KIND_EVENTS);
     if (st != SS_OK) {
         free(writer);
         return st;

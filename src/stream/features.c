@@ -17,12 +17,6 @@ typedef struct reader {
     size_t spans, maxima, spikes;       /* that the lists have room for */
 } reader;
 
-static ss_status
-no_memory(const reader *r, ss_error *err)
-{
-    return ss_fail(err, SS_ENOMEM, "%s: %s", r->in.name, ss_strerror(SS_ENOMEM));
-}
-
 /* Append the pair to a list, unless a part of it is not known. */
 static ss_status
 append(reader *r, double (**list)[2], size_t *n, size_t *room, const double pair[2], ss_error *err)
@@ -31,7 +25,7 @@ append(reader *r, double (**list)[2], size_t *n, size_t *room, const double pair
         return SS_OK;
     double (*more)[2] = ss_list_room(*list, room, *n, sizeof **list);
     if (more == NULL)
-        return no_memory(r, err);
+        return ss_fail_memory(err, r->in.name);
     *list = more;
     memcpy(more[(*n)++], pair, sizeof *more);
     return SS_OK;
@@ -74,7 +68,7 @@ read_spike(reader *r, const char *text, ss_error *err)
         return st;
     double *more = ss_list_room(o->spike, &r->spikes, o->n_spikes, sizeof *more);
     if (more == NULL)
-        return no_memory(r, err);
+        return ss_fail_memory(err, r->in.name);
     o->spike = more;
     o->spike[o->n_spikes++] = t;
     return SS_OK;
@@ -86,7 +80,7 @@ read_lines(reader *r, ss_error *err)
 {
     static const char note[] = "# spike: ";
     char *line;
-    ss_status st = ss_input_begin(&r->in, "# stickslip features 1", "features", err);
+    ss_status st = ss_input_begin(&r->in, SS_KIND_FEATURES, err);
     while (st == SS_OK && (st = ss_input_row(&r->in, &line, err)) == SS_OK && line != NULL)
         if (line[0] != '#')
             st = read_transition(r, line, err);
@@ -104,7 +98,7 @@ ss_overlay_read(ss_overlay **out, FILE *in, const char *name, ss_error *err)
     *out = NULL;
     ss_status st = ss_input_open(&r.in, in, name, err);
     if (st == SS_OK && r.overlay == NULL)
-        st = no_memory(&r, err);
+        st = ss_fail_memory(err, name);
     if (st == SS_OK)
         st = read_lines(&r, err);
     ss_input_close(&r.in);
@@ -243,7 +237,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
     struct rows rows;
     char threshold[SS_NUMBER_MAX];
     if (f == NULL || signal == NULL || column >= signal->head->n_columns || opts == NULL || out == NULL
-        || ss_rows_begin(&rows, out, format, "features") != SS_OK)
+        || ss_rows_begin(&rows, out, format, SS_KIND_FEATURES) != SS_OK)
         return SS_EINVAL;
     const ss_header *head = signal->head;
     ss_rows_notes(&rows, head, "contact_");             /* a scene's own; here they are results */

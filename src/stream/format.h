@@ -8,14 +8,12 @@
 #include <stdio.h>
 #include <stickslip/signal.h>
 
-#define SIGNAL_MAGIC "# stickslip signal 1"
-#define COEFFICIENTS_MAGIC "# stickslip coefficients 1"
-
 struct format {
     const char *name;           /* "au": the name for users; a file's ending is a dot and this */
 
     /* Reading a signal: the bytes with which it begins, "?" for any; NULL: tried last. */
     const char *magic;
+    int has_header;             /* ours, whose first line tells the kind: it may hold coefficients, too */
     ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
 
     /* Writing numbers under a header that begins with magic; NULL if none are. */

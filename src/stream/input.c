@@ -23,7 +23,7 @@ ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err)
     in->capacity = PIECE;
     in->buffer = malloc(in->capacity + 1);      /* and a NUL behind the last line */
     if (in->name == NULL || in->buffer == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, name);
     fflush(file);       /* moves the descriptor of a file (not a pipe) to where the FILE is */
     return SS_OK;
 }
@@ -148,14 +148,14 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
 }
 
 ss_status
-ss_input_begin(struct input *in, const char *magic, const char *what, ss_error *err)
+ss_input_begin(struct input *in, ss_kind kind, ss_error *err)
 {
     char *line;
     size_t length;
     ss_status st = ss_input_line(in, &line, &length, err);
-    if (st != SS_OK || (line != NULL && strcmp(line, magic) == 0))
+    if (st != SS_OK || (line != NULL && strcmp(line, ss_kind_magic(kind)) == 0))
         return st;
-    return ss_fail(err, SS_EDATA, "%s:1: not %s, which begin '%s'", in->name, what, magic);
+    return ss_fail_magic(err, in->name, line, kind);
 }
 
 ss_status

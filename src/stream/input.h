@@ -29,8 +29,8 @@ ss_status ss_input_skip(struct input *in, uint64_t *n, ss_error *err);
 /* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0
  * and *line = NULL at the end of the stream. */
 ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error *err);
-/* The first line, which must be magic: a list of what stands in the stream. */
-ss_status ss_input_begin(struct input *in, const char *magic, const char *what, ss_error *err);
+/* Read the first line, which must be that of the kind. */
+ss_status ss_input_begin(struct input *in, ss_kind kind, ss_error *err);
 /* The next line of text that is not blank, as ss_input_line gives it; *line = NULL at the end. */
 ss_status ss_input_row(struct input *in, char **line, ss_error *err);
 /* The finite number that *text begins with; *text moves behind it and the blanks or comma after it.

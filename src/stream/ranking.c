@@ -158,7 +158,7 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
     size_t *order = calloc(ranking->n, sizeof *order);
     if (order == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&rows, out, format, "ranking");
+    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING);
     if (st == SS_OK) {
         if (rows.format->has_notes)
             write_notes(out, ranking, about, opts);

@@ -20,17 +20,40 @@ open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (n == 0)
         return ss_fail(err, SS_EDATA, "%s: empty", in->name);
     const struct format *found = ss_format_of_bytes(p, n);
+    int fits = found->has_header || reader->kind == SS_KIND_SIGNAL;
     if (found->magic == NULL && n >= 4 && memcmp(p, "\211HDF", 4) == 0)
         return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
-    if (found->magic == NULL && ss_fail_kind(err, in->name, p, n, "a signal") != SS_OK)
+    if ((found->magic == NULL || !fits) && ss_fail_kind(err, in->name, p, n, reader->kind) != SS_OK)
         return SS_EKIND;
-    return found->open(reader, opts, err);
+    return fits ? found->open(reader, opts, err) : ss_fail_magic(err, in->name, "", reader->kind);
+}
+
+ss_status
+ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind, const ss_read_opts *opts,
+               ss_error *err)
+{
+    static const ss_read_opts no_opts;
+    reader->kind = kind;
+    reader->head = ss_header_new(0, 0);
+    ss_status st = ss_input_open(&reader->in, in, name, err);
+    if (st == SS_OK && reader->head == NULL)
+        st = ss_fail_memory(err, name);
+    if (st == SS_OK)
+        st = open_format(reader, opts != NULL ? opts : &no_opts, err);
+    return st == SS_OK ? ss_refuse_range(name, reader->head->rate, reader->head->start, err) : st;
+}
+
+void
+ss_reader_close(ss_reader *reader)
+{
+    ss_input_close(&reader->in);
+    ss_header_free(reader->head);
+    free(reader->values);
 }
 
 ss_status
 ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {
-    static const ss_read_opts no_opts;
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
     *out = NULL;
@@ -39,22 +62,13 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
         return ss_fail(err, SS_EINVAL, "gaps, rate or resample out of range");
     ss_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
-    reader->head = ss_header_new(0, 0);
-    reader->magic = SIGNAL_MAGIC;
-    ss_status st = ss_input_open(&reader->in, in, name, err);
-    if (st == SS_OK && reader->head == NULL)
-        st = ss_fail(err, SS_ENOMEM, "%s: %s", name, ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, name);
+    ss_status st = ss_reader_open(reader, in, name, SS_KIND_SIGNAL, opts, err);
     if (st == SS_OK)
-        st = open_format(reader, opts != NULL ? opts : &no_opts, err);
-    if (st == SS_OK)
-        st = ss_refuse_range(name, reader->head->rate, reader->head->start, err);
-    if (st != SS_OK) {
+        *out = reader;
+    else
         ss_reader_free(reader);
-        return st;
-    }
-    *out = reader;
-    return SS_OK;
+    return st;
 }
 
 const ss_header *
@@ -87,9 +101,7 @@ ss_reader_free(ss_reader *reader)
 {
     if (reader == NULL)
         return;
-    ss_input_close(&reader->in);
-    ss_header_free(reader->head);
-    free(reader->values);
+    ss_reader_close(reader);
     free(reader);
 }
 

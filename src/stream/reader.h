@@ -18,7 +18,8 @@ struct ss_reader {
     struct input in;
     ss_header *head;
     read_rows *rows;
-    const char *magic;          /* with which the header begins, in text and in AU's annotation */
+    ss_kind kind;               /* that is read: a signal, or wavelet coefficients */
+    ss_status (*late_note)(ss_reader *reader, char *line, ss_error *err);   /* among rows; NULL: passed over */
     uint64_t row;               /* rows given so far */
     sample_type type;           /* frames: of their values */
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
@@ -27,5 +28,10 @@ struct ss_reader {
     double *values;             /* delimited text: all rows, one after the other */
     size_t n_rows;
 };
+
+/* Begin to read the kind, in the format of the first bytes; to be closed even after a failure. */
+ss_status ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind,
+                         const ss_read_opts *opts, ss_error *err);
+void ss_reader_close(ss_reader *reader);
 
 #endif

@@ -3,18 +3,19 @@
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
+#include "base/error.h"
 #include "signal/header.h"
 #include "stream/rows.h"
 
 ss_status
-ss_rows_begin(struct rows *rows, FILE *out, ss_format format, const char *form)
+ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind)
 {
     const struct format *table = ss_format_table(format);
     if (table == NULL || table->separator == '\0')
         return SS_EINVAL;
     *rows = (struct rows){ .out = out, .format = table };
     if (table->has_notes)
-        fprintf(out, "# stickslip %s 1\n", form);
+        fprintf(out, "%s\n", ss_kind_magic(kind));
     return SS_OK;
 }
 

@@ -14,8 +14,8 @@ struct rows {
     size_t cells;               /* of the row begun, or of the line of columns */
 };
 
-/* The first line of the form: "sweep".  SS_EINVAL: the format has no words. */
-ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, const char *form);
+/* Write the first line of text of this kind.  SS_EINVAL: the format has no words. */
+ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind);
 /* A line "# key: value", in a format that has notes. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))

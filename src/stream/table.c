@@ -13,14 +13,9 @@
 typedef struct reader {
     struct input in;
     ss_table *table;
+    char *columns_text;                 /* what the first header says of them */
     size_t notes, columns, cells;       /* that the lists have room for */
 } reader;
-
-static ss_status
-no_memory(const reader *r, ss_error *err)
-{
-    return ss_fail(err, SS_ENOMEM, "%s: %s", r->in.name, ss_strerror(SS_ENOMEM));
-}
 
 static ss_status
 add_note(reader *r, const char *text, ss_error *err)
@@ -28,10 +23,10 @@ add_note(reader *r, const char *text, ss_error *err)
     ss_table *t = r->table;
     char **more = ss_list_room(t->note, &r->notes, t->n_notes, sizeof *more);
     if (more == NULL)
-        return no_memory(r, err);
+        return ss_fail_memory(err, r->in.name);
     t->note = more;
     more[t->n_notes] = strdup(text);
-    return more[t->n_notes++] != NULL ? SS_OK : no_memory(r, err);
+    return more[t->n_notes++] != NULL ? SS_OK : ss_fail_memory(err, r->in.name);
 }
 
 static ss_status
@@ -44,13 +39,13 @@ add_column(reader *r, char *label, ss_error *err)
                        MAX_COLUMNS);
     ss_column *more = ss_list_room(t->column, &r->columns, t->n_columns, sizeof *more);
     if (more == NULL)
-        return no_memory(r, err);
+        return ss_fail_memory(err, r->in.name);
     t->column = more;
     ss_split_label(label, &name, &unit);
     more[t->n_columns] = (ss_column){ strdup(name), strdup(unit) };
     t->n_columns++;
     return more[t->n_columns - 1].name != NULL && more[t->n_columns - 1].unit != NULL ? SS_OK
-        : no_memory(r, err);
+        : ss_fail_memory(err, r->in.name);
 }
 
 /* Labels with blanks between; blanks in brackets are a unit's. */
@@ -58,8 +53,11 @@ static ss_status
 read_columns(reader *r, char *text, ss_error *err)
 {
     ss_status st = SS_OK;
-    if (r->table->n_columns > 0)
-        return ss_fail(err, SS_EDATA, "%s:%lu: columns are named twice", r->in.name, r->in.line);
+    if (r->columns_text != NULL)
+        return strcmp(text, r->columns_text) == 0 ? SS_OK
+            : ss_fail(err, SS_EDATA, "%s:%lu: other columns than before", r->in.name, r->in.line);
+    if ((r->columns_text = strdup(text)) == NULL)
+        return ss_fail_memory(err, r->in.name);
     while (st == SS_OK && *(text += strspn(text, " ")) != '\0') {
         char *label = text;
         for (int depth = 0; *text != '\0' && (depth > 0 || *text != ' '); text++)
@@ -89,7 +87,7 @@ read_row(reader *r, const char *line, ss_error *err)
     char *copy = more != NULL ? strdup(line) : NULL;
     t->cell = more != NULL ? more : t->cell;
     if (copy == NULL)
-        return no_memory(r, err);
+        return ss_fail_memory(err, r->in.name);
     for (size_t c = 0; c < t->n_columns; c++) {
         size_t length = strcspn(copy, "\t");
         more[t->n * t->n_columns + c] = copy;
@@ -102,13 +100,11 @@ read_row(reader *r, const char *line, ss_error *err)
 }
 
 static ss_status
-read_lines(reader *r, const char *form, ss_error *err)
+read_lines(reader *r, ss_kind kind, ss_error *err)
 {
     static const char columns[] = "# columns: ";
-    char *line, magic[64], what[64];
-    snprintf(magic, sizeof magic, "# stickslip %.40s 1", form);
-    snprintf(what, sizeof what, "rows of %.40s", form);
-    ss_status st = ss_input_begin(&r->in, magic, what, err);
+    char *line;
+    ss_status st = ss_input_begin(&r->in, kind, err);
     while (st == SS_OK && (st = ss_input_row(&r->in, &line, err)) == SS_OK && line != NULL)
         if (strncmp(line, columns, strlen(columns)) == 0)
             st = read_columns(r, line + strlen(columns), err);
@@ -122,17 +118,20 @@ read_lines(reader *r, const char *form, ss_error *err)
 }
 
 ss_status
-ss_table_read(ss_table **out, FILE *in, const char *name, const char *form, ss_error *err)
+ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error *err)
 {
-    if (out == NULL || in == NULL || name == NULL || form == NULL)
+    if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
+    if (kind < SS_KIND_FEATURES || kind > SS_KIND_TRADE)
+        return ss_fail(err, SS_EINVAL, "text of this kind is no table");
     reader r = { .table = calloc(1, sizeof *r.table) };
     *out = NULL;
     ss_status st = ss_input_open(&r.in, in, name, err);
     if (st == SS_OK && r.table == NULL)
-        st = no_memory(&r, err);
+        st = ss_fail_memory(err, name);
     if (st == SS_OK)
-        st = read_lines(&r, form, err);
+        st = read_lines(&r, kind, err);
+    free(r.columns_text);
     ss_input_close(&r.in);
     if (st == SS_OK)
         *out = r.table;

@@ -74,7 +74,7 @@ ss_trade_write(const ss_trade *trade, const char *name, FILE *out, ss_format for
     struct rows rows;
     double fastest = NAN;
     if (trade == NULL || name == NULL || out == NULL
-        || ss_rows_begin(&rows, out, format, "trade") != SS_OK)
+        || ss_rows_begin(&rows, out, format, SS_KIND_TRADE) != SS_OK)
         return SS_EINVAL;
     for (size_t i = 0; i < trade->n; i++)
         if (trade->row[i].status == SS_OK)

@@ -96,6 +96,10 @@ text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
         ss_status st = ss_input_line(&reader->in, &line, &length, err);
         if (st != SS_OK || line == NULL)
             return st;
+        if (line[0] == '#' && reader->late_note != NULL)
+            st = reader->late_note(reader, line, err);
+        if (st != SS_OK)
+            return st;
         if (line[0] == '#' || line[strspn(line, " \t")] == '\0')
             continue;
         st = read_row(reader, line, length, rows + *n * reader->head->n_columns, err);
@@ -107,14 +111,6 @@ text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
     return SS_OK;
 }
 
-static ss_status
-refuse_magic(const ss_reader *reader, const char *line, ss_error *err)
-{
-    if (ss_fail_kind(err, reader->in.name, line, strlen(line), "a signal") != SS_OK)
-        return SS_EKIND;
-    return ss_fail(err, SS_EDATA, "%s:1: '%.40s' is not '%s'", reader->in.name, line, SIGNAL_MAGIC);
-}
-
 /* The header ends before the first line that is no comment. */
 static ss_status
 open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
@@ -123,9 +119,7 @@ open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     const char *reason = "";
     char *line;
     size_t length;
-    ss_status st = ss_input_line(in, &line, &length, err);
-    if (st == SS_OK && strcmp(line, SIGNAL_MAGIC) != 0)
-        return refuse_magic(reader, line, err);
+    ss_status st = ss_input_begin(in, reader->kind, err);
     reader->head->rate = 0;
     while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK) {
         if (in->lo == in->hi || in->buffer[in->lo] != '#')
@@ -177,6 +171,7 @@ format_number(char *to, double x, int last)
 const struct format ss_format_tsv = {
     .name = "tsv",
     .magic = "# stickslip",
+    .has_header = 1,
     .open = open_text,
     .begin = begin_text,
     .number = format_number,

@@ -26,7 +26,7 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
     writer->row = writer->out.used = 0;
     writer->head = ss_header_copy(head);
     ss_status st = writer->head == NULL ? SS_ENOMEM
-        : writer->format->begin(out, head, SIGNAL_MAGIC, err);
+        : writer->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
     if (st != SS_OK) {
         ss_writer_free(writer);
         return st;

@@ -77,7 +77,7 @@ static inline ss_status
 cost_simulate(const ss_scene *scene, const char *method, double tol, double *x, size_t *events)
 {
     bench_kept k = { x, 0, 0 };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_sim_opts opts = { .method = method, .tol = tol, .samples = bench_keep,
                          .events = bench_count, .user = &k };
     ss_status st = ss_sim_run(scene, &opts, NULL, &err);

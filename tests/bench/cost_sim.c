@@ -110,7 +110,7 @@ cost_of_stiffness(void)
         for (int i = 0; i < 2; i++) {
             ss_scene s = scene_named("compliant-light");
             ss_sim_stats stats;
-            ss_error err = { "" };
+            ss_error err = { 0 };
             s.contact_damping *= sqrt(K / s.contact_stiffness);
             s.contact_stiffness = K;
             double seconds = time_to(discard, NULL, &s, path[i], 10000000, &stats, &err);

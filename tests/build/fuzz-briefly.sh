@@ -5,11 +5,11 @@ echo 'int LLVMFuzzerTestOneInput(const char *p, long n) { return p == 0 && n < 0
 clang -fsanitize=fuzzer -o f f.c 2> log || { echo "no clang with libFuzzer"; exit 77; }
 mkdir -p tests/fuzz
 # shellcheck disable=SC2086  # flags are lists
-set -- -std=c11 -D_XOPEN_SOURCE=700 -I"$SRC/include" -I"$SRC/src" $INCLUDES -O1
+set -- -std=c11 -D_XOPEN_SOURCE=700 -I"$SRC/include" -I"$SRC/src" -I"$BUILD" $INCLUDES -O1
 # shellcheck disable=SC2086
 clang "$@" -fsanitize=fuzzer-no-link -c "$SRC"/src/base/number.c "$SRC"/src/scene/scene.c "$SRC"/src/signal/*.c \
     "$SRC"/src/stream/*.c "$SRC"/src/store/h5.c "$SRC"/src/store/read.c "$SRC"/src/store/*_reader.c \
-    "$SRC"/src/store/foreign.c "$SRC"/src/plot/map.c "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
+    "$SRC"/src/store/foreign.c "$SRC"/src/plot/map*.c "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
 names=
 for harness in "$SRC"/tests/fuzz/fuzz_*.c; do
     name=fuzz/$(basename "$harness" .c)

@@ -36,7 +36,7 @@ main(int argc, char *argv[])
     ss_scene scene;
     ss_signal *signal = NULL;
     ss_coefficients *coefficients = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     size_t column = 0;
 
     /* GSL's default handler ends the program at the first error, lack of memory included.  The

@@ -46,7 +46,7 @@ int
 main(void)
 {
     ss_morlet *plan;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_morlet_opts opts = ss_morlet_defaults;
     gsl_set_error_handler_off();
     opts.norm = SS_NORM_L1;

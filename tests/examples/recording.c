@@ -35,7 +35,7 @@ main(int argc, char *argv[])
 {
     ss_signal *signal = NULL;
     ss_coefficients *coefficients = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_read_opts read = { .gaps = SS_GAPS_INTERPOLATE };
     ss_morlet_opts opts = ss_morlet_defaults;
     if (argc != 3) {

@@ -34,7 +34,7 @@ take_event(const ss_event *event, void *user)
 int
 main(void)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     summary sum = { 0, 0 };
     ss_scene scene = ss_scene_defaults;
     scene.model = SS_COULOMB;

@@ -64,7 +64,7 @@ fuzz_check_signal(const ss_signal *signal)
     size_t length = 0, values = signal->n * head->n_columns;
     char *text = NULL;
     ss_signal *back = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
 
     fuzz_check(head->rate > 0 && isfinite(head->rate) && isfinite(head->start), "a clock");
     fuzz_check(head->n_columns > 0, "columns");
@@ -88,7 +88,7 @@ void
 fuzz_signal(const uint8_t *bytes, size_t size, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_status status = read_signal(&signal, bytes, size, opts, &err);
     if (status == SS_OK)
         fuzz_check_signal(signal);
@@ -105,7 +105,7 @@ check_reads_back(const ss_coefficients *c, size_t total, ss_format format)
     size_t length = 0;
     char *text = NULL;
     ss_coefficients *back = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");
     ss_status status = ss_coefficients_write(c, out, format, NULL);

@@ -5,7 +5,7 @@ int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     ss_coefficients *c = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *in = fuzz_open(bytes, size);
     ss_status status = ss_coefficients_read(&c, in, "in", &err);
     fclose(in);

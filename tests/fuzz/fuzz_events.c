@@ -9,7 +9,7 @@ LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     double *time = NULL;
     size_t n = 0;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *in = fuzz_open(bytes, size);
     ss_status status = ss_event_times_read(&time, &n, in, "in", &err);
     fclose(in);

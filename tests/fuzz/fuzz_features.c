@@ -14,7 +14,7 @@ int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     ss_overlay *overlay = NULL;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     FILE *in = fuzz_open(bytes, size);
     ss_status status = ss_overlay_read(&overlay, in, "in", &err);
     fclose(in);

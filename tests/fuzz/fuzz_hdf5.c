@@ -54,7 +54,7 @@ int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     h5_file file = { .id = -1, .path = "in", .err = &err };
     if (size == 0)
         return 0;

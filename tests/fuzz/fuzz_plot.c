@@ -81,18 +81,18 @@ draw_contour(FILE *out, const material *m, const ss_signal *signal, const ss_plo
 static ss_status
 draw_map(FILE *out, const material *m, const ss_plot_opts *opts, ss_error *err)
 {
-    char *unit[] = { m->text[3], m->text[5], "", m->text[1] };
-    char *name[] = { m->text[2], m->text[4], m->text[1], m->text[0] };
+    ss_column column[] = { { m->text[2], m->text[3] }, { m->text[4], m->text[5] }, { m->text[1], "" },
+                           { m->text[0], m->text[1] } };
     enum { POINTS = 9 };
-    double value[4 * POINTS];
+    char text[4 * POINTS][SS_NUMBER_MAX], *cell[4 * POINTS], note[512], *notes[] = { note };
+    snprintf(note, sizeof note, "scene: %s", m->text[1]);
     for (int i = 0; i < POINTS; i++) {
-        value[i] = i % 3;
-        value[POINTS + i] = (double)(i / 3) + m->x[i / 3];
-        value[2 * POINTS + i] = i % 2;
-        value[3 * POINTS + i] = m->x[i];
+        const double row[4] = { i % 3, (double)(i / 3) + m->x[i / 3], i % 2, m->x[i] };
+        for (int c = 0; c < 4; c++)
+            ss_number_format(cell[4 * i + c] = text[4 * i + c], row[c]);
     }
-    const ss_sweep_table table = { .scene = m->text[1], .n_columns = 4, .name = name, .unit = unit,
-                                   .n = POINTS, .value = value };
+    const ss_table table = { .n_notes = 1, .note = notes, .n_columns = 4, .column = column, .n = POINTS,
+                             .cell = cell };
     const ss_map_opts map = { .x = 0, .y = 1, .z = { 2, 3 }, .n_z = 2 };
     return ss_plot_map(out, &table, &map, opts, err);
 }
@@ -117,7 +117,7 @@ draw(const material *m, kind k)
 {
     char *text = NULL;
     size_t length = 0;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_plot_opts opts = ss_plot_defaults;
     ss_signal *signal = make_signal(m);
     FILE *out = open_memstream(&text, &length);

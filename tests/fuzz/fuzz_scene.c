@@ -10,7 +10,7 @@ check_scene(const ss_scene *scene)
     size_t length = 0;
     char *text = NULL;
     ss_scene back;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     fuzz_check(ss_scene_check(scene, &err) == SS_OK, err.text);
     FILE *out = open_memstream(&text, &length);
     fuzz_check(ss_scene_write(scene, out) == SS_OK, "written");
@@ -26,7 +26,7 @@ int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     ss_scene scene;
-    ss_error err = { "" };
+    ss_error err = { 0 };
     const uint8_t *nul = size > 0 ? memchr(bytes, 0, size) : NULL;
     size_t text = nul != NULL ? (size_t)(nul - bytes) : size, rest = size - text;
     char *setting = calloc(rest + 1, 1);

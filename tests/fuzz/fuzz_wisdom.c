@@ -31,7 +31,7 @@ transform(void)
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    ss_error err = { "" };
+    ss_error err = { 0 };
     char *text = NULL, *none[2] = { fftw_export_wisdom_to_string(), fftwf_export_wisdom_to_string() };
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);

@@ -53,7 +53,7 @@ ss_wisdom_read(FILE *in, ss_error *err)
         return SS_FAIL_NULL(err);
     char *wisdom = malloc(WISDOM_ROOM);
     if (wisdom == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     size_t n = fread(wisdom, 1, WISDOM_ROOM - 1, in);
     int read = !ferror(in), why = errno;
     wisdom[n] = '\0';

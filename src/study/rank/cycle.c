@@ -126,7 +126,7 @@ ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *mis
               double rate, double frequency, const ss_stretch *progress)
 {
     ss_value samples = { rate / frequency, 0 };
-    ss_error err = { "" };
+    ss_error err = { 0 };
     ss_status st = ss_stretch_at(progress, 0);
     if (st == SS_OK && !(frequency > 0))
         st = ss_period_find(x, n, &samples);

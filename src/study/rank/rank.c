@@ -609,7 +609,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     if (r == NULL || w == NULL || r->row == NULL) {
         ss_ranking_free(r);
         free(w);
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     }
     r->n = n;
     for (size_t i = 0; i < n; i++)

@@ -261,5 +261,5 @@ ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
         work_together(&w);
     free(w.ring);
     free(w.vary);
-    return w.status == SS_ENOMEM ? ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM)) : w.status;
+    return w.status == SS_ENOMEM ? ss_fail_memory(err, NULL) : w.status;
 }

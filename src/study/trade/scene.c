@@ -156,7 +156,7 @@ run_method(run_result *k, const probe *p, const char *method, double tol, unsign
     k->began = ss_trade_cpu_time();
     ss_status st = ss_sim_run(&p->scene, &opts, &k->stats, err);
     if (k->no_memory)
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     if (st == SS_STOP && k->over)
         return SS_EBUDGET;
     k->seconds = ss_trade_cpu_time() - k->began;
@@ -518,7 +518,7 @@ ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opt
         return SS_OK;
     }
     ss_trade_free(t.trade);
-    return st == SS_ENOMEM ? ss_fail(err, st, "%s", ss_strerror(st)) : st;
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
 
 void
@@ -673,5 +673,5 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     st = choose(&s, opts, err);
     run_result_free(&s.ref);
     run_result_free(&s.run);
-    return st == SS_ENOMEM ? ss_fail(err, st, "%s", ss_strerror(st)) : st;
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }

@@ -227,5 +227,5 @@ ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
         return SS_OK;
     }
     ss_trade_free(t.trade);
-    return st == SS_ENOMEM ? ss_fail(err, st, "%s", ss_strerror(st)) : st;
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }

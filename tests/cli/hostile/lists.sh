@@ -48,7 +48,7 @@ for form in "tr \\n \\r" "wide"; do
     map other.sweep
     refused ss-contour --features other.features c.tsv
 done
-printf '# stickslip sweep 1\n# columns: index x status\n0\t\033[2J\tok\n' | map
+printf '# stickslip sweep 1\n# columns: index x y z status\n0\t\033[2J\t1\t1\tok\n' | map
 printf '# stickslip features 1\n\033[2J\n' | refused ss-contour --features - c.tsv
 printf '# stickslip sweep 1\r\n# columns: index x y z status\r\n0\t1\t1\t1\tok\r\n' | map
 printf 'x\033[2J\n1 2\n3 4\n' | ss-plot --map mass,friction,amplitude --line - sweep.tsv | grep -c '^3 4$'

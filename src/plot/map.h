@@ -1,0 +1,41 @@
+/* map.h -- the grid of a map, its regions and its lines. */
+#ifndef MAP_H
+#define MAP_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stickslip/signal.h>
+
+/* A column that is drawn. */
+typedef struct map_column {
+    const ss_column *label;
+    double *value;              /* a row each; NaN: it has none */
+} map_column;
+
+/* A column's values that differ, ascending. */
+typedef struct map_axis {
+    const double *column;
+    double *value;
+    size_t n;
+    int log;                    /* their ratios are equal, not their differences */
+    int digits;                 /* that tell apart a hundred-thousandth of their range */
+} map_axis;
+
+typedef struct map_grid {
+    map_axis x, y;
+    size_t *row;                /* of the table at x i, y j: row[j * x.n + i]; SIZE_MAX: none */
+} map_grid;
+
+/* The grid of n rows over two columns; to be freed even after a failure. */
+ss_status ss_map_grid_make(map_grid *g, const map_column axis[2], size_t n, ss_error *err);
+void ss_map_grid_free(map_grid *g);
+/* The column's value at x i, y j; NaN: none. */
+double ss_map_value(const map_grid *g, const double *column, size_t i, size_t j);
+/* The coordinate at a place between the axis's values, in units of their number. */
+double ss_map_along(const map_axis *a, double at);
+void ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind);
+
+/* $line and $label: lines of equal value of the column, and their labels (map_lines.c). */
+ss_status ss_map_write_lines(FILE *out, const map_grid *g, const double *column, ss_error *err);
+
+#endif
