@@ -13,6 +13,7 @@
 #include "shipped.h"
 #include "study/rank/candidate.h"
 #include "study/rank/cycle.h"
+#include "study/rank/samples.h"
 
 enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
 
@@ -145,11 +146,39 @@ the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
     candidate c = ss_candidate_of(&literal, SS_ACCELERATION, 1);
     c.scene.duration = 0.2;
     assert_int_equal(c.scene.law, SS_LAW_SCALED);
-    assert_int_equal(ss_candidate_run(&literal, SS_ACCELERATION, x, NULL, 400, &steps), SS_OK);
-    assert_int_equal(ss_candidate_run(&c.scene, SS_ACCELERATION, y, NULL, 400, &steps), SS_OK);
+    assert_int_equal(ss_samples_run(&literal, SS_ACCELERATION, SAMPLES_FINE, x, NULL, 400, &steps),
+                     SS_OK);
+    assert_int_equal(ss_samples_run(&c.scene, SS_ACCELERATION, SAMPLES_FINE, y, NULL, 400, &steps),
+                     SS_OK);
     for (size_t i = 0; i < 400; i++)
         most = fmax(most, fabs(x[i])), off = fmax(off, fabs(x[i] - y[i]));
     assert_true(off <= 1e-3 * most);            /* 1e-4 each is what the method keeps */
+}
+
+/* Against the default method, after whole cycles and a part: within a hundred times the tolerance, of
+ * which rkck itself takes a third. */
+static void
+samples_are_as_good_as_their_tolerance(void **state)
+{
+    static const struct { double tol, off; } row[] = { { SAMPLES_FINE, 1e-5 }, { SAMPLES_COARSE, 1e-3 } };
+    (void)state;
+    for (int i = 0; i < MODELS; i++)
+        for (size_t k = 0; k < 2; k++) {
+            ss_scene scene = shipped(i);
+            scene.settle = 6.3 / scene.base_frequency;
+            ss_signal *truth = record_of(&scene, 300);
+            double *x = malloc(truth->n * sizeof *x), most = 0, off = 0, steps = 0;
+            assert_int_equal(ss_samples_run(&scene, SS_ACCELERATION, row[k].tol, x, NULL, truth->n,
+                                            &steps), SS_OK);
+            for (size_t n = 0; n < truth->n; n++) {
+                most = fmax(most, fabs(truth->values[n]));
+                off = fmax(off, fabs(x[n] - truth->values[n]));
+            }
+            if (!(off <= row[k].off * most))
+                fail_msg("%s: %.3g off", ss_shipped_scenes[i].name, off / most);
+            free(x);
+            ss_signal_free(truth);
+        }
 }
 
 /* --- ranking ------------------------------------------------------------------------------- */
@@ -486,6 +515,7 @@ main(void)
         cmocka_unit_test(folds_at_the_period_that_repeats),
         cmocka_unit_test(a_lighter_mass_is_the_nearest_explanation),
         cmocka_unit_test(the_literal_law_is_ranked_as_the_scaled_one_that_equals_it),
+        cmocka_unit_test(samples_are_as_good_as_their_tolerance),
         cmocka_unit_test(shipped_scenes_rank_themselves_first),
         cmocka_unit_test(size_sign_and_offset_do_not_matter),
         cmocka_unit_test(what_has_no_transitions_is_not_named),

@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/sort.h"
 #include "scene/model.h"
+#include "study/rank/samples.h"
 
 enum { STARTS_MOST = 256 };
 #define SAME 0.02               /* of a key: what one descent reaches from both */
@@ -89,61 +90,6 @@ ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double 
 
 /* --- misfit -------------------------------------------------------------------------------- */
 
-enum { STEPS_MOST = 1000000 };          /* of one run */
-
-typedef struct sampled {
-    int pick;
-    size_t n, room;
-    double *value, *clear, rate;
-} sampled;
-
-static int
-append_samples(const ss_sample *s, size_t n, void *user)
-{
-    const ss_sim_columns all = { 0, SS_SIM_COLUMNS, { 0, 1, 2, 3, 4, 5, 6 } };
-    sampled *t = user;
-    for (size_t i = 0; i < n && t->n < t->room; i++) {
-        double row[SS_SIM_COLUMNS];
-        ss_sim_row(&all, &s[i], row);
-        t->value[t->n++] = row[t->pick];
-    }
-    return 0;
-}
-
-static int
-clear_event(const ss_event *e, void *user)
-{
-    sampled *t = user;
-    double at = e->t * t->rate, first = fmax(ceil(at - CANDIDATE_REACH), 0);
-    for (double i = first; i < (double)t->room && i <= at + CANDIDATE_REACH; i++)
-        t->clear[(size_t)i] = fmin(t->clear[(size_t)i], fabs(i - at));
-    return 0;
-}
-
-int
-ss_candidate_exact(const candidate *c)
-{
-    return c->model->linear;
-}
-
-/* The closed form where there is one.  Else rkck at 1e-7 keeps 1e-6 of the largest acceleration
- * at a twentieth of the cost of the default. */
-ss_status
-ss_candidate_run(const ss_scene *scene, int pick, double *value, double *clear, size_t n,
-                 double *steps)
-{
-    sampled t = { pick, 0, n, value, clear, scene->rate };
-    ss_sim_opts opts = { .method = ss_model_is_linear(scene->model) ? "exact" : "rkck",
-                         .tol = 1e-7, .max_steps = STEPS_MOST, .samples = append_samples,
-                         .events = clear != NULL ? clear_event : NULL, .user = &t };
-    ss_sim_stats stats = { .steps = 0 };
-    for (size_t i = 0; clear != NULL && i < n; i++)
-        clear[i] = INFINITY;
-    ss_status st = ss_sim_run(scene, &opts, &stats, NULL);
-    *steps += st == SS_EBUDGET ? STEPS_MOST : (double)stats.steps;
-    return st == SS_OK && t.n != n ? SS_EDATA : st;
-}
-
 typedef struct problem {
     candidate *c;
     const cycle *goal;
@@ -167,7 +113,7 @@ misfit(problem *p, const double key[], double *size, double *shift)
         p->status = ss_stretch_at(p->progress, fmin(p->runs++ / p->expected, 1));
     if (p->status != SS_OK)
         return goal->power;
-    ss_status st = ss_candidate_run(&s, c->pick, value, NULL, goal->n, &c->steps);
+    ss_status st = ss_samples_run(&s, c->pick, SAMPLES_COARSE, value, NULL, goal->n, &c->steps);
     if (st == SS_ENOMEM)
         p->status = SS_ENOMEM;
     if (st != SS_OK)

@@ -51,14 +51,5 @@ ss_scene ss_candidate_resized(const candidate *c, ss_scene s, double size);
 /* How far keys are from the scene's own: the root mean square of their logarithms, and of the
  * mass's, for that mass which makes it least. */
 double ss_candidate_distance(const candidate *c, const double key[CANDIDATE_KEYS]);
-/* 1 if its motion is exact, so that differences over small changes of a key are too. */
-int ss_candidate_exact(const candidate *c);
-
-enum { CANDIDATE_REACH = 18 };      /* samples */
-/* The n samples of a scene's record, of the quantity pick; clear, unless it is NULL, becomes the
- * distance of each to the nearest event, in samples, if that is at most CANDIDATE_REACH, else
- * infinite.  *steps grows by what it cost.  As ss_sim_run, or SS_EDATA. */
-ss_status ss_candidate_run(const ss_scene *scene, int pick, double *value, double *clear, size_t n,
-                           double *steps);
 
 #endif

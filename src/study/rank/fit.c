@@ -19,6 +19,7 @@
 #include "signal/gaps.h"
 #include "study/rank/candidate.h"
 #include "study/rank/match.h"
+#include "study/rank/samples.h"
 
 enum { STARTS = 96, KEEP = 8, STEPS = 150 };
 enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
@@ -36,7 +37,7 @@ typedef struct fitting {
     double rate;
     cycle goal;
     candidate c;
-    match_record record;                /* the part of it that is fitted */
+    rank_record record;                /* the part of it that is fitted */
     match best;
     double noise;                       /* variance, at most */
     double rival;                       /* what the best of other parameters leaves; infinite: none */
@@ -177,21 +178,6 @@ report(ss_fit *fit, const fitting *w)
     fit->noise = sqrt(fmin(w->noise, m->white) / m->power);
 }
 
-/* Of the samples that are not missing. */
-static double
-variance(const double *x, const char *missing, size_t n)
-{
-    double mean = 0, sum = 0, count = 0;
-    for (size_t i = 0; i < n; i++)
-        if (missing == NULL || !missing[i])
-            mean += x[i], count++;
-    mean /= count;
-    for (size_t i = 0; i < n; i++)
-        if (missing == NULL || !missing[i])
-            sum += (x[i] - mean) * (x[i] - mean);
-    return sum / count;
-}
-
 /* Of the record less the settled scene's, the offset between them apart. */
 static ss_status
 find_residual(ss_fit *fit, const fitting *w)
@@ -199,11 +185,13 @@ find_residual(ss_fit *fit, const fitting *w)
     double *y = malloc((w->n + 1) * sizeof *y), steps = 0;
     if (y == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_candidate_run(&fit->scene, w->c.pick, y, NULL, w->n, &steps);
+    const rank_record all = { .x = w->x, .missing = w->missing, .n = w->n };
+    const rank_record left = { .x = y, .missing = w->missing, .n = w->n };
+    ss_status st = ss_samples_run(&fit->scene, w->c.pick, SAMPLES_FINE, y, NULL, w->n, &steps);
     for (size_t i = 0; st == SS_OK && i < w->n; i++)
         y[i] -= w->x[i];
     if (st == SS_OK)
-        fit->residual = sqrt(variance(y, w->missing, w->n) / variance(w->x, w->missing, w->n));
+        fit->residual = sqrt(ss_record_power(&left) / ss_record_power(&all));
     free(y);
     return st == SS_ENOMEM ? st : SS_OK;
 }
@@ -291,13 +279,13 @@ judge(ss_fit *fit, const fitting *w)
 
 /* The record from half a cycle on, if it is long: a motion that starts from rest with the record is
  * none that began in a slip before. */
-static match_record
+static rank_record
 fitted_part(const fitting *w)
 {
     double samples = w->goal.period * w->rate;
     size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
     size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
-    return (match_record){ .x = w->x + first, .n = n, .rate = w->rate,
+    return (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
                            .missing = w->missing != NULL ? w->missing + first : NULL,
                            .from = (double)first / w->rate };
 }
@@ -311,7 +299,7 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
     const ss_stretch matching = ss_stretch_part(&whole, 0.3, 1);
     w->c = wide(&fit->scene, opts->quantity);
     w->record = fitted_part(w);
-    ss_status st = ss_match_noise(&w->noise, &w->record, w->goal.period * w->rate);
+    ss_status st = ss_record_noise(&w->noise, &w->record, w->goal.period * w->rate);
     if (st == SS_OK)
         st = search_starts(w, signal, column, &searching, err);
     if (st == SS_OK)

@@ -6,6 +6,7 @@
 #include <stickslip/status.h>
 #include "base/progress.h"
 #include "study/rank/candidate.h"
+#include "study/rank/record.h"
 
 /* The unknowns: the keys of the candidate, then these.  In a covariance keys, FREQUENCY and SIZE stand
  * as logarithms. */
@@ -15,14 +16,6 @@ enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_
 /* Twice a difference of logarithms of likelihood, or the square of one in standard errors, that is
  * no accident. */
 #define MATCH_DECISIVE 25
-
-typedef struct match_record {
-    const double *x;            /* n samples */
-    const char *missing;        /* 1 for those left out; NULL: none */
-    size_t n;
-    double rate;                /* [Hz] */
-    double from;                /* time of the first in the record whose cycle was searched [s] */
-} match_record;
 
 typedef struct match {
     ss_scene scene;             /* its record is the one matched, but for the offset and what is left */
@@ -39,14 +32,7 @@ typedef struct match {
  * the scene does not slip, cannot be run, or the candidate's budget is used up, all is left.
  * SS_STOP if the progress function stops it. */
 ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
-                        const match_record *record, const ss_stretch *progress);
-
-/* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:
- * no more than what is there. */
-ss_status ss_match_noise(double *variance, const match_record *record, double samples);
-
-/* What a sinusoid of this frequency [Hz] and an offset leave of a record: its mean square. */
-double ss_match_sinusoid(const match_record *record, double frequency);
+                        const rank_record *record, const ss_stretch *progress);
 
 /* What a match leaves over the noise of this variance, or less if what is left is not white. */
 double ss_match_excess(const match *m, double noise);

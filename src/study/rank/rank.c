@@ -47,6 +47,7 @@ const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0
                                         .also = { -1, -1, -1, -1 } };
 
 enum { STARTS = 32, KEEP = 4, STEPS = 80 };      /* of the search */
+#define HOPELESS 0.03                   /* of the power of a cycle */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
 #define SPAN 80.0                       /* [dB] of a contour map */
@@ -252,10 +253,10 @@ typedef struct found {
     candidate candidate;
 } found;
 
-static match_record
+static rank_record
 record_of(const comparison *w, size_t column)
 {
-    return (match_record){ .x = w->signal->values + column * w->signal->n, .missing = w->missing,
+    return (rank_record){ .x = w->signal->values + column * w->signal->n, .missing = w->missing,
                            .n = w->signal->n, .rate = w->signal->head->rate, .from = w->from };
 }
 
@@ -283,18 +284,20 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
     return st;
 }
 
-/* The best of the matches from each start of the search. */
+/* The best of the matches from the starts of the search.  A descent over the record changes what a
+ * start leaves of the cycle little where that is much: of such starts the best will do. */
 static ss_status
 match_scene(found *f, const comparison *w, const ss_stretch *progress)
 {
     candidate *c = &f->candidate;
-    const match_record record = record_of(w, w->column);
+    const rank_record record = record_of(w, w->column);
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i < c->n_starts; i++) {
         const ss_stretch part = ss_stretch_part(progress, (double)i / (double)c->n_starts,
                                                 (double)(i + 1) / (double)c->n_starts);
         match m;
-        if (i > 0 && ss_match_explains(&f->match, w->noise))
+        if (i > 0 && (ss_match_explains(&f->match, w->noise)
+                      || c->start[i].misfit > HOPELESS * w->goal.power))
             break;
         st = ss_match_find(&m, c, &c->start[i], w->goal.period, &record, &part);
         if (i == 0 || m.left < f->match.left)
@@ -397,9 +400,9 @@ lead_of(const match *m, const match *over, double noise)
 static int
 is_sinusoid(const comparison *w, const match *m)
 {
-    const match_record record = record_of(w, w->column);
+    const rank_record record = record_of(w, w->column);
     match sinusoid = *m;
-    sinusoid.left = ss_match_sinusoid(&record, m->scene.base_frequency);
+    sinusoid.left = ss_record_sinusoid(&record, m->scene.base_frequency);
     return ss_match_explains(&sinusoid, w->noise);
 }
 
@@ -456,12 +459,12 @@ ask_other_columns(ss_ranking *r, const comparison *w, const found *f)
         candidate c = named->candidate;
         match m;
         double noise;
-        const match_record record = record_of(w, (size_t)w->opts->also[q]);
+        const rank_record record = record_of(w, (size_t)w->opts->also[q]);
         candidate_start start = { .size = 1 };
         memcpy(start.key, named->match.key, sizeof start.key);
         start.shift = s->base_frequency * (w->from - s->settle) - s->phase / (2 * M_PI);
         c.pick = q;
-        st = ss_match_noise(&noise, &record, w->goal.period * record.rate);
+        st = ss_record_noise(&noise, &record, w->goal.period * record.rate);
         if (st == SS_OK)
             st = ss_match_find(&m, &c, &start, 1 / s->base_frequency, &record, &silent);
         if (st != SS_OK || ss_match_explains(&m, noise))
@@ -577,9 +580,9 @@ rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_s
         ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
     if (st == SS_OK)
         st = observe(&w->observation, window, w->column, w->goal.period, err);
-    const match_record record = record_of(w, w->column);
+    const rank_record record = record_of(w, w->column);
     if (st == SS_OK)
-        st = ss_match_noise(&w->noise, &record, w->goal.period * rate);
+        st = ss_record_noise(&w->noise, &record, w->goal.period * rate);
     if (st == SS_OK)
         st = rank_scenes(r, f, scene, w, progress, err);
     observation_free(&w->observation);

@@ -1,0 +1,130 @@
+/* record.c -- the samples that a motion is fitted to: their power, their noise, what a sinusoid leaves.
+ *
+ * Slow motion is not in fourth differences, and what repeats is not in what differs one cycle later:
+ * the median of either's sizes is that of the noise, or more. */
+#include "study/rank/record.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <gsl/gsl_statistics_double.h>
+
+static int
+is_missing(const rank_record *r, size_t i, size_t n)
+{
+    for (size_t k = 0; r->missing != NULL && k < n; k++)
+        if (r->missing[i + k])
+            return 1;
+    return 0;
+}
+
+double
+ss_record_power(const rank_record *r)
+{
+    double mean = 0, sum = 0, n = 0;
+    for (size_t i = 0; i < r->n; i++)
+        if (!is_missing(r, i, 1))
+            mean += r->x[i], n++;
+    mean /= fmax(n, 1);
+    for (size_t i = 0; i < r->n; i++)
+        if (!is_missing(r, i, 1))
+            sum += (r->x[i] - mean) * (r->x[i] - mean);
+    return sum / fmax(n, 1);
+}
+
+/* Of n numbers as Gaussian ones have it: by the median of their sizes. */
+static double
+gaussian_variance(double *d, size_t n)
+{
+    if (n == 0)
+        return INFINITY;
+    for (size_t i = 0; i < n; i++)
+        d[i] = fabs(d[i]);
+    double median = gsl_stats_median(d, 1, n) / 0.67448975019608171;
+    return median * median;
+}
+
+/* By fourth differences, which have (1 + 16 + 36 + 16 + 1) times the variance: slow motion and what
+ * happens seldom are not in their median. */
+static double
+fast_variance(const rank_record *r, double *d)
+{
+    size_t count = 0;
+    for (size_t i = 0; i + 5 <= r->n; i++)
+        if (!is_missing(r, i, 5)) {
+            const double *x = r->x + i;
+            d[count++] = (x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]) / sqrt(70);
+        }
+    return gaussian_variance(d, count);
+}
+
+/* By what a cycle later differs, interpolated between two samples: what repeats is not in it,
+ * however fast. */
+static double
+cycle_variance(const rank_record *r, double samples, double *d)
+{
+    size_t lag = (size_t)samples, count = 0;
+    double part = samples - floor(samples);
+    for (size_t i = 0; i + lag + 2 <= r->n; i++)
+        if (!is_missing(r, i, 1) && !is_missing(r, i + lag, 2)) {
+            double later = (1 - part) * r->x[i + lag] + part * r->x[i + lag + 1];
+            d[count++] = (r->x[i] - later) / sqrt(1 + (1 - part) * (1 - part) + part * part);
+        }
+    return gaussian_variance(d, count);
+}
+
+/* A converter's steps: their variance is a twelfth of the square of the smallest. */
+static double
+step_variance(const rank_record *r)
+{
+    double least = INFINITY;
+    for (size_t i = 1; i < r->n; i++)
+        if (r->x[i] != r->x[i - 1])
+            least = fmin(least, fabs(r->x[i] - r->x[i - 1]));
+    return isfinite(least) ? least * least / 12 : 0;
+}
+
+ss_status
+ss_record_noise(double *variance, const rank_record *r, double samples)
+{
+    double *d = malloc((r->n + 1) * sizeof *d);
+    if (d == NULL)
+        return SS_ENOMEM;
+    double fast = fast_variance(r, d);
+    double repeated = samples > 0 && samples < (double)r->n
+        ? cycle_variance(r, samples, d) : INFINITY;
+    double least = fmin(fast, repeated);
+    *variance = fmax(isfinite(least) ? least : 0, step_variance(r));
+    free(d);
+    return SS_OK;
+}
+
+/* Cosine, sine and offset by their normal equations, which are near to diagonal over whole cycles. */
+double
+ss_record_sinusoid(const rank_record *r, double frequency)
+{
+    double a[3][4] = { { 0 } }, squares = 0, count = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < r->n; i++) {
+            double phase = 2 * M_PI * frequency * (double)i / r->rate, left = r->x[i];
+            const double base[3] = { cos(phase), sin(phase), 1 };
+            if (is_missing(r, i, 1))
+                continue;
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3 && pass == 0; l++)
+                    a[k][l] += base[k] * base[l];
+            for (int k = 0; k < 3; k++)
+                a[k][3] += pass == 0 ? base[k] * r->x[i] : 0, left -= pass == 1 ? a[k][3] * base[k] : 0;
+            squares += pass == 1 ? left * left : 0;
+            count += pass;
+        }
+        for (int k = 0; k < 3 && pass == 0; k++)        /* Gauss and Jordan: a is positive */
+            for (int j = 0; j < 3; j++) {
+                double part = j != k ? a[j][k] / a[k][k] : 0;
+                for (int l = 0; l < 4; l++)
+                    a[j][l] -= part * a[k][l];
+            }
+        for (int k = 0; k < 3 && pass == 0; k++)
+            a[k][3] /= a[k][k];
+    }
+    return squares / fmax(count, 1);
+}

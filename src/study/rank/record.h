@@ -1,0 +1,24 @@
+/* record.h -- the samples that a motion is fitted to: their power, their noise, what a sinusoid leaves. */
+#ifndef RECORD_H
+#define RECORD_H
+
+#include <stddef.h>
+#include <stickslip/status.h>
+
+typedef struct rank_record {
+    const double *x;            /* n samples */
+    const char *missing;        /* 1 for those left out; NULL: none */
+    size_t n;
+    double rate;                /* [Hz] */
+    double from;                /* time of the first in the record whose cycle was searched [s] */
+} rank_record;
+
+/* Mean square about the mean. */
+double ss_record_power(const rank_record *r);
+/* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:
+ * no more than what is there. */
+ss_status ss_record_noise(double *variance, const rank_record *r, double samples);
+/* What a sinusoid of this frequency [Hz] and an offset leave: its mean square. */
+double ss_record_sinusoid(const rank_record *r, double frequency);
+
+#endif
