@@ -242,19 +242,13 @@ ss_meter_end(meter *r, int cycles, int closes, double value[])
     if (closes && r->first_slip != 0 && r->first_slip == r->slip)
         r->microslips++;
     end_transition(r, closes);
-    const double of[SS_MEASURES] = {
-        [SS_STOPS] = (double)r->stops / cycles,
-        [SS_STICK_FRACTION] = r->stick / r->time,
-        [SS_AMPLITUDE] = (r->x_hi - r->x_lo) / 2,
-        [SS_X_MAX] = fmax(fabs(r->x_hi), fabs(r->x_lo)),
-        [SS_V_MAX] = r->v_max,
-        [SS_A_MAX] = r->a_max,
-        [SS_ENERGY] = r->energy / cycles,
-        [SS_MICROSLIPS] = (double)r->microslips / (2 * cycles),
-        [SS_TRANSITION] = r->spacings > 0 ? (double)r->spacings / (2 * r->spacing) : NAN };
-    const unsigned mine = RANGE | 1u << SS_STOPS | 1u << SS_STICK_FRACTION | 1u << SS_V_MAX
-        | 1u << SS_A_MAX | 1u << SS_ENERGY | 1u << SS_MICROSLIPS | 1u << SS_TRANSITION;
-    for (int i = 0; i < SS_MEASURES; i++)
-        if (r->wanted & mine & 1u << i)
-            value[i] = of[i];
+    value[SS_STOPS] = (double)r->stops / cycles;
+    value[SS_STICK_FRACTION] = r->stick / r->time;
+    value[SS_AMPLITUDE] = (r->x_hi - r->x_lo) / 2;
+    value[SS_X_MAX] = fmax(fabs(r->x_hi), fabs(r->x_lo));
+    value[SS_V_MAX] = r->v_max;
+    value[SS_A_MAX] = r->a_max;
+    value[SS_ENERGY] = r->energy / cycles;
+    value[SS_MICROSLIPS] = (double)r->microslips / (2 * cycles);
+    value[SS_TRANSITION] = r->spacings > 0 ? (double)r->spacings / (2 * r->spacing) : NAN;
 }

@@ -26,8 +26,8 @@ typedef struct meter {
 void ss_meter_begin(meter *r, unsigned wanted, const state *m);
 void ss_meter_leg(meter *r, walk *w);
 void ss_meter_event(meter *r, const ss_event *event);
-/* The measures of so many forcing cycles, which close to a period or do not.  A measure that
- * is not known is unchanged. */
+/* The measures of so many forcing cycles, which close to a period or do not; those that are not wanted
+ * may be wrong. */
 void ss_meter_end(meter *r, int cycles, int closes, double value[]);
 
 /* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an exact engine. */
