@@ -108,20 +108,18 @@ write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *o
 
 /* --- rows ---------------------------------------------------------------------------------- */
 
-/* The unit of a criterion stands as it is, "slope/dB/octave": readers divide at the first bar. */
 static void
 write_columns(struct rows *rows)
 {
-    char label[64];
+    char score[64];
     ss_rows_column(rows, "rank", "");
     ss_rows_column(rows, "scene", "");
     ss_rows_column(rows, "total", "");
     for (int i = 0; i < SS_CRITERIA; i++) {
         const ss_criterion_rule *rule = &ss_criterion_rules[i];
-        snprintf(label, sizeof label, "%s%s%s", rule->name, *rule->unit ? "/" : "", rule->unit);
-        ss_rows_column(rows, label, "");
-        snprintf(label, sizeof label, "%s_score", rule->name);
-        ss_rows_column(rows, label, "");
+        ss_rows_column(rows, rule->name, rule->unit);
+        snprintf(score, sizeof score, "%s_score", rule->name);
+        ss_rows_column(rows, score, "");
     }
     ss_rows_end(rows);
 }

@@ -10,3 +10,9 @@ done
     done
 cd "$SRC/man"
 mandoc -T lint ./*.[1-9]
+# stickslip(3) names every public function, those that free apart.
+echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#' |
+    tr '\n;{}' ' \n\n\n' | grep -v typedef | sed -n 's/^.*[ *]\(ss_[a-z0-9_]*\) *(.*/\1/p' |
+    grep -v '_free$' | sort -u | while read -r function; do
+        grep -q "^.Fn $function\b" stickslip.3 || echo "not in stickslip(3): $function"
+    done
