@@ -7,14 +7,44 @@
 #define PI 3.141592653589793238462643383279502884L
 
 static long double
-drive(const ss_scene *s, long double t)
+swing(const ss_scene *s, long double t)
 {
     long double cycles = (long double)s->base_frequency * t;
     return (long double)s->stiffness * s->base_amplitude
         * cosl(2 * PI * (cycles - rintl(cycles)) + s->phase);
 }
 
-/* q, q', q'' of a piece at t, in closed form; under-damped and off resonance, as all tests are. */
+/* Spring and damper, on a mass that moves with the surface: what the friction has to hold. */
+static long double
+load(const ss_scene *s, long double t, long double x)
+{
+    return swing(s, t) + s->stiffness * (s->base_velocity * t - x)
+        - (long double)s->damping * s->surface_velocity;
+}
+
+static long double
+most_in_stick(const ss_scene *s)
+{
+    return s->static_friction > s->friction ? s->static_friction : s->friction;
+}
+
+/* The answers of q'' + 2 a q' + k/m q = 0 to a displacement of 1 and to a velocity of 1, without the
+ * former's part of the latter: exp(-a u) cos(w u) and exp(-a u) sin(w u) / w, or with cosh and sinh. */
+static void
+die_out(long double a, long double square, long double u, long double *C, long double *S)
+{
+    long double w = sqrtl(fabsl(square));
+    if (square > 0) {
+        *C = expl(-a * u) * cosl(w * u);
+        *S = expl(-a * u) * sinl(w * u) / w;
+    } else {
+        long double slow = expl((w - a) * u), fast = expl(-(w + a) * u);
+        *C = (slow + fast) / 2;
+        *S = w > 0 ? (slow - fast) / (2 * w) : slow * u;
+    }
+}
+
+/* q, q', q'' of a piece at t, in closed form; off resonance, as all tests are. */
 static void
 motion_at(const ss_scene *s, const oracle_piece *p, long double t, long double out[3])
 {
@@ -24,28 +54,32 @@ motion_at(const ss_scene *s, const oracle_piece *p, long double t, long double o
         return;
     }
     long double m = s->mass, w = 2 * PI * s->base_frequency, u = t - p->t0;
-    long double decay = p->c / (2 * m), wd = sqrtl(p->k / m - decay * decay);
-    /* steady part: amplitude D / (k - m w^2 + i c w) */
+    long double decay = p->c / (2 * m), square = p->k / m - decay * decay, C, S;
+    /* steady part: amplitude D / (k - m w^2 + i c w), and a line */
     long double re = p->k - m * w * w, im = p->c * w, d2 = re * re + im * im;
     long double D = (long double)s->stiffness * s->base_amplitude;
     long double cycles0 = s->base_frequency * p->t0;
     long double th0 = 2 * PI * (cycles0 - rintl(cycles0)) + s->phase, th = th0 + w * u;
     long double pr = D * re / d2, pi = -D * im / d2;
-    long double s0 = pr * cosl(th0) - pi * sinl(th0), ds0 = w * (-pr * sinl(th0) - pi * cosl(th0));
-    long double st = pr * cosl(th) - pi * sinl(th), dst = w * (-pr * sinl(th) - pi * cosl(th));
-    /* damped part */
-    long double A = p->q0 - s0 + p->f0 / p->k, B = (p->v0 - ds0 + decay * A) / wd;
-    long double e = expl(-decay * u), co = cosl(wd * u), si = sinl(wd * u);
-    out[0] = st - p->f0 / p->k + e * (A * co + B * si);
-    out[1] = dst + e * ((B * wd - decay * A) * co - (A * wd + decay * B) * si);
-    out[2] = (drive(s, t) - p->f0 - p->k * out[0] - p->c * out[1]) / m;
+    long double slope = p->ramp / p->k, level = -(p->f0 + p->c * slope) / p->k;
+    long double s0 = pr * cosl(th0) - pi * sinl(th0) + level;
+    long double ds0 = w * (-pr * sinl(th0) - pi * cosl(th0)) + slope;
+    long double st = pr * cosl(th) - pi * sinl(th) + level + slope * u;
+    long double dst = w * (-pr * sinl(th) - pi * cosl(th)) + slope;
+    long double A = p->q0 - s0, B = p->v0 - ds0 + decay * A;
+    die_out(decay, square, u, &C, &S);
+    out[0] = st + A * C + B * S;
+    out[1] = dst + A * (-decay * C - square * S) + B * (C - decay * S);
+    out[2] = (swing(s, t) - p->f0 + p->ramp * u - p->k * out[0] - p->c * out[1]) / m;
 }
 
 void
 oracle_at(const oracle *o, size_t i, long double t, long double out[3])
 {
-    motion_at(o->scene, &o->piece[i], t, out);
-    out[0] += o->piece[i].x_ref;
+    const oracle_piece *p = &o->piece[i];
+    motion_at(o->scene, p, t, out);
+    out[0] += p->x_ref + p->belt * (t - p->t0);
+    out[1] += p->belt;
 }
 
 /* Not negative while the piece lasts. */
@@ -55,19 +89,22 @@ guard(const ss_scene *s, const oracle_piece *p, long double t)
     long double q[3];
     motion_at(s, p, t, q);
     if (p->mode != 0)
-        return p->mode * q[1];
+        return p->mode * (q[1] - s->surface_velocity);
     if (p->at_rest != 0)
-        return s->friction - fabsl(drive(s, t) - s->stiffness * q[0]);
+        return most_in_stick(s) - fabsl(load(s, t, q[0] + p->belt * (t - p->t0)));
     long double force = s->contact_stiffness * q[0];
     if (s->release == SS_RELEASE_TOTAL)
         force += s->contact_damping * q[1];
-    return s->friction - fabsl(force);
+    return most_in_stick(s) - fabsl(force);
 }
 
+/* Of the fastest motion or decay. */
 static long double
 period_of(const ss_scene *s, const oracle_piece *p)
 {
-    return 2 * PI / fmaxl(sqrtl(p->k / s->mass), 2 * PI * s->base_frequency);
+    long double a = p->c / (2 * s->mass), square = a * a - p->k / s->mass;
+    long double root = square > 0 ? a + sqrtl(square) : sqrtl(p->k / s->mass);
+    return 2 * PI / fmaxl(root, 2 * PI * s->base_frequency);
 }
 
 /* The end of a piece, or t_end: a golden-section look into every minimum of the scan, then
@@ -76,7 +113,7 @@ static long double
 end_of(const ss_scene *s, const oracle_piece *p, long double t_end)
 {
     const long double golden = 0.381966011250105151795L;
-    long double step = period_of(s, p) / 2000, g0 = 0, g1 = 0;
+    long double step = period_of(s, p) / 500, g0 = 0, g1 = 0;
     for (size_t i = 1;; i++) {
         long double t = p->t0 + i * step, g = guard(s, p, t), lo = t - step, hi = t;
         if (i > 2 && g1 < g0 && g1 < g && g >= 0) {      /* a minimum between t - 2 step and t */
@@ -117,19 +154,22 @@ end_of(const ss_scene *s, const oracle_piece *p, long double t_end)
 static oracle_piece
 slip_from(const ss_scene *s, long double t, long double x, long double v, int direction)
 {
+    long double pull = (long double)s->stiffness * s->base_velocity;
     return (oracle_piece){ .t0 = t, .mode = direction, .kind = SS_SLIP, .direction = direction,
-                           .k = s->stiffness, .f0 = (long double)direction * s->friction, .q0 = x,
+                           .k = s->stiffness, .c = s->damping, .ramp = pull,
+                           .f0 = (long double)direction * s->friction - pull * t, .q0 = x,
                            .v0 = v };
 }
 
 static oracle_piece
 stop_from(const ss_scene *s, long double t, long double x, long double y, int direction)
 {
-    oracle_piece p = { .t0 = t, .kind = SS_STICK, .direction = direction, .k = s->stiffness };
+    oracle_piece p = { .t0 = t, .kind = SS_STICK, .direction = direction, .k = s->stiffness,
+                       .belt = s->surface_velocity };
     if (s->model == SS_COULOMB) {
-        long double force = drive(s, t) - s->stiffness * x;
-        if (fabsl(force) > s->friction) {
-            p = slip_from(s, t, x, 0, force > 0 ? 1 : -1);
+        long double force = load(s, t, x);
+        if (fabsl(force) > most_in_stick(s)) {
+            p = slip_from(s, t, x, s->surface_velocity, force > 0 ? 1 : -1);
             p.kind = SS_REVERSE;
             return p;
         }
@@ -138,9 +178,11 @@ stop_from(const ss_scene *s, long double t, long double x, long double y, int di
         return p;
     }
     p.k += s->contact_stiffness;
-    p.c = s->contact_damping;
+    p.c = (long double)s->contact_damping + s->damping;
     p.x_ref = x - y;
-    p.f0 = s->stiffness * p.x_ref;
+    p.ramp = (long double)s->stiffness * ((long double)s->base_velocity - s->surface_velocity);
+    p.f0 = s->stiffness * (p.x_ref - s->base_velocity * t)
+        + (long double)s->damping * s->surface_velocity;
     p.q0 = y;
     return p;
 }
@@ -150,19 +192,21 @@ after(const ss_scene *s, const oracle_piece *p, long double t)
 {
     long double q[3];
     motion_at(s, p, t, q);
+    long double x = p->x_ref + p->belt * (t - p->t0) + q[0];
     if (p->mode == 0) {
-        long double way = p->at_rest != 0 ? drive(s, t) - s->stiffness * q[0] : q[1];
-        return slip_from(s, t, p->x_ref + q[0], q[1], way > 0 ? 1 : -1);
+        long double way = p->at_rest != 0 ? load(s, t, x) : q[1];
+        return slip_from(s, t, x, q[1] + p->belt, way > 0 ? 1 : -1);
     }
     long double limit = s->model == SS_COMPLIANT ? s->friction / s->contact_stiffness : 0;
-    return stop_from(s, t, q[0], p->mode * limit, p->mode);
+    return stop_from(s, t, x, p->mode * limit, p->mode);
 }
 
 oracle *
 oracle_new(const ss_scene *s, double t_end)
 {
     oracle *o = calloc(1, sizeof *o);
-    oracle_piece p = s->v0 != 0 ? slip_from(s, 0, s->x0, s->v0, s->v0 > 0 ? 1 : -1)
+    long double v = (long double)s->v0 - s->surface_velocity;
+    oracle_piece p = v != 0 ? slip_from(s, 0, s->x0, s->v0, v > 0 ? 1 : -1)
         : stop_from(s, 0, s->x0, 0, 0);
     o->scene = s;
     o->starts_with_event = p.mode != 0;

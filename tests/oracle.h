@@ -1,8 +1,8 @@
 /* oracle.h -- the motion of Coulomb and compliant scenes in closed form, in long double.
  *
- * Independent of the library: between events the motion is a sum of a steady and a damped
- * sinusoid; events are found by scanning that sum in steps of 1/2000 of its fastest period, with a
- * look at every minimum between, and bisection to the last bit. */
+ * Independent of the library: in the frame of the laboratory, between events, the motion is the sum of
+ * a steady sinusoid, a line and what dies out; events are found by scanning that sum in steps of 1/500
+ * of its fastest period, with a look at every minimum between, and bisection to the last bit. */
 #ifndef ORACLE_H
 #define ORACLE_H
 
@@ -14,8 +14,9 @@ typedef struct oracle_piece {       /* what holds from one event to the next */
     int mode;                       /* 0 stick or microstick, else the sign of the slip */
     ss_event_kind kind;             /* of the event that it begins with */
     int direction;
-    long double x_ref, c, k, f0;    /* m q'' + c q' + k q = drive - f0, x = x_ref + q */
-    long double q0, v0, at_rest;    /* at t0; at_rest: v is 0 throughout */
+    long double x_ref, belt;        /* x = x_ref + belt (t - t0) + q */
+    long double c, k, f0, ramp;     /* m q'' + c q' + k q = swing - f0 + ramp (t - t0) */
+    long double q0, v0, at_rest;    /* at t0; at_rest: q is the same throughout */
 } oracle_piece;
 
 typedef struct oracle {

@@ -71,6 +71,28 @@ writes_what_it_reads(void **state)
     }
 }
 
+/* A term that is not named is not written; forcing may be left out. */
+static void
+writes_the_terms_that_are_there(void **state)
+{
+    static const char rig[] = "model=coulomb\nmass=2\nstiffness=50\nfriction=1\nbase_velocity=-1e-3\n"
+        "surface_velocity=0\nstatic_friction=1.5\ndamping=3\n";
+    ss_scene a, b;
+    char text[2000] = "";
+    (void)state;
+    assert_int_equal(read_text(&a, rig, NULL, 0, NULL), SS_OK);
+    assert_true(a.base_velocity == -1e-3 && a.static_friction == 1.5 && a.damping == 3);
+    assert_true(a.base_amplitude == 0 && a.base_frequency == 0);
+    FILE *out = fmemopen(text, sizeof text, "w");
+    assert_int_equal(ss_scene_write(&a, out), SS_OK);
+    fclose(out);
+    assert_null(strstr(text, "surface_velocity"));
+    assert_int_equal(read_text(&b, text, NULL, 0, NULL), SS_OK);
+    assert_memory_equal(&a, &b, sizeof a);
+    a.static_friction = .5;
+    assert_int_equal(ss_scene_check(&a, NULL), SS_EINVAL);
+}
+
 static void
 ships_the_scenes_of_the_figures(void **state)
 {
@@ -131,6 +153,16 @@ static const struct { const char *text, *setting; ss_status status; const char *
       "my.scene:8: missing key 'contact_damping', which model compliant needs" },
     { "model=sliding\n", NULL, SS_EDATA, "my.scene:1: model is 'sliding', but must be one of "
       "coulomb, state-variable, compliant" },
+    { "model=coulomb\n" GOOD "static_friction = .5\n", NULL, SS_EDATA, "my.scene:7: static_friction is less "
+      "than friction, it must be at least as large" },
+    { "model=coulomb\nstatic_friction=2\n" GOOD, "friction=3", SS_EINVAL, "static_friction is less than "
+      "friction, it must be at least as large" },
+    { "model=state-variable\nalpha=1\ngamma=1\n" GOOD "static_friction = 2\n", NULL, SS_EDATA,
+      "my.scene:9: model state-variable has no key 'static_friction'" },
+    { "model=coulomb\n" GOOD "damping = -1\n", NULL, SS_EDATA,
+      "my.scene:7: damping = -1 is out of range, it must be >= 0" },
+    { "model=coulomb\nmass=2\nstiffness=50\nfriction=1\nbase_frequency=1\n", NULL, SS_EDATA,
+      "my.scene:6: missing key 'base_amplitude': the base moves by it" },
     { "mass = -2", NULL, SS_EDATA, "my.scene:1: mass = -2 is out of range, it must be > 0" },
     { "friction = -1e-300", NULL, SS_EDATA,
       "my.scene:1: friction = -1e-300 is out of range, it must be >= 0" },
@@ -245,6 +277,7 @@ main(void)
         cmocka_unit_test(reads_what_is_given_and_defaults_the_rest),
         cmocka_unit_test(takes_comments_blanks_crlf_and_a_last_line_without_newline),
         cmocka_unit_test(writes_what_it_reads),
+        cmocka_unit_test(writes_the_terms_that_are_there),
         cmocka_unit_test(ships_the_scenes_of_the_figures),
         cmocka_unit_test(loads_a_shipped_scene_by_its_name_and_a_file_by_its_path),
         cmocka_unit_test(says_what_is_wrong_and_where),

@@ -779,7 +779,7 @@ static void
 gives_the_columns_asked_for(void **state)
 {
     static const char *const wrong[] = { "", "t", "x,t", "q", "x,x", "x,", ",", "xv" };
-    const ss_sample sample = { 1, 2, 3, 4, 5, 6, 7, -1 };
+    const ss_sample sample = { .x = 2, .a = 4, .mode = -1 };
     ss_sim_columns columns;
     double row[SS_SIM_COLUMNS];
     (void)state;

@@ -11,7 +11,7 @@ static const char usage[] =
 "Simulate an oscillator with dry friction.  SCENE is a file, - for standard\n"
 "input, or the name of a shipped scene; the record goes to standard output.\n"
 "  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
-"  -c, --columns=LIST    of t,x,v,a,f,y,z,mode (default t,x,v,a,f)\n"
+"  -c, --columns=LIST    of t,x,v,a,f,s,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
 "  -m, --method=NAME     a GSL step type, or exact: closed form (default rk8pd;\n"
 "                        bsimp for a stiff state-variable scene)\n"

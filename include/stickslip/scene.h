@@ -1,7 +1,8 @@
 /* stickslip/scene.h -- a scene: one friction model, its parameters, and its record.
  *
- * All models share  m x'' + k x + f = k Z_e cos(Omega t + phase),  t = 0 at the start of settling;
- * they differ in the friction force f.  The text form is described in stickslip-scene(5). */
+ * All models share  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  t = 0 at the start of
+ * settling; they differ in the friction force f, which depends on v = x' - S.  The text form is
+ * described in stickslip-scene(5). */
 #ifndef STICKSLIP_SCENE_H
 #define STICKSLIP_SCENE_H
 
@@ -31,11 +32,15 @@ typedef struct ss_scene {
     ss_model model;
     double mass;                /* m      [kg]     > 0 */
     double stiffness;           /* k      [N/m]    > 0 */
-    double friction;            /* f_k    [N]     >= 0, kinetic = static */
+    double friction;            /* f_k    [N]     >= 0, kinetic */
     double base_amplitude;      /* Z_e    [m]     >= 0 */
     double base_frequency;      /* Omega / 2 pi [Hz] >= 0 */
     double phase;               /* [rad] */
     double x0, v0;              /* at the start of settling [m, m/s] */
+    double damping;             /* d      [N s/m] >= 0, of the mass */
+    double base_velocity;       /* U      [m/s]: the spring's end is pulled */
+    double surface_velocity;    /* S      [m/s]: the mass rubs on a belt */
+    double static_friction;     /* f_s    [N]     >= f_k, or 0: as f_k   not state-variable */
 
     double alpha, gamma;        /* [s/m] > 0, [1/s] > 0        state-variable only */
     ss_law law;                 /*                             state-variable only */
@@ -55,10 +60,11 @@ typedef struct ss_sample {
     double t;           /* [s] n / rate from the start of the record */
     double x, v, a;     /* displacement, velocity, acceleration of the mass [m, m/s, m/s^2] */
     double f;           /* friction force on the mass, with its sign in the equation of motion [N] */
+    double s;           /* spring's force on the mass, k (z - x) [N] */
     double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
-    double z;           /* displacement of the base [m] */
-    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip;
-                           state-variable: the sign of v */
+    double z;           /* displacement of the base, U t included [m] */
+    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip
+                           over the surface; state-variable: the sign of x' - S */
 } ss_sample;
 
 typedef enum ss_event_kind {
@@ -102,7 +108,7 @@ double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_
 /* A range over which scenes are supported: results are tested there.  Scenes outside are simulated, too,
  * without that promise. */
 typedef struct ss_scene_range {
-    const char *name, *unit;    /* "Omega/omega_n"; X is the largest of Z_e, |x0|, |v0|/omega_n */
+    const char *name, *unit;    /* "Omega/omega_n"; X is defined in stickslip-scene(5) */
     double from, to;
     int zero;                   /* 1: or 0 */
     double (*value)(const ss_scene *scene);     /* NaN where it means nothing */

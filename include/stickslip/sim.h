@@ -46,7 +46,7 @@ ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stat
                      ss_error *err);
 
 /* The wanted columns of a sample, in this order. */
-enum { SS_SIM_COLUMNS = 7 };            /* x, v, a, f, y, z, mode */
+enum { SS_SIM_COLUMNS = 8 };            /* x, v, a, f, s, y, z, mode */
 typedef struct ss_sim_columns {
     int has_time;                       /* t is wanted (first) */
     size_t n;

@@ -70,8 +70,8 @@ guard_of_step(const engine *e)
         g.at_0[i] = of_q * e->start[i][0] + of_v * e->start[i][1];
         g.at_h[i] = of_q * e->end[i][0] + of_v * e->end[i][1];
     }
-    double a = (m->drive + fabs(m->f0) + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1]))
-        / m->scene->mass;
+    double a = (m->drive + fabs(m->ramp * (m->u + e->h)) + fabs(m->drag) + fabs(m->f0)
+                + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1])) / m->scene->mass;
     g.rounding = a * e->h * (fabs(of_v) / 9 + fabs(of_q) * e->h / 72);      /* of v' */
     return g;
 }
@@ -110,6 +110,16 @@ ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
     return *ends < 0 ? fail_lost(e, err) : SS_OK;
 }
 
+/* A stick so short that without it the mass, as the pull is all that changes its force, would be no
+ * further on than the doubt. */
+static int
+barely_sticks(const motion *m, double s)
+{
+    const state *now = &m->now;
+    return now->ramp != 0
+        && fabs(base_force_rate(now, now->u)) * s * s * s <= 6 * now->scene->mass * m->doubt;
+}
+
 /* The mode has ended s from now: enter the next one.  1 if that is an event. */
 int
 ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
@@ -121,6 +131,7 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
         e->type->at(e, ANYWHERE, s, base_turn(now, now->u + s), q, dqdt);
         memcpy(now->q, q, sizeof q);
     }
+    m->unresolved += (unsigned long)(still && barely_sticks(m, s));
     now->u += s;
     ss_motion_rebase(m);
     if (now->mode != 0 && fabs(now->x_ref + now->q[0] - m->x_begin) <= m->doubt)

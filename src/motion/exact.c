@@ -4,8 +4,9 @@
  *
  *     q(u) = P(u) + (q0 - P(0)) C(u) + (q0' - P'(0)) S(u) - (f0/m) G(u),
  *
- * where S and C answer a unit velocity and a unit displacement, G is the integral of S, and P is the
- * steady motion.  C, S and G are written so that nothing cancels or overflows at critical damping,
+ * where f0 and D cos stand for all that is constant and that swings, P has the line besides by which
+ * q follows a pull, S and C answer a unit velocity and a unit displacement, G is the integral of S, and P is the steady
+ * motion.  C, S and G are written so that nothing cancels or overflows at critical damping,
  * far beyond it, or for w u -> 0.  P has a singularity at resonance; within a tenth of it (where
  * the damping is light, too) the motion from rest takes its place, as a divided difference of
  * exponentials, which has none.  Its error is rounding: a few ulp of each term.
@@ -34,11 +35,12 @@ enum { CYCLES = 4 };
 
 typedef struct exact {
     engine base;
-    double k_m, c_m, f_m;           /* k, c, f0 over m */
+    double k_m, c_m, f_m;           /* k, c, f0 (and d S) over m */
     double s, w;                    /* roots of m r^2 + c r + k: -s +- i w, or -s +- w */
     int overdamped;
     int resonant;
     double p_cos, p_sin;            /* P = p_cos cos(theta + Omega u) + p_sin sin(...) */
+    double p_0, p_1;                /* + p_0 + p_1 u */
     double q, v;                    /* factors of C and S */
     double curvature, third;        /* the guard's second and third derivatives are at most this */
     double width;                   /* to which the next event is narrowed down at least */
@@ -110,9 +112,9 @@ evaluate(const exact *x, double u, turn base, turn swing, double q[], double dqd
         p = x->p_cos * base.co + x->p_sin * base.si;
         dp = m->omega * (x->p_sin * base.co - x->p_cos * base.si);
     }
-    q[0] = p + x->q * C + x->v * S - x->f_m * G;
-    q[1] = dp - x->q * x->k_m * S + x->v * (C - x->c_m * S) - x->f_m * S;
-    m->model->rates(m, m->drive * base.co, q, dqdt);
+    q[0] = p + x->q * C + x->v * S - x->f_m * G + (x->p_0 + x->p_1 * u);
+    q[1] = dp - x->q * x->k_m * S + x->v * (C - x->c_m * S) - x->f_m * S + x->p_1;
+    m->model->rates(m, base_force_by(m, base, u), q, dqdt);
 }
 
 static void
@@ -129,7 +131,7 @@ static void
 bound_guard(exact *x, double omega0)
 {
     const state *m = &x->base.m->now;
-    double offset = x->q + m->f0 / m->k, P = hypot(x->p_cos, x->p_sin);
+    double offset = x->q + (m->f0 + m->drag) / m->k, P = hypot(x->p_cos, x->p_sin);
     double K = hypot(offset, (x->v + x->s * offset) / x->w), omega = m->omega;
     const double positive[MAX_DIM] = { 1, 1 };
     double *const bounded[] = { &x->curvature, &x->third };
@@ -155,13 +157,15 @@ exact_begin(engine *e)
     ss_motion_rebase(e->m);
     x->k_m = m->k / mass;
     x->c_m = m->c / mass;
-    x->f_m = m->f0 / mass;
+    x->f_m = (m->f0 + m->drag) / mass;
     x->s = m->c / (2 * mass);
     x->overdamped = x->s > omega0;
     x->w = sqrt(fabs(omega0 - x->s) * (omega0 + x->s));
     x->resonant = impedance < RESONANCE * m->k;
-    x->q = m->q[0];
-    x->v = m->q[1];
+    x->p_1 = m->ramp / m->k;
+    x->p_0 = -m->c / m->k * x->p_1;
+    x->q = m->q[0] - x->p_0;
+    x->v = m->q[1] - x->p_1;
     if (!x->resonant) {
         double in_phase = m->drive * (stiffness / impedance) / impedance;
         double late = m->drive * (damping / impedance) / impedance;
@@ -236,7 +240,7 @@ exact_ahead(engine *e, double s_max, double *s_event)
     turn base = base_turn(m, m->u);
     e->steps++;
     for (int i = 0; i < PASSES; i++) {
-        double jerk = (-m->drive * m->omega * base.si - m->k * e->q1[1] - m->c * e->dq1[1])
+        double jerk = (-m->drive * m->omega * base.si + m->ramp - m->k * e->q1[1] - m->c * e->dq1[1])
             / m->scene->mass;
         const double bends[MAX_DIM] = { e->dq1[1], jerk };
         double slope, bend, g = m->model->guard(m, e->q1, e->dq1, &slope);
@@ -287,10 +291,13 @@ exact_at(engine *e, reading where, double s, turn base, double q[], double dqdt[
     evaluate(x, u, base, swing, q, dqdt);
 }
 
+/* A pull goes 2 pi CYCLES of its own scale of x at most. */
 static void
 exact_go_on(engine *e)
 {
-    if (e->m->now.u * e->m->now.omega > CYCLES * 2 * M_PI)
+    const state *m = &e->m->now;
+    double omega = m->ramp == 0 ? m->omega : fmax(m->omega, own_frequency(m->scene));
+    if (m->u * omega > CYCLES * 2 * M_PI)
         exact_begin(e);
 }
 

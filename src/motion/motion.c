@@ -10,11 +10,16 @@ ss_step_cap(const state *m)
     return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
 }
 
-/* Let u count from the instant of the present step, with the phase there. */
+/* Let u count from the instant of the present step, with the phase there, and positions from where the
+ * pull is. */
 void
 ss_motion_rebase(motion *m)
 {
     state *now = &m->now;
+    if (now->ramp != 0) {
+        m->x_begin -= pull_of(now->scene) * now->u;
+        ss_state_follow(now);
+    }
     m->origin = instant_add(m->origin, now->u);
     now->u = 0;
     now->theta = 2 * M_PI * instant_cycles(m->origin, now->scene->base_frequency) + m->phase;
@@ -52,6 +57,12 @@ turn
 ss_motion_base(const motion *m, instant t)
 {
     return turn_of(2 * M_PI * instant_cycles(t, m->now.scene->base_frequency) + m->phase);
+}
+
+double
+ss_motion_x(const motion *m)
+{
+    return m->now.x_ref + m->now.q[0] + m->now.scene->base_velocity * m->origin.hi;
 }
 
 /* Chatter: so many events in a row, each within so small a part of the fastest period of the last,

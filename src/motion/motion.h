@@ -26,8 +26,29 @@ motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 int ss_motion_start(motion *m);                     /* enter that; 1 if it starts in slip */
 void ss_motion_rebase(motion *m);                   /* let u count from the present step */
 turn ss_motion_base(const motion *m, instant t);    /* the phase of the base */
+double ss_motion_x(const motion *m);                /* now, at u = 0 */
 unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
 /* A mode has lasted so long: SS_ECHATTER after too many short ones in a row. */
 ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
+
+/* A sample, but for its time, from state, rate of change and phase of the base at u. */
+static inline void
+motion_sample(const motion *m, turn base, double u, const double q[], const double dqdt[],
+              ss_sample *s)
+{
+    const state *now = &m->now;
+    const ss_scene *scene = now->scene;
+    double force = base_force_by(now, base, u);
+    now->model->sample(now, force, q, dqdt, s);
+    s->s = force - scene->stiffness * s->x;
+    s->z = scene->base_amplitude * base.co;
+    if (!now->moves)
+        return;
+    s->s += now->drag;
+    double pulled = scene->base_velocity * m->origin.hi;
+    s->x += pulled + scene->surface_velocity * u;
+    s->v += scene->surface_velocity;
+    s->z += pulled + scene->base_velocity * u;
+}
 
 #endif

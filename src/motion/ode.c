@@ -20,6 +20,9 @@
  * needs about 1e-7. */
 #define STEP_FLOOR 1e-12
 
+/* How far a pull goes, in the scale of x, before a position takes digits from x - U t. */
+#define FAR 1e3
+
 typedef struct ode {
     engine base;
     gsl_odeiv2_system system;
@@ -60,15 +63,31 @@ from_units(const ode *o, const double y[], double q[])
         q[i] = y[i] * o->unit[i];
 }
 
+static inline int
+rates_in_units(ode *o, double force, const double y[], double dydt[])
+{
+    const state *m = &o->base.m->now;
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    o->base.rhs++;
+    from_units(o, y, q);
+    m->model->rates(m, force, q, dqdt);
+    to_units(o, dqdt, dydt);
+    return GSL_SUCCESS;
+}
+
+/* By far the most calls are of one of these two: only scenes with a pull pay for it. */
 static int
 rhs(double u, const double y[], double dydt[], void *params)
 {
     ode *o = params;
-    double q[MAX_DIM], dqdt[MAX_DIM];
-    from_units(o, y, q);
-    rates(o, u, q, dqdt);
-    to_units(o, dqdt, dydt);
-    return GSL_SUCCESS;
+    return rates_in_units(o, swing_force(&o->base.m->now, u), y, dydt);
+}
+
+static int
+rhs_with_pull(double u, const double y[], double dydt[], void *params)
+{
+    ode *o = params;
+    return rates_in_units(o, base_force(&o->base.m->now, u), y, dydt);
 }
 
 static int
@@ -250,14 +269,21 @@ ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
         memcpy(q, s > e->h / 2 ? e->q1 : m->q, sizeof e->q1);
     }
     e->rhs++;
-    m->model->rates(m, m->drive * base.co, q, dqdt);
+    m->model->rates(m, base_force_by(m, base, m->u + s), q, dqdt);
 }
 
+/* GSL's multistep methods must see time go on, and begin anew where a pull has gone far. */
 static void
 ode_go_on(engine *e)
 {
-    if (!((ode *)e)->multistep)             /* GSL's multistep methods must see time go on */
+    const state *m = &e->m->now;
+    if (!((ode *)e)->multistep) {
+        e->has_start &= m->ramp == 0;       /* else positions change */
         ss_motion_rebase(e->m);
+    } else if (fabs(m->ramp * m->u) > FAR * m->scene->stiffness * m->x_scale) {
+        ss_motion_rebase(e->m);
+        ss_engine_begin(e);
+    }
 }
 
 static void
@@ -346,7 +372,8 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
         return ss_fail_memory(err, NULL);
     o->base = (engine){ .type = &ode_type, .m = of,
                         .lands_on_samples = method[i].multistep && m->model->guard == NULL };
-    o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
+    o->system = (gsl_odeiv2_system){ m->moves ? rhs_with_pull : rhs, jacobian, m->model->dim,
+                                        o };
     o->multistep = method[i].multistep;
     o->tol = tol;
     o->h_next = ss_step_cap(m);

@@ -92,16 +92,15 @@ fill_sample(ss_sample *sample, sampler *r, engine *e, int still, double s)
         memcpy(q, m->now.q, sizeof q);
     else
         e->type->at(e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, fmax(s, 0), r->base, q, dqdt);
-    m->now.model->sample(&m->now, m->now.drive * r->base.co, q, dqdt, sample);
+    motion_sample(m, r->base, m->now.u + s, q, dqdt, sample);
     sample->t = (double)r->i / r->scene->rate;
-    sample->z = r->scene->base_amplitude * r->base.co;
 }
 
 static ss_status
 fail_sample(const sampler *r, const ss_sample *s, ss_error *err)
 {
-    static const char name[] = "xvafyz";
-    const double value[] = { s->x, s->v, s->a, s->f, s->y, s->z };
+    static const char name[] = "xvafsyz";
+    const double value[] = { s->x, s->v, s->a, s->f, s->s, s->y, s->z };
     int i = 0;
     while (isfinite(value[i]))
         i++;
@@ -113,7 +112,7 @@ fail_sample(const sampler *r, const ss_sample *s, ss_error *err)
 static int
 is_finite(const ss_sample *s)
 {
-    return 0 * s->x + 0 * s->v + 0 * s->a + 0 * s->f + 0 * s->y + 0 * s->z == 0;
+    return 0 * s->x + 0 * s->v + 0 * s->a + 0 * s->f + 0 * s->s + 0 * s->y + 0 * s->z == 0;
 }
 
 /* All samples up to, not including, h from now. */
@@ -145,8 +144,8 @@ write_event(sampler *r, const motion *m, ss_event *e)
 {
     instant t = instant_add(m->origin, m->now.u);
     e->t = (t.hi - r->scene->settle) + t.lo;
-    e->x = m->now.x_ref + m->now.q[0];
-    e->v = m->now.q[1];
+    e->x = ss_motion_x(m);
+    e->v = m->now.q[1] + r->scene->surface_velocity;
     if (!(e->t >= 0 && instant_diff(t, r->end) < 0) || r->opts->events == NULL)
         return SS_OK;
     ss_status st = flush(r);

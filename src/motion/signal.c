@@ -7,8 +7,8 @@
 #include "base/error.h"
 
 static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
-    { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "y", "m" }, { "z", "m" },
-    { "mode", "" }
+    { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "s", "N" }, { "y", "m" },
+    { "z", "m" }, { "mode", "" }
 };
 
 ss_status
@@ -30,8 +30,8 @@ ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
                 repeated |= columns.pick[i] == c;
             if (c == SS_SIM_COLUMNS || repeated)
                 return ss_fail(err, SS_EINVAL, repeated ? "'%.*s' is there twice in '%s'"
-                               : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, y, z, "
-                               "mode", (int)length, name, list);
+                               : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, s, y, "
+                               "z, mode", (int)length, name, list);
             columns.pick[columns.n++] = c;
         }
         name += length;
@@ -49,7 +49,7 @@ ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
 {
     if (columns == NULL || s == NULL || row == NULL)
         return;
-    const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->y, s->z, s->mode };
+    const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->s, s->y, s->z, s->mode };
     for (size_t i = 0; i < columns->n; i++)
         row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
 }

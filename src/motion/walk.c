@@ -19,6 +19,7 @@ ss_status
 ss_walk_begin_at(walk *w, const motion *from)
 {
     w->m = *from;
+    ss_motion_rebase(&w->m);
     w->m.origin = (instant){ 0, 0 };
     w->m.now.u = 0;
     ss_motion_rebase(&w->m);

@@ -1,8 +1,9 @@
 /* compliant.c -- Coulomb friction through a massless contact of stiffness K_y and damping c.
  *
  * In slip the contact is deflected by Y_m = f_k / K_y; when v reaches 0 at x = X_s, microstick
- * begins with y = Y_m sgn(v before) + x - X_s and f = K_y y + c y'.  In microstick the state is y,
- * not x: a stiff contact has Y_m far below x, and x - X_s would cancel its digits away. */
+ * begins with y = Y_m sgn(v before) + x - X_s and f = K_y y + c y', and lasts until that exceeds f_s.
+ * In microstick the state is y, not x: a stiff contact has Y_m far below x, and x - X_s would cancel
+ * its digits away. */
 #include "scene/model.h"
 
 static const char *
@@ -16,6 +17,7 @@ static const scene_key keys[] = {
     KEY_NUMBER(contact_stiffness, REQUIRED, POSITIVE, "N/m"),
     KEY_NUMBER(contact_damping, REQUIRED, NOT_NEGATIVE, "N s/m"),
     KEY_WORD(release, OPTIONAL, release_word),
+    KEY_STATIC_FRICTION,
 };
 
 static double
@@ -37,9 +39,15 @@ static const ss_scene_range ranges[] = {
 };
 
 static double
-deflection_limit(const state *m)
+deflection_in_slip(const state *m)
 {
     return m->scene->friction / m->scene->contact_stiffness;
+}
+
+static double
+deflection_limit(const state *m)
+{
+    return static_friction(m->scene) / m->scene->contact_stiffness;
 }
 
 static void
@@ -48,7 +56,7 @@ microstick(state *m, double x, double y)
     const ss_scene *s = m->scene;
     m->mode = 0;
     m->k = s->stiffness + s->contact_stiffness;
-    m->c = s->contact_damping;
+    m->c = s->contact_damping + s->damping;
     m->x_ref = x - y;
     m->f0 = s->stiffness * m->x_ref;
     m->slack = 0;
@@ -61,7 +69,7 @@ microstick(state *m, double x, double y)
 static int
 start_free(state *m)
 {
-    double x = m->scene->x0, force = base_force(m, m->u) - m->scene->stiffness * x;
+    double x = m->scene->x0, force = ss_stick_force(m, base_force(m, m->u), x);
     int way = force != 0 ? sign(force) : sign(base_force_rate(m, m->u));
     ss_linear_slip(m, x, 0, way != 0 ? way : 1);
     return 1;
@@ -79,15 +87,15 @@ static int
 start(state *m)
 {
     const ss_scene *s = m->scene;
-    double limit = deflection_limit(m);
+    double limit = deflection_limit(m), v = s->v0 - s->surface_velocity;
     m->graze = fmin(fmax(GRAZE_TOL * m->tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
-    if (s->v0 == 0 && s->friction == 0)
+    if (v == 0 && limit == 0)
         return start_free(m);
-    if (s->v0 == 0) {
+    if (v == 0) {
         microstick(m, s->x0, 0);
         return 0;
     }
-    ss_linear_slip(m, s->x0, s->v0, sign(s->v0));
+    ss_linear_slip(m, s->x0, v, sign(v));
     return 1;
 }
 
@@ -99,7 +107,7 @@ damper_ratio(const state *m)
     return s->release == SS_RELEASE_SPRING ? 0 : s->contact_damping / s->contact_stiffness;
 }
 
-/* Microstick lasts while the spring's force, or that of spring and damper, is within f_k. */
+/* Microstick lasts while the spring's force, or that of spring and damper, is within f_s. */
 static double
 guard(const state *m, const double q[], const double dqdt[], double *slope)
 {
@@ -152,14 +160,14 @@ next(state *m, ss_event *e)
         ss_linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;
         e->direction = m->mode;
-    } else if (m->scene->friction == 0) {       /* no stick without friction: v passes through 0 */
+    } else if (deflection_limit(m) == 0) {      /* no stick without friction: v passes through 0 */
         ss_linear_slip(m, x, 0, -m->mode);
         e->kind = SS_REVERSE;
         e->direction = m->mode;
     } else {
         e->kind = SS_STICK;
         e->direction = m->mode;
-        microstick(m, x, m->mode * deflection_limit(m));
+        microstick(m, x, m->mode * deflection_in_slip(m));
     }
     return 1;
 }
@@ -172,7 +180,7 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->v = q[1];
     s->a = dqdt[1];
     s->mode = m->mode;
-    s->y = m->mode == 0 ? q[0] : m->mode * deflection_limit(m);
+    s->y = m->mode == 0 ? q[0] : m->mode * deflection_in_slip(m);
     s->f = m->mode == 0 ? m->scene->contact_stiffness * q[0] + m->scene->contact_damping * q[1]
         : m->f0;
 }
@@ -180,7 +188,7 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
 static double
 deflection(const state *m)
 {
-    return m->mode == 0 ? m->q[0] : m->mode * deflection_limit(m);
+    return m->mode == 0 ? m->q[0] : m->mode * deflection_in_slip(m);
 }
 
 static double

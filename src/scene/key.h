@@ -6,7 +6,9 @@
 #include <stickslip/scene.h>
 
 enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
-enum { OPTIONAL, REQUIRED };
+/* A TERM of the equation of motion that most scenes do not have: 0 if left out, and then a scene is
+ * written without it.  FORCING is left out altogether or not at all. */
+enum { OPTIONAL, REQUIRED, TERM, FORCING };
 
 typedef struct scene_key {
     const char *name;
@@ -20,6 +22,7 @@ typedef struct scene_key {
 
 #define KEY_NUMBER(field, required, range, unit) \
     { #field, required, range, offsetof(ss_scene, field), unit, NULL }
+#define KEY_STATIC_FRICTION KEY_NUMBER(static_friction, TERM, NOT_NEGATIVE, "N")
 #define KEY_WORD(field, required, word) { #field, required, 0, offsetof(ss_scene, field), "", word }
 
 /* A number of the scene that a fit may vary besides k and f_k / (k Z_e). */
@@ -36,6 +39,8 @@ const scene_key *ss_key_at(const struct model *model, size_t i);
 /* The key of this name, or of this field, that the model has; NULL if none. */
 const scene_key *ss_key_named(const struct model *model, const char *name);
 const scene_key *ss_key_of_field(const struct model *model, size_t offset);
+/* The first TERM that a scene has; NULL if none. */
+const char *ss_scene_term(const ss_scene *scene);
 /* 1 if the key belongs to the record that is made of the motion, not to the motion. */
 int ss_key_is_of_record(const char *name);
 

@@ -14,11 +14,14 @@ static const scene_key of_motion[] = {
     KEY_NUMBER(mass, REQUIRED, POSITIVE, "kg"),
     KEY_NUMBER(stiffness, REQUIRED, POSITIVE, "N/m"),
     KEY_NUMBER(friction, REQUIRED, NOT_NEGATIVE, "N"),
-    KEY_NUMBER(base_amplitude, REQUIRED, NOT_NEGATIVE, "m"),
-    KEY_NUMBER(base_frequency, REQUIRED, NOT_NEGATIVE, "Hz"),
+    KEY_NUMBER(base_amplitude, FORCING, NOT_NEGATIVE, "m"),
+    KEY_NUMBER(base_frequency, FORCING, NOT_NEGATIVE, "Hz"),
     KEY_NUMBER(phase, OPTIONAL, ANY_NUMBER, "rad"),
     KEY_NUMBER(x0, OPTIONAL, ANY_NUMBER, "m"),
     KEY_NUMBER(v0, OPTIONAL, ANY_NUMBER, "m/s"),
+    KEY_NUMBER(damping, TERM, NOT_NEGATIVE, "N s/m"),
+    KEY_NUMBER(base_velocity, TERM, ANY_NUMBER, "m/s"),
+    KEY_NUMBER(surface_velocity, TERM, ANY_NUMBER, "m/s"),
 };
 enum { OF_MOTION = sizeof of_motion / sizeof *of_motion };
 
@@ -57,6 +60,17 @@ ss_key_of_field(const struct model *model, size_t offset)
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL && k->offset != offset; i++)
         ;
     return k;
+}
+
+const char *
+ss_scene_term(const ss_scene *scene)
+{
+    const struct model *model = ss_model_of(scene);
+    const scene_key *k;
+    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
+        if (k->required == TERM && *(const double *)(const void *)((const char *)scene + k->offset) != 0)
+            return k->name;
+    return NULL;
 }
 
 int

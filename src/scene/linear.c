@@ -27,11 +27,11 @@ ss_linear_derivatives(const state *m, double u, const double q[], const double d
                       double higher[][MAX_DIM])
 {
     turn base = base_turn(m, u);
-    const double wave[] = { -base.si, -base.co, base.si };
+    const double wave[] = { -base.si, -base.co, base.si }, ramp[ORDERS - 1] = { m->ramp };
     double mass = m->scene->mass, D = m->drive * m->omega;
     double d[ORDERS + 2] = { q[0], q[1], dqdt[1] };
     for (int i = 0; i < ORDERS - 1; i++, D *= m->omega) {
-        d[i + 3] = (D * wave[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
+        d[i + 3] = (D * wave[i] + ramp[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
         higher[i][0] = d[i + 2];
         higher[i][1] = d[i + 3];
     }
@@ -44,7 +44,7 @@ ss_linear_fastest(const state *m, const char **what)
     double half = m->c / (2 * m->scene->mass), omega0 = sqrt(m->k / m->scene->mass);
     double root = half <= omega0 ? omega0 : half + sqrt((half - omega0) * (half + omega0));
     if (what != NULL)
-        *what = m->omega >= root ? "the base" : half > omega0 ? "the contact's damper"
+        *what = m->omega >= root ? "the base" : half > omega0 ? "the damper"
             : m->k > m->scene->stiffness ? "the contact" : "the spring";
     return fmax(root, m->omega);
 }
@@ -54,7 +54,7 @@ ss_linear_slip(state *m, double x, double v, int direction)
 {
     m->mode = direction;
     m->k = m->scene->stiffness;
-    m->c = 0;
+    m->c = m->scene->damping;
     m->f0 = direction * m->scene->friction;
     m->x_ref = 0;
     m->q[0] = x;

@@ -6,7 +6,12 @@
  *
  * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); everything non-smooth
  * happens where the mode changes.  Coulomb and compliant contact are linear within a mode and
- * share one equation, m q'' = drive - f0 - k q - c q', whose coefficients the mode sets. */
+ * share one equation, m q'' = drive - f0 - k q - c q', whose coefficients the mode sets.
+ *
+ * Models see the frame of the surface, which moves at S: there the surface rests, v is the velocity
+ * by which the friction goes, and the spring is pulled at U - S.  Positions count from where the pull
+ * was at u = 0, so that they stay small however long it lasts: the position less (U - S) u is
+ * x - U t. */
 #ifndef MODEL_H
 #define MODEL_H
 
@@ -23,23 +28,28 @@ typedef struct state {
     const struct model *model;
     double omega;                   /* Omega [rad/s] */
     double drive;                   /* k Z_e [N] */
+    double ramp;                    /* k (U - S) [N/s] */
+    double drag;                    /* d S [N] */
+    int moves;                      /* there is a pull or a surface that moves */
     double x_scale;                 /* x is measured by it: absolute tolerances are tol times it */
     double tol;                     /* of the integrator */
 
     int mode;
     double k, c, f0;                /* of the mode, see above */
-    double x_ref;                   /* x = x_ref + q[0]: q[0] is the contact's y in microstick */
+    double x_ref;                   /* x_ref + q[0]: the position; q[0] is y in microstick */
     double graze;                   /* a contact this far beyond its limit only touches it [m] */
     double slack;                   /* graze once it has in this microstick, else 0 */
     unsigned long touches;
 
     double theta;                   /* phase of the base at u = 0 [rad] */
     double u;                       /* the instant [s], from an origin that the integrator sets */
-    double q[MAX_DIM];              /* x or y, v, theta at u */
+    double q[MAX_DIM];              /* position or y, velocity, theta at u */
 } state;
 
 /* state.c: before its first mode, at u = 0. */
 state ss_state_of(const ss_scene *scene, double tol);
+/* Let positions count from where the pull (below) has come to since u = 0. */
+void ss_state_follow(state *m);
 
 /* In which modes the friction force varies. */
 enum { IN_STICK = 1, IN_SLIP = 2 };
@@ -102,7 +112,8 @@ struct model {
     int (*still)(const state *m, double *u_end);
     /* The mode ends in this state: enter the next.  1 if that is an event, put into *e. */
     int (*next)(state *m, ss_event *e);
-    /* What state, rate of change and force of the base say, except t and z. */
+    /* What state, rate of change and force of the base say, in the frame of the surface, except t, z
+     * and s. */
     void (*sample)(const state *m, double drive, const double q[], const double dqdt[],
                    ss_sample *s);
     /* What the next motion depends on besides x and v, and what that is measured by; NULL if on
@@ -125,10 +136,23 @@ own_frequency(const ss_scene *scene)                /* omega_n [rad/s] */
 }
 
 static inline double
-amplitude_of(const ss_scene *scene)                 /* X of the supported ranges [m] */
+static_friction(const ss_scene *scene)              /* f_s [N] */
 {
-    return fmax(scene->base_amplitude, fmax(fabs(scene->x0),
-                                            fabs(scene->v0) / own_frequency(scene)));
+    return scene->static_friction > scene->friction ? scene->static_friction : scene->friction;
+}
+
+static inline double
+pull_of(const ss_scene *scene)                      /* U - S [m/s] */
+{
+    return scene->base_velocity - scene->surface_velocity;
+}
+
+static inline double
+amplitude_of(const ss_scene *s)                     /* X of the supported ranges [m] */
+{
+    double speed = fmax(fmax(fabs(s->v0), fabs(s->base_velocity)), fabs(s->surface_velocity));
+    double X = fmax(fmax(s->base_amplitude, fabs(s->x0)), speed / own_frequency(s));
+    return pull_of(s) != 0 ? fmax(X, static_friction(s) / s->stiffness) : X;
 }
 
 static inline int
@@ -137,7 +161,9 @@ sign(double x)
     return (x > 0) - (x < 0);
 }
 
-/* --- the base: its force on the spring is k Z_e cos(Omega t + phase) ----------------------- */
+/* --- the base: its force on the spring is k (Z_e cos(Omega t + phase) + (U - S) u) ----------
+ *
+ * The forces below are less d S, by which the damper pulls a mass that rests on the surface. */
 
 typedef struct turn {
     double co, si;                  /* cosine and sine of an angle */
@@ -162,15 +188,27 @@ base_turn(const state *m, double u)
 }
 
 static inline double
-base_force(const state *m, double u)
+swing_force(const state *m, double u)               /* of a base that is not pulled */
 {
     return m->drive * cos(m->theta + m->omega * u);
 }
 
 static inline double
+base_force_by(const state *m, turn base, double u)
+{
+    return m->drive * base.co + (m->ramp * u - m->drag);
+}
+
+static inline double
+base_force(const state *m, double u)
+{
+    return swing_force(m, u) + (m->ramp * u - m->drag);
+}
+
+static inline double
 base_force_rate(const state *m, double u)
 {
-    return -m->drive * m->omega * sin(m->theta + m->omega * u);
+    return -m->drive * m->omega * sin(m->theta + m->omega * u) + m->ramp;
 }
 
 /* --- linear.c: what Coulomb and compliant contact share ------------------------------------ */
@@ -182,5 +220,12 @@ void ss_linear_derivatives(const state *m, double u, const double q[], const dou
 double ss_linear_fastest(const state *m, const char **what);
 void ss_linear_slip(state *m, double x, double v, int direction);
 double ss_linear_slip_guard(const state *m, const double q[], const double dqdt[], double *slope);
+
+/* --- stick.c: true stick, in which v is exactly 0 ------------------------------------------- */
+
+double ss_stick_force(const state *m, double drive, double x);     /* that friction has to hold */
+int ss_stick_start(state *m);
+int ss_stick_still(const state *m, double *u_end);
+int ss_stick_next(state *m, ss_event *e);
 
 #endif

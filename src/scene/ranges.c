@@ -31,12 +31,47 @@ friction(const ss_scene *s)
     return X > 0 ? s->friction / s->stiffness / X : NAN;
 }
 
+static double
+damping(const ss_scene *s)
+{
+    return s->damping / (2 * sqrt(s->stiffness) * sqrt(s->mass));
+}
+
+static double
+speed(const ss_scene *s, double v)
+{
+    double X = amplitude_of(s);
+    return X > 0 ? fabs(v) / own_frequency(s) / X : NAN;
+}
+
+static double
+base_velocity(const ss_scene *s)
+{
+    return speed(s, s->base_velocity);
+}
+
+static double
+surface_velocity(const ss_scene *s)
+{
+    return speed(s, s->surface_velocity);
+}
+
+static double
+hold(const ss_scene *s)
+{
+    return s->static_friction > 0 && s->friction > 0 ? s->static_friction / s->friction : NAN;
+}
+
 static const ss_scene_range of_every[] = {
     { "m", "kg", 1e-12, 1e12, 0, mass },
     { "omega_n/(2 pi)", "Hz", 1e-9, 1e9, 0, hertz },
     { "X", "m", 1e-15, 1e9, 1, amplitude_of },
     { "Omega/omega_n", "1", 1e-3, 1e3, 1, base_speed },
     { "f_k/(k X)", "1", 1e-3, 10, 1, friction },
+    { "f_s/f_k", "1", 1, 10, 0, hold },
+    { "d/(2 sqrt(k m))", "1", 1e-4, 100, 1, damping },
+    { "|U|/(omega_n X)", "1", 1e-3, 1, 1, base_velocity },
+    { "|S|/(omega_n X)", "1", 1e-3, 1, 1, surface_velocity },
 };
 enum { OF_EVERY = sizeof of_every / sizeof *of_every };
 

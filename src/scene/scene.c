@@ -270,6 +270,25 @@ check_foreign(const struct model *model, given *g, struct place last, ss_error *
     return SS_OK;
 }
 
+/* A key that the scene needs and does not have; NULL if none. */
+static const scene_key *
+missing_key(const struct model *model, given *g)
+{
+    const scene_key *k, *forcing = NULL;
+    int forced = 0;
+    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
+        int missing = *line_of(g, k) == 0;
+        if (missing && k->required == REQUIRED)
+            return k;
+        if (missing && k->required == FORCING)
+            forcing = k;
+        forced |= !missing && k->required == FORCING;
+    }
+    return forced ? forcing : NULL;
+}
+
+#define STATIC_IS_LESS "static_friction is less than friction, it must be at least as large"
+
 /* After the last line: every key belongs to the model, and none is missing. */
 static ss_status
 check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
@@ -281,13 +300,18 @@ check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
     ss_status st = check_foreign(model, g, last, err);
     if (st != SS_OK)
         return st;
-    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
-        if (*line_of(g, k) == 0 && k->required) {
-            char text[256];
+    if ((k = missing_key(model, g)) != NULL) {
+        char text[256];
+        if (k->required == FORCING)
+            snprintf(text, sizeof text, "missing key '%s': the base moves by it", k->name);
+        else
             snprintf(text, sizeof text, "missing key '%s', which model %s needs", k->name,
                      model->name);
-            return fail_at(last, err, text);
-        }
+        return fail_at(last, err, text);
+    }
+    long s = *line_of(g, find_key("static_friction")), f = *line_of(g, find_key("friction"));
+    if (s != 0 && scene->static_friction < scene->friction)
+        return fail_at((struct place){ last.name, s < 0 || f < 0 ? -1 : s }, err, STATIC_IS_LESS);
     if (ss_scene_samples(scene) == SIZE_MAX) {
         long where = *line_of(g, find_key("rate"));
         struct place at = { last.name, where != 0 ? where : *line_of(g, find_key("duration")) };
@@ -420,6 +444,9 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
                            text, range_text(k));
         }
     }
+    if (scene->static_friction != 0 && scene->static_friction < scene->friction
+        && ss_key_named(model, "static_friction") != NULL)
+        return ss_fail(err, SS_EINVAL, STATIC_IS_LESS);
     return SS_OK;
 }
 
@@ -432,6 +459,8 @@ ss_scene_write(const ss_scene *scene, FILE *out)
     const scene_key *k;
     for (size_t i = 0; (k = ss_key_at(ss_model_of(scene), i)) != NULL; i++) {
         char text[SS_NUMBER_MAX];
+        if (k->required == TERM && *number_of(&copy, k) == 0)
+            continue;
         if (k->word == NULL)
             ss_number_format(text, *number_of(&copy, k));
         fprintf(out, "%s = %s\n", k->name, k->word != NULL ? k->word(*word_of(&copy, k)) : text);

@@ -50,7 +50,7 @@ start(state *m)
 {
     m->mode = 0;
     m->q[0] = m->scene->x0;
-    m->q[1] = m->scene->v0;
+    m->q[1] = m->scene->v0 - m->scene->surface_velocity;
     m->q[2] = 0;
     return 0;
 }
@@ -68,10 +68,11 @@ law(const ss_scene *s, double *rate, double *goal)
 static double
 fastest(const state *m, const char **what)
 {
-    double omega_n = own_frequency(m->scene);
+    double omega_n = own_frequency(m->scene), decay = m->scene->damping / m->scene->mass;
+    double own = decay > omega_n ? decay : omega_n;
     if (what != NULL)
-        *what = m->omega >= omega_n ? "the base" : "the spring";
-    return fmax(omega_n, m->omega);
+        *what = m->omega >= own ? "the base" : own > omega_n ? "the damper" : "the spring";
+    return fmax(own, m->omega);
 }
 
 /* Where v creeps within the front the friction answers with the roots of s^2 + g s + g b,
@@ -115,7 +116,7 @@ rates(const state *m, double drive, const double q[], double dqdt[])
     double rate, goal;
     law(s, &rate, &goal);
     dqdt[0] = q[1];
-    dqdt[1] = (drive - s->stiffness * q[0] - q[2]) / s->mass;
+    dqdt[1] = (drive - s->stiffness * q[0] - s->damping * q[1] - q[2]) / s->mass;
     dqdt[2] = -rate * (q[2] - goal * tanh(s->alpha * q[1]));
 }
 
@@ -127,7 +128,8 @@ sight(const state *m, const double dqdt[])
 {
     const ss_scene *s = m->scene;
     double far = fabs(m->q[1]) / 2 + 1 / s->alpha, a = fabs(dqdt[1]);
-    double jerk = fabs(base_force_rate(m, m->u) - s->stiffness * dqdt[0] - dqdt[2]) / s->mass;
+    double jerk = fabs(base_force_rate(m, m->u) - s->stiffness * dqdt[0] - s->damping * dqdt[1]
+                       - dqdt[2]) / s->mass;
     return 2 * far / (a + sqrt(a * a + 2 * jerk * far));
 }
 
@@ -139,7 +141,7 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
     law(s, &rate, &goal);
     const double row[9] = {
         0, 1, 0,
-        -s->stiffness / s->mass, 0, -1 / s->mass,
+        -s->stiffness / s->mass, -s->damping / s->mass, -1 / s->mass,
         0, rate * goal * s->alpha * sech * sech, -rate
     };
     for (int i = 0; i < 9; i++)

@@ -41,6 +41,9 @@ ss_candidate_check(const ss_scene *scene, ss_error *err)
     ss_status st = ss_scene_check(scene, err);
     if (st == SS_OK && !(drive_of(scene) > 0))
         return ss_fail(err, SS_EINVAL, "base_amplitude = 0: such a scene has no cycle to compare");
+    const char *term = st == SS_OK ? ss_scene_term(scene) : NULL;
+    if (term != NULL)
+        return ss_fail(err, SS_EINVAL, "a scene with %s is not adjusted to a signal", term);
     return st;
 }
 

@@ -21,7 +21,9 @@ ss_meter_begin(meter *r, unsigned wanted, const state *m)
 }
 
 typedef struct point {
-    double s, x, v, a, jerk, f;
+    double s, x, dx;                /* x - U t and its rate */
+    double v, a, jerk, f;
+    double slid, slip;              /* place and velocity on the surface */
 } point;
 
 static point
@@ -31,7 +33,9 @@ point_of(walk *w, double s, const double q[], const double dqdt[])
     double dfdq[MAX_DIM * MAX_DIM], dfdt[MAX_DIM];
     ss_sample sample;
     m->model->sample(m, base_force(m, m->u + s), q, dqdt, &sample);
-    point p = { s, sample.x, sample.v, sample.a, 0, sample.f };
+    double U = m->scene->base_velocity, S = m->scene->surface_velocity;
+    point p = { s, sample.x - (U - S) * (m->u + s), sample.v - (U - S), sample.v + S, sample.a, 0,
+                sample.f, sample.x, sample.v };
     if (w->still)
         return p;
     m->model->jacobian(m, m->u + s, q, dfdq, dfdt);
@@ -71,7 +75,7 @@ typedef enum rate { OF_X, OF_V, OF_A } rate;
 static double
 rate_of(const point *p, rate which)
 {
-    return which == OF_X ? p->v : which == OF_V ? p->a : p->jerk;
+    return which == OF_X ? p->dx : which == OF_V ? p->a : p->jerk;
 }
 
 /* Where the rate is 0 between lo and hi, at which its signs differ: by false position with the
@@ -106,7 +110,7 @@ extremum(walk *w, point lo, point hi, rate which)
 static int
 in_transition(const state *m, const point *p)
 {
-    return m->model->in_transition != NULL && m->model->in_transition(m, p->v);
+    return m->model->in_transition != NULL && m->model->in_transition(m, p->slip);
 }
 
 static void
@@ -166,7 +170,7 @@ work_between(walk *w, double lo, double hi)
     double sum = 0, half = (hi - lo) / 2;
     for (int i = -2; i <= 2; i++) {
         point p = point_at(w, lo + half + (i < 0 ? -1 : 1) * node[i < 0 ? -i : i] * half);
-        sum += weight[i < 0 ? -i : i] * p.f * p.v;
+        sum += weight[i < 0 ? -i : i] * p.f * p.slip;
     }
     return half * sum;
 }
@@ -215,7 +219,7 @@ ss_meter_leg(meter *r, walk *w)
         lo = hi;
     }
     if (!force_varies(&w->m.now))
-        r->energy += w->m.now.f0 * (lo.x - first.x);
+        r->energy += w->m.now.f0 * (lo.slid - first.slid);
     r->time += w->h;
     if (w->m.now.mode == 0)
         r->stick += w->h;

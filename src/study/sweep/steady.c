@@ -114,9 +114,10 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
 
 /* --- states -------------------------------------------------------------------------------- */
 
-/* At the start of a forcing cycle. */
+/* At the start of a forcing cycle: x - U t, v over the surface, and y of the model (memory), 0 if it has
+ * none. */
 typedef struct section {
-    double x, v, y;                     /* y: of the model (memory), 0 if it has none */
+    double x, v, y;
 } section;
 
 typedef struct finder {
@@ -143,7 +144,8 @@ static section
 section_of(const state *m)
 {
     double unit;
-    return (section){ m->x_ref + m->q[0], m->q[1], memory_of(m, &unit) };
+    double x = m->x_ref + m->q[0] - pull_of(m->scene) * m->u;
+    return (section){ x, m->q[1], memory_of(m, &unit) };
 }
 
 static double
@@ -249,7 +251,7 @@ measure_cycles(finder *f, int cycles, int period, ss_steady *out)
     ss_meter_end(&r, cycles, period > 0, out->value);
     out->value[SS_PERIOD] = period;
     out->value[SS_X_PHASE] = at.x;
-    out->value[SS_V_PHASE] = at.v;
+    out->value[SS_V_PHASE] = at.v + f->scene->surface_velocity;
     if (derive)
         ss_tangent_multipliers(&t, &out->value[SS_FLOQUET], &out->value[SS_FLOQUET_2],
                                &out->value[SS_FLOQUET_ANGLE]);
@@ -376,9 +378,9 @@ newton_step(finder *f, motion *at, tangent *t, double *off)
         st = go(f, 1, NULL, t);
     if (st != SS_OK)
         return st;
-    const motion *end = &f->w.m;
-    const state *a = &at->now, *b = &end->now;
-    motion moved = *at;
+    motion end = f->w.m, moved = *at;
+    const state *a = &at->now, *b = &end.now;
+    ss_motion_rebase(&end);
     double d[3], r[3] = { b->x_ref - a->x_ref, b->q[0] - a->q[0], b->q[1] - a->q[1] };
     double missed = distance(f, section_of(b), section_of(a));
     int allowed = 0, halvings = 0;
@@ -392,7 +394,7 @@ newton_step(finder *f, motion *at, tangent *t, double *off)
     *off = missed <= ROUNDING ? missed : INFINITY;
     if (allowed && halvings == 0)
         *off = fmax(missed, distance(f, section_of(&moved.now), section_of(a)));
-    *at = allowed ? moved : *end;       /* no step to be had: simulate on */
+    *at = allowed ? moved : end;        /* no step to be had: simulate on */
     at->origin = (instant){ 0, 0 };
     at->now.u = 0;
     return SS_OK;

@@ -97,6 +97,13 @@ ss_trade_cpu_time(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* x is compared as x - U t, which stays small. */
+static double
+pulled_by(const ss_scene *scene, double t)
+{
+    return scene->base_velocity * (scene->settle + t);
+}
+
 /* Of each stride of samples one, at a place that varies, so that a stride of whole periods still
  * sees all phases (Knuth's multiplicative hash). */
 static int
@@ -106,7 +113,7 @@ keep_samples(const ss_sample *s, size_t n, void *user)
     for (size_t i = 0; i < n; i++, k->seen++) {
         size_t block = k->seen / k->p->stride, within = k->seen % k->p->stride;
         if (block < k->p->n && within == (uint32_t)block * UINT32_C(2654435761) % k->p->stride) {
-            k->x[block] = s[i].x;
+            k->x[block] = s[i].x - pulled_by(&k->p->scene, s[i].t);
             k->a[block] = s[i].a;
         }
     }

@@ -15,12 +15,12 @@ check() {       # SCENE KEY=VALUE
     esac || { echo "$1 $2: exit $status, $rows rows"; cat err; }
 }
 
-usual="mass stiffness friction base_amplitude base_frequency phase x0 v0 settle"
+usual="mass stiffness friction base_amplitude base_frequency phase x0 v0 settle damping base_velocity surface_velocity"
 for scene in coulomb state-variable compliant-light compliant-heavy; do
     case $scene in
-    coulomb) keys=$usual ;;
+    coulomb) keys="$usual static_friction" ;;
     state-variable) keys="$usual alpha gamma" ;;
-    *) keys="$usual contact_stiffness contact_damping" ;;
+    *) keys="$usual contact_stiffness contact_damping static_friction" ;;
     esac
     for key in $keys; do
         for value in 0 1e-300 1e-12 1e12 1e300; do

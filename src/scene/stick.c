@@ -1,0 +1,144 @@
+/* stick.c -- true stick: v is exactly 0 and the mass moves with the surface, until spring, damper and
+ * base ask for more than the static friction. */
+#include "scene/model.h"
+
+#include <float.h>
+
+double
+ss_stick_force(const state *m, double drive, double x)
+{
+    return drive - m->scene->stiffness * x;
+}
+
+/* Enter stick if friction can hold the mass, else slip where the spring pulls it. */
+static int
+stop_or_go(state *m, double x)
+{
+    double force = ss_stick_force(m, base_force(m, m->u), x);
+    ss_linear_slip(m, x, 0, fabs(force) > static_friction(m->scene) ? sign(force) : 0);
+    return m->mode;
+}
+
+int
+ss_stick_start(state *m)
+{
+    const ss_scene *s = m->scene;
+    double v = s->v0 - s->surface_velocity;
+    if (v == 0)
+        return stop_or_go(m, s->x0) != 0;
+    ss_linear_slip(m, s->x0, v, sign(v));
+    return 1;
+}
+
+/* The first angle after from that differs from angle by whole turns. */
+static double
+next_turn(double angle, double from)
+{
+    const double round = 2 * M_PI;
+    double ahead = fmod(angle - from, round);
+    return from + (ahead <= 0 ? ahead + round : ahead);
+}
+
+/* Where the force leaves [-f_s, f_s] without a pull: upwards where the cosine rises, downwards where
+ * it falls.  Touching a limit is not leaving it. */
+static double
+end_of_swing(const state *m, double theta)
+{
+    const ss_scene *s = m->scene;
+    double x = m->q[0], z = s->base_amplitude, limit = static_friction(s), end = INFINITY;
+    double upper = (x + (limit + m->drag) / s->stiffness) / z;
+    double lower = (x - (limit - m->drag) / s->stiffness) / z;
+    if (fabs(upper) < 1)
+        end = m->u + (next_turn(-acos(upper), theta) - theta) / m->omega;
+    if (fabs(lower) < 1)
+        end = fmin(end, m->u + (next_turn(acos(lower), theta) - theta) / m->omega);
+    return end;
+}
+
+/* The zero between lo and hi of D cos(angle + omega s) + R s - level, which rises there: by Newton's
+ * steps, or halves of the bracket where those leave it. */
+static double
+rising_zero(const state *m, double angle, double R, double level, double lo, double hi)
+{
+    double s = hi;
+    for (int i = 0; i < 200 && hi - lo > DBL_EPSILON * fmax(fabs(lo), fabs(hi)); i++) {
+        turn at = turn_of(angle + m->omega * s);
+        double g = m->drive * at.co + R * s - level, next = s - g / (R - m->drive * m->omega * at.si);
+        if (g < 0)
+            lo = s;
+        else
+            hi = s;
+        if (!(next >= lo && next <= hi))
+            next = lo + (hi - lo) / 2;
+        if (next == s)
+            break;
+        s = next;
+    }
+    return s;
+}
+
+/* How long it takes until D cos(angle + omega s) + R s, which is level at most, exceeds that.  A pull
+ * that is slower than the swing lets it rise and fall, by as much more each turn as the pull brings:
+ * the first peak that is above the level is counted, not sought. */
+static double
+time_to_rise(const state *m, double angle, double R, double level)
+{
+    double D = m->drive, fastest = D * m->omega, round = 2 * M_PI / m->omega;
+    if (fastest <= fabs(R))
+        return R <= 0 ? INFINITY
+            : rising_zero(m, angle, R, level, fmax(0, (level - D) / R), fmax(0, (level + D) / R));
+    double top = asin(R / fastest), peak = (next_turn(top, angle) - angle) / m->omega;
+    double height = D * cos(top) + R * peak;
+    if (height <= level && R <= 0)
+        return INFINITY;
+    if (height <= level)
+        peak += round * (floor((level - height) / (R * round)) + 1);
+    double since = fmin((M_PI + 2 * top) / m->omega, peak);
+    return peak + rising_zero(m, top, R, level - R * peak, -since, 0);
+}
+
+/* The end of a stick in closed form, or to rounding.  A stick that begins at its limit, within
+ * rounding, with the force on its way out, ends at once; without this the crossing would be in the
+ * past, and the stick would last a whole turn. */
+int
+ss_stick_still(const state *m, double *u_end)
+{
+    const ss_scene *s = m->scene;
+    double x = m->q[0], limit = static_friction(s);
+
+    if (m->mode != 0)
+        return 0;
+    *u_end = INFINITY;
+    if ((m->omega == 0 || m->drive == 0) && m->ramp == 0)
+        return 1;
+    double theta = m->theta + m->omega * m->u, force = ss_stick_force(m, base_force(m, m->u), x);
+    double size = m->drive + s->stiffness * fabs(x) + limit + fabs(m->drag) + fabs(m->ramp * m->u);
+    if (force * base_force_rate(m, m->u) > 0 && limit - fabs(force) <= 8 * DBL_EPSILON * size) {
+        *u_end = m->u;
+    } else if (m->ramp == 0) {
+        *u_end = end_of_swing(m, theta);
+    } else {
+        double rest = force - m->drive * cos(theta);
+        *u_end = m->u + fmin(time_to_rise(m, theta, m->ramp, limit - rest),
+                             time_to_rise(m, theta + M_PI, -m->ramp, limit + rest));
+    }
+    return 1;
+}
+
+int
+ss_stick_next(state *m, ss_event *e)
+{
+    double x = m->q[0];
+    int before = m->mode;
+    if (before == 0) {                  /* the force has reached its limit and grows */
+        ss_linear_slip(m, x, 0, sign(base_force_rate(m, m->u)));
+        e->kind = SS_SLIP;
+        e->direction = m->mode;
+        return 1;
+    }
+    int now = stop_or_go(m, x);
+    e->kind = now == 0 ? SS_STICK : SS_REVERSE;
+    e->direction = now == 0 ? before : now;
+    return now != before;               /* else v has touched 0 and keeps its sign */
+}
+

@@ -1,0 +1,396 @@
+/* test_rigs.c -- the terms that a scene may name: a pull, a belt, static friction, damping.
+ *
+ * Truth comes from the closed form of a pulled slider, from figures of independent programs (beside
+ * the rows), and from tests/oracle.c, which works in the frame of the laboratory.  SCENES=N in the
+ * environment sets how many random scenes are drawn, FIRST=N with which one to begin. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "extremes/runs.h"
+#include "oracle.h"
+#include "shipped.h"
+
+static const char *const methods[] = { "exact", "rk8pd", "rkf45", "msadams" };
+enum { METHODS = sizeof methods / sizeof *methods };
+
+static run
+run_by(const ss_scene *scene, const char *method)
+{
+    run r = run_with(scene, method, 1e-12, 0);
+    if (r.status != SS_OK)
+        fail_msg("%s: %s", method, r.err.text);
+    return r;
+}
+
+static void
+near(const char *what, double got, double truth, double allowed)
+{
+    if (!(fabs(got - truth) <= allowed))
+        fail_msg("%s: %.17g, not %.17g +- %.2g", what, got, truth, allowed);
+}
+
+/* --- a slider pulled at constant speed ----------------------------------------------------- */
+
+static ss_scene
+slider(double U, double S)
+{
+    ss_scene s = ss_scene_defaults;
+    s.mass = .0307;
+    s.stiffness = 168;
+    s.static_friction = .0602;
+    s.friction = .0452;
+    s.base_velocity = U;
+    s.surface_velocity = S;
+    s.v0 = S;
+    s.duration = 48;
+    s.rate = 2000;
+    return s;
+}
+
+/* Of each slip and stick: its length, the drop of the spring's force, the greatest speed over the
+ * surface. */
+static void
+slides_as_the_closed_form_says(double pull, double belt, const char *method, double allowed)
+{
+    ss_scene s = slider(pull, belt);
+    double drop = s.static_friction - s.friction, w = sqrt(s.stiffness / s.mass), U = pull - belt;
+    double ratio = drop * w / (s.stiffness * fabs(U));
+    double slip = 2 * (M_PI - atan(ratio)) / w, stick = 2 * drop / (s.stiffness * fabs(U));
+    double first = s.static_friction / (s.stiffness * fabs(U));
+    double fastest = fabs(U) * (1 + sqrt(1 + ratio * ratio)), seen = 0, fell = 0;
+    run r = run_by(&s, method);
+    assert_int_equal(r.n_events, 20);
+    near("slip", slip, .042640172992, 1e-12);
+    near("stick", stick, 4.251700680272, 1e-12);
+    for (size_t i = 0; i < r.n_events; i++) {
+        const ss_event *e = &r.event[i];
+        size_t cycle = i / 2;
+        assert_int_equal(e->kind, i % 2 ? SS_STICK : SS_SLIP);
+        assert_int_equal(e->direction, U > 0 ? 1 : -1);
+        near("event", e->t, first + (double)cycle * (slip + stick) + (i % 2 ? slip : 0), allowed * slip);
+        near("v", e->v, belt, allowed * fastest);
+        double stretch = pull * e->t - e->x, force = (i % 2 ? 2 * s.friction - s.static_friction
+                                                      : s.static_friction) * (U > 0 ? 1 : -1);
+        near("force", s.stiffness * stretch, force, allowed * s.friction);
+    }
+    for (size_t i = 0; i < r.n; i++) {
+        seen = fmax(seen, fabs(r.sample[i].v - belt));
+        near("s", r.sample[i].s, s.stiffness * (r.sample[i].z - r.sample[i].x), 1e-14);
+        near("z", r.sample[i].z, pull * r.sample[i].t, 4 * DBL_EPSILON * fabs(r.sample[i].z));
+        fell = i > 0 ? fmax(fell, fabs(r.sample[i - 1].s - r.sample[i].s)) : 0;
+    }
+    assert_true(seen <= fastest * (1 + 1e-9) && seen > fastest * .999);
+    assert_true(fell > 1e-4 && fell < 2 * drop);
+    run_free(&r);
+}
+
+static void
+a_pulled_slider_keeps_its_closed_form(void **state)
+{
+    /* times of events over the length of a slip: where a step leaves 1e-12 f_s / k in x, a stick ends
+     * later by that over U, 2e-10 of a slip */
+    static const double allowed[METHODS] = { 1e-11, 1e-10, 1e-8, 1e-6 };
+    (void)state;
+    for (int i = 0; i < METHODS; i++) {
+        slides_as_the_closed_form_says(42e-6, 0, methods[i], allowed[i]);
+        slides_as_the_closed_form_says(-42e-6, 0, methods[i], allowed[i]);
+        slides_as_the_closed_form_says(0, -42e-6, methods[i], allowed[i]);
+        slides_as_the_closed_form_says(1e-3, 1e-3 - 42e-6, methods[i], allowed[i] * 30);
+    }
+}
+
+/* After so many slips that the pull has gone a million times as far as the spring is stretched.  The
+ * clock of a rig without forcing is its own: what events round of it adds up, as a random walk. */
+static void
+keeps_its_accuracy_over_many_slips(void **state)
+{
+    const char *text = getenv("SLIPS");
+    double slips = text != NULL ? atof(text) : 2e4;
+    ss_scene s = slider(42e-6, 0);
+    double slip = .04264017299204177, stick = 4.251700680272109, T = slip + stick;
+    (void)state;
+    s.settle = s.static_friction / (s.stiffness * s.base_velocity) + (slips - 1.5) * T;
+    s.duration = T;
+    s.rate = 100;
+    run r = run_by(&s, "exact");
+    double end = s.settle + s.duration, rounding = 4 * DBL_EPSILON * end;
+    assert_int_equal(r.n_events, 2);
+    print_message("%g slips: off by %.1e s of %.1e s\n", slips, r.event[0].t - T / 2, end);
+    near("slip", r.event[0].t, T / 2, rounding + 1e-15 * sqrt(slips));
+    near("stick", r.event[1].t, T / 2 + slip, rounding + 1e-15 * sqrt(slips));
+    for (size_t i = 0; i < r.n; i++)
+        assert_true(fabs(r.sample[i].s) <= s.static_friction * (1 + 1e-12));
+    run_free(&r);
+}
+
+/* --- the figures of other programs --------------------------------------------------------- */
+
+static void
+counts_and_times_are_those_of_other_programs(void **state)
+{
+    static const struct {
+        double f_s, f_k, d, U, duration;
+        size_t n;
+        double last;
+    } row[] = {
+        { 0, 1.28, 0, 0, 10, 100, 9.920291043500 },
+        { 1.3, 1.1, 0, 0, 10, 100, 9.891359409654 },
+        { 1.35, 1.1, 0, 0, 10, 100, 9.892812287267 },
+        { 0, 1.28, 5, 0, 10, 100, 9.941036060042 },
+        { 1.4, 1.1, 2, 1e-3, 20, 197, 19.894169835219 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (int k = 0; k < METHODS; k++) {
+            ss_scene s = read_shipped_named("coulomb");
+            s.settle = 0;
+            s.rate = 20;
+            s.static_friction = row[i].f_s;
+            s.friction = row[i].f_k;
+            s.damping = row[i].d;
+            s.base_velocity = row[i].U;
+            s.duration = row[i].duration;
+            run r = run_by(&s, methods[k]);
+            size_t at_start = r.event[0].t == 0;
+            assert_int_equal(r.n_events, row[i].n + at_start);
+            assert_int_equal(r.event[r.n_events - 1].kind, SS_SLIP);
+            near(methods[k], r.event[r.n_events - 1].t, row[i].last, k < 2 ? 1e-12 : 1e-8);
+            run_free(&r);
+        }
+}
+
+/* --- random scenes ------------------------------------------------------------------------- */
+
+typedef struct rng { uint64_t s; } rng;
+
+/* splitmix64 (Steele, Lea & Flood 2014) */
+static double
+uniform(rng *r)
+{
+    uint64_t z = r->s += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+static double
+between(rng *r, double from, double to)
+{
+    return from * pow(to / from, uniform(r));
+}
+
+/* One time in two none of it; else of either sign, if that is asked for. */
+static double
+perhaps(rng *r, double from, double to, int is_signed)
+{
+    double x = between(r, from, to), sign = is_signed && uniform(r) < .5 ? -1 : 1;
+    return uniform(r) < .5 ? 0 : sign * x;
+}
+
+enum { PERIODS = 30, SAMPLES = 300 };
+
+static ss_scene
+random_rig(uint64_t number)
+{
+    rng r = { number * UINT64_C(0xd1342543de82ef95) + 7 };
+    ss_scene s = ss_scene_defaults;
+    double omega = between(&r, 1, 100), X = between(&r, 1e-6, 1e-2), fastest = 1, zeta;
+    s.model = uniform(&r) < .5 ? SS_COULOMB : SS_COMPLIANT;
+    s.mass = between(&r, 1e-3, 1e3);
+    s.stiffness = s.mass * omega * omega;
+    s.friction = between(&r, .01, 2) * s.stiffness * X;
+    s.static_friction = uniform(&r) < .5 ? 0 : s.friction * between(&r, 1, 3);
+    zeta = perhaps(&r, 1e-3, 3, 0);
+    s.damping = zeta * 2 * s.mass * omega;
+    fastest = fmax(fastest, zeta + sqrt(fmax(0, zeta * zeta - 1)));
+    s.base_velocity = perhaps(&r, 1e-3, 1, 1) * X * omega;
+    s.surface_velocity = perhaps(&r, 1e-3, 1, 1) * X * omega;
+    if (uniform(&r) < .75) {
+        double ratio = between(&r, .1, 10);
+        if (fabs(ratio - 1) < .2)
+            ratio += .4;
+        s.base_frequency = ratio * omega / (2 * M_PI);
+        s.base_amplitude = between(&r, .1, 3) * X;
+        s.phase = 2 * M_PI * uniform(&r);
+        fastest = fmax(fastest, ratio);
+    }
+    if (uniform(&r) < .5) {
+        s.x0 = X * (2 * uniform(&r) - 1);
+        s.v0 = X * omega * (2 * uniform(&r) - 1);
+    } else {
+        s.v0 = uniform(&r) < .5 ? s.surface_velocity : 0;
+    }
+    if (s.model == SS_COMPLIANT) {
+        s.contact_stiffness = between(&r, .5, 300) * s.stiffness;
+        double k = s.stiffness + s.contact_stiffness, c = between(&r, 1e-3, 2);
+        s.contact_damping = c * 2 * sqrt(k * s.mass);
+        s.release = uniform(&r) < .5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+        double all = (s.contact_damping + s.damping) / (2 * sqrt(k * s.mass));
+        fastest = fmax(fastest, sqrt(k / s.stiffness) * (all + sqrt(fmax(1, all * all) - 1)));
+        fastest = fmax(fastest, sqrt(k / s.stiffness));
+    }
+    s.duration = PERIODS / fastest * 2 * M_PI / omega;
+    s.rate = SAMPLES / s.duration;
+    return s;
+}
+
+/* A random scene, what the oracle says of it, and how far x moves if the scene changes in its last
+ * digits. */
+typedef struct trial {
+    uint64_t number;
+    ss_scene scene;
+    double *x, *a, scale, spread;
+    oracle *o;
+} trial;
+
+static void
+complain(const trial *t, const char *what, double got, double allowed)
+{
+    fprintf(stderr, "scene %lu: %s: %.3g, allowed %.3g\n", (unsigned long)t->number, what, got,
+            allowed);
+    ss_scene_write(&t->scene, stderr);
+    fail();
+}
+
+static double *
+x_of(const oracle *o, double duration)
+{
+    double *x = malloc(SAMPLES * sizeof *x);
+    for (size_t i = 0, piece = 0; i < SAMPLES; i++) {
+        long double t = (long double)i * duration / SAMPLES, truth[3];
+        while (piece + 1 < o->n && o->piece[piece + 1].t0 <= t)
+            piece++;
+        oracle_at(o, piece, t, truth);
+        x[i] = (double)(truth[0] - o->scene->base_velocity * t);
+    }
+    return x;
+}
+
+static trial
+trial_of(uint64_t number)
+{
+    trial t = { .number = number, .scene = random_rig(number) };
+    ss_scene nudged = t.scene;
+    nudged.mass *= 1 + 4 * DBL_EPSILON;
+    nudged.phase += 4 * DBL_EPSILON;
+    nudged.friction *= 1 - 4 * DBL_EPSILON;
+    t.o = oracle_new(&t.scene, t.scene.duration);
+    oracle *other = oracle_new(&nudged, t.scene.duration);
+    t.x = x_of(t.o, t.scene.duration);
+    double *y = x_of(other, t.scene.duration);
+    for (size_t i = 0; i < SAMPLES; i++) {
+        t.scale = fmax(t.scale, fabs(t.x[i]));
+        t.spread = fmax(t.spread, fabs(t.x[i] - y[i]));
+    }
+    t.scale = fmax(t.scale, fmax(scale_of(&t.scene), t.scene.static_friction / t.scene.stiffness));
+    free(y);
+    oracle_free(other);
+    return t;
+}
+
+/* Pulled without damping and forcing, a mass that has been released by f_s = f_k returns to the velocity
+ * of the surface each period, and touches it: rounding decides whether it sticks for 1e-8 s. */
+static int
+touches(const ss_scene *s)
+{
+    return s->damping == 0 && s->base_amplitude == 0 && !(s->static_friction > s->friction);
+}
+
+static void
+agrees_with_the_oracle(const trial *t, const char *method, double tol)
+{
+    const ss_scene *s = &t->scene;
+    size_t first = t->o->starts_with_event ? 0 : 1;
+    run r = run_with(s, method, fmax(tol, 1e-12), 0);
+    double steps = (double)r.stats.steps + 100;
+    double allowed = 4 * tol * steps * t->scale + 64 * (1 + tol / DBL_EPSILON) * t->spread;
+    double late = 0, off = 0, fastest = sqrt(s->stiffness / s->mass) * t->scale;
+    if (r.status != SS_OK)
+        complain(t, r.err.text, r.status, 0);
+    size_t n = r.n_events < t->o->n - first ? r.n_events : t->o->n - first;
+    for (size_t i = 0; i < n && r.stats.unresolved == 0; i++) {
+        const oracle_piece *p = &t->o->piece[i + first];
+        if (r.event[i].kind != p->kind || r.event[i].direction != p->direction)
+            complain(t, "the kind of an event", (double)i, r.event[i].t);
+        late = fmax(late, fabs(r.event[i].t - (double)p->t0));
+    }
+    if (r.stats.unresolved == 0 && !touches(s) && r.n_events != t->o->n - first
+        && !(t->spread > 1e-10 * t->scale))
+        complain(t, "events", (double)r.n_events, (double)(t->o->n - first));
+    for (size_t i = 0; i < r.n; i++)
+        off = fmax(off, fabs(r.sample[i].x - s->base_velocity * r.sample[i].t - t->x[i]));
+    if (!(off <= allowed))
+        complain(t, method, off / t->scale, allowed / t->scale);
+    /* a crossing that grazes is known to the root of what x is known to */
+    if (!(late * fastest <= sqrt(allowed * t->scale)))
+        complain(t, "time of an event", late * fastest / t->scale, sqrt(allowed / t->scale));
+    run_free(&r);
+}
+
+static size_t
+from_environment(const char *name, size_t otherwise)
+{
+    const char *text = getenv(name);
+    return text != NULL ? strtoul(text, NULL, 10) : otherwise;
+}
+
+static void
+random_rigs_agree_with_the_oracle(void **state)
+{
+    size_t n = from_environment("SCENES", 200), first = from_environment("FIRST", 0);
+    (void)state;
+    for (size_t i = first; i < first + n; i++) {
+        trial t = trial_of(i);
+        agrees_with_the_oracle(&t, "exact", DBL_EPSILON);
+        agrees_with_the_oracle(&t, "rk8pd", 1e-12);
+        free(t.x);
+        oracle_free(t.o);
+    }
+}
+
+/* A belt and a pull are one motion in two frames: x differs by S t and, with damping, by d S / k. */
+static void
+a_belt_and_a_pull_are_one_motion(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 100; i++) {
+        ss_scene belt = random_rig(i), pull;
+        double S = belt.surface_velocity = belt.surface_velocity != 0 ? belt.surface_velocity
+            : 1e-3 * sqrt(belt.stiffness / belt.mass) * belt.friction / belt.stiffness;
+        double zero = belt.damping * S / belt.stiffness;
+        pull = belt;
+        pull.surface_velocity = 0;
+        pull.base_velocity -= S;
+        pull.v0 -= S;
+        pull.x0 += zero;
+        run a = run_by(&belt, "exact"), b = run_by(&pull, "exact");
+        double scale = fmax(fmax(scale_of(&belt), max_x(&a)), max_x(&b)), worst = 0;
+        for (size_t k = 0; k < a.n; k++)
+            worst = fmax(worst, fabs(a.sample[k].x - S * a.sample[k].t + zero - b.sample[k].x));
+        if (a.stats.unresolved == 0)
+            assert_int_equal(a.n_events, b.n_events);
+        near("x", worst / scale, 0, 1e-9);
+        run_free(&a);
+        run_free(&b);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pulled_slider_keeps_its_closed_form),
+        cmocka_unit_test(keeps_its_accuracy_over_many_slips),
+        cmocka_unit_test(counts_and_times_are_those_of_other_programs),
+        cmocka_unit_test(random_rigs_agree_with_the_oracle),
+        cmocka_unit_test(a_belt_and_a_pull_are_one_motion),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
