@@ -2,9 +2,10 @@
  *
  * A WAV file is chunks of a name, a length and so many bytes, filled up to an even number; "fmt " says
  * what "data" holds, and the others do not concern a signal.  A program that writes to a pipe cannot know
- * the lengths and gives some near 2^31 or 2^32, or zeros: then the data end with the file.  A length
- * behind which the file goes on with no chunk is refused, as it is in AU. */
+ * the lengths and gives some near 2^31 or 2^32, or zeros: then the data end with the file, unless it has
+ * so many bytes.  A length behind which the file goes on with no chunk is refused, as it is in AU. */
 #include <string.h>
+#include <sys/stat.h>
 #include "base/error.h"
 #include "stream/clock.h"
 #include "stream/format.h"
@@ -108,6 +109,14 @@ read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length,
                    MAX_CHUNKS);
 }
 
+/* Is it a file of so many bytes, not a pipe? */
+static int
+has_bytes(const struct input *in, uint64_t n)
+{
+    struct stat st;
+    return fstat(fileno(in->file), &st) == 0 && S_ISREG(st.st_mode) && (uint64_t)st.st_size >= n;
+}
+
 static ss_status
 open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
@@ -127,7 +136,7 @@ open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     reader->head->rate = d.rate;
     sample_type type = { .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT,
                          .is_unsigned = d.bits == 8, .little_endian = 1 };
-    int unknown = length >= UNKNOWN_FROM || (length == 0 && all == 0);
+    int unknown = (length >= UNKNOWN_FROM && !has_bytes(in, place + length)) || (length == 0 && all == 0);
     ss_frames_begin(reader, type, unknown ? UINT64_MAX : length, place + length);
     reader->is_chunk = 1;
     return ss_refuse_clock(in->name, reader->head->rate, opts, err);
