@@ -106,6 +106,32 @@ signals_keep_long_names_in_every_form(void **state)
 }
 
 static void
+coefficients_have_a_long_unit_whole(void **state)
+{
+    ss_signal *signal = signal_named("x");
+    ss_coefficients *c = transform(signal, 0);
+    ss_header *head = ss_header_new(signal->head->rate, 0);
+    char unit[LETTERS + 20] = "";
+    (void)state;
+    assert_int_equal(ss_header_add_column(head, "x", longest), SS_OK);
+    ss_header_free(c->head);
+    c->head = head;
+    write_ok(&(ss_record){ .coefficients = c });
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t id = H5Aopen_by_name(file, "/wavelet/scale000/re", "units", H5P_DEFAULT, H5P_DEFAULT);
+    hid_t type = H5Aget_type(id);
+    assert_int_equal(H5Tget_size(type), LETTERS + sizeof " s^0.5");
+    assert_true(H5Aread(id, type, unit) >= 0);
+    assert_memory_equal(unit, longest, LETTERS);
+    assert_string_equal(unit + LETTERS, " s^0.5");
+    H5Tclose(type);
+    H5Aclose(id);
+    H5Fclose(file);
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
+static void
 signals_with_long_names_are_drawn(void **state)
 {
     const char *const name[] = { longest, control };
@@ -286,6 +312,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(signals_keep_long_names_in_every_form),
+        cmocka_unit_test(coefficients_have_a_long_unit_whole),
         cmocka_unit_test(signals_with_long_names_are_drawn),
         cmocka_unit_test(paths_of_10000_letters_are_refused),
         cmocka_unit_test(readers_stand_long_words_in_files_of_long_names),

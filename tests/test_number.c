@@ -10,6 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include <stickslip/signal.h>
+#include "stream/rows.h"
 
 static uint64_t
 next_random(uint64_t *s)
@@ -197,6 +198,21 @@ does_not_care_about_the_locale(void **state)
     assert_true(fast == 0.25 && slow == 8.5e-320);
 }
 
+/* A number longer than its room is written otherwise, not cut. */
+static void
+a_fixed_number_is_never_cut(void **state)
+{
+    static const double x[] = { 0, 99.98, -1e20, 1.5e28, -1e29, 1e40, -1.25e300, DBL_MAX, DBL_MIN };
+    (void)state;
+    for (size_t i = 0; i < sizeof x / sizeof *x; i++)
+        for (int decimals = 0; decimals <= 40; decimals += 2) {
+            char text[SS_NUMBER_MAX];
+            double least = 0.5000001 * pow(10, -decimals);
+            assert_true(fabs(ss_number_parse(ss_number_fixed(text, x[i], decimals), NULL) - x[i])
+                        <= fmax(least, 1e-8 * fabs(x[i])));
+        }
+}
+
 int
 main(void)
 {
@@ -207,6 +223,7 @@ main(void)
         cmocka_unit_test(reads_any_number_of_digits_as_strtod_does),
         cmocka_unit_test(reads_hard_cases),
         cmocka_unit_test(stops_where_the_number_ends),
+        cmocka_unit_test(a_fixed_number_is_never_cut),
         cmocka_unit_test(does_not_care_about_the_locale),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);

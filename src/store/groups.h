@@ -36,7 +36,7 @@ typedef struct wavelet_writer {
     ss_scale *scale;
     ss_span *gap;
     size_t n_gaps;
-    char unit[256];             /* of the coefficients */
+    char *unit;                 /* of the coefficients */
     int dense;
     hid_t group;
     struct rows *rows;          /* of each scale; if dense, the first has the datasets of all */

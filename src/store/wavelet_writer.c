@@ -23,13 +23,18 @@ is_dense(const wavelet_writer *w)
     return w->n_scales > 0;
 }
 
-static void
-name_unit(char unit[256], const ss_header *head)
+/* The unit of the coefficients, to be freed. */
+static char *
+name_unit(const ss_header *head)
 {
     const char *of = head->n_columns > 0 ? head->column[0].unit : "";
     const char *norm = ss_header_find_note(head, "norm");
     int l1 = norm != NULL && strcmp(norm, "l1") == 0;
-    snprintf(unit, 256, "%s%s%s", of, *of != '\0' && !l1 ? " " : "", l1 ? "" : "s^0.5");
+    size_t size = strlen(of) + sizeof " s^0.5";
+    char *unit = malloc(size);
+    if (unit != NULL)
+        snprintf(unit, size, "%s%s%s", of, *of != '\0' && !l1 ? " " : "", l1 ? "" : "s^0.5");
+    return unit;
 }
 
 /* The datasets of scale i, which are lines, or those of all scales, which are rectangles. */
@@ -122,13 +127,13 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
     w->n_scales = grid->n_scales;
     w->scale = malloc((grid->n_scales + 1) * sizeof *w->scale);
     w->rows = malloc((grid->n_scales + 1) * sizeof *w->rows);
-    if (w->scale == NULL || w->rows == NULL)
+    w->unit = name_unit(grid->head);
+    if (w->scale == NULL || w->rows == NULL || w->unit == NULL)
         return SS_ENOMEM;
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     for (size_t i = 0; i <= grid->n_scales; i++)
         w->rows[i] = (struct rows){ -1, -1, -1, -1, 0 };
     w->dense = is_dense(w);
-    name_unit(w->unit, grid->head);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
 }
 
@@ -249,6 +254,7 @@ ss_wavelet_writer_end(wavelet_writer *w, size_t samples)
 void
 ss_wavelet_writer_free(wavelet_writer *w)
 {
+    free(w->unit);
     free(w->scale);
     free(w->rows);
     free(w->gap);

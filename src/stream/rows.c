@@ -130,6 +130,7 @@ const char *
 ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals)
 {
     char raw[SS_NUMBER_MAX];
-    snprintf(raw, sizeof raw, "%.*f", decimals, x);
+    if (snprintf(raw, sizeof raw, "%.*f", decimals, x) >= (int)sizeof raw)
+        snprintf(raw, sizeof raw, "%.9g", x);
     return copy_number(text, isnan(x) ? "-" : raw);
 }

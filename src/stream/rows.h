@@ -38,7 +38,7 @@ void ss_rows_end(struct rows *rows);
 const char *ss_number_text(char text[SS_NUMBER_MAX], double x);
 /* The same in so many digits. */
 const char *ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits);
-/* The same with so many decimals, which may be zeros; |x| < 1e15 and decimals < 12. */
+/* The same with so many decimals, which may be zeros; in nine digits where that is too long. */
 const char *ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals);
 
 #endif
