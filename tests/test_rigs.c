@@ -166,6 +166,60 @@ counts_and_times_are_those_of_other_programs(void **state)
         }
 }
 
+/* --- a friction that falls with speed ------------------------------------------------------- */
+
+static const char *const one_step[] = { "rk8pd", "rkf45", "bsimp" };
+
+/* R. I. Leine, D. H. van Campen, A. de Kraker and L. van den Steen, Nonlinear Dynamics 16 (1998):
+ * f = 1 / (1 + 3 |v|) on a belt at 0.2; to 12 digits by another program.  The same pulled at -0.2. */
+static void
+a_falling_friction_cycles_as_published(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        ss_scene s = ss_scene_defaults;
+        s.model = SS_STRIBECK;
+        s.mass = s.stiffness = s.static_friction = 1;
+        s.stribeck_velocity = 1. / 3;
+        s.surface_velocity = s.v0 = i < 3 ? .2 : 0;
+        s.base_velocity = i < 3 ? 0 : -.2;
+        s.settle = 40;
+        s.duration = 30;
+        run r = run_by(&s, one_step[i % 3]);
+        assert_true(r.n_events >= 4);
+        for (size_t k = 1; k < r.n_events; k++) {
+            double part = r.event[k].kind == SS_STICK ? 4.295999525480 : 7.705031769350;
+            near(one_step[i % 3], r.event[k].t - r.event[k - 1].t, part, i % 3 == 0 ? 2e-12 : 1e-9);
+            assert_int_equal(r.event[k].direction, -1);
+        }
+        run_free(&r);
+    }
+}
+
+/* Far below v_s the friction in slip is f_s, far above it f_k. */
+static void
+a_falling_friction_is_coulombs_at_its_ends(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        ss_scene s = read_shipped_named("coulomb"), law;
+        s.friction = i == 0 ? 1.3 : 1.1;
+        s.static_friction = 1.3;
+        s.settle = 0;
+        s.damping = 2;
+        s.base_velocity = 1e-3;
+        law = s;
+        law.model = SS_STRIBECK;
+        law.friction = 1.1;
+        law.stribeck_velocity = i == 0 ? 1e8 : 1e-11;
+        run a = run_by(&s, "exact"), b = run_by(&law, "rk8pd");
+        assert_int_equal(a.n_events, b.n_events);
+        near("x", difference(&a, &b, 1), 0, 1e-8 * max_x(&a));
+        run_free(&a);
+        run_free(&b);
+    }
+}
+
 /* --- random scenes ------------------------------------------------------------------------- */
 
 typedef struct rng { uint64_t s; } rng;
@@ -389,6 +443,8 @@ main(void)
         cmocka_unit_test(a_pulled_slider_keeps_its_closed_form),
         cmocka_unit_test(keeps_its_accuracy_over_many_slips),
         cmocka_unit_test(counts_and_times_are_those_of_other_programs),
+        cmocka_unit_test(a_falling_friction_cycles_as_published),
+        cmocka_unit_test(a_falling_friction_is_coulombs_at_its_ends),
         cmocka_unit_test(random_rigs_agree_with_the_oracle),
         cmocka_unit_test(a_belt_and_a_pull_are_one_motion),
     };

@@ -152,7 +152,7 @@ static const struct { const char *text, *setting; ss_status status; const char *
     { "model=compliant\n" GOOD "contact_stiffness = 3\n", NULL, SS_EDATA,
       "my.scene:8: missing key 'contact_damping', which model compliant needs" },
     { "model=sliding\n", NULL, SS_EDATA, "my.scene:1: model is 'sliding', but must be one of "
-      "coulomb, state-variable, compliant" },
+      "coulomb, state-variable, compliant, stribeck" },
     { "model=coulomb\n" GOOD "static_friction = .5\n", NULL, SS_EDATA, "my.scene:7: static_friction is less "
       "than friction, it must be at least as large" },
     { "model=coulomb\nstatic_friction=2\n" GOOD, "friction=3", SS_EINVAL, "static_friction is less than "

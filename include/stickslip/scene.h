@@ -15,7 +15,8 @@ SS_BEGIN_DECLARATIONS
 typedef enum ss_model {
     SS_COULOMB,             /* f = f_k sgn(v); sticks while |k (z - x)| <= f_k */
     SS_STATE_VARIABLE,      /* f = theta, theta' = -gamma (theta - f_k tanh(alpha v)) */
-    SS_COMPLIANT            /* Coulomb through a massless contact of stiffness K_y and damping c */
+    SS_COMPLIANT,           /* Coulomb through a massless contact of stiffness K_y and damping c */
+    SS_STRIBECK             /* f falls from f_s to f_k with speed; sticks as SS_COULOMB */
 } ss_model;
 
 typedef enum ss_law {
@@ -47,6 +48,8 @@ typedef struct ss_scene {
     double contact_stiffness;   /* K_y    [N/m]    > 0         compliant only */
     double contact_damping;     /* c      [N s/m] >= 0         compliant only */
     ss_release release;         /*                             compliant only */
+
+    double stribeck_velocity;   /* v_s    [m/s]    > 0         stribeck only */
 
     double settle;              /* [s] >= 0  simulated before the record starts, not written */
     double duration;            /* [s] >= 0  length of the record */
@@ -120,7 +123,7 @@ const ss_scene_range *ss_model_range(ss_model model, size_t i);
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
 /* Properties of a model; "?" or 0 for a number that is not that of a model. */
-const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", "compliant" */
+const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", ... */
 int ss_model_has_events(ss_model model);            /* stick, slip and reverse */
 int ss_model_is_linear(ss_model model);             /* between events: it has a closed form */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */

@@ -155,6 +155,16 @@ amplitude_of(const ss_scene *s)                     /* X of the supported ranges
     return pull_of(s) != 0 ? fmax(X, static_friction(s) / s->stiffness) : X;
 }
 
+/* A friction may switch over within |v| = front.  A step from well before to well after that sees
+ * neither, and nor does its error estimate: so v may change by at most half its size and one such
+ * width, as far as v' and v'' tell. */
+static inline double
+sight_of(double v, double front, double a, double jerk)
+{
+    double far = fabs(v) / 2 + front;
+    return 2 * far / (fabs(a) + sqrt(a * a + 2 * fabs(jerk) * far));
+}
+
 static inline int
 sign(double x)
 {

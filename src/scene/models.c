@@ -4,7 +4,8 @@
 #define MODELS(model) \
     model(ss_coulomb_model) \
     model(ss_state_variable_model) \
-    model(ss_compliant_model)
+    model(ss_compliant_model) \
+    model(ss_stribeck_model)
 
 #define DECLARE(name) extern const struct model name;
 #define POINT_TO(name) &name,

@@ -120,17 +120,13 @@ rates(const state *m, double drive, const double q[], double dqdt[])
     dqdt[2] = -rate * (q[2] - goal * tanh(s->alpha * q[1]));
 }
 
-/* The friction switches over within |v| = 1/alpha.  A step from well before to well after that front
- * evaluates the same tanh at all its points, and so does its error estimate: so v may change by at
- * most half its size and one width, as far as v' and v'' tell. */
 static double
 sight(const state *m, const double dqdt[])
 {
     const ss_scene *s = m->scene;
-    double far = fabs(m->q[1]) / 2 + 1 / s->alpha, a = fabs(dqdt[1]);
-    double jerk = fabs(base_force_rate(m, m->u) - s->stiffness * dqdt[0] - s->damping * dqdt[1]
-                       - dqdt[2]) / s->mass;
-    return 2 * far / (a + sqrt(a * a + 2 * jerk * far));
+    return sight_of(m->q[1], 1 / s->alpha, dqdt[1],
+                    (base_force_rate(m, m->u) - s->stiffness * dqdt[0] - s->damping * dqdt[1]
+                     - dqdt[2]) / s->mass);
 }
 
 static void

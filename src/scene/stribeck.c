@@ -1,0 +1,86 @@
+/* stribeck.c -- friction that falls with speed, f = sgn(v) (f_k + (f_s - f_k) / (1 + |v| / v_s)) in slip;
+ * true stick (stick.c). */
+#include "scene/model.h"
+
+static const scene_key keys[] = {
+    KEY_STATIC_FRICTION,
+    KEY_NUMBER(stribeck_velocity, REQUIRED, POSITIVE, "m/s"),
+};
+
+static double
+stribeck_speed(const ss_scene *s)
+{
+    double X = amplitude_of(s);
+    return X > 0 ? s->stribeck_velocity / own_frequency(s) / X : NAN;
+}
+
+static const ss_scene_range ranges[] = {
+    { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, stribeck_speed },
+};
+
+/* The friction in slip and its rate of change by v.  A step that goes past its end at v = 0 sees the
+ * law of |v| in the direction of the mode. */
+static double
+friction_at(const state *m, double v, double *slope)
+{
+    const ss_scene *s = m->scene;
+    double part = 1 / (1 + fabs(v) / s->stribeck_velocity), fall = static_friction(s) - s->friction;
+    *slope = -m->mode * sign(v) * fall * part * part / s->stribeck_velocity;
+    return m->mode * (s->friction + fall * part);
+}
+
+/* Where the friction falls the steps follow the tolerance. */
+static double
+quickest(const ss_scene *s)
+{
+    return (static_friction(s) - s->friction) / s->stribeck_velocity / s->mass + own_frequency(s);
+}
+
+static void
+rates(const state *m, double drive, const double q[], double dqdt[])
+{
+    double slope, f = friction_at(m, q[1], &slope);
+    dqdt[0] = q[1];
+    dqdt[1] = (drive - f - m->k * q[0] - m->c * q[1]) / m->scene->mass;
+}
+
+static void
+jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
+{
+    double slope;
+    ss_linear_jacobian(m, u, q, dfdq, dfdt);
+    friction_at(m, q[1], &slope);
+    dfdq[3] -= slope / m->scene->mass;
+}
+
+static double
+sight(const state *m, const double dqdt[])
+{
+    double slope, front = m->scene->stribeck_velocity;
+    friction_at(m, m->q[1], &slope);
+    return sight_of(m->q[1], front, dqdt[1], (base_force_rate(m, m->u) - m->k * dqdt[0]
+                                              - (m->c + slope) * dqdt[1]) / m->scene->mass);
+}
+
+static void
+sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+{
+    double slope;
+    int still = m->mode == 0;
+    s->x = q[0];
+    s->v = q[1];
+    s->a = still ? 0 : dqdt[1];
+    s->f = still ? ss_stick_force(m, drive, q[0]) : friction_at(m, q[1], &slope);
+    s->y = 0;
+    s->mode = m->mode;
+}
+
+const struct model ss_stribeck_model = {
+    .name = "stribeck",
+    .keys = keys, .n_keys = sizeof keys / sizeof *keys,
+    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
+    .dim = 2, .force_varies = IN_SLIP,
+    .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight, .rates = rates,
+    .jacobian = jacobian, .guard = ss_linear_slip_guard, .still = ss_stick_still,
+    .next = ss_stick_next, .sample = sample
+};
