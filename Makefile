@@ -81,7 +81,7 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
-TOOL_OBJ := $(BUILD)/tools/common.o $(BUILD)/tools/files.o
+TOOL_OBJ := $(BUILD)/tools/common.o $(BUILD)/tools/files.o $(BUILD)/tools/output.o
 OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
 	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
@@ -139,7 +139,8 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc fftw_free
 $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
-$(BUILD)/tests/test_sim $(BUILD)/tests/test_trade $(BUILD)/tests/test_rigs: $(BUILD)/tests/oracle.o
+$(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_trade $(BUILD)/tests/test_rigs: \
+	$(BUILD)/tests/oracle.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o $(STATIC)

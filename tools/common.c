@@ -18,7 +18,6 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -303,6 +302,16 @@ tool_choice(const char *option, const char *text, const char *const choice[])
     tool_usage("%s: '%s' is none of %s", option, text, list);
 }
 
+const char *
+tool_method(const char *text)
+{
+    enum { MOST = 32 };
+    const char *method[MOST + 1] = { NULL };
+    for (size_t i = 0; i < MOST && ss_sim_method_name(i) != NULL; i++)
+        method[i] = ss_sim_method_name(i);
+    return method[tool_choice("--method", text, method)];
+}
+
 /* --- input --------------------------------------------------------------------------------- */
 
 const char *
@@ -439,43 +448,7 @@ tool_column(const ss_header *head, const char *path, const char *name)
     tool_die("%s: no column '%s', there are %s", tool_input_name(path), name, list);
 }
 
-/* --- output -------------------------------------------------------------------------------- */
-
-static const char *const ending[] = { "h5", "gp", "png", "svg", "pdf" };
-
-ss_format
-tool_stream(tool_kind kind)
-{
-    return (ss_format)(kind - TOOL_STREAM);
-}
-
-static int
-is_name(char *list, size_t size, const char *name, const char *wanted)
-{
-    size_t n = strlen(list);
-    snprintf(list + n, size - n, " .%s", name);
-    return wanted != NULL && strcmp(wanted, name) == 0;
-}
-
-tool_kind
-tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
-{
-    char list[256] = "";
-    ss_format format;
-    tool_writes(path);
-    if (path == NULL || strcmp(path, "-") == 0)
-        return fallback;
-    const char *dot = strrchr(path, '.'), *wanted = dot != NULL ? dot + 1 : NULL, *name;
-    for (size_t i = 0; (allowed & TOOL_NUMBERS) && (name = ss_format_name(i)) != NULL; i++)
-        if (ss_format_find(&format, name)
-            && ((allowed & TOOL_NUMBERS) == TOOL_NUMBERS || ss_format_has_words(format))
-            && is_name(list, sizeof list, name, wanted))
-            return (tool_kind)(TOOL_STREAM + format);
-    for (int i = TOOL_H5; i < TOOL_STREAM; i++)
-        if ((allowed & 1u << i) && is_name(list, sizeof list, ending[i], wanted))
-            return (tool_kind)i;
-    tool_usage("--output: the ending of '%s' gives the form and must be one of%s", path, list);
-}
+/* --- the end ------------------------------------------------------------------------------- */
 
 /* What it cost, gnuplot with it; memory at most, of whichever took more. */
 static void
@@ -510,178 +483,4 @@ tool_end(void)
     note_cost();
     if (tool_stopping())                /* as a shell expects it, after a whole last row */
         raise(asked_to_stop);
-}
-
-tool_kind
-tool_format(const char *text)
-{
-    enum { MOST = 32 };
-    const char *name[MOST + 1] = { NULL };
-    ss_format format = SS_TSV;
-    for (size_t i = 0; i < MOST && ss_format_name(i) != NULL; i++)
-        name[i] = ss_format_name(i);
-    ss_format_find(&format, name[tool_choice("--format", text, name)]);
-    return (tool_kind)(TOOL_STREAM + format);
-}
-
-const char *
-tool_method(const char *text)
-{
-    enum { MOST = 32 };
-    const char *method[MOST + 1] = { NULL };
-    for (size_t i = 0; i < MOST && ss_sim_method_name(i) != NULL; i++)
-        method[i] = ss_sim_method_name(i);
-    return method[tool_choice("--method", text, method)];
-}
-
-void
-tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
-{
-    ss_error err = { 0 };
-    if (kind == TOOL_H5)
-        tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
-                   &err);
-    else
-        tool_check(ss_signal_write(signal, tool_output(path), tool_stream(kind), &err), &err);
-}
-
-/* The last line of gnuplot's words is the reason; those above quote the script. */
-static void
-last_line(FILE *words, char *line, int size)
-{
-    char text[256];
-    rewind(words);
-    while (fgets(text, sizeof text, words) != NULL) {
-        text[strcspn(text, "\n")] = '\0';
-        if (text[strspn(text, " \t^")] != '\0')
-            snprintf(line, (size_t)size, "%s", text + strspn(text, " \t"));
-    }
-}
-
-/* gnuplot runs the commands in GNUTERM and takes folders, fonts and programs from other variables: it
- * gets only those that it needs to start and to find the fonts of the machine. */
-static void
-clear_environment(void)
-{
-    extern char **environ;
-    static const char *const kept[] = { "PATH", "HOME", "TMPDIR", "LD_LIBRARY_PATH", "FONTCONFIG_PATH",
-        "FONTCONFIG_FILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME" };
-    size_t n = 0;
-    for (char **entry = environ; *entry != NULL; entry++)
-        for (size_t i = 0, length; i < sizeof kept / sizeof *kept; i++)
-            if (strncmp(*entry, kept[i], length = strlen(kept[i])) == 0 && (*entry)[length] == '=') {
-                environ[n++] = *entry;
-                break;
-            }
-    environ[n] = NULL;
-    setenv("TZ", "UTC0", 1);            /* of the date in a PDF */
-}
-
-/* Start gnuplot on a script, without the settings of a user; its words go to a file, its picture comes through *picture. */
-static pid_t
-start_gnuplot(FILE *script, FILE *words, FILE **picture)
-{
-    int fd[2];
-    if (pipe(fd) != 0)
-        tool_die("%s", strerror(errno));
-    pid_t child = fork();
-    if (child == 0) {
-        dup2(fileno(script), STDIN_FILENO);
-        dup2(fd[1], STDOUT_FILENO);
-        dup2(fileno(words), STDERR_FILENO);
-        close(fd[0]);
-        close(fd[1]);
-        clear_environment();
-        execlp("gnuplot", "gnuplot", "-d", "-", (char *)NULL);
-        _exit(127);
-    }
-    close(fd[1]);
-    *picture = child > 0 ? fdopen(fd[0], "rb") : NULL;
-    if (*picture == NULL)
-        tool_die("%s", strerror(errno));
-    return child;
-}
-
-/* The time at which Cairo wrote a PDF would make two of one script differ: it is replaced. */
-static void
-fix_date(char *picture, size_t n)
-{
-    static const char key[] = "/CreationDate (D:", date[] = "20000101000000";
-    size_t key_length = sizeof key - 1, length = sizeof date - 1;
-    for (size_t i = 0; i + key_length + length <= n; i++)
-        if (memcmp(picture + i, key, key_length) == 0
-            && strspn(picture + i + key_length, "0123456789") == length)
-            memcpy(picture + i + key_length, date, length);
-}
-
-/* All bytes of a pipe, to be freed. */
-static char *
-read_all(FILE *in, size_t *n)
-{
-    char *bytes = NULL, piece[BUFSIZ];
-    FILE *out = open_memstream(&bytes, n);
-    size_t got;
-    if (out == NULL)
-        tool_die("%s", strerror(errno));
-    while ((got = fread(piece, 1, sizeof piece, in)) > 0)
-        fwrite(piece, 1, got, out);
-    if (fclose(out) != 0)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    return bytes;
-}
-
-/* gnuplot says nothing of a full disk, so it is we who write what it draws. */
-static void
-run_gnuplot(FILE *script, FILE *out)
-{
-    char reason[256] = "gnuplot failed";
-    FILE *words = tmpfile(), *picture;
-    size_t n;
-    int status;
-    if (words == NULL)
-        tool_die("%s", strerror(errno));
-    pid_t child = start_gnuplot(script, words, &picture);
-    char *drawn = read_all(picture, &n);
-    fclose(picture);
-    if (waitpid(child, &status, 0) != child)
-        tool_die("%s", strerror(errno));
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-        tool_die("gnuplot not found; install it, or write a script with -o FILE.gp");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || n == 0) {
-        last_line(words, reason, sizeof reason);
-        tool_die("%s", reason);
-    }
-    fclose(words);
-    fix_date(drawn, n);
-    fwrite(drawn, 1, n, out);       /* tool_end looks for errors */
-    free(drawn);
-}
-
-ss_plot_style
-tool_style(const char *text)
-{
-    static const char *const style[] = { "paper", "screen", NULL };
-    return tool_choice("--style", text, style) == 0 ? SS_PAPER : SS_SCREEN;
-}
-
-void
-tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
-{
-    ss_error err = { 0 };
-    tool_kind kind = tool_output_kind(path, TOOL_PICTURES, TOOL_GP);
-    FILE *out = tool_output(path), *script = kind == TOOL_GP ? out : tmpfile();
-    if (script == NULL)
-        tool_die("%s", strerror(errno));
-    if (kind != TOOL_GP)
-        opts->format = ending[kind];
-    ss_status status = write_script(script, opts, user, &err);
-    if (status == SS_EIO)
-        tool_die("write error: %s", strerror(errno));
-    tool_check(status, &err);
-    if (kind == TOOL_GP)
-        return;
-    if (fflush(script) != 0 || fseek(script, 0, SEEK_SET) != 0)
-        tool_die("write error: %s", strerror(errno));
-    run_gnuplot(script, out);
-    fclose(script);
 }

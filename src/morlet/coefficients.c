@@ -21,20 +21,12 @@ ss_coefficients_free(ss_coefficients *coefficients)
     free(coefficients);
 }
 
-/* 1 if within the width of the cone of influence of a gap. */
-static int
-near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
-{
-    return ss_gaps_near(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
-}
-
 int
 ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
 {
     if (c == NULL || i >= c->n_scales)
         return 1;
-    const ss_scale *scale = &c->scale[i];
-    return ss_scale_edge(scale, k, c->n, c->head->rate) || near_gap(c, scale, k);
+    return wavelet_edge(&c->scale[i], k, c->n, c->head->rate, c->head->start, c->gap, c->n_gaps);
 }
 
 double

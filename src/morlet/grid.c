@@ -26,7 +26,7 @@ static const int odd_part[] = { 1, 35, 9, 5, 21, 45, 3, 25, 7, 15 };
 enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
 
 const ss_morlet_opts ss_morlet_defaults = {
-    .center = 6, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
+    .center = WAVELET_CENTER, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
     .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE,
     .threads = 1
 };
@@ -190,7 +190,7 @@ ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate)
 {
     if (scale == NULL)
         return 1;
-    double b = ss_scale_b(scale, k), cone = sqrt(2) * scale->a;
+    double b = ss_scale_b(scale, k), cone = wavelet_cone(scale->a);
     return b < cone || (double)(n - 1) / rate - b < cone;
 }
 

@@ -5,10 +5,10 @@
 #include <float.h>
 #include <stddef.h>
 #include <stickslip/morlet.h>
+#include "morlet/wavelet.h"
 
 /* The note of a stepped grid whose translations are fractions of samples: without it they are n B_0 a. */
 #define SS_LATTICE "b = n B, B the largest 2^p/m samples <= step a, m of 1 3 5 7 9 15 21 25 35 45"
-#define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 /* The share of the promised 16 eps for the parts of the wavelet that are left out. */
 #define TAIL_FLOOR (4 * DBL_EPSILON)
 #define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "morlet/wavelet.h"
 #include "store/groups.h"
 
 struct rows {
@@ -198,9 +199,8 @@ write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t sample
     for (size_t k = 0; k < n; k++) {
         p->value[0][k] = x[2 * k];
         p->value[1][k] = x[2 * k + 1];
-        p->edge[k] = (unsigned char)(ss_scale_edge(scale, first + k, samples, p->rate)
-            || ss_gaps_near(w->gap, w->n_gaps, p->start + ss_scale_b(scale, first + k),
-                            sqrt(2) * scale->a));
+        p->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, p->rate, p->start, w->gap,
+                                                 w->n_gaps);
     }
     return ss_h5_write_piece(rows->re, rank, at, n, H5T_NATIVE_DOUBLE, p->value[0])
         && ss_h5_write_piece(rows->im, rank, at, n, H5T_NATIVE_DOUBLE, p->value[1])

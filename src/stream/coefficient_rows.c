@@ -79,9 +79,8 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
     length += write_number(m_and_a + length, scale->a, 0);
     for (size_t i = 0; i < n; i++, w += 2) {
         double b = ss_scale_b(scale, first + i);
-        int edge = ss_scale_edge(scale, first + i, samples, writer->rate)
-            || (writer->n_gaps > 0 && ss_gaps_near(writer->gap, writer->n_gaps, writer->start + b,
-                                                   sqrt(2) * scale->a));
+        int edge = wavelet_edge(scale, first + i, samples, writer->rate, writer->start, writer->gap,
+                                writer->n_gaps);
         char *to = writer->out.buffer + writer->out.used;
         memcpy(to, m_and_a, sizeof m_and_a);    /* a known size is copied without a call */
         to += length;

@@ -15,13 +15,6 @@
 #include "stream/coefficient_rows.h"
 #include "stream/reader.h"
 
-/* 1 if nearer to a gap than the cone of influence is wide. */
-static int
-near_gap(const ss_coefficients *c, const ss_scale *scale, size_t k)
-{
-    return ss_gaps_near(c->gap, c->n_gaps, c->head->start + ss_scale_b(scale, k), sqrt(2) * scale->a);
-}
-
 /* A scale of which rows have come. */
 typedef struct part {
     ss_scale scale;             /* n is what the grid has, SIZE_MAX until that is known */
@@ -200,7 +193,8 @@ append(part *p, double re, double im)
 static int
 known_edge(const reader *r, const part *p, size_t k, size_t n)
 {
-    return ss_scale_edge(&p->scale, k, n, r->coef->head->rate) || near_gap(r->coef, &p->scale, k);
+    const ss_coefficients *c = r->coef;
+    return wavelet_edge(&p->scale, k, n, c->head->rate, c->head->start, c->gap, c->n_gaps);
 }
 
 /* Is that the edge?  Where the end is not known, this is looked at again by check_tail. */

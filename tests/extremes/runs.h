@@ -1,4 +1,4 @@
-/* runs.h -- a scene run and kept, and runs compared: for test_sim, test_extremes and test_random. */
+/* runs.h -- a scene run and kept, and runs compared: for the tests of simulation, test_extremes and test_random. */
 #ifndef RUNS_H
 #define RUNS_H
 

@@ -1,0 +1,160 @@
+/* choose.c -- the cheapest method and tolerance that keep an accuracy on a scene.
+ *
+ * A run that is repeated has the same error, as nothing here is random except the time.  So an
+ * accuracy that is promised holds except for the samples that were not compared and the error of the
+ * reference: the margin is for these. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/range.h"
+#include "motion/engine.h"
+#include "study/trade/runs.h"
+
+#define OUTRAGEOUS 300              /* times the steps of the reference: SS_EBUDGET */
+
+const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
+
+/* What a right-hand side costs with all that goes with it, in those of rk8pd, and how many a step,
+ * or a sample within one, needs: measured with ss-trade on the state-variable scene, for the order
+ * of the methods only. */
+static const struct cost { const char *method; double rhs; unsigned a_step; int at_samples; }
+cost[] = {
+    { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 }, { "rk4", 1, 11, 1 },
+    { "rk2", 1.2, 3, 1 }, { "rk1imp", 3.5, 9, 1 }, { "rk2imp", 3.5, 9, 1 },
+    { "rk4imp", 3.3, 17, 1 }, { "bsimp", 3, 50, 1 }, { "msadams", 4.6, 3, 0 },
+    { "msbdf", 6.4, 3, 0 },
+};
+enum { COSTS = sizeof cost / sizeof *cost };
+
+typedef struct choice {
+    probe p;
+    run ref, run;
+    double known, accuracy;
+    unsigned long user_steps;       /* of opts */
+    double tol, reached;            /* of the last method, SS_OK; the least error seen */
+} choice;
+
+/* The loosest tolerance at which the method keeps the accuracy. */
+static ss_status
+loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
+{
+    ss_status st = SS_ETOL;
+    s->reached = INFINITY;
+    for (int i = 0; i < TOLERANCES; i++) {
+        if (ss_trade_tolerance[i] > 1.001e3 * s->accuracy)
+            continue;
+        st = ss_trade_run(&s->run, &s->p, method, ss_trade_tolerance[i], max_steps, err);
+        if (st != SS_OK)
+            return st;
+        double error = fmax(ss_trade_error_x(&s->run, &s->ref), s->known);
+        s->reached = fmin(s->reached, error);
+        s->tol = ss_trade_tolerance[i];
+        if (MARGIN * error <= s->accuracy && s->run.stats.events == s->ref.stats.events)
+            return SS_OK;
+    }
+    return SS_ETOL;
+}
+
+static ss_status
+choose_given(choice *s, const char *method, ss_error *err)
+{
+    double most = OUTRAGEOUS * (double)(s->ref.stats.steps + 1);
+    if (s->user_steps > 0)
+        most = fmin(most, (double)s->user_steps);
+    ss_status st = loosest(s, method, (unsigned long)most, err);
+    if (st == SS_EBUDGET && isfinite(s->reached))
+        return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g; with fewer x "
+                       "was %.2g of its maximum off", method, most, s->accuracy, s->reached);
+    if (st == SS_ETOL && isfinite(s->reached))
+        return ss_fail(err, st, "%s keeps no accuracy of %g: x was %.2g of its maximum off at best",
+                       method, s->accuracy, s->reached);
+    return st;
+}
+
+/* Without a closed form: a method is stopped when it has done the work of the best.  Each sample
+ * costs the one-step methods a step of its own. */
+static ss_status
+choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < COSTS; i++) {
+        double most = least / cost[i].rhs / cost[i].a_step;
+        if (cost[i].at_samples)
+            most -= (double)ss_scene_samples(&s->p.scene);
+        most = fmin(most, OUTRAGEOUS * (double)(s->ref.stats.steps + 1));
+        if (s->user_steps > 0)
+            most = fmin(most, (double)s->user_steps);
+        if (!(most >= 1))
+            continue;
+        ss_status st = loosest(s, cost[i].method, (unsigned long)most, err);
+        double work = cost[i].rhs * (double)s->run.stats.rhs;
+        if (st == SS_OK && work < least) {
+            least = work;
+            opts->method = cost[i].method;
+            opts->tol = s->tol;
+        } else if (st == SS_STOP || st == SS_ENOMEM) {
+            return st;
+        }
+    }
+    if (isfinite(least))
+        return SS_OK;
+    return ss_fail(err, SS_ETOL, "no method keeps an accuracy of %g in this scene", s->accuracy);
+}
+
+static ss_status
+choose(choice *s, ss_sim_opts *opts, ss_error *err)
+{
+    char reference[64];
+    int is_linear = ss_model_is_linear(s->p.scene.model);
+    ss_status st = ss_trade_run_init(&s->ref, &s->p);
+    if (st == SS_OK)
+        st = ss_trade_run_init(&s->run, &s->p);
+    if (st == SS_OK)
+        st = ss_trade_refer(&s->ref, &s->run, &s->p, s->user_steps, reference, err);
+    if (st != SS_OK)
+        return st;
+    s->known = ss_trade_known(&s->p, ss_trade_error_x(&s->run, &s->ref));
+    if (s->run.stats.events != s->ref.stats.events)
+        return ss_fail(err, SS_ETOL, "no accuracy can be kept: rounding alone makes %lu events or "
+                       "%lu", s->ref.stats.events, s->run.stats.events);
+    if (MARGIN * s->known > s->accuracy)
+        return ss_fail(err, SS_ETOL, is_linear
+                       ? "an accuracy of %g cannot be kept: by %s, rounding alone moves x by %.2g "
+                       "of its maximum"
+                       : "an accuracy of %g cannot be told: %s differ by %.2g of max|x|", s->accuracy, reference, s->known);
+    if (opts->method == NULL && !is_linear)
+        return choose_cheapest(s, opts, err);
+    if (opts->method == NULL)
+        opts->method = EXACT;
+    if (strcmp(opts->method, EXACT) == 0) {
+        opts->tol = ss_sim_defaults.tol;
+        return SS_OK;
+    }
+    st = choose_given(s, opts->method, err);
+    opts->tol = s->tol;
+    return st;
+}
+
+ss_status
+ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_error *err)
+{
+    if (opts == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_record_check(scene, err);
+    if (st != SS_OK)
+        return st;
+    if ((st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err)) != SS_OK)
+        return st;
+    if (opts->method != NULL && strcmp(opts->method, EXACT) == 0)
+        st = ss_exact_check(ss_model_of(scene), err);
+    if (st != SS_OK)
+        return st;
+    const run empty = { .progress = opts->progress };
+    choice s = { .p = ss_trade_probe(scene), .ref = empty, .run = empty, .accuracy = accuracy,
+                 .user_steps = opts->max_steps };
+    st = choose(&s, opts, err);
+    ss_trade_run_free(&s.ref);
+    ss_trade_run_free(&s.run);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}

@@ -1,0 +1,288 @@
+/* runs.c -- a scene simulated by one method, compared with the reference.
+ *
+ * A run is compared sample by sample and event by event.  Linear models have a closed form as reference;
+ * the effect of rounding on it is measured by changing the scene's own numbers by their last bit.  For
+ * the other models it is two methods of different order at the tightest tolerance that both keep; their
+ * distance is its error. */
+#include "study/trade/runs.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "base/progress.h"
+#include "motion/engine.h"
+#include "study/trade/common.h"
+
+/* Samples compared at most.  A prime: however many cycles the base goes through in a record, the
+ * samples fall on all of its phases. */
+enum { MOST = 19997 };
+
+const double ss_trade_tolerance[TOLERANCES] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9,
+                                                1e-10, 1e-11, 1e-12, 1e-13, 1e-14 };
+
+/* --- one run ------------------------------------------------------------------------------- */
+
+/* The events of a scene do not depend on its rate.  The steps of multistep methods on a model without
+ * events do, so that keeps its rate and one sample in every stride is compared. */
+probe
+ss_trade_probe(const ss_scene *scene)
+{
+    probe p = { *scene, ss_scene_samples(scene), 1 };
+    if (p.n <= MOST)
+        return p;
+    if (!ss_model_has_events(scene->model)) {
+        p.stride = p.n / MOST + 1;
+        p.n /= p.stride;
+    } else {
+        p.n = MOST;
+        p.scene.rate = MOST / scene->duration;
+    }
+    return p;
+}
+
+double
+ss_trade_cpu_time(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* x is compared as x - U t, which stays small. */
+static double
+pulled_by(const ss_scene *scene, double t)
+{
+    return scene->base_velocity * (scene->settle + t);
+}
+
+/* Of each stride of samples one, at a place that varies, so that a stride of whole periods still
+ * sees all phases (Knuth's multiplicative hash). */
+static int
+keep_samples(const ss_sample *s, size_t n, void *user)
+{
+    run *k = user;
+    for (size_t i = 0; i < n; i++, k->seen++) {
+        size_t block = k->seen / k->p->stride, within = k->seen % k->p->stride;
+        if (block < k->p->n && within == (uint32_t)block * UINT32_C(2654435761) % k->p->stride) {
+            k->x[block] = s[i].x - pulled_by(&k->p->scene, s[i].t);
+            k->a[block] = s[i].a;
+        }
+    }
+    return 0;
+}
+
+static int
+keep_event(const ss_event *e, void *user)
+{
+    run *k = user;
+    ss_event *event = ss_list_room(k->event, &k->room, k->n_events, sizeof *event);
+    if (event == NULL) {
+        k->no_memory = 1;
+        return 1;
+    }
+    k->event = event;
+    k->event[k->n_events++] = *e;
+    return 0;
+}
+
+/* Stop early a run that is sure to exceed its budget. */
+static int
+watch(double done, void *user)
+{
+    run *k = user;
+    double spent = ss_trade_cpu_time() - k->began;
+    if (k->budget > 0 && (spent > k->budget
+                          || (spent > k->budget / 50 && spent > 2 * k->budget * done))) {
+        k->seconds = spent / done;
+        k->over = 1;
+        return 1;
+    }
+    return ss_progress_at(&k->progress, k->done + k->share * done) != SS_OK;
+}
+
+ss_status
+ss_trade_run(run *k, const probe *p, const char *method, double tol, unsigned long max_steps,
+           ss_error *err)
+{
+    const ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
+                               .samples = keep_samples, .progress = { watch, k }, .user = k,
+                               .events = k->wants_events ? keep_event : NULL };
+    k->p = p;
+    k->seen = k->n_events = 0;
+    k->over = 0;
+    k->stats = (ss_sim_stats){ 0 };
+    k->began = ss_trade_cpu_time();
+    ss_status st = ss_sim_run(&p->scene, &opts, &k->stats, err);
+    if (k->no_memory)
+        return ss_fail_memory(err, NULL);
+    if (st == SS_STOP && k->over)
+        return SS_EBUDGET;
+    k->seconds = ss_trade_cpu_time() - k->began;
+    return st;
+}
+
+ss_status
+ss_trade_run_init(run *k, const probe *p)
+{
+    k->x = malloc((p->n + 1) * sizeof *k->x);
+    k->a = malloc((p->n + 1) * sizeof *k->a);
+    return k->x != NULL && k->a != NULL ? SS_OK : SS_ENOMEM;
+}
+
+void
+ss_trade_run_free(run *k)
+{
+    free(k->x);
+    free(k->a);
+    free(k->event);
+}
+
+/* --- comparison ---------------------------------------------------------------------------- */
+
+static double
+largest(const double *x, size_t n)
+{
+    double max = 0;
+    for (size_t i = 0; i < n; i++)
+        max = fmax(max, fabs(x[i]));
+    return max > 0 ? max : 1;               /* nothing moves: errors are absolute */
+}
+
+double
+ss_trade_error_x(const run *k, const run *ref)
+{
+    double worst = 0;
+    for (size_t i = 0; i < ref->p->n; i++)
+        worst = fmax(worst, fabs(k->x[i] - ref->x[i]));
+    return worst / largest(ref->x, ref->p->n);
+}
+
+/* The event of k nearest to e that is of the same kind and direction, or SIZE_MAX.  *from, where to
+ * look, goes on with e. */
+static size_t
+nearest(const run *k, const ss_event *e, size_t *from)
+{
+    size_t best = SIZE_MAX;
+    while (*from < k->n_events && k->event[*from].t < e->t)
+        ++*from;
+    for (int after = 0; after <= 1; after++)
+        for (size_t i = *from; after ? i < k->n_events : i > 0; i += after ? 1 : (size_t)-1) {
+            const ss_event *other = &k->event[after ? i : i - 1];
+            if (other->kind != e->kind || other->direction != e->direction)
+                continue;
+            if (best == SIZE_MAX || fabs(other->t - e->t) < fabs(k->event[best].t - e->t))
+                best = (size_t)(other - k->event);
+            break;
+        }
+    return best;
+}
+
+/* Events that are each other's nearest are the same.  own[i] becomes the error of the reference's
+ * i-th, 0 if it was missed. */
+static void
+compare_events(ss_trade_row *row, const run *k, const run *ref, double *own)
+{
+    size_t from = 0, from_back = 0, matched = 0;
+    row->error_t = 0;
+    for (size_t i = 0; i < ref->n_events; i++) {
+        const ss_event *e = &ref->event[i];
+        size_t j = nearest(k, e, &from);
+        from_back = i;
+        int mutual = j != SIZE_MAX;
+        if (mutual) {
+            while (from_back > 0 && ref->event[from_back - 1].t >= k->event[j].t)
+                from_back--;
+            mutual = nearest(ref, &k->event[j], &from_back) == i;
+        }
+        own[i] = mutual ? fabs(k->event[j].t - e->t) : 0;
+        row->error_t = fmax(row->error_t, own[i]);
+        matched += (size_t)mutual;
+    }
+    row->missed = ref->n_events - matched;
+    row->invented = k->n_events - matched;
+}
+
+/* Near an event the acceleration may be that of its other side. */
+static int
+is_beside(const ss_event *e, double own, double t)
+{
+    return fabs(t - e->t) <= own + 8 * DBL_EPSILON * fabs(t);
+}
+
+static double
+error_a(const run *k, const run *ref, const double *own)
+{
+    double worst = 0;
+    for (size_t i = 0, e = 0; i < ref->p->n; i++) {
+        double t = (double)i / ref->p->scene.rate;
+        while (e < ref->n_events && ref->event[e].t <= t)
+            e++;
+        if ((e > 0 && is_beside(&ref->event[e - 1], own[e - 1], t))
+            || (e < ref->n_events && is_beside(&ref->event[e], own[e], t)))
+            continue;
+        worst = fmax(worst, fabs(k->a[i] - ref->a[i]));
+    }
+    return worst / largest(ref->a, ref->p->n);
+}
+
+ss_status
+ss_trade_compare(ss_trade_row *row, const run *k, const run *ref)
+{
+    double *own = malloc((ref->n_events + 1) * sizeof *own);
+    if (own == NULL)
+        return SS_ENOMEM;
+    compare_events(row, k, ref, own);
+    row->error_x = ss_trade_error_x(k, ref);
+    row->error_a = error_a(k, ref, own);
+    free(own);
+    return SS_OK;
+}
+
+/* --- the reference ------------------------------------------------------------------------- */
+
+/* The scene with its oscillators' frequencies moved by the least that a double allows. */
+static probe
+nudged(const probe *p)
+{
+    probe q = *p;
+    q.scene.mass = nextafter(q.scene.mass, INFINITY);
+    q.scene.stiffness = nextafter(q.scene.stiffness, 0);
+    q.scene.contact_stiffness = nextafter(q.scene.contact_stiffness, 0);
+    return q;
+}
+
+ss_status
+ss_trade_refer(run *ref, run *other, const probe *p, unsigned long max_steps,
+              char text[64], ss_error *err)
+{
+    if (ss_model_is_linear(p->scene.model)) {
+        const probe beside = nudged(p);
+        ss_status st = ss_trade_run(ref, p, EXACT, 1e-14, max_steps, err);
+        snprintf(text, 64, EXACT);
+        if (st == SS_OK)
+            st = ss_trade_run(other, &beside, EXACT, 1e-14, max_steps, err);
+        other->p = p;
+        return st;
+    }
+    const char *first = ss_sim_method_for(&p->scene);   /* and one whose work is of the same kind */
+    const char *second = strcmp(first, "rk8pd") == 0 ? "rkck" : "msbdf";
+    ss_status st = SS_ETOL;
+    for (int i = TOLERANCES - 1; st == SS_ETOL && i >= 0 && ss_trade_tolerance[i] <= 1e-10; i--) {
+        st = ss_trade_run(ref, p, first, ss_trade_tolerance[i], max_steps, err);
+        if (st == SS_OK)
+            st = ss_trade_run(other, p, second, ss_trade_tolerance[i], max_steps, err);
+        snprintf(text, 64, "%s and %s at tol %g", first, second, ss_trade_tolerance[i]);
+    }
+    return st;
+}
+
+double
+ss_trade_known(const probe *p, double distance)
+{
+    return fmax(ss_model_is_linear(p->scene.model) ? 2 * distance : distance, 16 * DBL_EPSILON);
+}
