@@ -240,6 +240,27 @@ quiet_beginning_is_as_accurate_as_by_itself(void **state)
     }
 }
 
+/* In blocks the windows of the first level are those of a long record, and so is every bit. */
+static void
+blocks_are_those_of_the_record(void **state)
+{
+    enum { N = 1 << 17 };
+    double *x = malloc(N * sizeof *x);
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet *plan;
+    (void)state;
+    make(NOISE, x, N);
+    opts.octaves = 1, opts.m0 = 2, opts.m1 = 3;
+    double *w = stream_of(x, N, 1, &opts, RANDOM, &plan);
+    double *whole = malloc(2 * ss_morlet_total(plan) * sizeof *whole);
+    assert_int_equal(ss_morlet_execute(plan, x, whole, NULL), SS_OK);
+    assert_memory_equal(w, whole, 2 * ss_morlet_total(plan) * sizeof *w);
+    ss_morlet_free(plan);
+    free(whole);
+    free(w);
+    free(x);
+}
+
 /* A sink for samples that come one by one and are drained. */
 static int
 check_delay(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
@@ -467,7 +488,7 @@ sink_stops_the_stream(void **state)
     collection c = { .plan = plan, .w = malloc(2 * ss_morlet_total(plan) * sizeof *c.w),
                      .stop_after = 100 };
     assert_int_equal(ss_stream_new(&stream, 2000, &opts, collect, &c, NULL), SS_OK);
-    assert_int_equal(ss_stream_push(stream, x, 5000, NULL), SS_OK);
+    assert_int_equal(ss_stream_push(stream, x, 1000, NULL), SS_OK);      /* no window is full */
     assert_int_equal(ss_stream_drain(stream, NULL), SS_STOP);
     size_t total = c.total;
     assert_int_equal(ss_stream_end(stream, NULL), SS_STOP);
@@ -755,6 +776,7 @@ main(void)
         cmocka_unit_test(keeps_the_record_s_bound_whatever_comes_together),
         cmocka_unit_test(keeps_the_bound_from_window_to_window),
         cmocka_unit_test(quiet_beginning_is_as_accurate_as_by_itself),
+        cmocka_unit_test(blocks_are_those_of_the_record),
         cmocka_unit_test(delay_is_the_window),
         cmocka_unit_test(windows_delay_coefficients_by_less_than_their_length),
         cmocka_unit_test(threads_change_nothing),

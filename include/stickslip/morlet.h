@@ -147,7 +147,8 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
 /* --- streams --------------------------------------------------------------------------------
  *
- * The transform of a signal whose length is not known, in memory bounded by the longest scale.  A
+ * The transform of a signal whose length is not known, in memory bounded by the longest scale, on a
+ * stepped grid by the logarithm of that.  A
  * coefficient is complete when the samples up to 8.5 a after b have arrived: later samples, however
  * large, change it by less than the floor of the accuracy.  So the error is the one promised for
  * the whole record; even the largest |W| is only that of its scale so far.
@@ -166,15 +167,16 @@ ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts
 size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
 const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* an array that it owns */
 size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
-/* Samples in a window of scale i, 0 if there is no such scale: without ss_stream_drain a coefficient
- * comes less than this behind b. */
+/* 0 if there is no scale i: without ss_stream_drain a coefficient comes less than so many samples
+ * behind b. */
 size_t ss_stream_window(const ss_stream *stream, size_t i);
 
 /* Append n samples.  When a window is full, the sink gets its complete coefficients.  SS_EINVAL: a
  * sample is not finite; those before it have been appended.  After a failure the stream only reports
  * it again. */
 ss_status ss_stream_push(ss_stream *stream, const double *x, size_t n, ss_error *err);
-/* Send all complete coefficients to the sink. */
+/* Send all complete coefficients to the sink.  A stepped grid costs at least a few FFTs of some 2048
+ * points an octave for that. */
 ss_status ss_stream_drain(ss_stream *stream, ss_error *err);
 /* Send all the rest: the signal has ended, and is zero from here on. */
 ss_status ss_stream_end(ss_stream *stream, ss_error *err);

@@ -98,7 +98,9 @@ ss_morlet_free(ss_morlet *plan)
 ss_status
 ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out)
 {
-    ss_status st = plan->blocks != NULL ? ss_blocks_forward(plan->blocks, rec, &out->blocks) : SS_OK;
+    ss_status st = SS_OK;
+    if (plan->blocks != NULL)
+        st = ss_blocks_forward(plan->blocks, rec, (size_t)plan->opts.threads, &out->blocks);
     return st == SS_OK && plan->fft != NULL ? ss_fft_forward(plan->fft, rec, out) : st;
 }
 

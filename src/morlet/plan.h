@@ -13,6 +13,8 @@
 #define TAIL_FLOOR (4 * DBL_EPSILON)
 #define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */
 
+enum { BLOCK_LEVELS = 48 };             /* of fft/blocks.c */
+
 struct ss_morlet {
     ss_morlet_opts opts;
     size_t n;               /* samples */
@@ -103,10 +105,10 @@ ss_status ss_fft_new(ss_morlet *plan);
 void ss_fft_free(struct fft *fft);                     /* NULL is allowed */
 int ss_fft_covers(const struct fft *fft, size_t i);     /* scale i */
 
-/* Of a record's windows, level by level. */
+/* Of a record's windows from the first on, level by level. */
 typedef struct block_spectra {
-    double **level;
-    size_t levels;
+    double *level[BLOCK_LEVELS];
+    size_t first;
 } block_spectra;
 
 /* The record's spectra, which threads share, and the same for scale i. */

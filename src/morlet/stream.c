@@ -1,5 +1,9 @@
 /* stream.c -- the transform of a signal that has no end yet, window by window.
  *
+ * The scales that are transformed in blocks, the longest ones of a stepped grid, are computed as there
+ * (fft/windows.c), on the levels' windows as they become full; complete coefficients that are wanted
+ * at once come from windows that are filled up with zeros.  For the others:
+ *
  * Scales of similar length form a group, which has a plan for windows of a fixed length, at least
  * twice the length of its longest wavelet.  A window begins where the next coefficient needs it to,
  * and yields all coefficients of the group whose wavelets lie inside; the next window overlaps it by
@@ -19,6 +23,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/pool.h"
+#include "morlet/fft/blocks.h"
 #include "morlet/plan.h"
 #include "morlet/versions.h"
 
@@ -30,7 +35,9 @@ enum {
     PIECE = 1 << 14,            /* samples processed at a time, at most */
     GIVEN = 1 << 17,            /* coefficients passed to the sink at a time */
     TABLES = 32 << 20,          /* bytes of wavelets kept */
-    WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone */
+    WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone, */
+    BLOCK_WORTH_THREADS = 1 << 14,      /* in blocks */
+    FAR = 600,                  /* powers of 2 by which the samples of blocks are divided */
     LANES = 8
 };
 
@@ -55,7 +62,8 @@ typedef struct group {
 /* The work of one thread. */
 typedef struct lane {
     double *w, *scratch;        /* scratch: of the group at work, NULL if it needs none */
-    size_t scale;
+    double *of_blocks;          /* scratch */
+    size_t scale, scales;       /* scales: how many, in blocks */
     span part;                  /* to compute; those from skip on go to the sink */
     size_t skip;
     ss_status status;
@@ -69,6 +77,8 @@ struct ss_stream {
     ss_coefficient_sink *sink;
     void *user;
     size_t n_scales, n_groups, samples;
+    group blocks;               /* plan NULL: none; the first scales */
+    cascade *cascade;
     size_t full;                /* no window is full before there are so many samples */
     ss_scale *scale;
     scale_state *state;
@@ -77,6 +87,9 @@ struct ss_stream {
     double *x, x_max;           /* the last samples, and max|x| of all */
     ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
     size_t room;
+    size_t lane_room;           /* coefficients in w of a lane */
+    ptrdiff_t limit;            /* samples that blocks may need now; PTRDIFF_MAX: their window's */
+    ss_error *why;              /* of what fails in blocks, or NULL */
     int ended;
     ss_status status;           /* of what failed first */
     ss_error error;
@@ -90,6 +103,8 @@ typedef struct window {
     record rec;
     spectra spectra;
     int by_sum;
+    size_t number;              /* of a window of blocks; limit: samples that may be needed */
+    ptrdiff_t limit;
 } window;
 
 /* --- positions of windows -------------------------------------------------------------------- */
@@ -159,6 +174,14 @@ limit_of(const ss_stream *s, const group *g, ptrdiff_t start)
 {
     ptrdiff_t limit = start + (ptrdiff_t)g->plan->n, samples = (ptrdiff_t)s->samples;
     return s->ended || limit < samples ? limit : samples;
+}
+
+/* By this power of 2 samples are divided, the largest of which is x_max, for blocks: 0 but for sizes
+ * near the ends of what a double holds. */
+static int
+exponent_of(double x_max)
+{
+    return x_max > 0 ? FAR * (ilogb(x_max) / FAR) : 0;
 }
 
 /* --- one window ------------------------------------------------------------------------------- */
@@ -329,6 +352,117 @@ transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
     return st;
 }
 
+/* --- a window of blocks ------------------------------------------------------------------------ */
+
+/* The next translations of scale i that a window gives. */
+static span
+block_part(const window *win, size_t i)
+{
+    const ss_stream *s = win->stream;
+    const scale_state *r = &s->state[i];
+    size_t end = win->number * ss_blocks_hop(s->blocks.plan->blocks, i);
+    end = end < r->count ? end : r->count;
+    size_t n = end > r->next ? end - r->next : 0, complete = n;
+    if (win->limit < PTRDIFF_MAX)
+        complete = ready(s, i, win->limit);
+    return (span){ r->next, n < complete ? n : complete };
+}
+
+/* Some scales: user points at the lane. */
+static void
+compute_blocks(void *user)
+{
+    lane *l = user;
+    double *w = l->w, most = 0;
+    l->status = SS_OK;
+    for (size_t i = l->scale; l->status == SS_OK && i < l->scale + l->scales; i++) {
+        span part = block_part(l->window, i);
+        if (part.n > 0)
+            l->status = ss_morlet_part(l->window->group->plan, i, &l->window->rec,
+                                       &l->window->spectra, l->of_blocks, NULL, part, &most, w,
+                                       &l->error);
+        w += 2 * part.n;
+    }
+}
+
+static ss_status
+send_blocks(ss_stream *s, lane *l, ss_error *err)
+{
+    const double *w = l->w;
+    ss_status st = l->status;
+    if (st != SS_OK && err != NULL)
+        *err = l->error;
+    for (size_t i = l->scale; st == SS_OK && i < l->scale + l->scales; i++) {
+        span part = block_part(l->window, i);
+        if (part.n == 0)
+            continue;
+        go_on(s, i, part.first + part.n);
+        st = s->sink(&s->scale[i], part.first, part.n, w, s->samples, s->user) ? SS_STOP : SS_OK;
+        w += 2 * part.n;
+    }
+    return st;
+}
+
+/* Scales from first on, each lane the same number of them. */
+static ss_status
+share_blocks(ss_stream *s, window *win, size_t first, size_t end, size_t lanes, size_t each)
+{
+    ss_status st = SS_OK;
+    size_t n = 0;
+    for (; n < lanes && first < end; n++, first += each) {
+        lane *l = &s->lane[n];
+        l->scale = first;
+        l->scales = end - first < each ? end - first : each;
+        l->window = win;
+    }
+    ss_pool_run(compute_blocks, s->lane, sizeof *s->lane, n);
+    for (size_t t = 0; st == SS_OK && t < n; t++)
+        st = send_blocks(s, &s->lane[t], s->why);
+    return st;
+}
+
+/* All coefficients of a window of a level: by one thread scale by scale, as they stay in the cache. */
+static ss_status
+window_of_blocks(size_t level, size_t number, double *spectrum, void *user)
+{
+    ss_stream *s = user;
+    const struct blocks *b = s->blocks.plan->blocks;
+    size_t first = 0, end, lanes = (size_t)s->opts.threads, most = 0, n = 0;
+    window win = { .stream = s, .group = &s->blocks, .number = number, .limit = s->limit,
+                   .rec = { .exponent = exponent_of(s->x_max) } };
+    win.spectra.blocks = (block_spectra){ .first = number };
+    win.spectra.blocks.level[level] = spectrum;
+    while (first < s->blocks.plan->n_scales && ss_blocks_level(b, first) > level)
+        first++;
+    for (end = first; end < s->blocks.plan->n_scales && ss_blocks_level(b, end) == level; end++) {
+        size_t part = block_part(&win, end).n;
+        most = part > most ? part : most;
+        n += part;
+    }
+    if (n == 0)
+        return SS_OK;
+    lanes = n < BLOCK_WORTH_THREADS ? 1 : lanes;
+    size_t each = lanes == 1 ? 1 : (end - first + lanes - 1) / lanes, fit = s->lane_room / most;
+    each = each < fit ? each : fit;
+    ss_status st = SS_OK;
+    for (; st == SS_OK && first < end; first += lanes * each)
+        st = share_blocks(s, &win, first, end, lanes, each);
+    return st;
+}
+
+/* Complete coefficients, those that need no sample from limit on. */
+static ss_status
+transform_rest_of_blocks(ss_stream *s, ptrdiff_t limit, ss_error *err)
+{
+    if (s->cascade == NULL)
+        return SS_OK;
+    s->limit = limit;
+    s->why = err;
+    ss_status st = ss_cascade_end(s->cascade, s->samples, window_of_blocks, s);
+    s->limit = PTRDIFF_MAX;
+    return st;
+}
+
 /* --- samples ---------------------------------------------------------------------------------- */
 
 /* Make room for n more samples, in place of those that no window needs any more. */
@@ -380,6 +514,13 @@ static ss_status
 transform_full(ss_stream *s, ss_error *err)
 {
     s->full = SIZE_MAX;
+    s->why = err;
+    if (s->cascade != NULL) {
+        ss_status st = ss_cascade_run(s->cascade, window_of_blocks, s);
+        if (st != SS_OK)
+            return st;
+        s->full = s->samples + ss_cascade_room(s->cascade);
+    }
     for (size_t i = 0; i < s->n_groups; i++) {
         const group *g = &s->group[i];
         ptrdiff_t start, n = (ptrdiff_t)g->plan->n;
@@ -405,6 +546,8 @@ append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
     }
     make_room(s, good);
     memcpy(s->x + ((ptrdiff_t)s->samples - s->origin), x, good * sizeof *x);
+    if (s->cascade != NULL)
+        ss_cascade_append(s->cascade, x, good, exponent_of(most));
     s->samples += good;
     s->x_max = most;
     ss_status st = s->samples == s->full ? transform_full(s, err) : SS_OK;
@@ -453,6 +596,8 @@ ss_stream_drain(ss_stream *s, ss_error *err)
         return SS_FAIL_NULL(err);
     ss_error why = { 0 };
     ss_status st = s->status;
+    if (st == SS_OK)
+        st = transform_rest_of_blocks(s, (ptrdiff_t)s->samples, &why);
     for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
         const group *g = &s->group[i];
         size_t found = 0;
@@ -476,6 +621,8 @@ ss_stream_end(ss_stream *s, ss_error *err)
     if (st == SS_OK && !s->ended)
         for (size_t i = 0; i < s->n_scales; i++)
             s->state[i].count = ss_scale_count(&s->scale[i], (double)(s->samples - 1) / s->rate);
+    if (st == SS_OK && !s->ended)
+        st = transform_rest_of_blocks(s, PTRDIFF_MAX, &why);
     s->ended = 1;
     for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
         ptrdiff_t start;
@@ -506,6 +653,39 @@ scales_together(const ss_stream *s, size_t first)
     return n;
 }
 
+/* A plan for windows of n samples. */
+static ss_status
+new_group(const ss_stream *s, group *g, size_t first, size_t n_scales, size_t n)
+{
+    *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
+    if (g->plan == NULL)
+        return SS_ENOMEM;
+    *g->plan = (ss_morlet){ .opts = s->opts, .n = n, .rate = s->rate, .window = 1,
+                            .n_scales = n_scales, .scale = malloc(n_scales * sizeof *s->scale) };
+    if (g->plan->scale == NULL)
+        return SS_ENOMEM;
+    memcpy(g->plan->scale, s->scale + first, n_scales * sizeof *s->scale);
+    return SS_OK;
+}
+
+/* The scales that are transformed in blocks. */
+static ss_status
+plan_blocks(ss_stream *s)
+{
+    group *g = &s->blocks;
+    size_t n = 0;
+    ss_status st = new_group(s, g, 0, s->n_scales, 0);
+    if (st == SS_OK)
+        st = ss_blocks_new(g->plan);
+    while (st == SS_OK && n < s->n_scales && ss_blocks_covers(g->plan->blocks, n))
+        n++;
+    if (st == SS_OK && n > 0 && (s->cascade = ss_cascade_new(g->plan->blocks)) == NULL)
+        st = SS_ENOMEM;
+    if (g->plan != NULL)
+        g->plan->n_scales = n;
+    return st;
+}
+
 /* The plan of a group, its scales with as many translations as a window yields. */
 static ss_status
 plan_group(const ss_stream *s, group *g, size_t first)
@@ -513,22 +693,17 @@ plan_group(const ss_stream *s, group *g, size_t first)
     double reach = (double)s->state[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
     if (s->state[first].reach <= SHORT)
         n = exp2(ceil(log2(fmax(n, BASE))));
-    size_t n_scales = scales_together(s, first);
-    *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
-    if (g->plan == NULL || !(n < 0x1p58))
+    if (!(n < 0x1p58))
         return SS_ENOMEM;
-    *g->plan = (ss_morlet){ .opts = s->opts, .n = (size_t)n, .rate = s->rate,
-                            .window = 1, .scale = malloc(n_scales * sizeof *s->scale) };
-    if (g->plan->scale == NULL)
-        return SS_ENOMEM;
-    g->plan->n_scales = n_scales;
-    memcpy(g->plan->scale, s->scale + first, n_scales * sizeof *s->scale);
-    for (size_t i = 0; i < n_scales; i++) {
+    ss_status st = new_group(s, g, first, scales_together(s, first), (size_t)n);
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; i < g->plan->n_scales; i++) {
         ss_scale *sc = &g->plan->scale[i];
         double hop = (double)g->plan->n - 2 * reach, step = sc->b_num / sc->b_den * s->rate;
         sc->n = (size_t)fmin(ceil(hop / step), 0x1p50);
     }
-    ss_status st = ss_fft_new(g->plan);
+    st = ss_fft_new(g->plan);
     if (st == SS_OK)
         g->unit = (ptrdiff_t)ss_fft_unit(g->plan);
     return st;
@@ -540,7 +715,7 @@ plan_groups(ss_stream *s)
     s->group = calloc(s->n_scales, sizeof *s->group);
     if (s->group == NULL)
         return SS_ENOMEM;
-    for (size_t first = 0; first < s->n_scales;) {
+    for (size_t first = s->blocks.plan->n_scales; first < s->n_scales;) {
         group *g = &s->group[s->n_groups++];
         ss_status st = plan_group(s, g, first);
         if (st != SS_OK)
@@ -589,14 +764,22 @@ make_buffers(ss_stream *s)
         }
     }
     s->room = longest + PIECE;
+    s->lane_room = GIVEN + places;
+    for (size_t i = 0; i < s->blocks.plan->n_scales; i++) {
+        size_t hop = ss_blocks_hop(s->blocks.plan->blocks, i);
+        s->lane_room = hop > s->lane_room ? hop : s->lane_room;
+    }
     s->x = calloc(s->room, sizeof *s->x);
     s->lane = calloc((size_t)s->opts.threads, sizeof *s->lane);
     if (s->x == NULL || s->lane == NULL)
         return SS_ENOMEM;
-    for (int t = 0; t < s->opts.threads; t++)
-        if ((s->lane[t].w = malloc(2 * (GIVEN + places) * sizeof(double))) == NULL)
-            return SS_ENOMEM;
-    return SS_OK;
+    ss_status st = SS_OK;
+    for (int t = 0; st == SS_OK && t < s->opts.threads; t++) {
+        st = ss_morlet_scratch(s->blocks.plan, &s->lane[t].of_blocks);
+        if ((s->lane[t].w = malloc(2 * s->lane_room * sizeof(double))) == NULL)
+            st = SS_ENOMEM;
+    }
+    return st;
 }
 
 static ss_status
@@ -613,7 +796,8 @@ prepare(ss_stream *s, ss_error *err)
         s->state[i].count = SIZE_MAX;
         go_on(s, i, 0);
     }
-    if ((st = plan_groups(s)) == SS_OK && (st = plan_rows(s)) == SS_OK)
+    if ((st = plan_blocks(s)) == SS_OK && (st = plan_groups(s)) == SS_OK
+        && (st = plan_rows(s)) == SS_OK)
         st = make_buffers(s);
     return st == SS_OK ? transform_full(s, err) : st;
 }
@@ -635,7 +819,8 @@ ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts, ss_coeff
     ss_stream *s = calloc(1, sizeof *s);
     if (s == NULL)
         return SS_ENOMEM;
-    *s = (ss_stream){ .opts = *opts, .rate = rate, .sink = sink, .user = user };
+    *s = (ss_stream){ .opts = *opts, .rate = rate, .sink = sink, .user = user,
+                      .limit = PTRDIFF_MAX };
     if ((st = prepare(s, err)) != SS_OK) {
         ss_stream_free(s);
         return st;
@@ -661,6 +846,8 @@ ss_stream_scale(const ss_stream *s, size_t i)
 size_t
 ss_stream_window(const ss_stream *s, size_t i)
 {
+    if (s != NULL && i < s->blocks.plan->n_scales)
+        return (size_t)ss_blocks_delay(s->blocks.plan->blocks, i);
     for (size_t k = 0; s != NULL && k < s->n_groups; k++) {
         const group *g = &s->group[k];
         if (i - g->first < g->plan->n_scales)
@@ -684,10 +871,14 @@ ss_stream_free(ss_stream *s)
         return;
     for (size_t i = 0; i < s->n_groups; i++)
         ss_morlet_free(s->group[i].plan);
+    ss_cascade_free(s->cascade);
+    ss_morlet_free(s->blocks.plan);
     for (size_t i = 0; s->state != NULL && i < s->n_scales; i++)
         ss_wavelet_free(s->state[i].wave);
-    for (int t = 0; s->lane != NULL && t < s->opts.threads; t++)
+    for (int t = 0; s->lane != NULL && t < s->opts.threads; t++) {
+        ss_fft_scratch_free(s->lane[t].of_blocks);
         free(s->lane[t].w);
+    }
     free(s->group);
     free(s->state);
     free(s->scale);

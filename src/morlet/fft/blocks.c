@@ -32,12 +32,10 @@
 #include <fftw3.h>
 #include <limits.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 #include "morlet/fft/blocks.h"
 #include "morlet/fft/plan.h"
-#include "morlet/versions.h"
+#include "morlet/fft/stage.h"
 
 #define CUT 8.66
 #define BAND 1.99
@@ -45,44 +43,10 @@
 #define COST_POINT 4e-9         /* of an FFT, and what goes with it [s] */
 
 enum {
-    LEVELS = 48,
     LEAST_SAMPLES = 4,          /* of a level */
-    LONGEST = 1 << 17,          /* inverse FFT */
+    LONGEST = 1 << 20,          /* inverse FFT */
     LONGEST_WINDOW = 1 << 18,
     ALIGN = 8                   /* doubles; FFTW's plans are for arrays that begin at multiples */
-};
-
-#define REAL double
-#define NAMED(name) name
-#include "morlet/fft/points.h"
-#undef REAL
-#undef NAMED
-
-/* A level of n samples, margin more on either side. */
-typedef struct stage {
-    size_t n, length, overlap, hop, windows;        /* window i begins at sample (i - 1) hop */
-    size_t margin, stride;                  /* doubles from a spectrum to the next */
-    int used;                               /* by a scale: spectra are kept */
-    double *filter;                         /* F_k / L, k <= L/4, then F_(L/2-k) / L; NULL: the last */
-    fftw_plan forward, back;
-} stage;
-
-/* The weights of a scale's terms, which those of other octaves share. */
-typedef struct row {
-    int level;                              /* -1: not here */
-    size_t points, hop;                     /* M, and translations from a window to the next */
-    ptrdiff_t lo;                           /* the first term */
-    size_t terms;
-    double *weight;
-    int owner;                              /* of weight */
-    fftw_plan inverse;
-} row;
-
-struct blocks {
-    size_t n_rows, levels, longest;         /* longest: M */
-    double margin;                          /* samples */
-    row *row;
-    stage stage[LEVELS];
 };
 
 /* --- which scales, in what windows ------------------------------------------------------------ */
@@ -107,17 +71,11 @@ level_of(const ss_morlet *plan, const ss_scale *scale)
 {
     double a = scale->a * plan->rate;
     int l = a < 2 * least_scale(&plan->opts) ? 0 : ilogb(a / least_scale(&plan->opts));
-    return a >= 2 && l < LEVELS && ldexp((double)plan->n, -l) >= LEAST_SAMPLES ? l : -1;
+    int enough = plan->window || ldexp((double)plan->n, -l) >= LEAST_SAMPLES;
+    return a >= 2 && l < LEVELS && enough ? l : -1;
 }
 
-/* Windows that hold n samples' coefficients. */
-static size_t
-windows_for(const stage *st, size_t n)
-{
-    return (n + st->hop - 1) / st->hop;
-}
-
-/* L, hop and windows of a level of n samples on which wavelets reach so many, a power of two. */
+/* L and hop of a level of n samples on which wavelets reach so many, a power of two. */
 static void
 choose_windows(stage *st, size_t n, size_t reach, size_t margin)
 {
@@ -130,8 +88,16 @@ choose_windows(stage *st, size_t n, size_t reach, size_t margin)
             best = *st;
     }
     *st = best;
-    st->windows = 1 + windows_for(st, n + 2 * margin);
-    st->stride = st->length + ALIGN;
+}
+
+/* The same for level l of a stream: the lower levels make most coefficients and have the long windows,
+ * which cost less; the higher ones delay most and have the short ones. */
+static void
+stream_windows(stage *st, int l, size_t reach, size_t margin)
+{
+    *st = (stage){ .margin = margin, .overlap = 2 * reach };
+    st->length = 16 * reach >> (l < 2 ? l : 2);
+    st->hop = st->length - st->overlap;
 }
 
 /* The row of the scale an octave shorter than row i, if its weights are the same, else NULL. */
@@ -196,23 +162,22 @@ forward_cost(const struct blocks *b)
     return COST_POINT * points;
 }
 
-/* Choose the scales that can be computed here; with AUTO those for which it is cheaper, if their gain
- * pays for the spectra. */
+/* Choose the scales that can be computed here: of a stream the longest; with AUTO those for which it
+ * is cheaper, if their gain pays for the spectra, which a stream's does. */
 static void
 choose_rows(struct blocks *b, const ss_morlet *plan)
 {
-    int automatic = plan->opts.engine == SS_ENGINE_AUTO;
+    int automatic = plan->opts.engine == SS_ENGINE_AUTO && !plan->window, others = 0;
     double gain = 0;
     for (size_t i = 0; i < b->n_rows; i++) {
         row *r = &b->row[i];
         const ss_scale *scale = &plan->scale[i];
         r->level = level_of(plan, scale);
-        if (r->level < 0)
-            continue;
-        const stage *st = &b->stage[r->level];
-        r->points = points_of(st, scale, r->level, plan->rate);
+        const stage *st = &b->stage[r->level < 0 ? 0 : r->level];
+        r->points = r->level < 0 ? 0 : points_of(st, scale, r->level, plan->rate);
         double less = ss_quadrature_cost(plan, scale, scale->n) - cost_of(st, r->points);
-        if (r->points == 0 || (automatic && less < 0)) {
+        others |= r->points == 0;
+        if (r->points == 0 || (automatic && less < 0) || (plan->window && others)) {
             r->level = -1;
             continue;
         }
@@ -234,7 +199,13 @@ choose_stages(struct blocks *b, const ss_morlet *plan)
     while ((double)reach < fmax(REACH * a + 2, b->margin))
         reach *= 2;
     for (int l = 0; l < LEVELS; l++) {
-        choose_windows(&b->stage[l], n, reach, (size_t)b->margin);
+        stage *st = &b->stage[l];
+        if (plan->window)
+            stream_windows(st, l, reach, (size_t)b->margin);
+        else
+            choose_windows(st, n, reach, (size_t)b->margin);
+        st->windows = 1 + windows_for(st, n + 2 * st->margin);
+        st->stride = st->length + ALIGN;
         n = n / 2 + 1;
     }
 }
@@ -274,16 +245,6 @@ make_filter(stage *st)
         st->filter[half + 1 + k] = erfc(-x) / 2 / (double)st->length;
     }
     return SS_OK;
-}
-
-/* Doubles for a window, its spectrum and the next level's. */
-static size_t
-window_room(const struct blocks *b)
-{
-    size_t most = 0;
-    for (size_t l = 0; l < b->levels; l++)
-        most = b->stage[l].stride > most ? b->stage[l].stride : most;
-    return 2 * most;
 }
 
 static ss_status
@@ -332,7 +293,9 @@ static ss_status
 make_plans(struct blocks *b, ss_planner planner)
 {
     static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
-    size_t room = window_room(b) > ss_blocks_room(b) ? window_room(b) : ss_blocks_room(b);
+    size_t room = ss_blocks_room(b);
+    for (size_t l = 0; l < b->levels; l++)
+        room = 2 * b->stage[l].stride > room ? 2 * b->stage[l].stride : room;
     double *v = fftw_malloc(room * sizeof *v);
     if (v == NULL)
         return SS_ENOMEM;
@@ -354,8 +317,8 @@ ss_blocks_new(ss_morlet *plan)
 {
     double margin = ceil(REACH / ((M_PI / 2 - BAND / 2) / FILTER_CUT));
     double reach = fmax(REACH * 2 * least_scale(&plan->opts) + 2, margin);
-    if (plan->opts.engine == SS_ENGINE_QUADRATURE || plan->opts.dense || plan->window
-        || 32 * reach > LONGEST_WINDOW || plan->n > INT_MAX / 2)
+    if (plan->opts.engine == SS_ENGINE_QUADRATURE || plan->opts.dense
+        || 16 * reach > LONGEST_WINDOW || plan->n > INT_MAX / 2)
         return SS_OK;
     struct blocks *b = plan->blocks = calloc(1, sizeof *b);
     if (b == NULL || (b->row = calloc(plan->n_scales, sizeof *b->row)) == NULL)
@@ -411,144 +374,4 @@ int
 ss_blocks_covers(const struct blocks *b, size_t i)
 {
     return b != NULL && b->row[i].level >= 0;
-}
-
-/* --- the record's spectra --------------------------------------------------------------------- */
-
-/* Samples lo ... hi - 1 of a level, x[0] being sample lo; zeros elsewhere. */
-typedef struct samples {
-    double *x;
-    ptrdiff_t lo, hi;
-} samples;
-
-/* to[i] = sample first + i. */
-static void
-copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
-{
-    ptrdiff_t end = first + (ptrdiff_t)n;
-    ptrdiff_t lo = first > s->lo ? first : s->lo, hi = end < s->hi ? end : s->hi;
-    if (lo >= hi)
-        lo = hi = end;
-    memset(to, 0, (size_t)(lo - first) * sizeof *to);
-    if (hi > lo)
-        memcpy(to + (lo - first), s->x + (lo - s->lo), (size_t)(hi - lo) * sizeof *to);
-    memset(to + (hi - first), 0, (size_t)(end - hi) * sizeof *to);
-}
-
-/* Terms of a window of the next level, k <= L/4, from those of this one. */
-VERSIONS static void
-filter_terms(const stage *st, const double *restrict x, double *restrict y)
-{
-    size_t half = st->length / 4;
-    const double *f = st->filter, *g = f + half + 1, *z = x + st->length;
-    for (size_t k = 0; k <= half; k++) {
-        y[2 * k] = f[k] * x[2 * k] + g[k] * *(z - 2 * k);
-        y[2 * k + 1] = f[k] * x[2 * k + 1] - g[k] * *(z - 2 * k + 1);
-    }
-}
-
-/* Samples of the next level that window i gives. */
-static void
-decimate(const stage *st, size_t i, const double *x, double *spare, samples *next)
-{
-    ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)(st->hop / 2);
-    ptrdiff_t end = first + (ptrdiff_t)st->hop / 2;
-    ptrdiff_t lo = first > next->lo ? first : next->lo, hi = end < next->hi ? end : next->hi;
-    double *y = spare + st->stride;
-    if (lo >= hi)
-        return;
-    filter_terms(st, x, spare);
-    fftw_execute_dft_c2r(st->back, (fftw_complex *)spare, y);
-    memcpy(next->x + (lo - next->lo), y + (lo - first), (size_t)(hi - lo) * sizeof *y);
-}
-
-/* The spectra of a level, the first sample of a window at place 0 and what lies before it at the
- * end of the circle, and the next level. */
-static ss_status
-forward_stage(const stage *st, const samples *from, samples *next, double *v, double **out)
-{
-    size_t before = st->overlap / 2;
-    double *x = *out = fftw_malloc((st->used ? st->windows : 1) * st->stride * sizeof *x);
-    if (x == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < st->windows; i++, x += st->used ? st->stride : 0) {
-        ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)st->hop;
-        copy_samples(from, first, st->length - before, v);
-        copy_samples(from, first - (ptrdiff_t)before, before, v + st->length - before);
-        fftw_execute_dft_r2c(st->forward, v, (fftw_complex *)x);
-        if (next != NULL)
-            decimate(st, i, x, v, next);
-    }
-    return SS_OK;
-}
-
-static ss_status
-samples_new(samples *s, const stage *st)
-{
-    *s = (samples){ .lo = -(ptrdiff_t)st->margin, .hi = (ptrdiff_t)(st->n + st->margin) };
-    s->x = calloc((size_t)(s->hi - s->lo), sizeof *s->x);
-    return s->x != NULL ? SS_OK : SS_ENOMEM;
-}
-
-ss_status
-ss_blocks_forward(const struct blocks *b, const record *rec, block_spectra *out)
-{
-    samples now = { rec->x, 0, (ptrdiff_t)rec->n }, next = { 0 };
-    double *v = fftw_malloc(window_room(b) * sizeof *v);
-    out->level = calloc(b->levels, sizeof *out->level);
-    out->levels = b->levels;
-    ss_status st = v != NULL && out->level != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
-        int last = l + 1 == b->levels;
-        if (!last)
-            st = samples_new(&next, &b->stage[l + 1]);
-        if (st == SS_OK)
-            st = forward_stage(&b->stage[l], &now, last ? NULL : &next, v, &out->level[l]);
-        if (l > 0)
-            free(now.x);
-        now = next;
-        next.x = NULL;
-    }
-    if (st != SS_OK && now.x != rec->x)
-        free(now.x);
-    fftw_free(v);
-    return st;
-}
-
-void
-ss_block_spectra_free(block_spectra *s)
-{
-    for (size_t l = 0; s->level != NULL && l < s->levels; l++)
-        fftw_free(s->level[l]);
-    free(s->level);
-}
-
-/* --- a scale ---------------------------------------------------------------------------------- */
-
-/* All translations of a window, the first counted one at v[0]. */
-static void
-transform_window(const stage *st, const row *r, const double *x, double *c, double *v)
-{
-    ptrdiff_t rest = r->lo % (ptrdiff_t)r->points;
-    size_t at = (size_t)(rest < 0 ? rest + (ptrdiff_t)r->points : rest);
-    memset(c, 0, 2 * r->points * sizeof *c);
-    add_terms(x, st->length, r->lo, r->weight, r->terms, c, r->points, at);
-    fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
-}
-
-void
-ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double *scratch,
-                span part, double factor, double *w)
-{
-    const row *r = &b->row[i];
-    const stage *st = &b->stage[r->level];
-    size_t end = part.first + part.n, k = part.first;
-    double *v = scratch + 2 * b->longest;
-    while (k < end) {
-        size_t window = 1 + k / r->hop, at = k % r->hop;
-        size_t n = r->hop - at < end - k ? r->hop - at : end - k;
-        transform_window(st, r, s->level[r->level] + window * st->stride, scratch, v);
-        write_lattice(v + 2 * at, n, factor, w + 2 * (k - part.first));
-        k += n;
-    }
 }

@@ -6,13 +6,15 @@
 #include "morlet/plan.h"
 
 /* Choose the scales that are transformed in blocks: where a step is 2^p/m samples and that is
- * cheaper, or the engine is SS_ENGINE_FFT.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
+ * cheaper, or the engine is SS_ENGINE_FFT; of a stream, where plan->window is 1, the longest scales
+ * down to the first that cannot be.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
 ss_status ss_blocks_new(ss_morlet *plan);
 void ss_blocks_free(struct blocks *blocks);           /* NULL is allowed */
 int ss_blocks_covers(const struct blocks *blocks, size_t i);     /* blocks may be NULL */
 
 /* The record's spectra, window by window; free it, forward failed or not. */
-ss_status ss_blocks_forward(const struct blocks *blocks, const record *rec, block_spectra *out);
+ss_status ss_blocks_forward(const struct blocks *blocks, const record *rec, size_t threads,
+                            block_spectra *out);
 void ss_block_spectra_free(block_spectra *s);
 
 /* Doubles that a thread needs, from fftw_malloc. */
@@ -20,5 +22,26 @@ size_t ss_blocks_room(const struct blocks *blocks);
 /* Part of scale i, factor times what it is in units of a^1/2 and of the record. */
 void ss_blocks_scale(const struct blocks *blocks, size_t i, const block_spectra *s, double *scratch,
                      span part, double factor, double *w);
+
+/* The level of scale i, and the translations that each of its windows but window 0 holds. */
+size_t ss_blocks_level(const struct blocks *blocks, size_t i);
+size_t ss_blocks_hop(const struct blocks *blocks, size_t i);
+/* Samples of a stream that come after a translation, at most, before its window is full. */
+double ss_blocks_delay(const struct blocks *blocks, size_t i);
+
+/* The levels of a stream.  A sink gets the spectrum of a window, valid during the call only; what it
+ * returns, unless SS_OK, ends the work.  NULL: no memory. */
+typedef struct cascade cascade;
+typedef ss_status window_sink(size_t level, size_t window, double *spectrum, void *user);
+cascade *ss_cascade_new(const struct blocks *blocks);
+void ss_cascade_free(cascade *c);                      /* NULL is allowed */
+/* Samples that the first level's window lacks, >= 1; at most so many more, divided by 2^exponent, and
+ * those that are there likewise; then the windows that are full now. */
+size_t ss_cascade_room(const cascade *c);
+void ss_cascade_append(cascade *c, const double *x, size_t n, int exponent);
+ss_status ss_cascade_run(cascade *c, window_sink *sink, void *user);
+/* All windows of what is there, n samples so far, as if the signal ended here, and then going on with
+ * it is still possible.  SS_ENOMEM. */
+ss_status ss_cascade_end(const cascade *c, size_t n, window_sink *sink, void *user);
 
 #endif

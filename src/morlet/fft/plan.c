@@ -163,23 +163,18 @@ static size_t
 lattice_length(const struct fft *f, const level *lev, const ss_scale *scale, double accuracy,
                int window)
 {
-    double circle = (double)circle_of(lev), whole = ss_scale_parts(scale, f->rate);
-    int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5;
+    double whole = ss_scale_parts(scale, f->rate), circle = (double)circle_of(lev);
+    double step = whole > 0 ? scale->b_num / whole : scale->b_num * f->rate;
+    double a = scale->a * f->rate, parts = rint(circle / step);
+    int power_of_two = whole <= 1 && frexp(scale->b_num, &(int){ 0 }) == 0.5;
     int dense = whole == 1 && scale->b_num == 1;
-    double step = dense ? 1 : scale->b_num * f->rate, parts = rint(circle / step);
     double off = (fabs(circle / parts - step) + 2e-16 * step) * (double)scale->n;
-    if (whole > 0 && !dense) {          /* translations lie at multiples of b_num/whole samples */
-        parts = circle * whole / scale->b_num;
-        int fits = parts == floor(parts) && parts >= (double)scale->n && parts < INT_MAX;
-        return fits && !window ? (size_t)parts : 0;
-    }
-    double allow = accuracy / 20 * scale->a * f->rate / (f->center + REACH);
-    int near = !dense && scale->b_num <= scale->a && off < allow;
+    double allow = accuracy / 20 * a / (f->center + REACH);
+    int near = !dense && step <= a && off < allow;
     if (!(parts >= (double)scale->n && parts < INT_MAX))
         return 0;
     if (window)
-        return power_of_two && circle == parts * step && step <= 4 * scale->a * f->rate
-            ? (size_t)parts : 0;
+        return power_of_two && circle == parts * step && step <= 4 * a ? (size_t)parts : 0;
     return near || ((dense || power_of_two) && circle == parts * step) ? (size_t)parts : 0;
 }
 

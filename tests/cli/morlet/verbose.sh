@@ -4,4 +4,4 @@ ss-signal sine --duration 3 | ss-morlet -v --dense --accuracy 1e-3 2>&1 > /dev/n
 ss-morlet --version | grep -c 'ss-morlet (libstickslip)'
 ss-morlet --help | awk 'length > 80 { print "too wide: " $0 } END { if (NR > 24) print NR " lines" }'
 ss-morlet --help > /dev/null
-ss-signal sine --rate 200 --duration 2 | ss-morlet -v --stream --fmin 0.02 2>&1 > /dev/null | grep windows
+ss-signal sine --rate 200 --duration 2 | ss-morlet -v --stream --fmin 0.02 2>&1 > /dev/null | grep behind

@@ -1,0 +1,45 @@
+/* stage.h -- the tables that blocks.c makes for windows.c. */
+#ifndef STAGE_H
+#define STAGE_H
+
+#include <fftw3.h>
+#include <stddef.h>
+#include "morlet/fft/blocks.h"
+
+enum { LEVELS = BLOCK_LEVELS };
+
+/* A level of n samples, margin more on either side. */
+typedef struct stage {
+    size_t n, length, overlap, hop, windows;        /* window i begins at sample (i - 1) hop */
+    size_t margin, stride;                  /* doubles from a spectrum to the next */
+    int used;                               /* by a scale: spectra are kept */
+    double *filter;                         /* F_k / L, k <= L/4, then F_(L/2-k) / L; NULL: the last */
+    fftw_plan forward, back;
+} stage;
+
+/* The weights of a scale's terms, which those of other octaves share. */
+typedef struct row {
+    int level;                              /* -1: not here */
+    size_t points, hop;                     /* M, and translations from a window to the next */
+    ptrdiff_t lo;                           /* the first term */
+    size_t terms;
+    double *weight;
+    int owner;                              /* of weight */
+    fftw_plan inverse;
+} row;
+
+struct blocks {
+    size_t n_rows, levels, longest;         /* longest: M */
+    double margin;                          /* samples */
+    row *row;
+    stage stage[LEVELS];
+};
+
+/* Windows that hold n samples' coefficients. */
+static inline size_t
+windows_for(const stage *st, size_t n)
+{
+    return (n + st->hop - 1) / st->hop;
+}
+
+#endif

@@ -1,0 +1,399 @@
+/* windows.c -- coefficients window by window: of a whole record, and of a stream as it goes on.
+ *
+ * blocks.c says what a window is, and how large the error.  Window i of a level begins at its sample
+ * (i - 1) hop, and window 0 makes only samples before the record's first, which the next level has.
+ * A stream keeps one window of each level, which is computed when it is full. */
+#include <fftw3.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/pool.h"
+#include "morlet/fft/blocks.h"
+#include "morlet/fft/stage.h"
+#include "morlet/versions.h"
+
+#define REAL double
+#define NAMED(name) name
+#include "morlet/fft/points.h"
+#undef REAL
+#undef NAMED
+
+enum { WORTH_A_THREAD = 8 };    /* windows */
+
+/* Samples lo ... hi - 1 of a level, x[0] being sample lo; zeros elsewhere. */
+typedef struct samples {
+    double *x;
+    ptrdiff_t lo, hi;
+} samples;
+
+/* to[i] = sample first + i. */
+static void
+copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
+{
+    ptrdiff_t end = first + (ptrdiff_t)n;
+    ptrdiff_t lo = first > s->lo ? first : s->lo, hi = end < s->hi ? end : s->hi;
+    if (lo >= hi)
+        lo = hi = end;
+    memset(to, 0, (size_t)(lo - first) * sizeof *to);
+    if (hi > lo)
+        memcpy(to + (lo - first), s->x + (lo - s->lo), (size_t)(hi - lo) * sizeof *to);
+    memset(to + (hi - first), 0, (size_t)(end - hi) * sizeof *to);
+}
+
+/* The terms of a window of samples x that begins with those before its first, overlap/2. */
+static void
+transform_samples(const stage *st, const double *x, double *v, double *terms)
+{
+    size_t before = st->overlap / 2;
+    memcpy(v, x + before, (st->length - before) * sizeof *v);
+    memcpy(v + st->length - before, x, before * sizeof *v);
+    fftw_execute_dft_r2c(st->forward, v, (fftw_complex *)terms);
+}
+
+/* Terms of a window of the next level, k <= L/4, from those of this one. */
+VERSIONS static void
+filter_terms(const stage *st, const double *restrict x, double *restrict y)
+{
+    size_t half = st->length / 4;
+    const double *f = st->filter, *g = f + half + 1, *z = x + st->length;
+    for (size_t k = 0; k <= half; k++) {
+        y[2 * k] = f[k] * x[2 * k] + g[k] * *(z - 2 * k);
+        y[2 * k + 1] = f[k] * x[2 * k + 1] - g[k] * *(z - 2 * k + 1);
+    }
+}
+
+/* The samples of the next level that a window gives, the first of hop/2 at to[0]; spare has room for
+ * a window. */
+static void
+decimate(const stage *st, const double *terms, double *spare, double *to)
+{
+    filter_terms(st, terms, spare);
+    fftw_execute_dft_c2r(st->back, (fftw_complex *)spare, to);
+}
+
+/* Doubles for work on a window of any level: its samples, its spectrum and the next level's samples. */
+static size_t
+window_room(const struct blocks *b)
+{
+    size_t most = 0;
+    for (size_t l = 0; l < b->levels; l++)
+        most = b->stage[l].stride > most ? b->stage[l].stride : most;
+    return 3 * most;
+}
+
+/* --- a whole record --------------------------------------------------------------------------- */
+
+/* Some windows of a level, the work of one thread. */
+typedef struct task {
+    const stage *st;
+    const samples *from;
+    samples *next;              /* NULL: not needed */
+    double *spectra, *v;        /* spectra: of window 0 on, or NULL; v: window_room */
+    size_t first, end;          /* windows */
+} task;
+
+static void
+one_window(const task *t, size_t i)
+{
+    const stage *st = t->st;
+    ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)st->hop;
+    double *terms = t->spectra != NULL ? t->spectra + i * st->stride : t->v + st->stride;
+    double *spare = t->v + 2 * st->stride;
+    copy_samples(t->from, first - (ptrdiff_t)(st->overlap / 2), st->length, spare);
+    transform_samples(st, spare, t->v, terms);
+    if (t->next == NULL)
+        return;
+    samples made = { spare, first / 2, (first + (ptrdiff_t)st->hop) / 2 };
+    ptrdiff_t lo = made.lo > t->next->lo ? made.lo : t->next->lo;
+    ptrdiff_t hi = made.hi < t->next->hi ? made.hi : t->next->hi;
+    if (lo >= hi)
+        return;
+    decimate(st, terms, t->v, spare);
+    copy_samples(&made, lo, (size_t)(hi - lo), t->next->x + (lo - t->next->lo));
+}
+
+static void
+some_windows(void *user)
+{
+    const task *t = user;
+    for (size_t i = t->first; i < t->end; i++)
+        one_window(t, i);
+}
+
+/* The spectra of a level, if its scales need them, and the next level. */
+static ss_status
+forward_stage(const stage *st, task all, size_t room, size_t threads, double **out)
+{
+    task part[SS_THREADS_MAX];
+    size_t most = 1 + st->windows / WORTH_A_THREAD, n = threads < most ? threads : most;
+    if (st->used && (*out = fftw_malloc(st->windows * st->stride * sizeof **out)) == NULL)
+        return SS_ENOMEM;
+    all.spectra = *out;
+    for (size_t i = 0; i < n; i++) {
+        part[i] = all;
+        part[i].v = all.v + i * room;
+        part[i].first = st->windows * i / n;
+        part[i].end = st->windows * (i + 1) / n;
+    }
+    ss_pool_run(some_windows, part, sizeof *part, n);
+    return SS_OK;
+}
+
+static ss_status
+samples_new(samples *s, const stage *st)
+{
+    *s = (samples){ .lo = -(ptrdiff_t)st->margin, .hi = (ptrdiff_t)(st->n + st->margin) };
+    s->x = calloc((size_t)(s->hi - s->lo), sizeof *s->x);
+    return s->x != NULL ? SS_OK : SS_ENOMEM;
+}
+
+ss_status
+ss_blocks_forward(const struct blocks *b, const record *rec, size_t threads, block_spectra *out)
+{
+    samples now = { rec->x, 0, (ptrdiff_t)rec->n }, next = { 0 };
+    size_t room = window_room(b);
+    double *v = fftw_malloc(threads * room * sizeof *v);
+    ss_status st = v != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
+        int last = l + 1 == b->levels;
+        task all = { .st = &b->stage[l], .from = &now, .next = last ? NULL : &next, .v = v };
+        if (!last)
+            st = samples_new(&next, &b->stage[l + 1]);
+        if (st == SS_OK)
+            st = forward_stage(&b->stage[l], all, room, threads, &out->level[l]);
+        if (l > 0)
+            free(now.x);
+        now = next;
+        next.x = NULL;
+    }
+    if (st != SS_OK && now.x != rec->x)
+        free(now.x);
+    fftw_free(v);
+    return st;
+}
+
+void
+ss_block_spectra_free(block_spectra *s)
+{
+    for (size_t l = 0; l < LEVELS; l++)
+        fftw_free(s->level[l]);
+}
+
+/* --- a stream --------------------------------------------------------------------------------- */
+
+/* The next window of a level. */
+typedef struct filling {
+    double *made;               /* the last samples that it gave the next level; x follows */
+    double *x;
+    size_t have, window;        /* samples in x, the first overlap/2 before the window's; its number */
+    ptrdiff_t end;              /* samples from here on are 0 */
+} filling;
+
+struct cascade {
+    const struct blocks *b;
+    int exponent;               /* samples are x 2^exponent */
+    double *v;                  /* window_room */
+    filling level[LEVELS];
+};
+
+static cascade *
+empty_cascade(const struct blocks *b)
+{
+    cascade *c = calloc(1, sizeof *c);
+    if (c == NULL)
+        return NULL;
+    c->b = b;
+    int failed = (c->v = fftw_malloc(window_room(b) * sizeof *c->v)) == NULL;
+    for (size_t l = 0; l < b->levels; l++) {
+        filling *f = &c->level[l];
+        f->made = fftw_malloc((b->stage[l].stride / 2 + b->stage[l].length) * sizeof *f->made);
+        failed |= f->made == NULL;
+        f->x = f->made + b->stage[l].stride / 2;
+        f->end = PTRDIFF_MAX;
+    }
+    if (!failed)
+        return c;
+    ss_cascade_free(c);
+    return NULL;
+}
+
+/* Every level begins with the zeros of window 0 that come before what the level below makes. */
+cascade *
+ss_cascade_new(const struct blocks *b)
+{
+    cascade *c = empty_cascade(b);
+    for (size_t l = 0; c != NULL && l < b->levels; l++) {
+        const stage *st = &b->stage[l];
+        filling *f = &c->level[l];
+        f->have = st->hop + st->overlap / 2 - (l > 0 ? st[-1].hop / 2 : 0);
+        memset(f->x, 0, f->have * sizeof *f->x);
+    }
+    return c;
+}
+
+static cascade *
+copy_of(const cascade *c)
+{
+    cascade *to = empty_cascade(c->b);
+    for (size_t l = 0; to != NULL && l < c->b->levels; l++) {
+        filling *f = &to->level[l];
+        f->have = c->level[l].have;
+        f->window = c->level[l].window;
+        memcpy(f->x, c->level[l].x, f->have * sizeof *f->x);
+    }
+    return to;
+}
+
+void
+ss_cascade_free(cascade *c)
+{
+    if (c == NULL)
+        return;
+    for (size_t l = 0; l < c->b->levels; l++)
+        fftw_free(c->level[l].made);
+    fftw_free(c->v);
+    free(c);
+}
+
+static ss_status append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user);
+
+/* A window that is full, and the next, which begins with the last samples of this. */
+static ss_status
+finish_window(cascade *c, size_t l, window_sink *sink, void *user)
+{
+    const stage *st = &c->b->stage[l];
+    filling *f = &c->level[l];
+    double *terms = c->v + st->stride;
+    transform_samples(st, f->x, c->v, terms);
+    ss_status status = st->used ? sink(l, f->window, terms, user) : SS_OK;
+    memmove(f->x, f->x + st->hop, st->overlap * sizeof *f->x);
+    f->have = st->overlap;
+    f->window++;
+    if (status != SS_OK || l + 1 == c->b->levels)
+        return status;
+    decimate(st, terms, c->v, f->made);
+    return append(c, l + 1, f->made, st->hop / 2, sink, user);
+}
+
+/* The next samples of a level but the first, which has none before its margin. */
+static ss_status
+append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user)
+{
+    const stage *st = &c->b->stage[l];
+    filling *f = &c->level[l];
+    ss_status status = SS_OK;
+    while (status == SS_OK && n > 0) {
+        size_t left = st->length - f->have, part = n < left ? n : left;
+        ptrdiff_t at = ((ptrdiff_t)f->window - 1) * (ptrdiff_t)st->hop
+            - (ptrdiff_t)(st->overlap / 2) + (ptrdiff_t)f->have;
+        ptrdiff_t end = at + (ptrdiff_t)part, lo = -(ptrdiff_t)st->margin;
+        lo = lo < at ? at : lo < end ? lo : end;
+        samples from = { x + (lo - at), lo, end < f->end ? end : f->end };
+        copy_samples(&from, at, part, f->x + f->have);
+        x += part;
+        n -= part;
+        f->have += part;
+        status = f->have == st->length ? finish_window(c, l, sink, user) : SS_OK;
+    }
+    return status;
+}
+
+size_t
+ss_cascade_room(const cascade *c)
+{
+    return c->b->stage[0].length - c->level[0].have;
+}
+
+void
+ss_cascade_append(cascade *c, const double *x, size_t n, int exponent)
+{
+    for (size_t l = 0; exponent != c->exponent && l < c->b->levels; l++)
+        for (size_t i = 0; i < c->level[l].have; i++)
+            c->level[l].x[i] = ldexp(c->level[l].x[i], c->exponent - exponent);
+    c->exponent = exponent;
+    double *to = c->level[0].x + c->level[0].have;
+    for (size_t i = 0; i < n; i++)
+        to[i] = exponent == 0 ? x[i] : ldexp(x[i], -exponent);
+    c->level[0].have += n;
+}
+
+ss_status
+ss_cascade_run(cascade *c, window_sink *sink, void *user)
+{
+    return ss_cascade_room(c) == 0 ? finish_window(c, 0, sink, user) : SS_OK;
+}
+
+ss_status
+ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
+{
+    const struct blocks *b = now->b;
+    cascade *c = copy_of(now);
+    ss_status st = c != NULL ? SS_OK : SS_ENOMEM;
+    size_t windows[LEVELS];
+    for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
+        const stage *s = &b->stage[l];
+        windows[l] = 1 + windows_for(s, n + 2 * s->margin);
+        c->level[l].end = (ptrdiff_t)(n + (l > 0 ? s->margin : 0));
+        n = n / 2 + 1;
+    }
+    for (size_t l = 0; st == SS_OK && l < b->levels; l++)
+        while (st == SS_OK && c->level[l].window < windows[l]) {
+            filling *f = &c->level[l];
+            memset(f->x + f->have, 0, (b->stage[l].length - f->have) * sizeof *f->x);
+            st = finish_window(c, l, sink, user);
+        }
+    ss_cascade_free(c);
+    return st;
+}
+
+/* --- a scale ---------------------------------------------------------------------------------- */
+
+/* All translations of a window, the first counted one at v[0]. */
+static void
+transform_window(const stage *st, const row *r, const double *x, double *c, double *v)
+{
+    ptrdiff_t rest = r->lo % (ptrdiff_t)r->points;
+    size_t at = (size_t)(rest < 0 ? rest + (ptrdiff_t)r->points : rest);
+    memset(c, 0, 2 * r->points * sizeof *c);
+    add_terms(x, st->length, r->lo, r->weight, r->terms, c, r->points, at);
+    fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
+}
+
+void
+ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double *scratch,
+                span part, double factor, double *w)
+{
+    const row *r = &b->row[i];
+    const stage *st = &b->stage[r->level];
+    size_t end = part.first + part.n, k = part.first;
+    double *v = scratch + 2 * b->longest;
+    while (k < end) {
+        size_t window = 1 + k / r->hop - s->first, at = k % r->hop;
+        size_t n = r->hop - at < end - k ? r->hop - at : end - k;
+        transform_window(st, r, s->level[r->level] + window * st->stride, scratch, v);
+        write_lattice(v + 2 * at, n, factor, w + 2 * (k - part.first));
+        k += n;
+    }
+}
+
+size_t
+ss_blocks_hop(const struct blocks *b, size_t i)
+{
+    return b->row[i].hop;
+}
+
+size_t
+ss_blocks_level(const struct blocks *b, size_t i)
+{
+    return (size_t)b->row[i].level;
+}
+
+double
+ss_blocks_delay(const struct blocks *b, size_t i)
+{
+    double delay = 0;
+    for (int l = 0; l <= b->row[i].level; l++)
+        delay += ldexp((double)(b->stage[l].length - b->stage[l].overlap / 2), l);
+    return delay;
+}
