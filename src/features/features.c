@@ -4,6 +4,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
 #include "features/maxima.h"
@@ -30,28 +31,26 @@ const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displace
 static ss_status
 find_noise(search *s)
 {
-    const ss_scale *last = &s->coef->scale[s->coef->n_scales - 1];
+    size_t shortest = s->map.grid->n_scales - 1, n = 0;
+    const ss_scale *last = &s->map.grid->scale[shortest];
     double *level = malloc((last->n + 1) * sizeof *level);
-    size_t n = 0;
-    if (level == NULL)
-        return SS_ENOMEM;
-    for (size_t k = 0; k < last->n; k++) {
-        const double *w = s->coef->w + 2 * (last->offset + k);
+    ss_status st = level == NULL ? SS_ENOMEM
+        : ss_levels_fill(&s->map, &(level_part){ shortest, 0, last->n, level }, 1);
+    for (size_t k = 0; st == SS_OK && k < last->n; k++)
         if (!ss_gaps_near(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
-            level[n++] = hypot(w[0], w[1]);
-    }
+            level[n++] = level[k];
     double scale = s->opts->norm == SS_NORM_L1 ? last->a : 1;
     s->out->noise = n == 0 ? 0
         : gsl_stats_select(level, 1, n, n / 2) * sqrt(scale * s->rate / M_LN2);
     free(level);
-    return SS_OK;
+    return st;
 }
 
 /* Nine tenths of the noise lie below, and a saddle there is made by noise. */
 static double
 noise_floor(const search *s)
 {
-    double shortest = s->coef->scale[s->coef->n_scales - 1].a;
+    double shortest = s->map.grid->scale[s->map.grid->n_scales - 1].a;
     return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
 }
 
@@ -60,7 +59,7 @@ noise_floor(const search *s)
 static void
 drop_noise(search *s)
 {
-    double top = ss_coefficients_max(s->coef), noise = s->out->noise / sqrt(s->rate);
+    double top = s->top, noise = s->out->noise / sqrt(s->rate);
     size_t kept = 0;
     for (size_t i = 0; i < s->n_found; i++) {
         ss_maximum m = s->found[i];
@@ -263,20 +262,20 @@ transform(search *s, size_t column, ss_error *err)
     ss_morlet_opts opts = ss_morlet_defaults;
     double lowest = CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n);
     opts.center = CENTER;
-    opts.exact = 1;             /* prominences near the threshold were measured on this grid */
     opts.norm = s->opts->norm;
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
+    const double *x = s->signal->values + column * s->n;
     if (s->n_gaps == 0)
-        return ss_morlet_transform(&s->coef, s->signal, column, &opts, err);
-    ss_signal *bridged = NULL;          /* zeros in a gap are steep */
-    ss_status st = ss_signal_select(&bridged, s->signal, &column, 1, 0, s->n, err);
-    if (st != SS_OK)
-        return ss_fail(err, st, "%s", ss_strerror(st));
-    ss_gaps_bridge(bridged->values, s->n, s->rate, s->gap, s->n_gaps);
-    st = ss_morlet_transform(&s->coef, bridged, 0, &opts, err);
-    ss_signal_free(bridged);
+        return ss_levels_new(&s->map, s->signal, column, x, &opts, err);
+    double *bridged = malloc(s->n * sizeof *bridged);   /* zeros in a gap are steep */
+    if (bridged == NULL)
+        return SS_ENOMEM;
+    memcpy(bridged, x, s->n * sizeof *x);
+    ss_gaps_bridge(bridged, s->n, s->rate, s->gap, s->n_gaps);
+    ss_status st = ss_levels_new(&s->map, s->signal, column, bridged, &opts, err);
+    free(bridged);
     return st;
 }
 
@@ -285,8 +284,8 @@ find_maxima(search *s)
 {
     ss_status st = find_noise(s);
     if (st == SS_OK)
-        st = ss_maxima_above(&s->found, &s->n_found, s->coef,
-                             fmin(SLIGHT, s->opts->threshold), noise_floor(s));
+        st = ss_maxima_above(&s->found, &s->n_found, &s->map, fmin(SLIGHT, s->opts->threshold),
+                             noise_floor(s), &s->top);
     if (st != SS_OK)
         return st;
     drop_noise(s);
@@ -392,7 +391,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
     st = s.n > 0 ? transform(&s, column, err) : SS_ESCALE;
     if (st == SS_OK && (st = find_all(&s)) != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));
-    ss_coefficients_free(s.coef);
+    ss_levels_free(&s.map);
     free(s.x);
     free(s.gap);
     free(s.found);

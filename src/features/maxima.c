@@ -5,7 +5,11 @@
  * point of their border, and the borders alone say what flooding the whole map from above would: they
  * are taken from the highest down, and where two pools meet, the one with the lower peak ends.  That
  * border is the highest saddle between this peak and any higher one: the prominence is the fall from
- * peak to saddle.  Cost: two passes over the map, and a sort of the borders.
+ * peak to saddle.
+ *
+ * The map is passed over strip by strip in time, so that only a strip of it is in memory: its points
+ * and, of each row, HALO more at either side.  A way that leaves a strip ends in a peak of level -1,
+ * whose pool is that of the next strip's point.
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
  * where the map was cut, not a maximum; it is not reported, but it is higher ground for others.  So
@@ -15,14 +19,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/list.h"
+#include "features/levels.h"
 #include "features/maxima.h"
+#include "morlet/plan.h"
 
 #define DRY SIZE_MAX            /* a way that leads nowhere: no point of the map */
 #define PEAK (SIZE_MAX / 2 + 1) /* a way's end: plus the number of the peak */
 
 typedef struct peak {
     size_t row, k;              /* its coefficient */
-    double level;               /* |W| > 0 */
+    double level;               /* |W| > 0, or -1 */
     double saddle;              /* the level where its pool ended, 0 if it did not */
     size_t pool;                /* towards its pool's highest peak, which is its own */
 } peak;
@@ -32,91 +38,160 @@ typedef struct border {         /* between the basins of two peaks */
     size_t p, q;                /* p < q; q = 0: none */
 } border;
 
-enum { RECENT = 1 << 12 };      /* borders that are kept at hand while they may be met higher up */
+enum {
+    RECENT = 1 << 12,           /* borders that are kept at hand while they may be met higher up */
+    HALO = 3,                   /* neighbours of a point in a row beside it are within so many */
+    STRIP = 1 << 21             /* points of a strip, about */
+};
+
+/* A row in a strip: points lo ... hi - 1, of which from ... end - 1 are the strip's own. */
+typedef struct line {
+    size_t lo, from, end, hi;
+    size_t at;                  /* of point lo among the strip's points */
+    size_t left[HALO];          /* the ways of the points before end in the strip before, */
+    size_t right[HALO];         /* and the peaks, plus PEAK, at those from end on; or DRY */
+} line;
 
 typedef struct map {
-    const ss_coefficients *coef;
+    const map_source *source;
+    const ss_coefficients *grid;
     size_t first, last;         /* rows looked at */
     double floor;               /* lower levels are not looked at; 0: all are */
-    size_t *way;                /* of a coefficient, counted from the first row's first: to another */
-    size_t n_peaks;
-    peak *peak;                 /* in order of their coefficients */
-    size_t n_borders, room;
+    double outside, all;        /* the largest levels so far: outside the cone of influence, and of all */
+    line *line;                 /* of row first and on */
+    size_t room;                /* points */
+    double *level;              /* of a strip's points; 0: dry */
+    size_t *way;                /* to another point, or to a peak */
+    size_t n_peaks, peak_room;
+    peak *peak;
+    size_t n_borders, border_room;
     border *border;
     border recent[RECENT];
-    int failed;                 /* 1: no memory for borders */
+    int failed;                 /* 1: no memory for peaks or borders */
 } map;
-
-typedef struct line {           /* a row that is passed over */
-    size_t row, at, n;          /* at: its first coefficient, counted as ways are */
-    double *level;              /* 0: dry */
-    double *best;               /* where the way leads, which is not into the dry */
-} line;
 
 static void
 map_free(map *m)
 {
+    if (m == NULL)
+        return;
+    free(m->line);
+    free(m->level);
     free(m->way);
     free(m->peak);
     free(m->border);
     free(m);
 }
 
+/* --- strips ---------------------------------------------------------------------------------- */
+
+static const ss_scale *
+scale_of(const map *m, size_t row)
+{
+    return &m->grid->scale[row];
+}
+
+/* The rows' points up to time t; their number. */
 static size_t
-index_of(const map *m, size_t row, size_t k)
+next_strip(map *m, double t)
 {
-    return m->coef->scale[row].offset - m->coef->scale[m->first].offset + k;
-}
-
-/* --- passing over the map ------------------------------------------------------------------ */
-
-static double
-level_at(const map *m, size_t row, size_t k)
-{
-    const double *w = m->coef->w + 2 * (m->coef->scale[row].offset + k);
-    return hypot(w[0], w[1]);
-}
-
-static void
-fill(line *l, const map *m, size_t row)
-{
-    const ss_scale *scale = &m->coef->scale[row];
-    const size_t samples = m->coef->n, n = scale->n;
-    const double rate = m->coef->head->rate;
-    size_t from = 0, to = n;
-    *l = (line){ row, index_of(m, row, 0), n, l->level, l->best };
-    while (from < n && ss_scale_edge(scale, from, samples, rate))
-        l->level[from++] = 0;
-    while (to > from && ss_scale_edge(scale, to - 1, samples, rate))
-        l->level[--to] = 0;
-    for (size_t k = from; k < to; k++) {
-        double level = level_at(m, row, k);
-        l->level[k] = level > m->floor ? level : 0;
+    size_t n = 0;
+    for (size_t row = m->first; row <= m->last; row++) {
+        line *l = &m->line[row - m->first];
+        const ss_scale *scale = scale_of(m, row);
+        size_t count = t < INFINITY ? ss_scale_count(scale, t) : scale->n;
+        l->from = l->end;
+        l->end = count > l->from ? count < scale->n ? count : scale->n : l->from;
+        l->lo = l->from > HALO ? l->from - HALO : 0;
+        l->hi = scale->n - l->end > HALO ? l->end + HALO : scale->n;
+        l->at = n;
+        n += l->hi - l->lo;
     }
+    return n;
 }
 
-typedef void touch(map *m, line *a, size_t i, line *b, size_t j);
+static ss_status
+make_room(map *m, size_t n)
+{
+    if (n <= m->room)
+        return SS_OK;
+    free(m->level);
+    free(m->way);
+    m->level = malloc(n * sizeof *m->level);
+    m->way = malloc(n * sizeof *m->way);
+    m->room = m->level != NULL && m->way != NULL ? n : 0;
+    return m->room > 0 ? SS_OK : SS_ENOMEM;
+}
+
+/* Of the levels of a row, the largest ones; 0 where it is dry, and where the cone of influence is. */
+static void
+dry_out(map *m, size_t row)
+{
+    const line *l = &m->line[row - m->first];
+    const ss_scale *scale = scale_of(m, row);
+    double *level = m->level + l->at, rate = m->grid->head->rate;
+    size_t from = l->lo, to = l->hi;
+    for (size_t k = l->lo; k < l->hi; k++) {
+        double here = level[k - l->lo];
+        m->all = fmax(m->all, here);
+        if (here > m->outside && !ss_coefficients_edge(m->grid, row, k))
+            m->outside = here;
+        level[k - l->lo] = here > m->floor ? here : 0;
+    }
+    while (from < to && ss_scale_edge(scale, from, m->grid->n, rate))
+        level[from++ - l->lo] = 0;
+    while (to > from && ss_scale_edge(scale, to - 1, m->grid->n, rate))
+        level[--to - l->lo] = 0;
+}
+
+static ss_status
+fill(map *m)
+{
+    size_t rows = m->last - m->first + 1;
+    level_part *part = malloc(rows * sizeof *part);
+    if (part == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < rows; i++) {
+        const line *l = &m->line[i];
+        part[i] = (level_part){ m->first + i, l->lo, l->hi - l->lo, m->level + l->at };
+    }
+    ss_status st = ss_levels_fill(m->source, part, rows);
+    for (size_t row = m->first; st == SS_OK && row <= m->last; row++)
+        dry_out(m, row);
+    free(part);
+    return st;
+}
+
+/* --- passing over a strip -------------------------------------------------------------------- */
+
+typedef void touch(map *m, size_t p, size_t q);
 
 /* Neighbours in two rows: of each point the one nearest in time, the first and the last beyond. */
 static inline void
-touch_rows(map *m, line *a, line *b, touch *meet)
+touch_rows(map *m, size_t row, size_t beside, touch *meet)
 {
-    const ss_scale *from = &m->coef->scale[a->row], *to = &m->coef->scale[b->row];
+    const ss_scale *from = scale_of(m, row), *to = scale_of(m, beside);
+    const line *a = &m->line[row - m->first], *b = &m->line[beside - m->first];
     double ratio = from->b_num / from->b_den / (to->b_num / to->b_den);
-    for (size_t i = 0; i < a->n; i++) {
-        double j = (double)i * ratio + 0.5;
-        meet(m, a, i, b, j < (double)b->n ? (size_t)j : b->n - 1);
+    for (size_t i = a->lo; i < a->hi; i++) {
+        double at = (double)i * ratio + 0.5;
+        size_t j = at < (double)to->n ? (size_t)at : to->n - 1;
+        if (j >= b->lo && j < b->hi)
+            meet(m, a->at + (i - a->lo), b->at + (j - b->lo));
     }
 }
 
 static inline void
-touch_all(map *m, line *here, line *before, touch *meet)
+touch_all(map *m, touch *meet)
 {
-    for (size_t k = 1; k < here->n; k++)
-        meet(m, here, k - 1, here, k);
-    if (here->row > m->first) {
-        touch_rows(m, before, here, meet);
-        touch_rows(m, here, before, meet);
+    for (size_t row = m->first; row <= m->last; row++) {
+        const line *l = &m->line[row - m->first];
+        for (size_t i = 1; i < l->hi - l->lo; i++)
+            meet(m, l->at + i - 1, l->at + i);
+        if (row > m->first) {
+            touch_rows(m, row - 1, row, meet);
+            touch_rows(m, row, row - 1, meet);
+        }
     }
 }
 
@@ -124,53 +199,31 @@ touch_all(map *m, line *here, line *before, touch *meet)
 
 /* Of equals, the first is the higher. */
 static inline void
-climb(map *m, line *a, size_t i, line *b, size_t j)
+climb(map *m, size_t p, size_t q)
 {
-    if (a->level[i] < b->level[j] || (a->level[i] == b->level[j] && a->at + i > b->at + j)) {
-        line *swap = a;
-        size_t k = i;
-        a = b, i = j;
-        b = swap, j = k;
+    const double *level = m->level;
+    if (level[p] < level[q] || (level[p] == level[q] && p > q)) {
+        size_t swap = p;
+        p = q;
+        q = swap;
     }
-    if (a->level[i] > b->best[j] || (a->level[i] == b->best[j] && a->at + i < m->way[b->at + j])) {
-        b->best[j] = a->level[i];
-        m->way[b->at + j] = a->at + i;
-    }
+    size_t way = m->way[q];
+    if (way != DRY && (level[p] > level[way] || (level[p] == level[way] && p < way)))
+        m->way[q] = p;
 }
 
-static void
-find_ways(map *m, line l[2])
+/* The way to a new peak. */
+static size_t
+new_peak(map *m, size_t row, size_t k, double level)
 {
-    for (size_t row = m->first; row <= m->last; row++) {
-        line *here = &l[row % 2], *before = &l[(row + 1) % 2];
-        fill(here, m, row);
-        for (size_t k = 0; k < here->n; k++) {
-            int wet = here->level[k] > 0;
-            here->best[k] = wet ? here->level[k] : INFINITY;
-            m->way[here->at + k] = wet ? here->at + k : DRY;
-        }
-        touch_all(m, here, before, climb);
+    peak *list = ss_list_room(m->peak, &m->peak_room, m->n_peaks, sizeof *list);
+    if (list == NULL) {
+        m->failed = 1;
+        return DRY;
     }
-}
-
-static ss_status
-find_peaks(map *m)
-{
-    size_t n = 0, end = index_of(m, m->last, m->coef->scale[m->last].n);
-    for (size_t at = 0; at < end; at++)
-        n += m->way[at] == at;
-    m->peak = malloc((n + 1) * sizeof *m->peak);
-    if (m->peak == NULL)
-        return SS_ENOMEM;
-    for (size_t row = m->first; row <= m->last; row++)
-        for (size_t k = 0; k < m->coef->scale[row].n; k++) {
-            size_t at = index_of(m, row, k);
-            if (m->way[at] != at)
-                continue;
-            m->peak[m->n_peaks] = (peak){ row, k, level_at(m, row, k), 0, m->n_peaks };
-            m->way[at] = PEAK + m->n_peaks++;
-        }
-    return SS_OK;
+    m->peak = list;
+    m->peak[m->n_peaks] = (peak){ row, k, level, 0, m->n_peaks };
+    return PEAK + m->n_peaks++;
 }
 
 /* Let the way from a point, and from all those on it, lead to the peak at once. */
@@ -187,12 +240,69 @@ shorten(map *m, size_t at)
     }
 }
 
+/* The ends of ways in a row: its peaks, what the strip before has found, and what the next will find. */
+static void
+find_ends(map *m, size_t row)
+{
+    line *l = &m->line[row - m->first];
+    size_t *way = m->way + l->at, right[HALO];
+    for (size_t k = l->lo; k < l->from; k++)
+        way[k - l->lo] = l->left[l->from - 1 - k];
+    for (size_t k = l->from; k < l->end; k++)
+        if (way[k - l->lo] == l->at + (k - l->lo))
+            way[k - l->lo] = new_peak(m, row, k, m->level[l->at + (k - l->lo)]);
+    for (size_t i = 0; i < HALO; i++) {
+        size_t k = l->end + i, before = k - l->from;
+        right[i] = DRY;
+        if (k >= l->hi || way[k - l->lo] == DRY)
+            continue;
+        int known = before < HALO && l->right[before] != DRY;
+        right[i] = way[k - l->lo] = known ? l->right[before] : new_peak(m, row, k, -1);
+    }
+    for (size_t i = 0; i < HALO; i++) {     /* left serves for those that this strip has found */
+        l->left[i] = l->from + i < l->end ? l->right[i] : DRY;
+        l->right[i] = right[i];
+    }
+}
+
+/* All ways lead to their ends: the peaks of the strip before get their pools, and the next strip its ways. */
+static void
+close_ends(map *m, size_t row)
+{
+    line *l = &m->line[row - m->first];
+    size_t *way = m->way + l->at;
+    for (size_t k = l->from; k < l->end; k++)
+        shorten(m, l->at + (k - l->lo));
+    for (size_t i = 0; i < HALO; i++)
+        if (l->left[i] != DRY)
+            m->peak[l->left[i] - PEAK].pool = way[l->from + i - l->lo] - PEAK;
+    for (size_t i = 0; i < HALO; i++)
+        l->left[i] = l->end > l->lo + i ? way[l->end - 1 - i - l->lo] : DRY;
+}
+
+static void
+find_ways(map *m, size_t points)
+{
+    for (size_t p = 0; p < points; p++)
+        m->way[p] = m->level[p] > 0 ? p : DRY;
+    touch_all(m, climb);
+    for (size_t row = m->first; row <= m->last; row++)
+        find_ends(m, row);
+    for (size_t row = m->first; row <= m->last && !m->failed; row++)
+        close_ends(m, row);
+    for (size_t i = 0; i <= m->last - m->first; i++) {
+        const line *l = &m->line[i];
+        for (size_t k = l->end; k < l->hi; k++)
+            m->way[l->at + (k - l->lo)] = DRY;          /* the next strip's */
+    }
+}
+
 /* --- borders ------------------------------------------------------------------------------- */
 
 static void
 keep_border(map *m, border b)
 {
-    border *list = ss_list_room(m->border, &m->room, m->n_borders, sizeof *list);
+    border *list = ss_list_room(m->border, &m->border_room, m->n_borders, sizeof *list);
     if (list == NULL) {
         m->failed = 1;
         return;
@@ -202,12 +312,12 @@ keep_border(map *m, border b)
 }
 
 static inline void
-add_border(map *m, line *a, size_t i, line *b, size_t j)
+add_border(map *m, size_t at, size_t beside)
 {
-    size_t p = m->way[a->at + i], q = m->way[b->at + j];
+    size_t p = m->way[at], q = m->way[beside];
     if (p == q || p == DRY || q == DRY)
         return;
-    double level = a->level[i] < b->level[j] ? a->level[i] : b->level[j];
+    double level = fmin(m->level[at], m->level[beside]);
     border found = { 0, (p < q ? p : q) - PEAK, (p < q ? q : p) - PEAK };
     border *slot = &m->recent[(found.p * 31 + found.q) % RECENT];
     memcpy(&found.key, &level, sizeof level);
@@ -220,20 +330,28 @@ add_border(map *m, line *a, size_t i, line *b, size_t j)
     *slot = found;
 }
 
+/* Strip by strip, of as many points as there is room for, about. */
 static ss_status
-find_borders(map *m, line l[2])
+survey(map *m)
 {
-    for (size_t row = m->first; row <= m->last; row++) {
-        line *here = &l[row % 2], *before = &l[(row + 1) % 2];
-        fill(here, m, row);
-        for (size_t k = 0; k < here->n; k++)
-            shorten(m, here->at + k);
-        touch_all(m, here, before, add_border);
+    double total = 0, length = (double)m->grid->n / m->grid->head->rate;
+    for (size_t row = m->first; row <= m->last; row++)
+        total += (double)scale_of(m, row)->n;
+    size_t strips = (size_t)(total / STRIP) + 1;
+    ss_status st = SS_OK;
+    for (size_t i = 1; st == SS_OK && i <= strips; i++) {
+        size_t n = next_strip(m, i < strips ? length * (double)i / (double)strips : INFINITY);
+        if ((st = make_room(m, n)) != SS_OK || (st = fill(m)) != SS_OK)
+            continue;
+        find_ways(m, n);
+        if (!m->failed)
+            touch_all(m, add_border);
+        st = m->failed ? SS_ENOMEM : ss_levels_progress(m->source, (double)i / (double)strips);
     }
     for (size_t i = 0; i < RECENT; i++)
         if (m->recent[i].q > 0)
             keep_border(m, m->recent[i]);
-    return m->failed ? SS_ENOMEM : SS_OK;
+    return m->failed ? SS_ENOMEM : st;
 }
 
 /* Highest first, by counting digits from the lowest to the highest. */
@@ -295,8 +413,8 @@ on_border(const map *m, size_t row, size_t k)
 {
     if (m->first < m->last && (row == m->first || row == m->last))
         return 1;
-    return k == 0 || k + 1 == m->coef->scale[row].n || ss_coefficients_edge(m->coef, row, k)
-        || ss_coefficients_edge(m->coef, row, k - 1) || ss_coefficients_edge(m->coef, row, k + 1);
+    return k == 0 || k + 1 == scale_of(m, row)->n || ss_coefficients_edge(m->grid, row, k)
+        || ss_coefficients_edge(m->grid, row, k - 1) || ss_coefficients_edge(m->grid, row, k + 1);
 }
 
 static int
@@ -321,7 +439,9 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
         highest = fmax(highest, m->peak[i].level);
     for (size_t i = 0; i < m->n_peaks; i++) {
         const peak *p = &m->peak[i];
-        const ss_scale *scale = &m->coef->scale[p->row];
+        const ss_scale *scale = scale_of(m, p->row);
+        if (p->level < 0)
+            continue;
         /* only the highest has no saddle */
         double below = p->saddle > 0 || p->level == highest ? p->saddle : m->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
@@ -349,43 +469,48 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
 
 /* A map with its pools as they are when all is flooded. */
 static ss_status
-map_new(map **out, const ss_coefficients *coef, size_t first, size_t last, double floor)
+map_new(map **out, const map_source *source, size_t first, size_t last, double floor)
 {
-    map *m = calloc(1, sizeof *m);
-    if (m == NULL)
+    map *m = *out = calloc(1, sizeof *m);
+    if (m == NULL || (m->line = calloc(last - first + 1, sizeof *m->line)) == NULL)
         return SS_ENOMEM;
-    *m = (map){ .coef = coef, .first = first, .last = last, .floor = floor };
-    size_t most = 1;
-    for (size_t row = first; row <= last; row++)
-        most = coef->scale[row].n > most ? coef->scale[row].n : most;
-    double *memory = malloc(4 * most * sizeof *memory);
-    m->way = malloc((index_of(m, last, coef->scale[last].n) + 1) * sizeof *m->way);
-    ss_status st = SS_ENOMEM;
-    if (memory != NULL && m->way != NULL) {
-        line l[2] = { { .level = memory, .best = memory + most },
-                      { .level = memory + 2 * most, .best = memory + 3 * most } };
-        find_ways(m, l);
-        if ((st = find_peaks(m)) == SS_OK && (st = find_borders(m, l)) == SS_OK
-            && (st = sort_borders(m)) == SS_OK)
-            flood(m);
-    }
-    free(memory);
-    if (st != SS_OK)
-        map_free(m);
-    else
-        *out = m;
+    m->source = source;
+    m->grid = source->grid;
+    m->first = first;
+    m->last = last;
+    m->floor = floor;
+    m->outside = -1;
+    for (size_t i = 0; i <= last - first; i++)
+        for (size_t k = 0; k < HALO; k++)
+            m->line[i].left[k] = m->line[i].right[k] = DRY;
+    ss_status st = survey(m);
+    if (st == SS_OK && (st = sort_borders(m)) == SS_OK)
+        flood(m);
     return st;
 }
 
 ss_status
-ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
-                double min_prominence, double floor)
+ss_maxima_above(ss_maximum **out, size_t *n, const map_source *source, double min_prominence,
+                double floor, double *top)
 {
     map *m;
-    ss_status st = map_new(&m, coefficients, 0, coefficients->n_scales - 1, floor);
-    if (st != SS_OK)
-        return st;
-    st = report(out, n, m, ss_coefficients_max(coefficients), INFINITY, min_prominence);
+    ss_status st = map_new(&m, source, 0, source->grid->n_scales - 1, floor);
+    if (st == SS_OK) {
+        *top = m->outside >= 0 ? m->outside : m->all;
+        st = report(out, n, m, *top, INFINITY, min_prominence);
+    }
+    map_free(m);
+    return st;
+}
+
+ss_status
+ss_maxima_of_row(ss_maximum **out, size_t *n, const map_source *source, size_t row, double top,
+                 double range, double min_prominence)
+{
+    map *m;
+    ss_status st = map_new(&m, source, row, row, 0);
+    if (st == SS_OK)
+        st = report(out, n, m, top, range, min_prominence);
     map_free(m);
     return st;
 }
@@ -395,7 +520,8 @@ ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
 {
     if (out == NULL || n == NULL || coefficients == NULL)
         return SS_EINVAL;
-    return ss_maxima_above(out, n, coefficients, min_prominence, 0);
+    double top;
+    return ss_maxima_above(out, n, &(map_source){ .grid = coefficients }, min_prominence, 0, &top);
 }
 
 ss_status
@@ -404,11 +530,6 @@ ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients
 {
     if (out == NULL || n == NULL || coefficients == NULL || scale >= coefficients->n_scales)
         return SS_EINVAL;
-    map *m;
-    ss_status st = map_new(&m, coefficients, scale, scale, 0);
-    if (st != SS_OK)
-        return st;
-    st = report(out, n, m, ss_coefficients_max(coefficients), range, min_prominence);
-    map_free(m);
-    return st;
+    return ss_maxima_of_row(out, n, &(map_source){ .grid = coefficients }, scale,
+                            ss_coefficients_max(coefficients), range, min_prominence);
 }

@@ -18,6 +18,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "features/levels.h"
 #include "features/scale_rows.h"
 #include <stickslip/morlet.h>
 
@@ -169,7 +170,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud, ss
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_morlet *plan = NULL;
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
-    opts.octaves = opts.exact = 1;
+    opts.octaves = 1;
     opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
     double a = exp2(opts.m0), rate = source->rate;
     size_t margin = (size_t)ceil(ROW_REACH * a * rate), n = source->n + 2 * margin;
@@ -182,7 +183,7 @@ ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud, ss
     if (st == SS_OK) {
         const ss_scale *scale = ss_morlet_scale(plan, 0);
         for (size_t k = 0; k < scale->n; k++)
-            w[k] = hypot(w[2 * k], w[2 * k + 1]);
+            w[k] = magnitude_of(w + 2 * k);
         *r = (row){ .a = a, .f = scale->f };
         st = fill_row(r, source, loud, scale, w, (double)margin / rate);
         r->rms = hypot(r->rms, source->rounding);

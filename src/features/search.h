@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stickslip/features.h>
 #include "features/cycles.h"
+#include "features/levels.h"
 #include "features/quantity.h"
 
 #define CENTER 6.0              /* of the wavelet */
@@ -21,7 +22,8 @@ typedef struct search {
     size_t n_gaps;
     ss_span *gap;               /* [s] from the first sample */
     const ss_features_opts *opts;
-    ss_coefficients *coef;
+    map_source map;             /* |W| */
+    double top;                 /* its largest outside the cone of influence */
     ss_maximum *found;          /* maxima, slight ones too */
     size_t n_found;
     column_quantity quantity;

@@ -7,6 +7,7 @@
 #include "features/force.h"
 #include "base/list.h"
 #include "base/sort.h"
+#include "features/maxima.h"
 #include "features/ringdown.h"
 #include "features/scale_rows.h"
 #include "features/search.h"
@@ -21,6 +22,7 @@ static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
 enum { SHORT = 64 };            /* samples: in fewer no single event has quiet beside it */
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
+#define NEAR 1.0                /* [octaves] what is fitted is as near to what recurs */
 #define PRECISE 10.0            /* a frequency is this many of its standard errors, at least */
 #define SHARPER 1.5             /* than the oscillation, in frequency: an event within it */
 #define POSITIVE 3.0            /* standard errors by which a damping ratio is more than 0 */
@@ -98,7 +100,7 @@ ss_transitions_new(ss_features *out, size_t n)
 }
 
 /* Give every swell the nearest maximum of the kind, not further than the wavelet reaches, where it
- * is above the threshold; how many have one at all. */
+ * is above the threshold, if FEW or more are; how many have one at all. */
 static size_t
 match_maxima(search *s, const ss_maximum *swell, double f)
 {
@@ -121,6 +123,9 @@ match_maxima(search *s, const ss_maximum *swell, double f)
         out->transition[i].maximum = *best;
         out->recurring++;
     }
+    for (size_t i = 0; out->recurring < FEW && i < out->n; i++)
+        out->transition[i].maximum = no_maximum;
+    out->recurring = out->recurring < FEW ? 0 : out->recurring;
     return ringing;
 }
 
@@ -272,11 +277,11 @@ count_crossings(const search *s, const ss_window *window, size_t n, double f, si
     return st;
 }
 
-/* Why what was fitted is no ringing; NULL if it is. */
+/* Why what was fitted is no ringing at about omega radians a sample; NULL if it is. */
 static const char *
-judge_fit(const ss_value all[2], size_t used, size_t crossed)
+judge_fit(const ss_value all[2], double omega, size_t used, size_t crossed)
 {
-    if (isnan(all[0].value) || used < FEW)
+    if (isnan(all[0].value) || used < FEW || fabs(log2(all[0].value / omega)) > NEAR)
         return "what recurs lasts under 2 periods or is no damped oscillation";
     if (2 * crossed > used)
         return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
@@ -308,7 +313,7 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
             if (st == SS_OK)
                 st = count_crossings(s, window, n, f, &used, &crossed);
             if (st == SS_OK)
-                *why = judge_fit(all, used, crossed);
+                *why = judge_fit(all, turn * f, used, crossed);
         }
         free(bar);
     }
@@ -331,7 +336,7 @@ fit_and_judge(search *s, const double *about, double f, int singly, ss_window *w
             : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
     }
     if (st == SS_OK && singly)
-        out->why_ringing = judge_fit(all, n, 0);
+        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, 0);
     if (st == SS_OK && out->why_ringing != NULL)
         ss_ringdown_clear(anchor, n, window, all, each);
     if (st == SS_OK) {
@@ -409,8 +414,8 @@ find_ringing(search *s, double label)
     ss_features *out = s->out;
     ss_maximum *swell = NULL;
     size_t n = 0;
-    ss_status st = ss_maxima_along(&swell, &n, s->coef, row_of(s->coef, label), RANGE,
-                             s->opts->threshold);
+    ss_status st = ss_maxima_of_row(&swell, &n, &s->map, row_of(s->map.grid, label), s->top,
+                                    RANGE, s->opts->threshold);
     if (st == SS_OK)
         st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
@@ -528,7 +533,7 @@ find_single(search *s)
 /* The mean square of |W| over the root of the scale, which is that of the amplitude, over LOOKED less
  * SETTLED periods behind the onsets; 0: fewer than half of the transitions last so long. */
 static double
-power_behind(const search *s, const ss_scale *scale)
+power_behind(const search *s, const ss_scale *scale, const double *level)
 {
     const ss_features *out = s->out;
     double sum = 0, period = 1 / scale->f;
@@ -540,10 +545,8 @@ power_behind(const search *s, const ss_scale *scale)
         if (to > tr->end - LEFT * period || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
                                                          0.5 * (to - from) + ROW_REACH * scale->a))
             continue;
-        for (; k < scale->n && ss_scale_b(scale, k) <= to; k++) {
-            const double *w = s->coef->w + 2 * (scale->offset + k);
-            one += w[0] * w[0] + w[1] * w[1];
-        }
+        for (; k < scale->n && ss_scale_b(scale, k) <= to; k++)
+            one += level[k] * level[k];
         if (k == first)
             continue;
         sum += one / (double)(k - first);
@@ -553,21 +556,26 @@ power_behind(const search *s, const ss_scale *scale)
 }
 
 /* The label of the strongest band that is a band: with less power on either side.  0: none. */
-static double
-strongest_band(const search *s)
+static ss_status
+strongest_band(const search *s, double *f)
 {
-    const ss_coefficients *coef = s->coef;
-    double before = 0, at = 0, best = 0, f = 0;
-    for (size_t i = 0; i < coef->n_scales; i++) {
-        double next = power_behind(s, &coef->scale[i]);
+    const ss_coefficients *grid = s->map.grid;
+    double before = 0, at = 0, best = 0;
+    double *level = malloc((grid->scale[grid->n_scales - 1].n + 1) * sizeof *level);
+    ss_status st = level != NULL ? SS_OK : SS_ENOMEM;
+    *f = 0;
+    for (size_t i = 0; st == SS_OK && i < grid->n_scales; i++) {
+        st = ss_levels_fill(&s->map, &(level_part){ i, 0, grid->scale[i].n, level }, 1);
+        double next = st == SS_OK ? power_behind(s, &grid->scale[i], level) : 0;
         if (before > 0 && at > before && at > next && next > 0 && at > best) {
             best = at;
-            f = coef->scale[i - 1].f;
+            *f = grid->scale[i - 1].f;
         }
         before = at;
         at = next;
     }
-    return f;
+    free(level);
+    return st;
 }
 
 /* The oscillation of the strongest band is fitted; what is finer resolved but weaker is none. */
@@ -575,14 +583,18 @@ static ss_status
 find_ringing_behind(search *s)
 {
     ss_features *out = s->out;
-    double label = out->n < FEW ? 0 : strongest_band(s), f = true_frequency(s, label);
+    double label = 0;
+    ss_status st = out->n < FEW ? SS_OK : strongest_band(s, &label);
+    double f = true_frequency(s, label);
+    if (st != SS_OK)
+        return st;
     if (!(label > 0)) {
         out->why_ringing = "no band of frequencies stands out behind the transitions";
         return SS_OK;
     }
     double *about = malloc((out->n + 1) * sizeof *about);
     ss_window *window = malloc((out->n + 1) * sizeof *window);
-    ss_status st = SS_ENOMEM;
+    st = SS_ENOMEM;
     if (about != NULL && window != NULL) {
         for (size_t i = 0; i < out->n; i++)
             about[i] = fmin(out->transition[i].onset + 2 / f, (double)(s->n - 1) / s->rate);

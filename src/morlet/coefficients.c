@@ -101,10 +101,13 @@ ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, 
     return st;
 }
 
-static ss_status
-fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_morlet *plan,
-     const ss_morlet_opts *opts, ss_error *err)
+ss_status
+ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
+                  const ss_morlet *plan, const ss_morlet_opts *opts)
 {
+    ss_coefficients *coef = *out = calloc(1, sizeof *coef);
+    if (coef == NULL)
+        return SS_ENOMEM;
     ss_status st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
     if (st != SS_OK || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
         return st;
@@ -112,11 +115,10 @@ fill(ss_coefficients *coef, const ss_signal *signal, size_t column, const ss_mor
     coef->center = opts->center;
     coef->n_scales = plan->n_scales;
     coef->scale = malloc(plan->n_scales * sizeof *coef->scale);
-    coef->w = malloc(2 * plan->total * sizeof *coef->w);
-    if (coef->scale == NULL || coef->w == NULL)
+    if (coef->scale == NULL)
         return SS_ENOMEM;
     memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
-    return ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
+    return SS_OK;
 }
 
 ss_status
@@ -132,8 +134,12 @@ ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t colum
     ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, opts, err);
     if (st != SS_OK)
         return st;
-    ss_coefficients *coef = calloc(1, sizeof *coef);
-    st = coef == NULL ? SS_ENOMEM : fill(coef, signal, column, plan, opts, err);
+    ss_coefficients *coef = NULL;
+    st = ss_morlet_grid_of(&coef, signal, column, plan, opts);
+    if (st == SS_OK && (coef->w = malloc(2 * plan->total * sizeof *coef->w)) == NULL)
+        st = SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
     ss_morlet_free(plan);
     if (st == SS_OK)
         *out = coef;

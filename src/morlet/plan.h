@@ -62,6 +62,9 @@ ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_
  * translations are not counted. */
 ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
+/* The grid of a column's transform by plan, w being NULL; to be freed, failed or not. */
+ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
+                            const ss_morlet *plan, const ss_morlet_opts *opts);
 /* m, if translation k of a scale lies at sample k b_num/m exactly, else 0. */
 double ss_scale_parts(const ss_scale *scale, double rate);
 /* Where translation k is taken, and time b [s] from the first sample. */

@@ -1,0 +1,114 @@
+/* levels.c -- |W| of a map, part by part. */
+#include <stdlib.h>
+#include "base/pool.h"
+#include "base/progress.h"
+#include "features/levels.h"
+#include "morlet/plan.h"
+
+enum { AT_ONCE = 1 << 14 };     /* coefficients */
+
+struct levels {
+    ss_coefficients *grid;
+    ss_morlet *plan;
+    record rec;
+    spectra spectra;
+};
+
+/* The parts of one thread: every so many, from first on. */
+typedef struct task {
+    const map_source *source;
+    const level_part *part;
+    size_t n, first, every;
+    ss_status status;
+} task;
+
+static void
+take_levels(const double *w, size_t n, double *level)
+{
+    for (size_t k = 0; k < n; k++)
+        level[k] = magnitude_of(w + 2 * k);
+}
+
+static ss_status
+compute_part(const levels *l, const level_part *part, double *scratch, double *w)
+{
+    ss_status st = SS_OK;
+    double most = 0;
+    for (size_t k = 0; st == SS_OK && k < part->n; k += AT_ONCE) {
+        span now = { part->first + k, part->n - k < AT_ONCE ? part->n - k : AT_ONCE };
+        st = ss_morlet_part(l->plan, part->row, &l->rec, &l->spectra, scratch, NULL, now, &most, w,
+                            NULL);
+        if (st == SS_OK)
+            take_levels(w, now.n, part->level + k);
+    }
+    return st;
+}
+
+static void
+fill_parts(void *user)
+{
+    task *t = user;
+    const levels *l = t->source->levels;
+    double *w = malloc(2 * AT_ONCE * sizeof *w), *scratch = NULL;
+    t->status = w != NULL ? ss_morlet_scratch(l->plan, &scratch) : SS_ENOMEM;
+    for (size_t i = t->first; t->status == SS_OK && i < t->n; i += t->every)
+        t->status = compute_part(l, &t->part[i], scratch, w);
+    ss_fft_scratch_free(scratch);
+    free(w);
+}
+
+ss_status
+ss_levels_fill(const map_source *source, const level_part *part, size_t n)
+{
+    const ss_coefficients *grid = source->grid;
+    for (size_t i = 0; source->levels == NULL && i < n; i++)
+        take_levels(grid->w + 2 * (grid->scale[part[i].row].offset + part[i].first), part[i].n,
+                    part[i].level);
+    if (source->levels == NULL)
+        return SS_OK;
+    task share[SS_THREADS_MAX];
+    size_t threads = (size_t)source->levels->plan->opts.threads;
+    ss_status st = SS_OK;
+    for (size_t t = 0; t < threads; t++)
+        share[t] = (task){ source, part, n, t, threads, SS_OK };
+    ss_pool_run(fill_parts, share, sizeof *share, threads);
+    for (size_t t = 0; t < threads; t++)
+        st = st == SS_OK ? share[t].status : st;
+    return st;
+}
+
+ss_status
+ss_levels_progress(const map_source *source, double done)
+{
+    return source->levels == NULL ? SS_OK
+        : ss_progress_at(&source->levels->plan->opts.progress, done);
+}
+
+ss_status
+ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
+              const ss_morlet_opts *opts, ss_error *err)
+{
+    levels *l = out->levels = calloc(1, sizeof *l);
+    if (l == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_morlet_new(&l->plan, signal->n, signal->head->rate, opts, err);
+    if (st == SS_OK)
+        st = ss_morlet_grid_of(&l->grid, signal, column, l->plan, opts);
+    out->grid = l->grid;
+    if (st == SS_OK)
+        st = ss_morlet_record(&l->rec, x, signal->n, opts->detrend, err);
+    return st == SS_OK ? ss_morlet_forward(l->plan, &l->rec, &l->spectra) : st;
+}
+
+void
+ss_levels_free(map_source *source)
+{
+    levels *l = source->levels;
+    if (l == NULL)
+        return;
+    ss_morlet_spectra_free(&l->spectra);
+    free(l->rec.x);
+    ss_coefficients_free(l->grid);
+    ss_morlet_free(l->plan);
+    free(l);
+}

@@ -1,0 +1,41 @@
+/* levels.h -- |W| of a map, part by part: of coefficients that are there, or computed when asked for. */
+#ifndef LEVELS_H
+#define LEVELS_H
+
+#include <math.h>
+#include <stickslip/morlet.h>
+
+/* |w|, where squares neither overflow nor underflow without the cost of hypot. */
+static inline double
+magnitude_of(const double w[2])
+{
+    double square = w[0] * w[0] + w[1] * w[1];
+    return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(w[0], w[1]);
+}
+
+typedef struct levels levels;
+
+/* A map on a grid: its w if levels is NULL. */
+typedef struct map_source {
+    const ss_coefficients *grid;
+    levels *levels;
+} map_source;
+
+/* Translations first ... first + n - 1 of a row, and room for their |W|, the caller's. */
+typedef struct level_part {
+    size_t row, first, n;
+    double *level;
+} level_part;
+
+/* The grid of a column's transform, without w, and what computes |W| on it; x are the column's samples,
+ * those of gaps replaced.  SS_ESCALE as ss_morlet_new. */
+ss_status ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
+                        const ss_morlet_opts *opts, ss_error *err);
+/* Of what ss_levels_new has made, failed or not. */
+void ss_levels_free(map_source *source);
+
+ss_status ss_levels_fill(const map_source *source, const level_part *part, size_t n);
+/* How much of the work on a map is done, 0 to 1; SS_STOP if that was asked for. */
+ss_status ss_levels_progress(const map_source *source, double done);
+
+#endif
