@@ -2,6 +2,14 @@
 #include <math.h>
 #include "signal_text.h"
 
+/* Headers of LabVIEW's measurement files, with two channels. */
+#define LVM(x_columns) "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nMulti_Headings\tNo\n" \
+    "X_Columns\t" x_columns "\nTime_Pref\tAbsolute\nDate\t2020/03/05\nTime\t10:12:13.5\n***End_of_Header***\t\n\t\n"
+#define SEGMENT_OF(step, start) "Channels\t2\t\t\nSamples\t2\t2\t\nDate\t2020/03/05\t2020/03/05\t\n" \
+    "Time\t10:12:13.5\t10:12:13.5\t\nY_Unit_Label\tN\tm/s^2\t\nX_Dimension\tTime\tTime\t\n" \
+    "X0\t" start "\t" start "\t\nDelta_X\t" step "\t" step "\t\n***End_of_Header***\t\t\t\n"
+#define SEGMENT SEGMENT_OF("0.0005", "0.25")
+
 static const struct table_case {
     const char *what, *text;
     const char *time;
@@ -41,7 +49,39 @@ static const struct table_case {
       "Channels\t2\t\t\nY_Unit_Label\tNewton\tm/s^2\t\nX_Dimension\tTime\tTime\t\n"
       "X0\t0.0E+0\t0.0E+0\t\nDelta_X\t0.001\t0.001\t\n***End_of_Header***\t\t\t\n"
       "X_Value\tforce\taccel\tComment\r\n0.000\t1.5\t2.5\r\n0.001\t1.25\t2.25\r\n", NULL, 0,
-      "force[] accel[]", 1000, 0, 2.25 },
+      "force[Newton] accel[m/s^2]", 1000, 0, 2.25 },
+    { "LabVIEW without a column of x", LVM("No") SEGMENT "X_Value\tforce\taccel\tComment\n"
+      "\t1.5\t2.5\tbegin\n\t1.25\t2.25\t\n", NULL, 0, "force[N] accel[m/s^2]", 2000, 0.25, 2.25 },
+    { "LabVIEW without names", LVM("One") SEGMENT "0.25\t1.5\t2.5\tbegin\n0.2505\t1.25\t2.25\t\n", NULL, 0,
+      "ch2[N] ch3[m/s^2]", 2000, 0.25, 2.25 },
+    { "LabVIEW with a column of x each", LVM("Multi") SEGMENT "X_Value\tforce\tX_Value\taccel\tComment\n"
+      "0.25\t1.5\t0.25\t2.5\n0.2505\t1.25\t0.2505\t2.25\n", NULL, 0, "force[N] accel[m/s^2]", 2000, 0.25, 2.25 },
+    { "LabVIEW with decimal commas", LVM("No") SEGMENT_OF("0,0005", "0,25") "X_Value\tforce\taccel\tComment\n"
+      "\t1,5\t2,5\n\t1,25\t2,25\n", NULL, 0, "force[N] accel[m/s^2]", 2000, 0.25, 2.25 },
+    { "headers of National Instruments", "Channel name\tforce\taccel\nUnit\tN\tg\nInterval\t0.001\t0.001\n"
+      "1.5\t2.5\n1.25\t2.25\n", NULL, 0, "force[N] accel[g]", 1000, 0, 2.25 },
+    { "the same with numbered rows", "Channel name,force,accel\nUnit,N,g\nInterval,0.001,0.001\n"
+      "1,1.5,2.5\n2,1.25,2.25\n", NULL, 0, "force[N] accel[g]", 1000, 0, 2.25 },
+    { "the same with times", "Channel name,force,accel\nUnit,N,g\nInterval,0.001,0.001\n"
+      "0.5,1.5,2.5\n0.501,1.25,2.25\n", NULL, 0, "force[N] accel[g]", 1000, 0.5, 2.25 },
+    { "Fortran", "  t   x\n 0.0D+00  1.5D-03\n 1.0d-01  2.5D-03\n", NULL, 0, "x[]", 10, 0, 2.5e-3 },
+    { "milliseconds as a name", "ms,x\n0,1\n0.5,2\n", NULL, 0, "x[]", 2000, 0, 2 },
+    { "milliseconds as a name that is chosen", "x,ms\n1,0\n2,0.5\n", "ms", 0, "x[]", 2000, 0, 2 },
+    { "milliseconds in a name that is chosen", "x,Sampled_ms\n1,0\n2,0.5\n", "Sampled_ms", 0, "x[]", 2000, 0, 2 },
+    { "milliseconds since 1970", "timestamp,x\n1709633533125,1\n1709633533126,2\n", NULL, 0, "x[]", 1000,
+      1709633533.125, 2 },
+    { "nanoseconds since 1970", "timestamp,x\n1709633533125000000,1\n1709633533126000000,2\n", NULL, 0, "x[]",
+      1000, 1709633533.125, 2 },
+    { "dates", "when,x\n2024-03-05T10:12:13.125Z,1\n2024-03-05T10:12:13.250Z,2\n", NULL, 0, "x[]", 8,
+      36733.125, 2 },
+    { "dates with zones and commas", "when;x\n2024-03-05 23:59:59,75+01:00;1\n2024-03-06 00:00:00,00+0100;2\n", NULL,
+      0, "x[]", 4, 82799.75, 2 },
+    { "times of day over midnight", "Date,Time,x\n2024/02/28,23:59:59.5,1\n2024/02/29,00:00:00.0,2\n"
+      "2024/02/29,00:00:00.5,3\n", NULL, 0, "x[]", 2, 86399.5, 3 },
+    { "times of day between blanks", "10:12:13.125 1\n10:12:13.250 2\n", NULL, 0, "ch2[]", 8, 36733.125, 2 },
+    { "a column of words", "t,x,label\n0,1,ok\n0.5,2,ok\n1,3,\n", NULL, 0, "x[]", 2, 0, 3 },
+    { "words first", "label;t;x\nok;0;1,5\nlate;0,5;2,5\nok;1;3\n", NULL, 0, "x[]", 2, 0, 3 },
+    { "a row of units above words", "t,x,state\ns,mm,\n0,1,up\n0.5,2,up\n1,3,down\n", NULL, 0, "x[mm]", 2, 0, 3 },
     { "LabVIEW with a row of units", "X_Value\tforce\taccel\tcomment\ns\tN\tm/s^2\tComment\n0\t1\t2\n"
       "0.5\t3\t4\n", NULL, 0, "force[N] accel[m/s^2]", 2, 0, 4 },
     { "one empty name more", "t;x;\ns;mm;\n0;1\n0,5;2\n", NULL, 0, "x[mm]", 2, 0, 2 },
@@ -64,7 +104,7 @@ reads_tables_as_recorders_write_them(void **state)
         const struct table_case *c = &table[i];
         ss_read_opts opts = { .time = c->time, .rate = c->rate };
         ss_signal *s = read_text(c->text, &opts);
-        char names[256] = "";
+        char names[512] = "";
         for (size_t k = 0; k < s->head->n_columns; k++)
             snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s[%s]", k > 0 ? " " : "",
                      s->head->column[k].name, s->head->column[k].unit);
@@ -98,6 +138,113 @@ read_stamps(double *hz, double rate, double start, size_t n, const char *format,
         ss_signal_free(s);
     }
     return st;
+}
+
+/* The last warning. */
+static void
+keep_warning(ss_status about, const char *text, void *user)
+{
+    (void)about;
+    snprintf(user, sizeof ((ss_error *)NULL)->text, "%s", text);
+}
+
+static void
+warns_of_what_is_guessed_or_left_out(void **state)
+{
+    static const struct { const char *text, *warning; } row[] = {
+        { "t (s),x\n0,1\n1,2\n", "" },
+        { "t,x\n0,1\n0.001,2\n", "" },
+        { "t,x\n0,1\n1,2\n", "in: column t has no unit and is read in seconds: 1 Hz" },
+        { "timestamp,x\n1709633533125,1\n1709633533126,2\n",
+          "in: column timestamp has no unit and is read in ms since 1970" },
+        { "t_s,x,label\n0,1,ok\n0.5,2,ok\n", "in:2: column 3 (\"label\") holds text; it was skipped" },
+        { "# a log\n# of Monday\nt_s,x,label\n0,1,ok\n0.5,2,late\n",
+          "in:4: column 3 (\"label\") holds text; it was skipped" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_error warning = { 0 };
+        ss_read_opts opts = { .warn = keep_warning, .user = warning.text };
+        ss_signal_free(read_text(row[i].text, &opts));
+        assert_string_equal(warning.text, row[i].warning);
+    }
+}
+
+static void
+refuses_what_it_cannot_know(void **state)
+{
+    static const struct { const char *text, *time_unit; size_t table; ss_status status; const char *words; } row[] = {
+        { "ms,x\n0,1\n1e9,2\n", NULL, 0, SS_EUNIT, "read in ms, gives a clock of 1e-06 Hz, which no laboratory" },
+        { "t,x\n0,1\n1e-11,2\n", NULL, 0, SS_EUNIT, "read in s, gives a clock of 1e+11 Hz" },
+        { "t,x\n0,1\n1e-11,2\n", "s", 0, SS_OK, "" },
+        { "t,x\n0,1\n1,2\n", "mm", 0, SS_EDATA, "unit 'mm' is not one of time" },
+        { "t,x\n0,1\n1,2\n2,bad\n3,4\n", NULL, 0, SS_EDATA, "in:4: column x: 'bad' is not a number" },
+        { "t,x\n10:12:13,1\n10:12:14,2\nnoon,3\n", NULL, 0, SS_EDATA, "in:4" },
+        { "t,x\n10:12:13,1\n10:12:12,2\n", NULL, 0, SS_EUNEVEN, "do not ascend" },
+        { "t,x\n10:12:13,1\n10:12:14,2\n", "ms", 0, SS_EDATA, "has no unit to choose" },
+        { "t_s,x\n0,1\n1,2\nStep 2\nt_s,y\n0,3\n1,4\n", NULL, 0, SS_ETABLES,
+          "in: 2 tables: 1 from line 2, 2 rows of t_s x; 2 from line 6, 2 rows of t_s y" },
+        { "t_s,x\n0,1\n1,2\nStep 2\nt_s,y\n0,3\n1,4\n", NULL, 3, SS_ETABLES, "in: 2 tables" },
+        { "t_s,x\n0,1\n1,2\n", NULL, 2, SS_ETABLES, "in: 1 table: 1 from line 2" },
+        { "t_s,x\n0,1\n1,2\nEnd of data\n", NULL, 0, SS_EDATA, "in:4: expected 2 columns, found 1" },
+        { LVM("Multi") SEGMENT "X_Value\ta\tX_Value\tb\tComment\n0\t1\t0.1\t2\n0.0005\t1\t0.1005\t2\n", NULL,
+          0, SS_EDATA, "in: column 3: the times of its channel are not those of the first" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_read_opts opts = { .time_unit = row[i].time_unit, .table = row[i].table };
+        ss_signal *s = NULL;
+        ss_error err = { 0 };
+        ss_status st = read_bytes(&s, row[i].text, strlen(row[i].text), &opts, &err);
+        if (st != row[i].status || strstr(err.text, row[i].words) == NULL)
+            fail_msg("%s: %d: %s", row[i].text, st, err.text);
+        if (st == SS_OK)
+            ss_signal_free(s);
+    }
+}
+
+static void
+reads_one_of_several_tables(void **state)
+{
+    const char *text = LVM("No") SEGMENT "X_Value\ta\tb\tComment\n\t1\t2\t\n\t3\t4\n\n\n" SEGMENT
+        "X_Value\tc\td\tComment\n\t5\t6\n\t7\t8\n\t9\t10\n";
+    const char *steps = "Test 7\nStep 1\nt,Fx,Fz\nsec,N,N\n0,1,2\n0.01,3,4\n\nStep 2\nt,Fz\nsec,N\n0.02,5\n0.03,6\n";
+    (void)state;
+    for (size_t number = 1; number <= 2; number++) {
+        ss_read_opts opts = { .table = number };
+        ss_signal *s = read_text(text, &opts);
+        assert_string_equal(s->head->column[0].name, number == 1 ? "a" : "c");
+        assert_int_equal(s->n, number == 1 ? 2 : 3);
+        assert_true(s->head->rate == 2000);
+        ss_signal_free(s);
+        s = read_text(steps, &opts);
+        assert_int_equal(s->head->n_columns, number == 1 ? 2 : 1);
+        assert_true(s->head->rate == 100 && s->head->start == (number == 1 ? 0 : 0.02));
+        ss_signal_free(s);
+    }
+}
+
+static void
+calibrates_and_cuts(void **state)
+{
+    const char *text = "t_s,f (V),x (mm)\n0,1,2\n0.5,3,4\n1,5,6\n1.5,7,8\n";
+    const ss_calibration of[] = { { "f", 250, NULL }, { "x", 0, "um" }, { "1", 0, "N" }, { "x", 1e3, NULL } };
+    ss_read_opts opts = { .from = 0.5, .to = 1.5, .calibration = of, .n_calibrations = 4 };
+    ss_signal *s = read_text(text, &opts);
+    ss_error err = { 0 };
+    (void)state;
+    assert_int_equal(s->n, 2);
+    assert_true(s->head->start == 0.5 && s->values[0] == 750 && s->values[1] == 1250 && s->values[3] == 6000);
+    assert_string_equal(s->head->column[0].unit, "N");
+    assert_string_equal(s->head->column[1].unit, "um");
+    assert_string_equal(ss_header_find_note(s->head, "calibration"), "f x 250 N, x x 1000 um");
+    ss_signal_free(s);
+    opts.from = 7, opts.to = 8;
+    assert_int_equal(read_bytes(&s, text, strlen(text), &opts, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "no samples from 7 to 8 s"));
+    const ss_calibration unnamed = { NULL, 2, NULL };
+    opts = (ss_read_opts){ .calibration = &unnamed, .n_calibrations = 1 };
+    assert_int_equal(read_bytes(&s, text, strlen(text), &opts, &err), SS_EINVAL);
 }
 
 static void
@@ -205,6 +352,10 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_tables_as_recorders_write_them),
+        cmocka_unit_test(warns_of_what_is_guessed_or_left_out),
+        cmocka_unit_test(refuses_what_it_cannot_know),
+        cmocka_unit_test(reads_one_of_several_tables),
+        cmocka_unit_test(calibrates_and_cuts),
         cmocka_unit_test(finds_the_exact_rate_behind_rounded_stamps),
         cmocka_unit_test(allows_stamps_a_tenth_of_a_period_off),
         cmocka_unit_test(refuses_options_that_a_clock_excludes),

@@ -198,9 +198,11 @@ tool_hint(ss_status status, const ss_error *err)
 {
     switch (status) {
     case SS_EKIND:   return err != NULL ? kind_hint(err->found, err->wanted) : "";
-    case SS_ECLOCK:  return "; ss-cat --time NAME names a column of time, --rate HZ gives the sample rate";
-    case SS_EGAPS:   return "; ss-cat --gaps=split or interpolate fills the gap";
-    case SS_EUNEVEN: return "; ss-cat --resample HZ makes time stamps uniform, --rate HZ takes the rows so";
+    case SS_ECLOCK:  return "; --time NAME names a column of time, --rate HZ gives the sample rate";
+    case SS_EGAPS:   return "; --gaps=split or interpolate fills the gap";
+    case SS_EUNEVEN: return "; --resample HZ makes time stamps uniform, --rate HZ takes the rows so";
+    case SS_EUNIT:   return "; --time-unit UNIT says what it counts: s, ms, us, ns, min or h";
+    case SS_ETABLES: return "; --table N reads one";
     case SS_ESCALE:  return "; ss-morlet --force computes them all the same";
     default:         return "";
     }
@@ -348,6 +350,24 @@ tool_open(const char *path)
     return in;
 }
 
+/* A signal at this rate; the one given is freed if it has another. */
+static ss_signal *
+resampled(ss_signal *signal, const char *path, double rate)
+{
+    ss_signal *other;
+    ss_error err = { 0 };
+    double own = signal->head->rate;
+    if (!(own < rate || own > rate))
+        return signal;
+    if (signal->n < 2)
+        tool_die("%s: one row cannot be resampled", tool_input_name(path));
+    if (own > rate)
+        tool_warn("%s: frequencies above %g Hz fold down", tool_input_name(path), rate / 2);
+    tool_check(ss_signal_resample(&other, signal, rate, &err), &err);
+    ss_signal_free(signal);
+    return other;
+}
+
 ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {
@@ -357,7 +377,7 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_signal_load(&signal, path, opts, &err), &err);
-    return signal;
+    return opts != NULL && opts->resample > 0 ? resampled(signal, path, opts->resample) : signal;
 }
 
 ss_coefficients *

@@ -42,13 +42,47 @@ void tool_pair(const char *option, const char *text, const char *form, double lo
 int tool_choice(const char *option, const char *text, const char *const choice[]);
 
 /* The options that tools share, to be put into their long options. */
-enum { TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_STYLE, TOOL_OPT_FIRST };
+enum {
+    TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_STYLE, TOOL_OPT_TIME, TOOL_OPT_TIME_UNIT, TOOL_OPT_RATE,
+    TOOL_OPT_TABLE, TOOL_OPT_GAPS, TOOL_OPT_RESAMPLE, TOOL_OPT_FROM, TOOL_OPT_TO, TOOL_OPT_SCALE,
+    TOOL_OPT_UNIT, TOOL_OPT_FIRST
+};
 #define TOOL_LONGOPTS \
     { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
     { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
     { "version", no_argument, NULL, TOOL_OPT_VERSION }, { NULL, 0, NULL, 0 }
 /* What getopt_long gave, if it is none of the tool's own: -q, -v, --help, --version, or wrong usage. */
 void tool_option(int c);
+
+/* The options of reading a signal, which all tools that do so share: in their long options, and in the text
+ * of --help. */
+#define TOOL_READING_LONGOPTS \
+    { "time", required_argument, NULL, TOOL_OPT_TIME }, \
+    { "time-unit", required_argument, NULL, TOOL_OPT_TIME_UNIT }, \
+    { "rate", required_argument, NULL, TOOL_OPT_RATE }, { "table", required_argument, NULL, TOOL_OPT_TABLE }, \
+    { "gaps", required_argument, NULL, TOOL_OPT_GAPS }, \
+    { "resample", required_argument, NULL, TOOL_OPT_RESAMPLE }, \
+    { "from", required_argument, NULL, TOOL_OPT_FROM }, { "to", required_argument, NULL, TOOL_OPT_TO }, \
+    { "scale", required_argument, NULL, TOOL_OPT_SCALE }, { "unit", required_argument, NULL, TOOL_OPT_UNIT }
+#define TOOL_READING_USAGE \
+    "Of reading, as in ss-cat:\n" \
+    "      --time=NAME|N, --time-unit=UNIT, --rate=HZ, --table=N, --gaps=HOW,\n" \
+    "      --resample=HZ, --from=S, --to=S, --scale=[NAME=]F, --unit=[NAME=]U\n"
+
+typedef struct tool_reading {
+    ss_read_opts opts;          /* for tool_read_signal and ss_reader_new */
+    double from, to;            /* NaN: not given; in opts too */
+    ss_calibration *calibration;
+    int given;                  /* was any of the options? */
+} tool_reading;
+
+void tool_reading_begin(tool_reading *r, int argc);
+/* 1 if what getopt_long gave is one of them, with this text. */
+int tool_reading_option(tool_reading *r, int c, char *text);
+/* Call when all are there; --scale and --unit without a name are of this column, or if NULL of the only
+ * one. */
+void tool_reading_end(tool_reading *r, const char *column);
+void tool_reading_free(tool_reading *r);
 
 /* --- input --------------------------------------------------------------------------------- */
 

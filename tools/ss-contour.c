@@ -18,8 +18,7 @@ static const char usage[] =
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
 "      --features=FILE  draw maxima, spikes, transitions, as of ss-features\n"
 "      --title=TEXT     default: scene or model of the signal\n"
-"      --from=S         from this time on the source's clock [s]\n"
-"      --to=S           up to this time [s]\n"
+TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
@@ -30,7 +29,7 @@ static const char usage[] =
 
 enum {
     OPT_LEVELS = TOOL_OPT_FIRST, OPT_SPAN, OPT_SIGNAL, OPT_EVENTS, OPT_FEATURES,
-    OPT_TITLE, OPT_FROM, OPT_TO
+    OPT_TITLE
 };
 
 typedef struct drawing {
@@ -40,6 +39,7 @@ typedef struct drawing {
     ss_contour_opts opts;
     double *event;
     ss_overlay *overlay;
+    tool_reading reading;
 } drawing;
 
 static ss_status
@@ -93,7 +93,7 @@ find_signal(drawing *d, const char *path, const char *signal_path, const char *c
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
     if (signal_path != NULL)
-        compare_clocks(signal = tool_read_signal(signal_path, NULL), signal_path, d->coefficients);
+        compare_clocks(signal = tool_read_signal(signal_path, &d->reading.opts), signal_path, d->coefficients);
     else if (tool_is_hdf5(path) && ss_store_has_signal(path))
         signal = tool_read_signal(signal_path = path, NULL);
     if (signal == NULL)
@@ -148,7 +148,7 @@ main(int argc, char *argv[])
         { "features", required_argument, NULL, OPT_FEATURES },
         { "title", required_argument, NULL, OPT_TITLE },
         { "style", required_argument, NULL, TOOL_OPT_STYLE },
-        { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
+        TOOL_READING_LONGOPTS,
         TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
     drawing d = { .opts = ss_contour_defaults };
@@ -156,6 +156,7 @@ main(int argc, char *argv[])
     const char *features = NULL;
 
     tool_begin(argv, "ss-contour", usage);
+    tool_reading_begin(&d.reading, argc);
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case OPT_LEVELS: d.opts.levels = (int)tool_integer("--levels", optarg, 1, (long)ss_contour_levels.to); break;
@@ -166,15 +167,17 @@ main(int argc, char *argv[])
         case OPT_FEATURES: features = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
         case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
-        case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
-        case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
         case 'o': output = optarg; break;
-        default: tool_option(c);
+        default:
+            if (!tool_reading_option(&d.reading, c, optarg))
+                tool_option(c);
         }
     const char *path = tool_input(argc, argv, optind);
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
-    if (opts.from >= opts.to)
-        tool_usage("--from does not lie before --to");
+    tool_reading_end(&d.reading, column);
+    opts.from = d.reading.from;         /* the lines go on to the border */
+    opts.to = d.reading.to;
+    d.reading.opts.from = d.reading.opts.to = 0;
     if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events)
         + is_stdin(features) > 1)
         tool_usage("standard input can be read only once");
@@ -192,6 +195,7 @@ main(int argc, char *argv[])
               d.overlay != NULL ? d.overlay->n_maxima : 0, d.overlay != NULL ? d.overlay->n_spikes : 0);
     tool_draw(output, &opts, write_script, &d);
     free(d.event);
+    tool_reading_free(&d.reading);
     ss_overlay_free(d.overlay);
     ss_signal_free(signal);
     ss_coefficients_free(d.own);

@@ -21,6 +21,7 @@ static const char usage[] =
 "                          columns for the slope df/dx in the stick (x and f)\n"
 "      --drop=HEIGHT       transitions are falls by more than this, in a force\n"
 "      --threads=N         for the transform (1)\n"
+TOOL_READING_USAGE
 "  -o, --output=FILE       .tsv; - is standard output\n"
 "  -q, --quiet             no warnings\n"
 "  -v, --verbose           report intermediate results\n"
@@ -33,7 +34,7 @@ enum {
 };
 
 static const struct option longopts[] = {
-    { "column", required_argument, NULL, 'c' },
+    { "column", required_argument, NULL, 'c' }, TOOL_READING_LONGOPTS,
     { "threshold", required_argument, NULL, OPT_THRESHOLD },
     { "norm", required_argument, NULL, OPT_NORM },
     { "fmin", required_argument, NULL, OPT_FMIN },
@@ -48,6 +49,7 @@ static const struct option longopts[] = {
 
 typedef struct request {
     ss_features_opts opts;
+    tool_reading reading;
     const char *column, *displacement, *force, *output;
 } request;
 
@@ -69,7 +71,9 @@ set_option(request *req, int c)
     case OPT_THREADS:      opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
                            break;
     case 'o':              req->output = optarg; break;
-    default:               tool_option(c);
+    default:
+        if (!tool_reading_option(&req->reading, c, optarg))
+            tool_option(c);
     }
 }
 
@@ -88,14 +92,16 @@ main(int argc, char *argv[])
     ss_error err = { 0 };
 
     tool_begin(argv, "ss-features", usage);
+    tool_reading_begin(&req.reading, argc);
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
         set_option(&req, c);
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
+    tool_reading_end(&req.reading, req.column);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, TOOL_TSV);
     const char *path = tool_input(argc, argv, optind);
 
-    ss_signal *signal = tool_read_signal(path, NULL);
+    ss_signal *signal = tool_read_signal(path, &req.reading.opts);
     size_t column = tool_column(signal->head, path, req.column);
     req.opts.displacement = find_column(signal->head, path, req.displacement, "x");
     req.opts.force = find_column(signal->head, path, req.force, "f");
@@ -112,6 +118,7 @@ main(int argc, char *argv[])
                                  tool_stream(kind)), NULL);
     ss_features_free(features);
     ss_signal_free(signal);
+    tool_reading_free(&req.reading);
     tool_end();
     return 0;
 }

@@ -12,10 +12,8 @@ static const char usage[] =
 "usage: ss-morlet [options] [FILE] > coefficients\n"
 "Compute Morlet wavelet coefficients of a signal, from FILE or standard input.\n"
 "  -c, --column=NAME|N    column to transform (a, or the only one)\n"
-"      --center=WC        omega_c, angular centre frequency of the wavelet (6)\n"
-"      --voices=V         scales an octave (16)\n"
-"      --step=B0          translation step in units of the scale (0.25)\n"
-"      --dense            one coefficient a sample at every scale\n"
+"      --center=WC, --voices=V  omega_c of the wavelet (6); scales an octave (16)\n"
+"      --step=B0, --dense  translation step in scales (0.25); one sample\n"
 "      --dyadic           the paper's grid: one voice, step 1\n"
 "      --fmin=HZ, --fmax=HZ  (4 cycles a record, the highest that is resolved)\n"
 "      --octaves=M0:M1    scales from 2^M0 to 2^M1 seconds instead\n"
@@ -30,9 +28,9 @@ static const char usage[] =
 "      --inverse          read coefficients, write the signal that has them\n"
 "      --wisdom=FILE      let FFTW measure the fastest FFTs, keep them in FILE\n"
 "      --check            compare with the other method, report the difference\n"
+TOOL_READING_USAGE
 "  -o, --output=FILE      .tsv, .au, .h5 with the signal; --format=tsv|au if none\n"
-"  -q, --quiet            no warnings; -v, --verbose: report choices and cost\n"
-"  -h, --help             show this text; --version: show the version\n";
+"  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
@@ -41,7 +39,7 @@ enum {
 };
 
 static const struct option longopts[] = {
-    { "column", required_argument, NULL, OPT_COLUMN },
+    { "column", required_argument, NULL, OPT_COLUMN }, TOOL_READING_LONGOPTS,
     { "center", required_argument, NULL, OPT_CENTER },
     { "voices", required_argument, NULL, OPT_VOICES },
     { "step", required_argument, NULL, OPT_STEP },
@@ -72,6 +70,7 @@ static const char *const detrends[] = { "none", "mean", "linear", NULL };
 
 typedef struct request {
     ss_morlet_opts opts;
+    tool_reading reading;
     const char *column, *output, *wisdom;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
     int stream, inverse, check;
@@ -126,7 +125,9 @@ set_option(request *req, int c)
     case OPT_CHECK:      req->check = 1; break;
     case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
     case 'o':            req->output = optarg; break;
-    default:             tool_option(c);
+    default:
+        if (!tool_reading_option(&req->reading, c, optarg))
+            tool_option(c);
     }
 }
 
@@ -145,7 +146,7 @@ check_request(request *req)
         opts->voices = 1;
         opts->step = 1;
     }
-    if (req->inverse && req->transforms)
+    if (req->inverse && (req->transforms || req->reading.given))
         tool_usage("--inverse takes no options but --accuracy, --output and --format");
     if (req->wisdom != NULL && strcmp(req->wisdom, "-") == 0)
         tool_usage("--wisdom needs a file, which is read and written");
@@ -325,7 +326,7 @@ transform_whole(const request *req, const char *path)
     flow f = { .text = NULL };
     ss_morlet *plan = NULL;
     ss_error err = { 0 };
-    ss_signal *signal = tool_read_signal(path, NULL);
+    ss_signal *signal = tool_read_signal(path, &req->reading.opts);
     size_t column = tool_column(signal->head, path, req->column);
     const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = req->opts;
@@ -439,8 +440,8 @@ transform_stream(const request *req, const char *path)
     flow f = { .text = NULL };
     ss_error err;
     ss_reader *reader;
-    if (tool_is_hdf5(path)) {           /* is not read row by row */
-        ss_signal *signal = tool_read_signal(path, NULL);
+    if (tool_is_hdf5(path) || req->reading.opts.resample > 0) {     /* not read row by row */
+        ss_signal *signal = tool_read_signal(path, &req->reading.opts);
         size_t column = tool_column(signal->head, path, req->column);
         open_flow(&f, req, signal->head, column, path);
         store_samples(&f, signal->values, signal->n, 1, signal->n);
@@ -450,7 +451,7 @@ transform_stream(const request *req, const char *path)
         return;
     }
     FILE *in = tool_open(path);
-    tool_check(ss_reader_new(&reader, in, tool_input_name(path), NULL, &err), &err);
+    tool_check(ss_reader_new(&reader, in, tool_input_name(path), &req->reading.opts, &err), &err);
     size_t column = tool_column(ss_reader_header(reader), path, req->column);
     tool_end_at_rows(req->output);
     open_flow(&f, req, ss_reader_header(reader), column, path);
@@ -467,8 +468,10 @@ main(int argc, char *argv[])
     request req = { .opts = ss_morlet_defaults, .kind = TOOL_TSV };
 
     tool_begin(argv, "ss-morlet", usage);
+    tool_reading_begin(&req.reading, argc);
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
         set_option(&req, c == 'c' ? OPT_COLUMN : c);
+    tool_reading_end(&req.reading, req.column);
     check_request(&req);
     const char *path = tool_input(argc, argv, optind);
     FILE *wisdom = NULL;
@@ -484,6 +487,7 @@ main(int argc, char *argv[])
         transform_whole(&req, path);
     if (wisdom != NULL && ss_wisdom_write(wisdom) != SS_OK)
         tool_die("%s: write error: %s", req.wisdom, strerror(errno));
+    tool_reading_free(&req.reading);
     tool_end();
     return 0;
 }

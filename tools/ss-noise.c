@@ -17,6 +17,7 @@ static const char usage[] =
 "      --bits=N         round and clip each column to N bits\n"
 "      --range=R        the converter spans -R to R, in each column's unit\n"
 "  -c, --column=NAME|N  only this column (repeatable), default all\n"
+TOOL_READING_USAGE
 "  -o, --output=FILE    write to FILE.tsv, FILE.au or FILE.h5\n"
 "      --format=FORM    on standard output: tsv (default) or au\n"
 "  -q, --quiet          no warnings\n"
@@ -29,6 +30,7 @@ enum {
 };
 
 static const char *path, *output;
+static tool_reading reading;
 static const char **wanted;             /* names of columns */
 static size_t n_wanted;
 static double snr = NAN, rms = NAN, band[2] = { NAN, NAN }, range = NAN;
@@ -120,7 +122,7 @@ add_noise(ss_noise *noise, ss_signal *signal, const double *level)
 static void
 change_whole(tool_kind kind, ss_noise *noise)
 {
-    ss_signal *signal = tool_read_signal(path, NULL);
+    ss_signal *signal = tool_read_signal(path, &reading.opts);
     size_t n = signal->n, columns = signal->head->n_columns;
     char text[128];
     double *chosen = choose_columns(signal->head), *level = choose_columns(signal->head);
@@ -151,7 +153,7 @@ change_stream(tool_kind kind, ss_noise *noise)
     size_t n;
     char text[128];
     FILE *in = tool_open(path), *out;
-    tool_check(ss_reader_new(&reader, in, tool_input_name(path), NULL, &err), &err);
+    tool_check(ss_reader_new(&reader, in, tool_input_name(path), &reading.opts, &err), &err);
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     double *rows = head != NULL ? malloc(PIECE * head->n_columns * sizeof *rows) : NULL;
     if (rows == NULL)
@@ -192,11 +194,12 @@ main(int argc, char *argv[])
         { "bits", required_argument, NULL, OPT_BITS },
         { "range", required_argument, NULL, OPT_RANGE },
         { "seed", required_argument, NULL, OPT_SEED }, { "column", required_argument, NULL, 'c' },
-        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
+        TOOL_READING_LONGOPTS, { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     tool_kind kind = TOOL_TSV;
     ss_noise *noise;
 
     tool_begin(argv, "ss-noise", usage);
+    tool_reading_begin(&reading, argc);
     wanted = malloc((size_t)argc * sizeof *wanted);
     if (wanted == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
@@ -211,7 +214,9 @@ main(int argc, char *argv[])
         case 'c': wanted[n_wanted++] = optarg; break;
         case 'o': output = optarg; break;
         case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
-        default: tool_option(c);
+        default:
+            if (!tool_reading_option(&reading, c, optarg))
+                tool_option(c);
         }
     int noisy = !isnan(snr) || !isnan(rms);
     if (!isnan(snr) && !isnan(rms))
@@ -222,14 +227,16 @@ main(int argc, char *argv[])
         tool_usage("--band needs --snr or --rms");
     if ((bits > 0) == isnan(range))
         tool_usage("--bits and --range need each other");
+    tool_reading_end(&reading, n_wanted == 1 ? wanted[0] : NULL);
     path = tool_input(argc, argv, optind);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
-    if (!isnan(snr) || !isnan(band[0]) || kind == TOOL_H5 || tool_is_hdf5(path))
+    if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0 || kind == TOOL_H5 || tool_is_hdf5(path))
         change_whole(kind, noise);
     else
         change_stream(kind, noise);
     ss_noise_free(noise);
+    tool_reading_free(&reading);
     free(wanted);
     tool_end();
     return 0;

@@ -1,7 +1,6 @@
 /* ss-plot.c -- a signal over time, one panel a column, or one column over another. */
 #include "common.h"
 
-#include <float.h>
 #include <errno.h>
 #include <getopt.h>
 #include <math.h>
@@ -18,9 +17,7 @@ static const char usage[] =
 "                       values as regions, another as lines of equal value\n"
 "      --line=FILE      a line over the map: x and y in rows\n"
 "      --title=TEXT     default: scene or model of the signal\n"
-"      --from=S         from this time on the source's clock [s]\n"
-"      --to=S           up to this time [s]\n"
-"  -r, --rate=HZ        the sample rate of input without a clock\n"
+TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
@@ -29,7 +26,7 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { OPT_XY = TOOL_OPT_FIRST, OPT_MAP, OPT_LINE, OPT_TITLE, OPT_FROM, OPT_TO };
+enum { OPT_XY = TOOL_OPT_FIRST, OPT_MAP, OPT_LINE, OPT_TITLE };
 
 typedef struct drawing {
     const ss_signal *signal;
@@ -176,15 +173,15 @@ main(int argc, char *argv[])
         { "map", required_argument, NULL, OPT_MAP }, { "line", required_argument, NULL, OPT_LINE },
         { "title", required_argument, NULL, OPT_TITLE },
         { "style", required_argument, NULL, TOOL_OPT_STYLE },
-        { "from", required_argument, NULL, OPT_FROM }, { "to", required_argument, NULL, OPT_TO },
-        { "rate", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
+        TOOL_READING_LONGOPTS, TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
-    ss_read_opts read_opts = { .rate = 0 };
+    tool_reading reading;
     const char *output = NULL, *map = NULL, *line = NULL;
     const char **name = malloc(((size_t)argc + 2) * sizeof *name);
     drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
 
     tool_begin(argv, "ss-plot", usage);
+    tool_reading_begin(&reading, argc);
     if (name == NULL || d.column == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (int c, columns = 0; (c = getopt_long(argc, argv, "c:r:o:qvh", longopts, NULL)) != -1;) {
@@ -199,19 +196,21 @@ main(int argc, char *argv[])
         case OPT_LINE: line = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
         case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
-        case OPT_FROM: opts.from = tool_number("--from", optarg, -DBL_MAX, DBL_MAX); break;
-        case OPT_TO: opts.to = tool_number("--to", optarg, -DBL_MAX, DBL_MAX); break;
-        case 'r': read_opts.rate = tool_number("--rate", optarg, DBL_MIN, DBL_MAX); break;
+        case 'r': tool_reading_option(&reading, TOOL_OPT_RATE, optarg); break;
         case 'o': output = optarg; break;
-        default: tool_option(c);
+        default:
+            if (!tool_reading_option(&reading, c, optarg))
+                tool_option(c);
         }
     }
     const char *path = tool_input(argc, argv, optind);
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
-    if (opts.from >= opts.to)
-        tool_usage("--from does not lie before --to");
-    if (map != NULL && (d.xy || d.n > 0 || !isnan(opts.from) || !isnan(opts.to)))
-        tool_usage("--map excludes --xy, --column, --from and --to");
+    tool_reading_end(&reading, !d.xy && d.n == 1 ? name[0] : NULL);
+    opts.from = reading.from;           /* the lines go on to the border */
+    opts.to = reading.to;
+    reading.opts.from = reading.opts.to = 0;
+    if (map != NULL && (d.xy || d.n > 0 || reading.given))
+        tool_usage("--map excludes --xy, --column and the options of reading");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {
@@ -219,10 +218,11 @@ main(int argc, char *argv[])
         draw_map(path, map, line, output, &opts);
         free(d.column);
         free(name);
+        tool_reading_free(&reading);
         tool_end();
         return 0;
     }
-    ss_signal *signal = tool_read_signal(path, &read_opts);
+    ss_signal *signal = tool_read_signal(path, &reading.opts);
     d.signal = signal;
     for (size_t i = 0; i < d.n; i++)
         d.column[i] = find_signal_column(&d, path, name[i]);
@@ -232,6 +232,7 @@ main(int argc, char *argv[])
     ss_signal_free(signal);
     free(d.column);
     free(name);
+    tool_reading_free(&reading);
     tool_end();
     return 0;
 }

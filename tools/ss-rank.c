@@ -14,7 +14,7 @@ static const char usage[] =
 "can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
 "four shipped ones).\n"
 "  -c, --column=NAME|N   of the signal (default: a, else the only one)\n"
-"  -a, --as=QUANTITY     what it is of: x, v, a or f @@\n"
+"  -a, --as=QUANTITY     what it is of: x, v, a or f (default: by unit or name)\n"
 "  -s, --set=KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
 "  -p, --spread=PERCENT  how far the rig's parameters may be from a scene's\n"
 "                        (default 30)\n"
@@ -22,6 +22,7 @@ static const char usage[] =
 "      --fit             write instead the compliant scene that moves as the\n"
 "                        signal does, from SCENE's mass, stiffness and release\n"
 "                        rule (default compliant-light)\n"
+TOOL_READING_USAGE
 "  -o, --output=FILE     .tsv; with --fit any name (default: standard output)\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
@@ -33,6 +34,7 @@ typedef struct job {
     const char **settings, **scenes;
     size_t n_settings, n_scenes;
     tool_kind kind;
+    tool_reading reading;
     ss_rank_opts opts;
 } job;
 
@@ -222,11 +224,12 @@ main(int argc, char *argv[])
         { "column", required_argument, NULL, 'c' }, { "as", required_argument, NULL, 'a' },
         { "set", required_argument, NULL, 's' }, { "spread", required_argument, NULL, 'p' },
         { "forcing", required_argument, NULL, 'F' }, { "fit", no_argument, NULL, OPT_FIT },
-        TOOL_LONGOPTS };
+        TOOL_READING_LONGOPTS, TOOL_LONGOPTS };
     job j = { .settings = calloc((size_t)argc, sizeof *j.settings), .opts = ss_rank_defaults };
     int fits = 0;
 
     tool_begin(argv, "ss-rank", usage);
+    tool_reading_begin(&j.reading, argc);
     if (j.settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (int c; (c = getopt_long(argc, argv, "c:a:s:p:F:o:qvh", longopts, NULL)) != -1;)
@@ -238,8 +241,11 @@ main(int argc, char *argv[])
         case 'F': j.opts.forcing_frequency = tool_number("--forcing", optarg, 1e-9, 1e12); break;
         case OPT_FIT: fits = 1; break;
         case 'o': j.output = optarg; break;
-        default: tool_option(c);
+        default:
+            if (!tool_reading_option(&j.reading, c, optarg))
+                tool_option(c);
         }
+    tool_reading_end(&j.reading, j.column_name);
     if (fits && argc - optind > 2)
         tool_usage("--fit takes one scene");
     if (fits)
@@ -256,7 +262,7 @@ main(int argc, char *argv[])
     if (fits && optind + 1 >= argc)
         shipped[0] = "compliant-light";
 
-    ss_signal *signal = tool_read_signal(j.signal_path, NULL);
+    ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
     j.opts.quantity = quantity_of(&signal->head->column[column], j.as, &j.known_by);
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
@@ -266,6 +272,7 @@ main(int argc, char *argv[])
     j.opts.progress = (ss_progress){ tool_progress, &j };
     (fits ? fit : rank)(&j, signal, column, &j.opts);
     ss_signal_free(signal);
+    tool_reading_free(&j.reading);
     free(j.settings);
     tool_end();
     return 0;

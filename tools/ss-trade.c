@@ -22,6 +22,7 @@ static const char usage[] =
 "                        row has an estimated time and no errors\n"
 "  -t, --target=TOL      write the fastest options of ss-sim, or of ss-morlet,\n"
 "                        that keep x, or W, within TOL\n"
+TOOL_READING_USAGE
 "  -o, --output=FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
 "                        or .pdf (default: rows on standard output)\n"
 "  -q, --quiet           no progress; -v, --verbose: report the measurement\n"
@@ -53,6 +54,7 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 typedef struct request {
     const char **settings, *column, *output, *path;
     size_t n_settings;
+    tool_reading reading;
     int dense;
     ss_trade_opts opts;
     char *name;
@@ -121,8 +123,8 @@ measure_scene(request *req)
 {
     ss_trade *trade = NULL;
     ss_error err = { 0 };
-    if (req->column != NULL || req->dense)
-        tool_usage("--column and --dense are for a signal, and %s is a scene", req->path);
+    if (req->column != NULL || req->dense || req->reading.given)
+        tool_usage("--column, --dense and options of reading are for a signal, and %s is a scene", req->path);
     ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
     req->name = tool_name_scene(req->path, req->settings, req->n_settings);
     tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
@@ -139,7 +141,7 @@ measure_signal(request *req)
     ss_morlet_opts grid = ss_morlet_defaults;
     if (req->n_settings > 0)
         tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));
-    ss_signal *signal = tool_read_signal(req->path, NULL);
+    ss_signal *signal = tool_read_signal(req->path, &req->reading.opts);
     size_t column = tool_column(signal->head, req->path, req->column);
     req->name = tool_name_scene(req->path, NULL, 0);
     grid.dense = req->dense;
@@ -157,11 +159,13 @@ main(int argc, char *argv[])
     static const struct option longopts[] = {
         { "set", required_argument, NULL, 's' }, { "budget", required_argument, NULL, 'b' },
         { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, 'c' },
-        { "dense", no_argument, NULL, OPT_DENSE }, TOOL_LONGOPTS };
+        { "dense", no_argument, NULL, OPT_DENSE }, TOOL_READING_LONGOPTS,
+        TOOL_LONGOPTS };
     request req = { .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
     ss_plot_opts plot = ss_plot_defaults;
 
     tool_begin(argv, "ss-trade", usage);
+    tool_reading_begin(&req.reading, argc);
     if (req.settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (int c; (c = getopt_long(argc, argv, "s:c:b:t:o:qvh", longopts, NULL)) != -1;)
@@ -172,8 +176,11 @@ main(int argc, char *argv[])
         case 't': req.opts.target = tool_number("--target", optarg, 1e-14, 1); break;
         case 'o': req.output = optarg; break;
         case OPT_DENSE: req.dense = 1; break;
-        default: tool_option(c);
+        default:
+            if (!tool_reading_option(&req.reading, c, optarg))
+                tool_option(c);
         }
+    tool_reading_end(&req.reading, req.column);
     if (optind == argc)
         tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
     if (optind + 1 != argc)
@@ -194,6 +201,7 @@ main(int argc, char *argv[])
         tool_check(ss_trade_write(trade, req.name, tool_output(req.output), tool_stream(kind)), NULL);
     ss_trade_free(trade);
     free(req.name);
+    tool_reading_free(&req.reading);
     free(req.settings);
     tool_end();
     return 0;

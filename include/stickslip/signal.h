@@ -62,9 +62,19 @@ typedef enum ss_gaps {
     SS_GAPS_INTERPOLATE         /* on the line between their neighbours */
 } ss_gaps;
 
+/* A factor and a unit for one column, as of a sensor's sheet. */
+typedef struct ss_calibration {
+    const char *column;         /* by name or number; NULL: the only one */
+    double scale;               /* its values are multiplied by this; 0: they are not */
+    const char *unit;           /* in place of the file's own; NULL: that stays */
+} ss_calibration;
+
+/* The i-th unit that ss_read_opts.time_unit may be: "s", "ms", ...; NULL after the last. */
+const char *ss_time_unit_name(size_t i);
+
 /* All zeros are the defaults. */
 typedef struct ss_read_opts {
-    const char *time;           /* delimited text: column of time by name or number; NULL: found by
+    const char *time;           /* delimited text and .npy: column of time by name or number; NULL: found by
                                    its name (t, time, ...), or the first column if its unit is one of
                                    time, or if no column has a name and it ascends uniformly */
     double rate;                /* [Hz] for input without a clock; 0: the input must have one.  With
@@ -73,6 +83,17 @@ typedef struct ss_read_opts {
                                    gets a note, see ss_header_gaps */
     double resample;            /* [Hz] delimited text: stamps of any spacing to a clock of this rate,
                                    by cubic splines; 0: the stamps must be uniform */
+    const char *time_unit;      /* delimited text: what the column of time counts; NULL: its own unit,
+                                   without one seconds, or what makes them a date of this century */
+    size_t table;               /* delimited text of several tables: which, from 1; 0: it has one */
+    double from, to;            /* [s] only samples at from or later and before to, on the source's
+                                   clock; from >= to: all */
+    const ss_calibration *calibration;
+    size_t n_calibrations;
+    /* Called with what is not as a user may think, one line; about: the status whose remedy helps, or
+     * SS_OK.  NULL: nobody asks. */
+    void (*warn)(ss_status about, const char *text, void *user);
+    void *user;                 /* passed to it */
 } ss_read_opts;
 
 /* A time from ... to before to, on the source's clock [s]. */

@@ -34,6 +34,8 @@ typedef enum ss_status {
     SS_ECLOCK,      /* a signal without a clock: ss_read_opts.rate or .time gives one */
     SS_EGAPS,       /* samples are missing, or not numbers: ss_read_opts.gaps says what to do */
     SS_EUNEVEN,     /* time stamps are not uniform: ss_read_opts.resample or .rate makes them so */
+    SS_EUNIT,       /* the unit of a column of time is in doubt: ss_read_opts.time_unit says it */
+    SS_ETABLES,     /* a file of several tables, or fewer than asked for: ss_read_opts.table says which */
     SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range;
                        ss_morlet_opts.force computes them all the same */
     SS_ETOL,        /* the step size underflowed before the tolerance was met */

@@ -18,6 +18,8 @@ ss_strerror(ss_status status)
     case SS_ECLOCK:   return "a signal without a clock";
     case SS_EGAPS:    return "samples are missing";
     case SS_EUNEVEN:  return "time stamps are not uniform";
+    case SS_EUNIT:    return "the unit of time is in doubt";
+    case SS_ETABLES:  return "which of several tables is not said";
     case SS_ESCALE:   return "scales outside the range that the record resolves";
     case SS_ETOL:     return "tolerance cannot be met";
     case SS_ECHATTER: return "events too close to tell apart";

@@ -180,9 +180,8 @@ clean_name(const ss_header *head, const char *name)
     return longer;
 }
 
-/* A unit whose brackets match, so that a label can be read back. */
-static char *
-clean_unit(const char *unit)
+char *
+ss_clean_unit(const char *unit)
 {
     char *clean = ss_utf8_text(unit != NULL ? unit : "");
     int depth = 0, lowest = 0;
@@ -205,7 +204,7 @@ ss_header_add_column(ss_header *head, const char *name, const char *unit)
 {
     if (head == NULL || name == NULL || *name == '\0')
         return SS_EINVAL;
-    return append_column(head, clean_name(head, name), clean_unit(unit));
+    return append_column(head, clean_name(head, name), ss_clean_unit(unit));
 }
 
 static int

@@ -15,6 +15,8 @@ char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 ss_status ss_header_read_line(ss_header *head, char *line, const char **reason);
 /* Write " name", " name/unit" or " name/(unit)". */
 void ss_write_label(FILE *out, const char *name, const char *unit);
+/* A copy of a unit whose brackets match, so that a label can be read back, to be freed; "" for NULL. */
+char *ss_clean_unit(const char *unit);
 /* "name", "name/unit", "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);
 

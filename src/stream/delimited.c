@@ -2,52 +2,43 @@
  *
  * The first line with nothing but numbers begins the data and shows the separator; the lines above
  * it are searched for names and units, and one column becomes the clock.  The whole table is read
- * first, as only all stamps together show the rate. */
+ * first, as only all stamps together show the rate.  A line of words below the rows begins another table
+ * if rows follow it again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "base/utf8.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
 #include "stream/delimited.h"
 #include "stream/format.h"
 #include "stream/reader.h"
+#include "stream/stamp.h"
 
 enum { HEADER_LINES = 1000 };
 
-/* --- rows ---------------------------------------------------------------------------------- */
+/* --- lines --------------------------------------------------------------------------------- */
 
-/* Is this the first line of data?  Then t->separator and t->n_columns are set. */
 static ss_status
-is_data(struct table *t, const char *line, int *yes)
+keep_line(struct table *t, const char *line, int comment, ss_error *err)
 {
-    static const char candidate[] = { '\t', ';', ',', ' ' };
-    *yes = 0;
-    for (size_t i = 0; i < sizeof candidate; i++) {
-        size_t n = strchr(line, candidate[i]) != NULL || candidate[i] == ' '
-                 ? ss_delimited_count_numbers(t, line, candidate[i]) : 0;
-        if (n == NONE)
-            return SS_ENOMEM;
-        if (n > 1 || (n == 1 && (candidate[i] == ';' || candidate[i] == ' '))) {
-            t->separator = n > 1 || candidate[i] == ';' ? candidate[i] : '\0';
-            t->n_columns = n;
-            *yes = 1;
-            return SS_OK;
-        }
-    }
+    struct table_line *more = ss_list_room(t->head, &t->head_room, t->n_head, sizeof *more);
+    char *copy = more != NULL ? ss_utf8_text(line) : NULL;
+    t->head = more != NULL ? more : t->head;
+    if (copy == NULL)
+        return ss_delimited_no_memory(t, err);
+    more[t->n_head++] = (struct table_line){ copy, t->in->line, comment };
     return SS_OK;
 }
 
-static int
-keep_above(struct table *t, const char *line)
+static void
+drop_lines(struct table *t)
 {
-    free(t->above[0]);
-    t->above[0] = t->above[1];
-    t->above_line[0] = t->above_line[1];
-    t->above[1] = ss_utf8_text(line);
-    t->above_line[1] = t->in->line;
-    return t->above[1] != NULL;
+    for (size_t i = 0; i < t->n_head; i++)
+        free(t->head[i].text);
+    t->n_head = 0;
 }
 
 /* The next line that is not empty; comment is set if it is one.  NULL at the end. */
@@ -70,8 +61,35 @@ next_line(struct table *t, char **line, int *comment, ss_error *err)
     return SS_OK;
 }
 
-static int
-make_room(struct table *t)
+/* Keep lines up to the first row of data, which *row then is; NULL: there is none. */
+static ss_status
+keep_header(struct table *t, char **row, ss_error *err)
+{
+    int comment = 0, found = 0;
+    char *line;
+    *row = NULL;
+    while (t->n_head < HEADER_LINES) {
+        ss_status st = next_line(t, &line, &comment, err);
+        if (st != SS_OK || line == NULL)
+            return st;
+        t->labview |= t->in->line == 1 && strncmp(line, "LabVIEW Measurement", 19) == 0;
+        if (!comment && ss_delimited_is_data(t, line, &found) != SS_OK)
+            return ss_delimited_no_memory(t, err);
+        if (found) {
+            *row = line;
+            return SS_OK;
+        }
+        st = keep_line(t, line + (comment ? strspn(line, "# ") : 0), comment, err);
+        if (st != SS_OK)
+            return st;
+    }
+    return SS_OK;
+}
+
+/* --- rows ---------------------------------------------------------------------------------- */
+
+int
+ss_delimited_make_room(struct table *t)
 {
     if (t->n_rows < t->room)
         return 1;
@@ -105,89 +123,299 @@ check_mark(struct table *t, size_t column, ss_error *err)
                    mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
 }
 
+/* The seconds of a stamp: of the day without a date, and going on at midnight; else from the midnight
+ * before the first row. */
+static double
+read_stamp(struct table_column *c, const char *cell)
+{
+    const time_stamp s = ss_stamp_read(cell);
+    if (s.parts != c->parts)
+        return NAN;
+    if (c->parts & STAMP_DATE) {
+        if (isnan(c->day))
+            c->day = (double)s.day;
+        return 86400 * ((double)s.day - c->day) + s.seconds;
+    }
+    double days = isnan(c->last) ? 0 : floor((c->last - s.seconds) / 86400 + 0.5);
+    return c->last = s.seconds + 86400 * days;  /* the nearest to the row before */
+}
+
+/* The value of one cell of the line that was split. */
+static ss_status
+read_cell(struct table *t, size_t i, double *value, ss_error *err)
+{
+    struct table_column *c = &t->column[i];
+    char *cell = t->cell[i];
+    *value = 0;
+    if (c->kind == COLUMN_TEXT)
+        return SS_OK;
+    enum cell_kind kind = ss_cell_read(cell, t->separator, value);
+    int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
+    if (missing && t->opts->gaps != SS_GAPS_REFUSE) {
+        *value = NAN;
+        return SS_OK;
+    }
+    if (c->kind == COLUMN_STAMPS && !isnan(*value = read_stamp(c, cell)))
+        return SS_OK;
+    if (c->kind == COLUMN_NUMBERS && kind == CELL_NUMBER)
+        return check_mark(t, i, err);
+    const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
+        ? "finite number" : "number";
+    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s",
+                   t->in->name, t->in->line, t->names->column[i].name, cell, what);
+}
+
 static ss_status
 append_row(struct table *t, char *text, ss_error *err)
 {
-    const char *name = t->in->name;
-    unsigned long line = t->in->line;
     size_t n = ss_delimited_split(t, text, t->separator);
-    if (n == NONE || !make_room(t))
+    if (n == NONE || !ss_delimited_make_room(t))
         return ss_delimited_no_memory(t, err);
-    if (n != t->n_columns)
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", name, line,
-                       t->n_columns, n);
-    double *row = t->value + t->n_rows * n;
-    for (size_t i = 0; i < n; i++) {
-        enum cell_kind kind = ss_cell_read(t->cell[i], t->separator, &row[i]);
-        int missing = kind == CELL_NOT_FINITE || t->cell[i][0] == '\0';
-        if (missing && t->opts->gaps != SS_GAPS_REFUSE) {
-            row[i] = NAN;
-            continue;
-        }
-        if (kind != CELL_NUMBER)
-            return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a "
-                           "%snumber", name, line, t->names->column[i].name, t->cell[i],
-                           kind == CELL_NOT_FINITE ? "finite " : "");
-        ss_status st = check_mark(t, i, err);
+    if (n != t->n_columns && !(n == t->n_columns + 1 && (t->comments || t->labview)))
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", t->in->name,
+                       t->in->line, t->n_columns, n);
+    double *row = t->value + t->n_rows * t->n_columns;
+    for (size_t i = 0; i < t->n_columns; i++) {
+        ss_status st = read_cell(t, i, &row[i], err);
         if (st != SS_OK)
             return st;
     }
-    t->line[t->n_rows++] = line;
+    t->line[t->n_rows++] = t->in->line;
     return SS_OK;
+}
+
+/* What the columns hold, as their cells in the first row show. */
+static ss_status
+find_kinds(struct table *t, const char *row, ss_error *err)
+{
+    size_t numbers;
+    char *shape = ss_delimited_shape(t, row, t->separator, &numbers), *copy = strdup(row);
+    t->column = calloc(t->n_columns, sizeof *t->column);
+    ss_status st = shape != NULL && copy != NULL && t->column != NULL
+        && ss_delimited_split(t, copy, t->separator) != NONE ? SS_OK : ss_delimited_no_memory(t, err);
+    for (size_t i = 0; st == SS_OK && i < t->n_columns; i++) {
+        unsigned parts = ss_stamp_read(t->cell[i]).parts;
+        int text = shape[i] == 't' || (shape[i] == 'e' && t->opts->gaps == SS_GAPS_REFUSE);
+        t->column[i] = (struct table_column){ text ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS
+                                              : COLUMN_NUMBERS, parts, NAN, NAN };
+    }
+    free(shape);
+    free(copy);
+    return st;
+}
+
+static void
+warn_of_text(const struct table *t, const char *row)
+{
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_TEXT && !(t->labview && row[0] == '\t' && i == 0))
+            ss_delimited_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") holds text; it was skipped",
+                              t->in->name, t->in->line, i + 1, t->names->column[i].name);
+}
+
+/* Begin a table with this row, below the lines that were kept. */
+static ss_status
+begin_table(struct table *t, const char *row, ss_error *err)
+{
+    if (t->n_columns > MAX_COLUMNS)
+        return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
+    char *first = strdup(row);                  /* split below, and for the names */
+    ss_status st = first != NULL ? find_kinds(t, first, err) : ss_delimited_no_memory(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_read_names(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_read_labview(t, err);
+    if (st == SS_OK) {
+        warn_of_text(t, first);
+        st = append_row(t, first, err);
+    }
+    free(first);
+    return st;
+}
+
+/* Begin a table with this of the kept lines, and those below it. */
+static ss_status
+begin_kept(struct table *t, size_t first, ss_error *err)
+{
+    size_t n = t->n_head;
+    unsigned long line = t->in->line;
+    t->n_head = first;                          /* for the names */
+    t->in->line = t->head[first].number;
+    ss_status st = begin_table(t, t->head[first].text, err);
+    for (size_t i = first + 1; st == SS_OK && i < n; i++) {
+        t->in->line = t->head[i].number;
+        st = t->head[i].comment ? SS_OK : append_row(t, t->head[i].text, err);
+    }
+    t->n_head = n;
+    if (st == SS_OK)
+        t->in->line = line;
+    return st;
+}
+
+/* Begin with the first row of numbers, or if there is none, or words and numbers stand above it, with the
+ * first of those that are alike. */
+static ss_status
+begin_first(struct table *t, const char *row, ss_error *err)
+{
+    size_t columns = t->n_columns, first;
+    char separator = t->separator;
+    if (row != NULL && !ss_delimited_ends_mixed(t))
+        return begin_table(t, row, err);
+    ss_status st = row != NULL ? keep_line(t, row, 0, err) : SS_OK;
+    if (st != SS_OK)
+        return st;
+    first = ss_delimited_find_mixed(t);
+    if (first == NONE)
+        return ss_delimited_no_memory(t, err);
+    if (first < t->n_head)
+        return begin_kept(t, first, err);
+    if (row == NULL)
+        return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
+                       "between commas, semicolons, tabs or blanks", t->in->name, t->in->line);
+    t->n_columns = columns;
+    t->separator = separator;
+    return begin_kept(t, t->n_head - 1, err);
+}
+
+/* --- several tables ------------------------------------------------------------------------- */
+
+/* May this line be a heading, and no row? */
+static ss_status
+is_heading(struct table *t, const char *line, int *yes, ss_error *err)
+{
+    size_t numbers;
+    *yes = 0;
+    if (strchr("+-.0123456789", line[strspn(line, " \t")]) != NULL)
+        return SS_OK;
+    char *shape = ss_delimited_shape(t, line, t->separator, &numbers);
+    if (shape == NULL)
+        return ss_delimited_no_memory(t, err);
+    size_t n = strlen(shape);
+    if (shape[0] == 't' && t->column[0].kind != COLUMN_TEXT)
+        *yes = n != t->n_columns || (n > 1 && strchr(shape, 'n') == NULL);
+    *yes |= ss_delimited_is_segment(t, line);
+    free(shape);
+    return SS_OK;
+}
+
+/* Keep the lines from a heading on, up to the row of another table, which *row then is.  If none follows,
+ * the heading is a row that is wrong. */
+static ss_status
+look_below(struct table *t, const char *heading, char **row, ss_error *err)
+{
+    unsigned long number = t->in->line;
+    size_t columns = t->n_columns;
+    char separator = t->separator;
+    drop_lines(t);
+    ss_status st = keep_line(t, heading, 0, err);
+    if (st == SS_OK)
+        st = keep_header(t, row, err);
+    t->next_columns = t->n_columns;
+    t->next_separator = t->separator;
+    t->n_columns = columns;
+    t->separator = separator;
+    if (st != SS_OK || *row != NULL)
+        return st;
+    t->in->line = number;
+    return append_row(t, t->head[0].text, err);
+}
+
+/* Rows up to the end, or up to the first row of another table, which *row then is. */
+static ss_status
+read_body(struct table *t, char **row, ss_error *err)
+{
+    char *line;
+    int comment, heading = 0;
+    ss_status st;
+    *row = NULL;
+    while ((st = next_line(t, &line, &comment, err)) == SS_OK && line != NULL) {
+        if (!comment)
+            st = is_heading(t, line, &heading, err);
+        if (st == SS_OK && heading)
+            return look_below(t, line, row, err);
+        if (st == SS_OK && !comment)
+            st = append_row(t, line, err);
+        if (st != SS_OK)
+            return st;
+    }
+    return st;
+}
+
+/* Forget the rows and columns of a table before the next. */
+static ss_status
+clear_table(struct table *t, ss_error *err)
+{
+    free(t->column);
+    free(t->value);
+    free(t->line);
+    ss_header_free(t->names);
+    t->column = NULL;
+    t->value = NULL;
+    t->line = NULL;
+    t->n_rows = t->room = 0;
+    t->mark = '\0';
+    t->n_columns = t->next_columns;
+    t->separator = t->next_separator;
+    t->counted = (struct counted){ 0, 0, 0 };
+    t->named = t->comments = 0;
+    t->names = ss_header_new(0, 0);
+    return t->names != NULL ? SS_OK : ss_delimited_no_memory(t, err);
+}
+
+/* Append what a table is: "2 from line 17, 1200 rows of t Fx Fz". */
+static void
+list_table(const struct table *t, size_t number, char *list, size_t size)
+{
+    size_t n = strlen(list);
+    int more = snprintf(list + n, size - n, "%s%zu from line %lu, %zu rows of", number > 1 ? "; " : "",
+                        number, t->line[0], t->n_rows);
+    for (size_t c = 0; c < t->n_columns && more >= 0 && n + (size_t)more < size; c++) {
+        n += (size_t)more;
+        more = snprintf(list + n, size - n, " %s", t->names->column[c].name);
+    }
 }
 
 static ss_status
 read_table(struct table *t, ss_error *err)
 {
-    char *line;
-    int comment = 0, found = 0;
-    ss_status st = SS_OK;
-    for (int i = 0; !found; i++) {
-        st = next_line(t, &line, &comment, err);
-        if (st != SS_OK)
-            return st;
-        if (line == NULL || i == HEADER_LINES)
-            return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
-                           "between commas, semicolons, tabs or blanks", t->in->name,
-                           t->in->line);
-        if (!comment && is_data(t, line, &found) != SS_OK)
-            return ss_delimited_no_memory(t, err);
-        if (!found && !keep_above(t, line + strspn(line, "# ")))
-            return ss_delimited_no_memory(t, err);
-    }
-    if (t->n_columns > MAX_COLUMNS)
-        return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
-    char *first = strdup(line);                 /* split below, and for the names */
-    if (first == NULL)
-        return ss_delimited_no_memory(t, err);
-    st = ss_delimited_read_names(t, err);
+    char *row, list[300] = "";
+    size_t number = 1, wanted = t->opts->table;
+    ss_status st = keep_header(t, &row, err);
     if (st == SS_OK)
-        st = append_row(t, first, err);
-    free(first);
-    while (st == SS_OK && (st = next_line(t, &line, &comment, err)) == SS_OK && line != NULL)
-        if (!comment)
-            st = append_row(t, line, err);
-    return st;
+        st = begin_first(t, row, err);
+    for (; st == SS_OK && (st = read_body(t, &row, err)) == SS_OK && row != NULL; number++) {
+        if (number == wanted)
+            return SS_OK;
+        list_table(t, number, list, sizeof list);
+        st = clear_table(t, err);
+        if (st == SS_OK)
+            st = begin_table(t, row, err);
+    }
+    if (st != SS_OK || number == wanted || (number == 1 && wanted == 0))
+        return st;
+    list_table(t, number, list, sizeof list);
+    return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", t->in->name, number, number > 1 ? "s" : "", list);
 }
 
 /* --- as a reader --------------------------------------------------------------------------- */
 
-/* Leave the column of time out of the names, which become *head, and of the rows. */
+/* Leave the column of time and those of text or other stamps out of the names, which become *head, and of
+ * the rows. */
 static ss_status
-drop_time(struct table *t, ss_header **head)
+drop_columns(struct table *t, ss_header **head)
 {
     size_t kept = 0, n = 0, *column = malloc(t->n_columns * sizeof *column);
     if (column == NULL)
         return SS_ENOMEM;
     for (size_t c = 0; c < t->n_columns; c++)
-        if (c != t->time)
+        if (c != t->time && t->column[c].kind == COLUMN_NUMBERS)
             column[n++] = c;
     ss_header_free(*head);
     ss_status st = ss_header_select(head, t->names, column, n, 0);
+    for (size_t i = 0; i < t->n_rows; i++)
+        for (size_t c = 0; c < n; c++)
+            t->value[kept++] = t->value[i * t->n_columns + column[c]];
     free(column);
-    for (size_t i = 0; i < t->n_rows * t->n_columns; i++)
-        if (i % t->n_columns != t->time)
-            t->value[kept++] = t->value[i];
     return st;
 }
 
@@ -202,12 +430,33 @@ table_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err
     return SS_OK;
 }
 
-static void
-free_table(struct table *t)
+ss_status
+ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
 {
+    ss_status st = ss_delimited_choose_clock(t, err);
+    if (st == SS_OK && drop_columns(t, &reader->head) != SS_OK)
+        st = ss_delimited_no_memory(t, err);
+    size_t columns = reader->head != NULL ? reader->head->n_columns : 0;
+    if (st == SS_OK && columns == 0)
+        st = ss_fail(err, SS_EDATA, "%s: no column but time", t->in->name);
+    if (st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE)
+        st = ss_fill_gaps(t->value, t->n_rows, columns, 1, reader->head, t->opts->gaps, t->in->name, err);
+    if (st != SS_OK)
+        return st;
+    reader->values = t->value;
+    reader->n_rows = t->n_rows;
+    reader->rows = table_rows;
+    t->value = NULL;
+    return SS_OK;
+}
+
+void
+ss_delimited_free(struct table *t)
+{
+    drop_lines(t);
+    free(t->head);
+    free(t->column);
     free(t->cell);
-    free(t->above[0]);
-    free(t->above[1]);
     free(t->value);
     free(t->line);
     ss_header_free(t->names);
@@ -217,7 +466,8 @@ static ss_status
 open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    struct table t = { .in = in, .opts = opts, .time = NONE, .names = ss_header_new(0, 0) };
+    struct table t = { .in = in, .opts = opts, .time = NONE, .layout = LAYOUT_ONE,
+                       .names = ss_header_new(0, 0) };
     ss_status st = ss_input_need(in, 3, err);
     if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
         in->lo += 3;                            /* a byte-order mark */
@@ -226,21 +476,10 @@ open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st == SS_OK)
         st = read_table(&t, err);
     if (st == SS_OK)
-        st = ss_delimited_choose_clock(&t, err);
-    if (st == SS_OK && t.time != NONE && t.n_columns == 1)
-        st = ss_fail(err, SS_EDATA, "%s: no column but time", in->name);
-    if (st == SS_OK && drop_time(&t, &reader->head) != SS_OK)
-        st = ss_delimited_no_memory(&t, err);
-    size_t columns = reader->head != NULL ? reader->head->n_columns : 0;
-    if (st == SS_OK && opts->gaps != SS_GAPS_REFUSE)
-        st = ss_fill_gaps(t.value, t.n_rows, columns, 1, reader->head, opts->gaps, in->name, err);
-    if (st == SS_OK) {
-        reader->values = t.value;
-        reader->n_rows = t.n_rows;
-        reader->rows = table_rows;
-        t.value = NULL;
-    }
-    free_table(&t);
+        st = ss_delimited_check_labview(&t, err);
+    if (st == SS_OK)
+        st = ss_delimited_finish(&t, reader, err);
+    ss_delimited_free(&t);
     return st;
 }
 

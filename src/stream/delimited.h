@@ -6,31 +6,77 @@
 #include <stdint.h>
 #include <stickslip/signal.h>
 #include "stream/input.h"
+#include "stream/reader.h"
 
 #define NONE SIZE_MAX
+
+enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE, CELL_STAMP };
+
+/* What a column holds, by its first row. */
+enum column_kind {
+    COLUMN_NUMBERS,
+    COLUMN_STAMPS,              /* dates or times of day; its values are seconds */
+    COLUMN_TEXT                 /* left out */
+};
+
+/* How the rows of a table are counted where it has no column of times. */
+struct counted {
+    double origin, increment;   /* [s]; increment 0: they are not */
+    int numbered;               /* by the first column, else one after the other */
+};
+
+struct table_column {
+    enum column_kind kind;
+    unsigned parts;             /* of stamps: a date, a time of day or both */
+    double day;                 /* the day from which they count, in the first row; NaN: no date */
+    double last;                /* the stamp of the row before */
+};
+
+struct table_line {             /* above the data, to be freed */
+    char *text;
+    unsigned long number;
+    int comment;
+};
 
 struct table {
     struct input *in;
     const ss_read_opts *opts;
     char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
-    size_t n_columns;           /* that of time among them */
+    size_t n_columns;           /* of the file: those of time and of text among them */
+    size_t next_columns;        /* these two of the table below */
+    char next_separator;
+    struct table_column *column;
     char **cell;                /* of the line that was split last */
     size_t cell_room;
-    char *above[2];             /* the last two header lines: [1] stands right above the data */
-    unsigned long above_line[2];
+    struct table_line *head;    /* lines above the data */
+    size_t n_head, head_room;
     size_t time;                /* column of time, or NONE */
-    double origin, increment;   /* [s] of numbered rows: the first column; increment 0: not so */
+    struct counted counted;
     int named;                  /* is there a row of names? */
+    int labview;                /* does it begin as the files of LabVIEW do? */
+    enum { LAYOUT_NO, LAYOUT_ONE, LAYOUT_MULTI } layout;        /* of its columns of x */
+    int first_x;                /* is the first column no channel? */
+    int comments;               /* cells too many are comments, which LabVIEW writes behind its rows */
     ss_header *names;           /* all columns, that of time among them, and the clock */
     double *value;              /* rows, one after the other */
     unsigned long *line;        /* where each row stands */
     size_t n_rows, room;
 };
 
-enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE };
-
 ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
+/* Tell who reads of something, unless nobody asks. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...);
+
+/* The rows of a whole table, whose names and values are there, for the reader to give: with a clock,
+ * without its columns of time and text, with its gaps filled. */
+ss_status ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err);
+/* Room for one more row. */
+int ss_delimited_make_room(struct table *t);
+void ss_delimited_free(struct table *t);
 
 /* Cells (delimited_cells.c). */
 
@@ -41,14 +87,37 @@ enum cell_kind ss_cell_read(char *cell, char separator, double *x);
 /* Split a line, in place, into t->cell; empty cells too many at the end are dropped.  NONE: no
  * memory. */
 size_t ss_delimited_split(struct table *t, char *p, char separator);
-/* The number of cells of a line if all are numbers with this separator, else 0; NONE: no memory. */
-size_t ss_delimited_count_numbers(struct table *t, const char *line, char separator);
+/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing number, e
+ * for nothing, t for text.  *numbers: how many are finite numbers.  NULL: no memory. */
+char *ss_delimited_shape(struct table *t, const char *line, char separator, size_t *numbers);
+
+/* Where the data begin in the lines that were kept (delimited_start.c). */
+
+/* Is this the first line of data?  Then t->separator and t->n_columns are set. */
+ss_status ss_delimited_is_data(struct table *t, const char *line, int *yes);
+/* Does the last of the kept lines begin with a number and have words? */
+int ss_delimited_ends_mixed(struct table *t);
+/* The first of the kept lines that is a row of data with words in it, as the lines below it are too, or
+ * t->n_head; then t->separator and t->n_columns are set.  NONE: no memory. */
+size_t ss_delimited_find_mixed(struct table *t);
 
 /* Find names and units in the last two lines above the data (delimited_names.c).
  *
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
  * a bad cell: the latter if it begins with a number or stands below a row of names. */
 ss_status ss_delimited_read_names(struct table *t, ss_error *err);
+/* The unit at the end of a name, velocity_in_s, or "": a part of the list of such. */
+const char *ss_unit_of_name(const char *name);
+
+/* Names, units and clock from lines that begin with what they are about: Interval, Delta_X, Unit
+ * (delimited_labview.c).  Call behind ss_delimited_read_names. */
+ss_status ss_delimited_read_labview(struct table *t, ss_error *err);
+/* Is this what such a line begins with? */
+int ss_delimited_is_key(const char *cell);
+/* What only all rows show: columns of times beside each other. */
+ss_status ss_delimited_check_labview(struct table *t, ss_error *err);
+/* Does this line begin another segment of a LabVIEW file? */
+int ss_delimited_is_segment(const struct table *t, const char *line);
 
 /* Find the column of time and turn the rows into samples of its clock (delimited_clock.c). */
 ss_status ss_delimited_choose_clock(struct table *t, ss_error *err);

@@ -1,5 +1,6 @@
 /* delimited_cells.c -- lines of a text table as cells, and cells as numbers. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,12 +8,26 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "stream/delimited.h"
+#include "stream/stamp.h"
 
 ss_status
 ss_delimited_no_memory(const struct table *t, ss_error *err)
 {
     return ss_fail(err, SS_ENOMEM, "%s:%lu: no memory for a table this large", t->in->name,
                    t->in->line);
+}
+
+void
+ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...)
+{
+    ss_error text;
+    va_list args;
+    if (t->opts->warn == NULL)
+        return;
+    va_start(args, format);
+    vsnprintf(text.text, sizeof text.text, format, args);
+    va_end(args);
+    t->opts->warn(about, text.text, t->opts->user);
 }
 
 char *
@@ -79,34 +94,52 @@ is_no_number(const char *cell)
     return 0;
 }
 
+/* As ss_number_parse, and Fortran's 1.0D+00 too. */
+static double
+parse(char *cell, char **end)
+{
+    double x = ss_number_parse(cell, end);
+    char *mark = *end;
+    if (mark == cell || (*mark != 'D' && *mark != 'd'))
+        return x;
+    char letter = *mark;
+    *mark = 'e';
+    x = ss_number_parse(cell, end);
+    *mark = letter;
+    return x;
+}
+
 enum cell_kind
 ss_cell_read(char *cell, char separator, double *x)
 {
     char *end, *comma = separator != ',' ? strchr(cell, ',') : NULL;
     if (comma != NULL)
         *comma = '.';
-    *x = ss_number_parse(cell, &end);
+    *x = parse(cell, &end);
     int number = end > cell && *end == '\0';
     if (comma != NULL)
         *comma = ',';
     if (number)
         return isfinite(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
-    return is_no_number(cell) ? CELL_NOT_FINITE : CELL_TEXT;
+    if (is_no_number(cell))
+        return CELL_NOT_FINITE;
+    return *cell >= '0' && *cell <= '9' && ss_stamp_read(cell).parts != 0 ? CELL_STAMP : CELL_TEXT;
 }
 
-size_t
-ss_delimited_count_numbers(struct table *t, const char *line, char separator)
+char *
+ss_delimited_shape(struct table *t, const char *line, char separator, size_t *numbers)
 {
     double x;
-    size_t numbers = 0;
-    char *copy = strdup(line);
+    char *copy = strdup(line), *shape = NULL;
     size_t n = copy != NULL ? ss_delimited_split(t, copy, separator) : NONE;
-    for (size_t i = 0; n != NONE && i < n; i++) {
+    *numbers = 0;
+    if (n != NONE)
+        shape = calloc(n + 1, 1);
+    for (size_t i = 0; shape != NULL && i < n; i++) {
         enum cell_kind kind = ss_cell_read(t->cell[i], separator, &x);
-        if (kind == CELL_TEXT && !(t->opts->gaps != SS_GAPS_REFUSE && t->cell[i][0] == '\0'))
-            n = 0;
-        numbers += kind == CELL_NUMBER;
+        shape[i] = t->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
+        *numbers += kind == CELL_NUMBER;
     }
     free(copy);
-    return n == NONE || numbers > 0 ? n : 0;
+    return shape;
 }

@@ -9,48 +9,108 @@
 #include "signal/resample.h"
 #include "stream/clock.h"
 #include "stream/delimited.h"
+#include "stream/stamp.h"
 
 enum { GAPS_MOST = 1000 };      /* samples for each that is there */
 
+#define LEAST_RATE (1 / 3600. * (1 - 1e-9))     /* a sample an hour */
+#define MOST_RATE 1e10
+#define DOUBTED_RATE 100.       /* [Hz] a clock below, of no unit, may count milliseconds */
+
 /* Seconds are stamps * factor / divisor. */
 struct time_unit {
-    const char *name;
+    const char *names;          /* with blanks between, the usual one first */
     double factor, divisor;
+    int is_name;                /* does a column of such a name hold times? */
 };
+
+static const struct time_unit units_of_time[] = {
+    { "s sec secs second seconds", 1, 1, 0 },
+    { "ms msec millisecond milliseconds", 1, 1e3, 1 },
+    { "us usec microsecond microseconds \u00b5s \u03bcs", 1, 1e6, 1 },
+    { "ns nsec nanosecond nanoseconds", 1, 1e9, 1 },
+    { "min minute minutes", 60, 1, 0 },
+    { "h hr hour hours", 3600, 1, 0 }
+};
+enum { UNITS_OF_TIME = sizeof units_of_time / sizeof *units_of_time };
+
+const char *
+ss_time_unit_name(size_t i)
+{
+    static const char *const name[UNITS_OF_TIME] = { "s", "ms", "us", "ns", "min", "h" };
+    return i < UNITS_OF_TIME ? name[i] : NULL;
+}
+
+/* Is the word of n bytes one of those in the list, in any case? */
+static int
+is_in_list(const char *list, const char *word, size_t n)
+{
+    for (; n > 0 && *list != '\0'; list += strcspn(list, " "), list += *list == ' ')
+        if (strcspn(list, " ") == n && strncasecmp(list, word, n) == 0)
+            return 1;
+    return 0;
+}
 
 static const struct time_unit *
 find_time_unit(const char *name)
 {
-    static const struct time_unit known[] = {
-        { "", 1, 1 }, { "s", 1, 1 }, { "sec", 1, 1 }, { "seconds", 1, 1 }, { "ms", 1, 1e3 },
-        { "us", 1, 1e6 }, { "\u00b5s", 1, 1e6 }, { "\u03bcs", 1, 1e6 }, { "ns", 1, 1e9 },
-        { "min", 60, 1 }, { "h", 3600, 1 }, { NULL, 0, 0 } };
-    for (const struct time_unit *u = known; u->name != NULL; u++)
-        if (strcasecmp(name, u->name) == 0)
-            return u;
+    for (size_t i = 0; i < UNITS_OF_TIME; i++)
+        if (is_in_list(units_of_time[i].names, name, strlen(name)))
+            return &units_of_time[i];
     return NULL;
 }
 
-/* Is this column called time?  "Time", "t", "time_ms"; the unit in its name is then *unit. */
-static int
-is_called_time(const ss_column *c, const char **unit)
+/* The unit that a column's name is or ends with, or NULL: ms, Time_ms.  *length: of what stands before. */
+static const struct time_unit *
+unit_in_name(const char *name, size_t *length)
 {
-    static const char *const word[] = { "t", "time", "timestamp", "zeit", "x_value",
-        "second", "seconds", NULL };
-    *unit = c->unit;
-    for (int i = 0; word[i] != NULL; i++) {
-        size_t n = strlen(word[i]);
-        if (strncasecmp(c->name, word[i], n) != 0)
-            continue;
-        if (c->name[n] == '\0')
-            return 1;
-        if (c->name[n] == '_' && find_time_unit(c->name + n + 1) != NULL) {
-            if (**unit == '\0')
-                *unit = c->name + n + 1;
-            return 1;
-        }
+    size_t n = strlen(name);
+    while (n > 0 && strchr("_.-", name[n - 1]) == NULL)
+        n--;
+    const struct time_unit *unit = find_time_unit(name + n);
+    *length = unit == NULL ? strlen(name) : n > 0 ? n - 1 : 0;
+    return unit;
+}
+
+/* Is this column called time, as Time, t, time_ms, ms and Seconds are? */
+static int
+is_called_time(const ss_column *c)
+{
+    static const char words[] = "t time timestamp time_stamp datetime date_time epoch unix_time zeit temps "
+        "tempo tiempo elapsed elapsed_time x_value";
+    static const char alone[] = "sec second seconds";
+    size_t length;
+    const struct time_unit *unit = unit_in_name(c->name, &length);
+    if (unit != NULL && length == 0)
+        return unit->is_name || is_in_list(alone, c->name, strlen(c->name));
+    return is_in_list(words, c->name, length);
+}
+
+/* The unit of a column of time where the file or the caller gives one, else *unit = NULL. */
+static ss_status
+given_unit(const struct table *t, const ss_column *c, const struct time_unit **unit, ss_error *err)
+{
+    size_t length;
+    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
+    *unit = *own != '\0' ? find_time_unit(own) : strcasecmp(c->name, "x_value") == 0
+        ? &units_of_time[0] : unit_in_name(c->name, &length);
+    if (*unit == NULL && *own != '\0')
+        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
+                       c->name, own);
+    return SS_OK;
+}
+
+/* A number of no unit that is a date between 2000 and 2100 in seconds since 1970, or in parts of
+ * them: those, else NULL. */
+static const struct time_unit *
+unit_of_date(double stamp)
+{
+    for (size_t i = 0; i < 4; i++) {
+        double seconds = stamp / units_of_time[i].divisor;
+        if (seconds >= 946684800 && seconds < 4102444800)
+            return &units_of_time[i];
     }
-    return 0;
+    return NULL;
 }
 
 /* Forget the rows without a time. */
@@ -89,9 +149,10 @@ spread_rows(struct table *t, const size_t *sample, ss_error *err)
     return SS_OK;
 }
 
-/* Rows at stamps as samples of a clock: that of the stamps, or that of --resample. */
+/* Rows at stamps as samples of a clock: that of the stamps, or that of opts->resample.  *own: the rate of the
+ * stamps. */
 static ss_status
-place_rows(struct table *t, const double *stamp, ss_error *err)
+place_rows(struct table *t, const double *stamp, double *own, ss_error *err)
 {
     const char *name = t->in->name;
     int gaps = t->opts->gaps != SS_GAPS_REFUSE;
@@ -105,10 +166,12 @@ place_rows(struct table *t, const double *stamp, ss_error *err)
         if (st == SS_OK)
             st = spread_rows(t, sample, err);
         free(sample);
+        *own = t->names->rate;
         return st;
     }
     ss_status st = ss_usual_step(name, stamp, t->line, n, &usual, err);
     t->names->rate = t->opts->resample;
+    *own = 1 / usual;
     if (st == SS_OK)
         st = ss_resample(&value, &n, stamp, t->value, n, t->n_columns, usual, t->names->rate, name, err);
     if (st != SS_OK)
@@ -123,17 +186,17 @@ place_rows(struct table *t, const double *stamp, ss_error *err)
     return SS_OK;
 }
 
-/* The column holds times in this unit, counted from t->origin. */
+/* The column holds times in this unit, counted from an origin; *own: their rate. */
 static ss_status
-read_stamps(struct table *t, size_t column, double factor, double divisor, ss_error *err)
+read_stamps(struct table *t, size_t column, double factor, double divisor, double *own, ss_error *err)
 {
     drop_rows_without(t, column);
     double *stamp = malloc((t->n_rows + 1) * sizeof *stamp);
     if (stamp == NULL)
         return ss_delimited_no_memory(t, err);
     for (size_t i = 0; i < t->n_rows; i++)
-        stamp[i] = t->origin + t->value[i * t->n_columns + column] * factor / divisor;
-    ss_status st = place_rows(t, stamp, err);
+        stamp[i] = t->counted.origin + t->value[i * t->n_columns + column] * factor / divisor;
+    ss_status st = place_rows(t, stamp, own, err);
     if (st == SS_OK) {
         t->names->start = stamp[0];
         t->time = column;
@@ -142,15 +205,93 @@ read_stamps(struct table *t, size_t column, double factor, double divisor, ss_er
     return st;
 }
 
+/* Ask about a clock that no laboratory has, unless the caller gave its unit; doubt one without unit that
+ * would be usual with another. */
 static ss_status
-read_clock(struct table *t, size_t column, const char *unit_name, ss_error *err)
+check_rate(const struct table *t, const char *name, const struct time_unit *given, double rate, ss_error *err)
 {
-    const struct time_unit *unit = find_time_unit(unit_name);
-    if (unit == NULL)
-        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
-                       t->names->column[column].name, unit_name);
-    return read_stamps(t, column, unit->factor, unit->divisor, err);
+    const char *unit = given == NULL ? "s" : ss_time_unit_name((size_t)(given - units_of_time));
+    if (t->opts->time_unit != NULL)
+        return SS_OK;
+    if (!(rate >= LEAST_RATE && rate <= MOST_RATE))
+        return ss_fail(err, SS_EUNIT, "%s: column %s, read in %s, gives a clock of %.3g Hz, which no laboratory "
+                       "has", t->in->name, name, unit, rate);
+    if (given == NULL && rate < DOUBTED_RATE)
+        ss_delimited_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in seconds: %.3g Hz", t->in->name,
+                          name, rate);
+    return SS_OK;
 }
+
+static ss_status
+read_clock(struct table *t, size_t column, ss_error *err)
+{
+    const struct time_unit *given, *date = NULL;
+    const ss_column *c = &t->names->column[column];
+    double rate = 0;
+    ss_status st = given_unit(t, c, &given, err);
+    if (st != SS_OK)
+        return st;
+    if (given == NULL && (date = unit_of_date(t->value[column])) != NULL)
+        ss_delimited_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->in->name,
+                          c->name, ss_time_unit_name((size_t)(date - units_of_time)));
+    given = given != NULL ? given : date;
+    const struct time_unit *unit = given != NULL ? given : &units_of_time[0];
+    st = read_stamps(t, column, unit->factor, unit->divisor, &rate, err);
+    return st == SS_OK ? check_rate(t, c->name, given, rate, err) : st;
+}
+
+/* --- dates and times of day ---------------------------------------------------------------- */
+
+static ss_status
+note_date(struct table *t, double day)
+{
+    char text[80];
+    long n = (long)day + 719468, era = (n >= 0 ? n : n - 146096) / 146097, of_era = n - era * 146097;
+    long year = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
+    long of_year = of_era - (365 * year + year / 4 - year / 100), month = (5 * of_year + 2) / 153;
+    snprintf(text, sizeof text, "%04ld-%02ld-%02ld", year + 400 * era + (month > 9),
+             month > 9 ? month - 9 : month + 3, of_year - (153 * month + 2) / 5 + 1);
+    return ss_header_note(t->names, "date", text);
+}
+
+/* A clock of a column of dates, times or both. */
+static ss_status
+read_stamp_clock(struct table *t, size_t column, ss_error *err)
+{
+    double rate, day = NAN;
+    if (t->opts->time_unit != NULL)
+        return ss_fail(err, SS_EDATA, "%s: column %s holds times of day or dates, so it has no unit to choose",
+                       t->in->name, t->names->column[column].name);
+    for (size_t i = t->n_columns; i-- > 0;)
+        if (t->column[i].kind == COLUMN_STAMPS && !isnan(t->column[i].day))
+            day = t->column[i].day;
+    if (!isnan(t->column[column].day))
+        day = t->column[column].day;
+    ss_status st = read_stamps(t, column, 1, 1, &rate, err);
+    if (st == SS_OK && !isnan(day) && note_date(t, day) != SS_OK)
+        st = ss_delimited_no_memory(t, err);
+    return st;
+}
+
+/* The first column of such stamps, or NONE. */
+static size_t
+find_stamps(const struct table *t, unsigned parts)
+{
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_STAMPS && t->column[i].parts == parts)
+            return i;
+    return NONE;
+}
+
+/* The column that tells most of when, or NONE. */
+static size_t
+find_any_stamps(const struct table *t)
+{
+    size_t both = find_stamps(t, STAMP_DATE | STAMP_TIME), time = find_stamps(t, STAMP_TIME);
+    return both != NONE ? both : time != NONE ? time : find_stamps(t, STAMP_DATE);
+}
+
+/* ------------------------------------------------------------------------------------------- */
 
 static ss_status
 no_such_column(const struct table *t, const char *name, ss_error *err)
@@ -167,32 +308,58 @@ no_such_column(const struct table *t, const char *name, ss_error *err)
     return ss_fail(err, SS_EDATA, "%s: no column '%.40s', there are %s", t->in->name, name, list);
 }
 
+/* The column of time that the caller names. */
+static ss_status
+read_chosen(struct table *t, const char *name, ss_error *err)
+{
+    int chosen = ss_header_column(t->names, name);
+    if (chosen < 0)
+        return no_such_column(t, name, err);
+    t->counted.origin = 0;
+    switch (t->column[chosen].kind) {
+    case COLUMN_STAMPS:  return read_stamp_clock(t, (size_t)chosen, err);
+    case COLUMN_NUMBERS: return read_clock(t, (size_t)chosen, err);
+    case COLUMN_TEXT:    break;
+    }
+    return ss_fail(err, SS_EDATA, "%s: column %s holds text, not times", t->in->name,
+                   t->names->column[chosen].name);
+}
+
+/* Rows one after the other at a step that the header gives. */
+static ss_status
+count_rows(struct table *t)
+{
+    t->names->rate = 1 / t->counted.increment;
+    t->names->start = t->counted.origin;
+    return SS_OK;
+}
+
 ss_status
 ss_delimited_choose_clock(struct table *t, ss_error *err)
 {
     const ss_read_opts *opts = t->opts;
-    const char *unit, *first = t->names->column[0].unit;
-    int chosen = opts->time != NULL ? ss_header_column(t->names, opts->time) : -1;
-    if (opts->time != NULL && chosen < 0)
-        return no_such_column(t, opts->time, err);
-    if (chosen >= 0) {
-        is_called_time(&t->names->column[chosen], &unit);
-        return read_clock(t, (size_t)chosen, unit, err);
-    }
+    const ss_column *column = t->names->column;
+    double rate;
+    if (opts->time != NULL)
+        return read_chosen(t, opts->time, err);
     if (opts->rate > 0) {
         t->names->rate = opts->rate;
         return SS_OK;
     }
-    if (t->increment > 0)
-        return read_stamps(t, 0, t->increment, 1, err);
+    if (t->counted.increment > 0)
+        return t->counted.numbered ? read_stamps(t, 0, t->counted.increment, 1, &rate, err) : count_rows(t);
     for (size_t i = 0; i < t->n_columns; i++)
-        if (is_called_time(&t->names->column[i], &unit))
-            return read_clock(t, i, unit, err);
-    if (t->n_columns > 1 && *first != '\0' && find_time_unit(first) != NULL)
-        return read_clock(t, 0, first, err);
+        if (t->column[i].kind == COLUMN_NUMBERS && is_called_time(&column[i]))
+            return read_clock(t, i, err);
+    size_t stamps = find_any_stamps(t);
+    if (stamps != NONE)
+        return read_stamp_clock(t, stamps, err);
+    int numbers = t->n_columns > 1 && t->column[0].kind == COLUMN_NUMBERS;
+    if (numbers && *column[0].unit != '\0' && find_time_unit(column[0].unit) != NULL)
+        return read_clock(t, 0, err);
     ss_status st = SS_ECLOCK;
-    if (t->n_columns > 1 && !t->named)          /* a force over its deflection ascends too */
-        st = read_clock(t, 0, "", NULL);
+    if (numbers && !t->named)                   /* a force over its deflection ascends too */
+        st = read_clock(t, 0, NULL);
     if (st == SS_OK || st == SS_ENOMEM)
         return st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
     return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->in->name);

@@ -59,8 +59,10 @@ kind_of_row(struct table *t, const char *line)
         return ROW_OTHER;
     char *copy = strdup(line);
     size_t n = copy != NULL ? ss_delimited_split(t, copy, t->separator) : NONE;
-    if (n == t->n_columns + 1 && strcasecmp(t->cell[n - 1], "comment") == 0)
+    if (n == t->n_columns + 1 && strcasecmp(t->cell[n - 1], "comment") == 0) {
         n--;                                    /* LabVIEW names a column that few of its rows have */
+        t->comments = 1;
+    }
     for (size_t i = 0; n == t->n_columns && i < n; i++) {
         empty += t->cell[i][0] == '\0';
         units += (size_t)is_unit(t->cell[i]);
@@ -146,12 +148,20 @@ cut(char *line, size_t n, char separator)
             *line = '\0';
 }
 
+/* The text of a kept line, 0 being the one right above the data, or NULL. */
+static char *
+line_above(const struct table *t, size_t up)
+{
+    return t->n_head > up ? t->head[t->n_head - 1 - up].text : NULL;
+}
+
 /* Rigol's oscilloscopes number the rows; beside the names of their columns are Start and Increment, and
  * below these words the times.  Read them if they are there, and leave names and units. */
 static ss_status
 find_increment(struct table *t)
 {
-    char *words = strdup(t->above[0] != NULL ? t->above[0] : ""), *numbers = NULL;
+    char *above = line_above(t, 1), *last = line_above(t, 0);
+    char *words = strdup(above != NULL ? above : ""), *numbers = NULL;
     size_t start = NONE, increment = NONE;
     size_t n = words != NULL ? ss_delimited_split(t, words, t->separator) : NONE;
     for (size_t i = t->n_columns; n != NONE && i < n; i++) {
@@ -159,13 +169,14 @@ find_increment(struct table *t)
         increment = strcasecmp(t->cell[i], "Increment") == 0 ? i : increment;
     }
     if (start != NONE && increment != NONE) {
-        numbers = strdup(t->above[1]);
+        numbers = strdup(last);
         n = numbers != NULL ? ss_delimited_split(t, numbers, t->separator) : NONE;
         if (n != NONE && start < n && increment < n
-            && ss_cell_read(t->cell[start], t->separator, &t->origin) == CELL_NUMBER
-            && ss_cell_read(t->cell[increment], t->separator, &t->increment) == CELL_NUMBER) {
-            cut(t->above[0], t->n_columns, t->separator);
-            cut(t->above[1], t->n_columns, t->separator);
+            && ss_cell_read(t->cell[start], t->separator, &t->counted.origin) == CELL_NUMBER
+            && ss_cell_read(t->cell[increment], t->separator, &t->counted.increment) == CELL_NUMBER) {
+            cut(above, t->n_columns, t->separator);
+            cut(last, t->n_columns, t->separator);
+            t->counted.numbered = 1;
         }
     }
     free(words);
@@ -173,35 +184,49 @@ find_increment(struct table *t)
     return n != NONE ? SS_OK : SS_ENOMEM;
 }
 
+/* Refuse a line with numbers that is a row with a bad cell. */
+static ss_status
+check_mixed(struct table *t, const char *line, enum row_kind before, ss_error *err)
+{
+    double x;
+    char *copy = strdup(line);
+    size_t n = copy != NULL ? ss_delimited_split(t, copy, t->separator) : NONE, bad = n;
+    int begins = n != NONE && ss_cell_read(t->cell[0], t->separator, &x) != CELL_TEXT;
+    ss_status st = n != NONE ? SS_OK : ss_delimited_no_memory(t, err);
+    for (size_t i = n; st == SS_OK && i-- > 0; )
+        if (ss_cell_read(t->cell[i], t->separator, &x) == CELL_TEXT)
+            bad = i;
+    if (st == SS_OK && bad < n
+        && (begins || (before == ROW_NAMES && !ss_delimited_is_key(t->cell[0]))))
+        st = ss_fail(err, SS_EDATA, "%s:%lu: column %zu: '%.40s' is not a number", t->in->name,
+                     t->head[t->n_head - 1].number, bad + 1, t->cell[bad]);
+    free(copy);
+    return st;
+}
+
 ss_status
 ss_delimited_read_names(struct table *t, ss_error *err)
 {
-    double x;
+    char *last_line = line_above(t, 0), *above = line_above(t, 1);
     ss_status st = find_increment(t);
-    if (st == SS_OK && t->increment > 0) {
+    if (st == SS_OK && t->counted.increment > 0) {
         t->named = 1;
-        st = name_columns(t, t->above[0], t->above[1]);
+        st = name_columns(t, above, last_line);
         return st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
     }
-    enum row_kind last = kind_of_row(t, t->above[1]), before = kind_of_row(t, t->above[0]);
+    enum row_kind last = kind_of_row(t, last_line), before = kind_of_row(t, above);
     if (st != SS_OK || last == ROW_NO_MEMORY || before == ROW_NO_MEMORY)
         return ss_delimited_no_memory(t, err);
     if (last == ROW_MIXED) {
-        size_t n = ss_delimited_split(t, t->above[1], t->separator), bad = n, numbers = 0;
-        for (size_t i = n; i-- > 0; )
-            if (ss_cell_read(t->cell[i], t->separator, &x) == CELL_TEXT)
-                bad = i;
-            else
-                numbers = i == 0 ? 1 : numbers;
-        if (bad < n && (numbers > 0 || before == ROW_NAMES))
-            return ss_fail(err, SS_EDATA, "%s:%lu: column %zu: '%.40s' is not a number", t->in->name,
-                           t->above_line[1], bad + 1, t->cell[bad]);
+        st = check_mixed(t, last_line, before, err);
+        if (st != SS_OK)
+            return st;
         last = ROW_OTHER;
     }
     t->named = last != ROW_OTHER;
     if (last == ROW_UNITS && before == ROW_NAMES)
-        st = name_columns(t, t->above[0], t->above[1]);
+        st = name_columns(t, above, last_line);
     else
-        st = name_columns(t, t->named ? t->above[1] : NULL, NULL);
+        st = name_columns(t, t->named ? last_line : NULL, NULL);
     return st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "stream/calibration.h"
 #include "stream/clock.h"
 #include "stream/format.h"
 #include "stream/reader.h"
@@ -28,6 +29,20 @@ open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     return fits ? found->open(reader, opts, err) : ss_fail_magic(err, in->name, "", reader->kind);
 }
 
+/* What opts ask for beyond the format, once the header is there. */
+static ss_status
+adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+{
+    ss_status st = ss_refuse_range(reader->in.name, reader->head->rate, reader->head->start, err);
+    reader->start = reader->head->start;
+    if (st != SS_OK)
+        return st;
+    ss_select_rows(reader->head, opts, &reader->first, &reader->end_row);
+    reader->from = opts->from;
+    reader->to = opts->to;
+    return ss_calibrate_header(reader->head, opts, reader->in.name, &reader->factor, err);
+}
+
 ss_status
 ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind, const ss_read_opts *opts,
                ss_error *err)
@@ -40,7 +55,7 @@ ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind, cons
         st = ss_fail_memory(err, name);
     if (st == SS_OK)
         st = open_format(reader, opts != NULL ? opts : &no_opts, err);
-    return st == SS_OK ? ss_refuse_range(name, reader->head->rate, reader->head->start, err) : st;
+    return st == SS_OK ? adjust(reader, opts != NULL ? opts : &no_opts, err) : st;
 }
 
 void
@@ -49,6 +64,7 @@ ss_reader_close(ss_reader *reader)
     ss_input_close(&reader->in);
     ss_header_free(reader->head);
     free(reader->values);
+    free(reader->factor);
 }
 
 ss_status
@@ -84,8 +100,21 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
 {
     if (reader == NULL || rows == NULL || n == NULL)
         return SS_FAIL_NULL(err);
-    *n = 0;
-    return reader->rows(reader, rows, max, n, err);
+    ss_status st;
+    size_t columns = reader->head->n_columns;
+    do {                                        /* rows before the first are left out */
+        uint64_t end = reader->passed < reader->first ? reader->first : reader->end_row;
+        uint64_t left = end - reader->passed;
+        *n = 0;
+        st = left > 0 ? reader->rows(reader, rows, left < max ? (size_t)left : max, n, err) : SS_OK;
+        reader->passed += *n;
+    } while (st == SS_OK && *n > 0 && reader->passed <= reader->first);
+    int none = reader->passed <= reader->first;
+    *n = none ? 0 : *n;
+    if (st == SS_OK && none && max > 0 && reader->from < reader->to)
+        return ss_fail_no_rows(reader->in.name, reader->from, reader->to, err);
+    ss_status scaled = ss_calibrate_rows(rows, *n, columns, columns, 1, reader->factor, reader->in.name, err);
+    return st == SS_OK ? scaled : st;
 }
 
 int

@@ -56,7 +56,7 @@ static ss_status
 check_time(const ss_reader *reader, double t, ss_error *err)
 {
     const ss_header *head = reader->head;
-    double expected = head->start + (double)reader->row / head->rate;
+    double expected = reader->start + (double)reader->row / head->rate;
     if (fabs(t - expected) <= 1e-6 / head->rate + 1e-15 * fabs(expected))
         return SS_OK;
     char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];

@@ -35,7 +35,7 @@ done
 
 # In files: names, units, notes, words of columns, keys and values.
 rows() { awk -v s="$1" 'BEGIN { for (i = 0; i < 100; i++) print i s i % 7 (s == "," ? ",1" : "") }'; }
-{ printf 't,%s,b (%s)\n' "$x" "$x"; rows ,; } > long.csv
+{ printf 't_s,%s,b (%s)\n' "$x" "$x"; rows ,; } > long.csv
 { printf '# stickslip signal 1\n# rate: 1\n# %s: %s\n# columns: t/s %s/%s\n' "$x" "$x" "$x" "$x"; rows '	'; } > long.tsv
 printf '%s = 1\n' "$x" > key.scene
 printf 'model = %s\n' "$x" > model.scene

@@ -38,7 +38,8 @@ LINES
     for tool in "$SRC"/tools/ss-*.c; do
         name=$(basename "$tool" .c)
         echo "$name --"
-        { cat "$tool"; sed -n '/define TOOL_LONGOPTS/,/NULL, 0, NULL/p' "$SRC/tools/common.h"; } |
+        { cat "$tool"; sed -n '/define TOOL_LONGOPTS/,/NULL, 0, NULL/p' "$SRC/tools/common.h"
+          ! grep -q TOOL_READING_LONGOPTS "$tool" || sed -n '/define TOOL_READING_LONGOPTS/,/"unit"/p' "$SRC/tools/common.h"; } |
             tr '\n' ' ' | grep -oE '\{ "[a-z-]+", (required|no)_argument' | sort -u |
             tee "$name.options" | sed -n "s/{ \"\(.*\)\", required.*/$name --\1=/p" |
             grep -v -e '--output=' -e '--events=' -e '--features=' -e '--line=' -e '--signal=' \
