@@ -259,7 +259,10 @@ begin_first(struct table *t, const char *row, ss_error *err)
 {
     size_t columns = t->n_columns, first;
     char separator = t->separator;
-    if (row != NULL && !ss_delimited_ends_mixed(t))
+    int mixed = 1;
+    if (row != NULL && ss_delimited_ends_mixed(t, &mixed) != SS_OK)
+        return ss_delimited_no_memory(t, err);
+    if (!mixed)
         return begin_table(t, row, err);
     ss_status st = row != NULL ? keep_line(t, row, 0, err) : SS_OK;
     if (st != SS_OK)

@@ -96,7 +96,7 @@ char *ss_delimited_shape(struct table *t, const char *line, char separator, size
 /* Is this the first line of data?  Then t->separator and t->n_columns are set. */
 ss_status ss_delimited_is_data(struct table *t, const char *line, int *yes);
 /* Does the last of the kept lines begin with a number and have words? */
-int ss_delimited_ends_mixed(struct table *t);
+ss_status ss_delimited_ends_mixed(struct table *t, int *yes);
 /* The first of the kept lines that is a row of data with words in it, as the lines below it are too, or
  * t->n_head; then t->separator and t->n_columns are set.  NONE: no memory. */
 size_t ss_delimited_find_mixed(struct table *t);

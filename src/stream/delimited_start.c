@@ -102,16 +102,19 @@ find_like(const struct table *t, char *const *shape)
     return t->n_head;
 }
 
-int
-ss_delimited_ends_mixed(struct table *t)
+ss_status
+ss_delimited_ends_mixed(struct table *t, int *yes)
 {
     size_t numbers;
+    *yes = 0;
     if (t->n_head == 0 || t->head[t->n_head - 1].comment)
-        return 0;
+        return SS_OK;
     char *shape = ss_delimited_shape(t, t->head[t->n_head - 1].text, t->separator, &numbers);
-    int mixed = shape != NULL && shape[0] == 'n' && strpbrk(shape, "te") != NULL;
+    if (shape == NULL)
+        return SS_ENOMEM;
+    *yes = shape[0] == 'n' && strpbrk(shape, "te") != NULL;
     free(shape);
-    return mixed;
+    return SS_OK;
 }
 
 size_t
