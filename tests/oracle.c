@@ -231,3 +231,87 @@ oracle_free(oracle *o)
     free(o->piece);
     free(o);
 }
+
+/* --- the state variable -------------------------------------------------------------------- */
+
+enum { PARTS = 3, LEVELS = 10 };
+
+static void
+rates(const ss_scene *s, long double t, const long double q[], long double dqdt[])
+{
+    dqdt[0] = q[1];
+    long double spring = swing(s, t) + s->stiffness * (s->base_velocity * t - q[0]);
+    long double speed = q[1] - s->surface_velocity;
+    dqdt[1] = (spring - s->damping * q[1] - q[2]) / s->mass;
+    dqdt[2] = -(long double)s->gamma * (q[2] - s->friction * tanhl(s->alpha * speed));
+}
+
+/* n steps by the midpoint rule, whose error is a series in (h / n)^2. */
+static void
+midpoint(const ss_scene *s, long double t, long double h, int n, const long double q[],
+         long double end[])
+{
+    long double before[PARTS], now[PARTS], slope[PARTS], step = h / n;
+    rates(s, t, q, slope);
+    for (int i = 0; i < PARTS; i++) {
+        before[i] = q[i];
+        now[i] = q[i] + step * slope[i];
+    }
+    for (int k = 1; k < n; k++) {
+        rates(s, t + k * step, now, slope);
+        for (int i = 0; i < PARTS; i++) {
+            long double next = before[i] + 2 * step * slope[i];
+            before[i] = now[i];
+            now[i] = next;
+        }
+    }
+    rates(s, t + h, now, slope);
+    for (int i = 0; i < PARTS; i++)
+        end[i] = (before[i] + now[i] + step * slope[i]) / 2;
+}
+
+/* Extrapolate to n = infinity; the last two differ by error, in units of scale. */
+static long double
+extrapolate(const ss_scene *s, long double t, long double h, const long double scale[],
+            const long double q[], long double end[])
+{
+    long double row[LEVELS][PARTS], error = 0;
+    for (int k = 0; k < LEVELS; k++) {
+        midpoint(s, t, h, 2 * (k + 1), q, row[k]);
+        for (int j = k - 1; j >= 0; j--) {
+            long double ratio = (long double)(k + 1) / (j + 1), factor = ratio * ratio - 1;
+            for (int i = 0; i < PARTS; i++)
+                row[j][i] = row[j + 1][i] + (row[j + 1][i] - row[j][i]) / factor;
+        }
+    }
+    for (int i = 0; i < PARTS; i++) {
+        end[i] = row[0][i];
+        error = fmaxl(error, fabsl(row[0][i] - row[1][i]) / scale[i]);
+    }
+    return error;
+}
+
+void
+oracle_smooth(const ss_scene *s, size_t n, double x[])
+{
+    long double omega = fmaxl(sqrtl((long double)s->stiffness / s->mass), 2 * PI * s->base_frequency);
+    long double X = fmaxl(s->base_amplitude, s->friction / s->stiffness), q[PARTS] = { s->x0, s->v0, 0 };
+    const long double scale[PARTS] = { X, X * omega, s->friction };
+    long double t = 0, h = 1e-3L / omega, end[PARTS];
+    for (size_t i = 0; i < n; i++) {
+        long double until = (long double)i / s->rate;
+        while (t < until) {
+            long double step = fminl(h, until - t), error = extrapolate(s, t, step, scale, q, end);
+            if (error > 1e-16L) {
+                h = step / 2;
+                continue;
+            }
+            t = step < h ? until : t + step;
+            if (error < 1e-19L && step == h)
+                h *= 1.3L;
+            for (int k = 0; k < PARTS; k++)
+                q[k] = end[k];
+        }
+        x[i] = (double)q[0];
+    }
+}

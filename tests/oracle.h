@@ -1,4 +1,5 @@
-/* oracle.h -- the motion of Coulomb and compliant scenes in closed form, in long double.
+/* oracle.h -- the motion of Coulomb and compliant scenes in closed form, in long double, and that of
+ * state-variable scenes.
  *
  * Independent of the library: in the frame of the laboratory, between events, the motion is the sum of
  * a steady sinusoid, a line and what dies out; events are found by scanning that sum in steps of 1/500
@@ -29,5 +30,9 @@ typedef struct oracle {
 oracle *oracle_new(const ss_scene *scene, double t_end);
 void oracle_at(const oracle *o, size_t piece, long double t, long double out[3]);    /* x, v, a */
 void oracle_free(oracle *o);
+
+/* The state-variable model has no closed form: x at n samples from t = 0, steps of which are good to
+ * 1e-16 of its scale, by extrapolation (Gragg, Bulirsch, Stoer) of order 20 in long double. */
+void oracle_smooth(const ss_scene *scene, size_t n, double x[]);
 
 #endif

@@ -24,36 +24,56 @@ typedef struct product {
     double zero[MOST];
 } product;
 
-/* Derivatives by x, of order 0 to ORDERS: each factor multiplies a Taylor series. */
+/* Taylor coefficients at x, of order 0 to most: each factor multiplies the series. */
 static void
-derivatives(const product *p, long double x, long double d[ORDERS + 1])
+expand(const product *p, long double x, int most, long double c[])
 {
-    long double factorial = 1;
-    for (int i = 0; i <= ORDERS; i++)
-        d[i] = i == 0 ? p->scale : 0;
+    for (int i = 0; i <= most; i++)
+        c[i] = i == 0 ? p->scale : 0;
     for (int k = 0; k < p->n; k++)
-        for (int i = ORDERS; i >= 0; i--)
-            d[i] = d[i] * (x - p->zero[k]) + (i > 0 ? d[i - 1] : 0);
-    d[0] += p->lift;
-    for (int i = 2; i <= ORDERS; i++)
-        d[i] *= factorial *= i;
+        for (int i = most; i >= 0; i--)
+            c[i] = c[i] * (x - p->zero[k]) + (i > 0 ? c[i - 1] : 0);
+    c[0] += p->lift;
 }
 
+/* The derivatives by s there. */
+static void
+derive(const product *p, long double x, double h, double d[ORDERS + 1])
+{
+    long double c[ORDERS + 1], scale = 1;
+    expand(p, x, ORDERS, c);
+    for (int i = 0; i <= ORDERS; scale *= ++i / (long double)h)
+        d[i] = (double)(c[i] * scale);
+}
+
+/* By the derivatives at both ends, or, with a degree, by the series. */
 static int
-find(const product *p, double level, int either_side, double h, double *x, int *unresolved)
+find_by(int degree, const product *p, double level, int either_side, double h, double *x,
+        int *unresolved)
 {
     step_guard g = { .level = level, .either_side = either_side, .h = h };
-    long double start[ORDERS + 1], end[ORDERS + 1], scale = 1;
-    derivatives(p, 0, start);
-    derivatives(p, 1, end);
-    for (int i = 0; i <= ORDERS; i++, scale *= h) {
-        g.at_0[i] = (double)(start[i] / scale);
-        g.at_h[i] = (double)(end[i] / scale);
+    double at_0[ORDERS + 1], at_h[ORDERS + 1], c[MOST_DEGREE + 1];
+    long double exact[MOST_DEGREE + 1];
+    if (degree == 0) {
+        derive(p, 0, h, at_0);
+        derive(p, 1, h, at_h);
+        ss_guard_by_ends(&g, at_0, at_h);
+    } else {
+        expand(p, 0, degree, exact);
+        for (int i = 0; i <= degree; i++)
+            c[i] = (double)exact[i];
+        ss_guard_by_series(&g, degree, c);
     }
     *unresolved = 0;
     int found = ss_first_zero(&g, x, unresolved);
     *x /= h;
     return found;
+}
+
+static int
+find(const product *p, double level, int either_side, double h, double *x, int *unresolved)
+{
+    return find_by(0, p, level, either_side, h, x, unresolved);
 }
 
 /* Blur by the largest coefficient and the slope at the zero: coefficients are sums of differences, of
@@ -209,21 +229,58 @@ finds_the_first_of_random_zeros(void **unused)
     assert_true(hits > 10000 && misses > 1000);
 }
 
+/* A series is known to the rounding of its terms, 14 ulp of the sum of their sizes. */
+static void
+finds_zeros_of_series(void **unused)
+{
+    static const int degree[] = { MOST, 12, 20, MOST_DEGREE };
+    uint64_t s = 2;
+    int hits = 0, misses = 0;
+    (void)unused;
+    for (int i = 0; i < 40000; i++) {
+        product p = random_product(&s);
+        double first = 2, second = 2, slope = 1, size = 1, near = 1, x;
+        int unresolved;
+        for (int k = 0; k < p.n; k++) {
+            double z = p.zero[k];
+            second = z <= 0 || z > second ? second : z < first ? first : z;
+            first = z > 0 && z < first ? z : first;
+            size *= 1 + fabs(z);
+            near = fmin(near, fmin(fabs(z), fabs(z - 1)));
+        }
+        for (int k = 0; k < p.n; k++)
+            slope *= p.zero[k] == first ? 1 : fabs(p.zero[k] - first);
+        double allow = 2 * (14 * DBL_EPSILON + 0x1p-50) * size / slope + 8 * DBL_EPSILON;
+        if (allow > (second - first) / 10 || near < 1e-4)
+            continue;
+        int found = find_by(degree[i % 4], &p, 0, 0, 1, &x, &unresolved);
+        assert_int_equal(found, first < 1);
+        if (found && !(fabs(x - first) <= allow))
+            fail_msg("number %d: %.17g, not %.17g +- %.1e", i, x, first, allow);
+        hits += found;
+        misses += !found;
+    }
+    assert_true(hits > 4000 && misses > 400);
+}
+
 static void
 refuses_what_is_not_finite(void **unused)
 {
+    static const double ends[ORDERS + 1] = { 1 }, bad[] = { NAN, INFINITY };
     (void)unused;
-    for (int i = 0; i <= ORDERS; i++) {
-        step_guard g = { .h = 1, .at_0 = { 1 }, .at_h = { 1 } };
-        double s;
-        int unresolved = 0;
-        assert_int_equal(ss_first_zero(&g, &s, &unresolved), 0);
-        g.at_0[i] = NAN;
-        assert_int_equal(ss_first_zero(&g, &s, &unresolved), -1);
-        g.at_0[i] = 1;
-        g.at_h[i] = INFINITY;
-        assert_int_equal(ss_first_zero(&g, &s, &unresolved), -1);
-    }
+    for (int i = 0; i <= ORDERS; i++)
+        for (int k = 0; k < 3; k++) {
+            step_guard g = { .h = 1 };
+            double s, broken[MOST_DEGREE + 1] = { 1 };
+            int unresolved = 0;
+            ss_guard_by_ends(&g, ends, ends);
+            assert_int_equal(ss_first_zero(&g, &s, &unresolved), 0);
+            broken[i] = bad[(i + k) % 2];
+            ss_guard_by_ends(&g, k == 0 ? broken : ends, k == 1 ? broken : ends);
+            if (k == 2)
+                ss_guard_by_series(&g, MOST_DEGREE, broken);
+            assert_int_equal(ss_first_zero(&g, &s, &unresolved), -1);
+        }
 }
 
 int
@@ -233,6 +290,7 @@ main(void)
         cmocka_unit_test(finds_known_zeros),
         cmocka_unit_test(says_where_rounding_decides),
         cmocka_unit_test(finds_the_first_of_random_zeros),
+        cmocka_unit_test(finds_zeros_of_series),
         cmocka_unit_test(refuses_what_is_not_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

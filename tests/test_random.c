@@ -111,17 +111,13 @@ same_events(const trial *t, const run *b)
 
 /* --- properties ---------------------------------------------------------------------------- */
 
-/* ss-sim(1): a tolerance is kept step by step, and x was off by at most 4 times tolerance times
- * steps; and a motion that spreads what steps leave at 1e-12 spreads as many times as much of what
- * they leave at a tolerance as many times as large. */
+/* A tolerance is kept step by step, and x was off by at most 4 times tolerance times steps; and a
+ * motion that spreads what steps leave at 1e-12 spreads as many times as much of what they leave at a
+ * tolerance as many times as large. */
 static void
-agrees_with_another_method(const trial *t)
+agrees_with_another_method(const trial *t, const char *other, double tol, unsigned long most)
 {
-    int state_variable = t->scene.model == SS_STATE_VARIABLE;
-    int stiff = state_variable && strcmp(t->method, "bsimp") == 0;
-    double tol = stiff ? 1e-8 : state_variable ? 1e-10 : 1e-12;
-    run b = run_with(&t->scene, stiff ? "rk4imp" : state_variable ? "rkck" : "rk8pd", tol,
-                     state_variable ? 2 * RANDOM_STEPS : BUDGET);
+    run b = run_with(&t->scene, other, tol, most);
     if (ended(t, &b)) {
         if (t->run.stats.unresolved + b.stats.unresolved == 0 && !same_events(t, &b))
             complain(t, "events", (double)b.n_events, (double)t->run.n_events);
@@ -129,6 +125,19 @@ agrees_with_another_method(const trial *t)
                4 * tol * (double)(b.stats.steps + 100) + 16 * (tol / 1e-12) * t->nudged / t->scale);
     }
     run_free(&b);
+}
+
+static void
+agrees_with_other_methods(const trial *t)
+{
+    if (t->scene.model != SS_STATE_VARIABLE) {
+        agrees_with_another_method(t, "rk8pd", 1e-12, BUDGET);
+        agrees_with_another_method(t, "taylor", 1e-12, BUDGET);
+    } else if (strcmp(t->method, "bsimp") == 0) {
+        agrees_with_another_method(t, "rk4imp", 1e-8, 2 * RANDOM_STEPS);
+    } else {
+        agrees_with_another_method(t, "rkck", 1e-10, 2 * RANDOM_STEPS);
+    }
 }
 
 /* pi is known, and added to the phase, to 4 eps; x is rounded to eps of its scale; and of the steps
@@ -344,7 +353,7 @@ hold_for(ss_model model)
             continue;
         trial t = trial_of(i);
         if (t.scale > 0) {
-            agrees_with_another_method(&t);
+            agrees_with_other_methods(&t);
             is_mirrored(&t);
             does_not_depend_on_the_unit_of_mass(&t);
             balances_its_energy(&t);

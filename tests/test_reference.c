@@ -171,12 +171,21 @@ rk8pd_equals_arbitrary_precision(void **state)
         compare(with_events[i], "rk8pd", ss_sim_defaults.tol, 1e-10, 1e-10);
 }
 
+static void
+taylor_equals_arbitrary_precision(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        compare(with_events[i], "taylor", 1e-14, 1e-13, 1e-13);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_equals_arbitrary_precision),
         cmocka_unit_test(rk8pd_equals_arbitrary_precision),
+        cmocka_unit_test(taylor_equals_arbitrary_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

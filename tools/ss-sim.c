@@ -13,8 +13,9 @@ static const char usage[] =
 "  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
 "  -c, --columns=LIST    of t,x,v,a,f,s,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
-"  -m, --method=NAME     a GSL step type, or exact: closed form (default rk8pd;\n"
-"                        bsimp for a stiff state-variable scene)\n"
+"  -m, --method=NAME     a GSL step type, taylor: a series, or exact: closed form\n"
+"                        (default rk8pd; for the state variable taylor, bsimp\n"
+"                        where it is stiff)\n"
 "  -t, --tol=TOL         relative local error of a step (default 1e-12)\n"
 "  -a, --accuracy=TOL    global error of x over max|x|: chooses --tol and,\n"
 "                        if none is given, --method\n"
@@ -160,7 +161,7 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
     }
     if (opts->method == NULL) {
         opts->method = ss_sim_method_for(scene);
-        tool_note("method %s: %s", opts->method, strcmp(opts->method, "rk8pd") == 0 ? "the default"
+        tool_note("method %s: %s", opts->method, strcmp(opts->method, "bsimp") != 0 ? "the default"
                   : "implicit, as the friction of this scene is stiff");
     }
     if (opts->tol == 0)

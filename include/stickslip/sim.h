@@ -67,8 +67,8 @@ ss_status ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err);
 
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
-/* rk8pd, or bsimp, an implicit method, where a state-variable scene is so stiff that this is the
- * cheaper one.  The scene must have passed ss_scene_check. */
+/* rk8pd; for models that are not linear and have a Taylor series taylor, or bsimp, an implicit method,
+ * where the scene is so stiff that this is the cheaper one.  The scene must have passed ss_scene_check. */
 const char *ss_sim_method_for(const ss_scene *scene);
 
 /* --- as text ------------------------------------------------------------------------------- */

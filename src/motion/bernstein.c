@@ -1,24 +1,22 @@
 /* bernstein.c -- prove when a guard first becomes negative inside one step, or that it does not.
  *
- * A mode lasts while its guard is not negative.  Inside a step the guard is taken for the polynomial
- * of degree 9 that has its value and four derivatives at both ends (Hermite).  In Bernstein's form
- * such a polynomial has at most as many zeros as its coefficients have changes of sign, and exactly
+ * A mode lasts while its guard is not negative.  Inside a step the guard is a polynomial: its Taylor
+ * series, or that of degree 9 that has its value and four derivatives at both ends (Hermite).  In
+ * Bernstein's form a polynomial has at most as many zeros as its coefficients have changes of sign, and exactly
  * one where they have one (Descartes' rule; G. Farin, Curves and Surfaces for CAGD, 4 and 5): no
  * change proves that there is no event, one that there is one, more are divided by two, the earlier
  * half first.  So no event is stepped over, however many lie in a step.
  *
- * Error: with the step caps of motion.h the polynomial is off by 2e-18 of the guard's amplitude
+ * Error: with the step caps of motion.h Hermite's polynomial is off by 2e-18 of the guard's amplitude
  * (ode.c), less than the rounding of the coefficients, 2^-50 of the largest and of what the guard's
  * derivatives are made of.  (Differences of the coefficients fall with their order within the caps;
- * of any polynomial they may grow as 2^order, and the rounding to 81 ulp / 2.)  A coefficient within
- * that has no sign.  Where only such are left, the guard touches 0 and rounding decides: the result
+ * of any polynomial they may grow as 2^order, and the rounding to 81 ulp / 2.)  Taylor coefficients
+ * come in sums of at most 27 of them.  A coefficient within that has no sign.  Where only such are left, the guard touches 0 and rounding decides: the result
  * says so. */
 #include "motion/bernstein.h"
 
 #include <float.h>
 #include <string.h>
-
-enum { DEGREE = 2 * ORDERS + 1 };
 
 /* A touch of 0 is as good as flat after 25 halvings: the coefficients go to the curve as 4^-n. */
 enum { HALVINGS = 30 };
@@ -40,48 +38,67 @@ half_of_coefficients(const double p[], double h, double b[ORDERS + 1])
     b[4] = p[0] + 4 * (d1 + d3) + 6 * d2 + h3 * h / 6 * p[4];
 }
 
-static void
-coefficients(const step_guard *g, double b[DEGREE + 1])
+void
+ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[])
 {
     double back[ORDERS + 1];
-    half_of_coefficients(g->at_0, g->h, b);
-    half_of_coefficients(g->at_h, -g->h, back);
+    g->degree = 2 * ORDERS + 1;
+    half_of_coefficients(at_0, g->h, g->p);
+    half_of_coefficients(at_h, -g->h, back);
     for (int j = 0; j <= ORDERS; j++)
-        b[DEGREE - j] = back[j];
+        g->p[g->degree - j] = back[j];
+    g->rounding /= g->degree;
+}
+
+/* c over the binomial coefficients are the differences at the start, which are then added up. */
+void
+ss_guard_by_series(step_guard *g, int degree, const double c[])
+{
+    double binomial = 1, size = 0;
+    g->degree = degree;
+    for (int i = 0; i <= degree; i++) {
+        g->p[i] = c[i] / binomial;
+        size += fabs(c[i]);
+        binomial *= (double)(degree - i) / (i + 1);
+    }
+    for (int k = degree; k > 0; k--)
+        for (int j = k; j <= degree; j++)
+            g->p[j] += g->p[j - 1];
+    g->rounding += (MOST_DEGREE + 1) / 8. * size;       /* half an ulp is an eighth of 2^-50 */
 }
 
 /* The value at x and the derivative there, by de Casteljau's scheme. */
 static double
-value(const double b[], double x, double *slope)
+value(const double b[], int degree, double x, double *slope)
 {
-    double c[DEGREE + 1];
-    memcpy(c, b, sizeof c);
-    for (int n = DEGREE; n > 1; n--)
+    double c[MOST_DEGREE + 1];
+    memcpy(c, b, (size_t)(degree + 1) * sizeof *c);
+    for (int n = degree; n > 1; n--)
         for (int i = 0; i < n; i++)
             c[i] += x * (c[i + 1] - c[i]);
-    *slope = DEGREE * (c[1] - c[0]);
+    *slope = degree * (c[1] - c[0]);
     return c[0] + x * (c[1] - c[0]);
 }
 
 /* The one change to negative in [0, 1]: Newton's steps from where the coefficients change, or halves
  * of the bracket where those leave it.  What is undecided before and after has the sign it must. */
 static double
-only_zero(double b[], double error)
+only_zero(double b[], int degree, double error)
 {
     enum { PASSES = 100 };
     double lo = 0, hi = 1;
     int i = 0;
     for (int j = 0; fabs(b[j]) <= error; j++)
         b[j] = fmax(b[j], 0);
-    for (int j = DEGREE; fabs(b[j]) <= error; j--)
+    for (int j = degree; fabs(b[j]) <= error; j--)
         b[j] = fmin(b[j], 0);
     if (b[0] < 0)
         return 0;
-    while (i < DEGREE - 1 && !(b[i + 1] < -error))
+    while (i < degree - 1 && !(b[i + 1] < -error))
         i++;
-    double x = (i + fmax(b[i], 0) / (fmax(b[i], 0) - b[i + 1])) / DEGREE;
+    double x = (i + fmax(b[i], 0) / (fmax(b[i], 0) - b[i + 1])) / degree;
     for (int pass = 0; pass < PASSES; pass++) {
-        double slope, g = value(b, x, &slope), next = x - g / slope;
+        double slope, g = value(b, degree, x, &slope), next = x - g / slope;
         if (g < 0)
             hi = x;
         else
@@ -96,11 +113,11 @@ only_zero(double b[], double error)
 }
 
 static void
-halve(const double b[], double left[], double right[])
+halve(const double b[], int degree, double left[], double right[])
 {
-    memcpy(right, b, (DEGREE + 1) * sizeof *b);
-    for (int n = DEGREE; n >= 0; n--) {
-        left[DEGREE - n] = right[0];
+    memcpy(right, b, (size_t)(degree + 1) * sizeof *b);
+    for (int n = degree; n >= 0; n--) {
+        left[degree - n] = right[0];
         for (int i = 0; i < n; i++)
             right[i] = (right[i] + right[i + 1]) / 2;
     }
@@ -114,15 +131,15 @@ typedef struct signs {
 } signs;
 
 static signs
-signs_of(const double b[], double error)
+signs_of(const double b[], int degree, double error)
 {
     signs s = { 0, 0, 0 };
     int last = 0, undecided = 0;
-    for (int i = 0; i <= DEGREE; i++) {
+    for (int i = 0; i <= degree; i++) {
         int now = fabs(b[i]) <= error ? 0 : sign(b[i]);
         undecided = now == 0 ? undecided + 1 : 0;
         if (now == 0)
-            s.flat |= last > 0 && (i < DEGREE || undecided > 1);
+            s.flat |= last > 0 && (i < degree || undecided > 1);
         if (now == 0 || now == last)
             continue;
         s.changes += last != 0;
@@ -136,16 +153,17 @@ signs_of(const double b[], double error)
 /* The first x in [0, 1] after which b is negative; 0 if there is none.  At the start of a step b may
  * be 0. */
 static int
-first_zero(double b[], double error, int at_start, int halvings, double *x, int *unresolved)
+first_zero(double b[], int degree, double error, int at_start, int halvings, double *x,
+           int *unresolved)
 {
-    double left[DEGREE + 1], right[DEGREE + 1];
-    signs s = signs_of(b, error);
+    double left[MOST_DEGREE + 1], right[MOST_DEGREE + 1];
+    signs s = signs_of(b, degree, error);
     if (s.changes == 0 && s.first >= 0 && !s.flat) {
         *unresolved |= s.first == 0 && !at_start;
         return 0;
     }
     if (s.changes == (s.first > 0)) {
-        *x = only_zero(b, error);
+        *x = only_zero(b, degree, error);
         return 1;
     }
     if (halvings == 0) {
@@ -153,12 +171,12 @@ first_zero(double b[], double error, int at_start, int halvings, double *x, int 
         *x = 1;
         return s.changes > 0;
     }
-    halve(b, left, right);
-    if (first_zero(left, error, at_start, halvings - 1, x, unresolved)) {
+    halve(b, degree, left, right);
+    if (first_zero(left, degree, error, at_start, halvings - 1, x, unresolved)) {
         *x /= 2;
         return 1;
     }
-    if (!first_zero(right, error, 0, halvings - 1, x, unresolved))
+    if (!first_zero(right, degree, error, 0, halvings - 1, x, unresolved))
         return 0;
     *x = 0.5 + *x / 2;
     return 1;
@@ -175,9 +193,9 @@ first_zero(double b[], double error, int at_start, int halvings, double *x, int 
 int
 ss_first_zero(const step_guard *g, double *s_event, int *unresolved)
 {
-    double p[DEGREE + 1], b[DEGREE + 1], least = INFINITY, most = -INFINITY, sum = 0, x = 1;
-    coefficients(g, p);
-    for (int i = 0; i <= DEGREE; i++) {
+    double b[MOST_DEGREE + 1], least = INFINITY, most = -INFINITY, sum = 0, x = 1;
+    const double *p = g->p;
+    for (int i = 0; i <= g->degree; i++) {
         least = p[i] < least ? p[i] : least;
         most = p[i] > most ? p[i] : most;
         sum += p[i];
@@ -190,9 +208,9 @@ ss_first_zero(const step_guard *g, double *s_event, int *unresolved)
         double first, lowest = g->level + (side > 0 ? least : -most);
         if (lowest > error)
             continue;
-        for (int i = 0; i <= DEGREE; i++)
+        for (int i = 0; i <= g->degree; i++)
             b[i] = g->level + side * p[i];
-        if (first_zero(b, error, 1, HALVINGS, &first, unresolved)) {
+        if (first_zero(b, g->degree, error, 1, HALVINGS, &first, unresolved)) {
             x = fmin(x, first);
             found = 1;
         }

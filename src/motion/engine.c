@@ -57,22 +57,17 @@ ss_engine_derive(engine *e)
 /* A guard is its value at the origin and a sum of q and v, whose factors follow from its rates of
  * change; in stick that sum is limited on either side. */
 static step_guard
-guard_of_step(const engine *e)
+guard_of_step(const engine *e, double *of_q, double *of_v)
 {
     static const double origin[MAX_DIM] = { 0 }, q[MAX_DIM] = { 1, 0 }, v[MAX_DIM] = { 0, 1 };
     const state *m = &e->m->now;
     step_guard g = { .either_side = m->mode == 0, .h = e->h };
-    double of_q, of_v;
-    g.level = m->model->guard(m, origin, origin, &of_q);
-    m->model->guard(m, q, q, &of_q);
-    m->model->guard(m, q, v, &of_v);
-    for (int i = 0; i <= ORDERS; i++) {
-        g.at_0[i] = of_q * e->start[i][0] + of_v * e->start[i][1];
-        g.at_h[i] = of_q * e->end[i][0] + of_v * e->end[i][1];
-    }
+    g.level = m->model->guard(m, origin, origin, of_q);
+    m->model->guard(m, q, q, of_q);
+    m->model->guard(m, q, v, of_v);
     double a = (m->drive + fabs(m->ramp * (m->u + e->h)) + fabs(m->drag) + fabs(m->f0)
                 + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1])) / m->scene->mass;
-    g.rounding = a * e->h * (fabs(of_v) / 9 + fabs(of_q) * e->h / 72);      /* of v' */
+    g.rounding = a * e->h * (fabs(*of_v) + fabs(*of_q) * e->h / 8);     /* of v' */
     return g;
 }
 
@@ -89,24 +84,43 @@ ends_by_steps(engine *e, double *s_event)
 }
 
 static int
-ends_by_derivatives(engine *e, double *s_event)
+ends_by_derivatives(engine *e, double *s_event, int *unresolved)
 {
-    int unresolved = 0;
+    double of_q, of_v, at_0[ORDERS + 1], at_h[ORDERS + 1];
     ss_engine_derive(e);
-    step_guard g = guard_of_step(e);
-    int ends = ss_first_zero(&g, s_event, &unresolved);
-    e->m->unresolved += (unsigned long)unresolved;
-    return ends;
+    step_guard g = guard_of_step(e, &of_q, &of_v);
+    for (int i = 0; i <= ORDERS; i++) {
+        at_0[i] = of_q * e->start[i][0] + of_v * e->start[i][1];
+        at_h[i] = of_q * e->end[i][0] + of_v * e->end[i][1];
+    }
+    ss_guard_by_ends(&g, at_0, at_h);
+    return ss_first_zero(&g, s_event, unresolved);
+}
+
+static int
+ends_by_curve(engine *e, double *s_event, int *unresolved)
+{
+    double of_q, of_v, c[MOST_DEGREE + 1][MAX_DIM], p[MOST_DEGREE + 1];
+    step_guard g = guard_of_step(e, &of_q, &of_v);
+    int degree = e->type->curve(e, c);
+    for (int i = 0; i <= degree; i++)
+        p[i] = of_q * c[i][0] + of_v * c[i][1];
+    ss_guard_by_series(&g, degree, p);
+    return ss_first_zero(&g, s_event, unresolved);
 }
 
 ss_status
 ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
 {
     const struct model *model = e->m->now.model;
+    int unresolved = 0;
     *ends = 0;
     if (model->guard == NULL || e->clear)
         return SS_OK;
-    *ends = model->derivatives != NULL ? ends_by_derivatives(e, s_event) : ends_by_steps(e, s_event);
+    *ends = e->type->curve != NULL ? ends_by_curve(e, s_event, &unresolved)
+        : model->derivatives != NULL ? ends_by_derivatives(e, s_event, &unresolved)
+        : ends_by_steps(e, s_event);
+    e->m->unresolved += (unsigned long)unresolved;
     return *ends < 0 ? fail_lost(e, err) : SS_OK;
 }
 

@@ -22,9 +22,12 @@ struct engine_type {
     /* Look for the end of the mode without steps, up to s_max from now: 1 and *s_event, or 0 if it
      * is later; then h, q1 and dq1 are those of s_max.  -1: only steps can find it.  May be NULL. */
     int (*ahead)(engine *e, double s_max, double *s_event);
-    /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change; base
-     * is the phase there. */
+    /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change, of which a
+     * sample needs only the first two parts; base is the phase there. */
     void (*at)(engine *e, reading where, double s, turn base, double q[], double dqdt[]);
+    /* The Taylor coefficients in s / h of the state within that step, to be put into c: the degree, at
+     * most MOST_DEGREE.  NULL if it is no polynomial. */
+    int (*curve)(const engine *e, double c[][MAX_DIM]);
     /* The motion has come to the end of the step: count u from a new origin if it is time to. */
     void (*go_on)(engine *e);
     void (*free)(engine *e);
@@ -46,11 +49,13 @@ struct engine {
 };
 
 #define EXACT "exact"                       /* the name of the method in closed form */
+#define TAYLOR "taylor"
 /* An engine by its method's name, for the motion as it stands. */
 ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err);
 
 const char *ss_ode_method_name(size_t i);   /* NULL after the last */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
+ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
 ss_status ss_exact_check(const struct model *model, ss_error *err);    /* has it a closed form? */
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 /* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over

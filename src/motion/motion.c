@@ -10,6 +10,34 @@ ss_step_cap(const state *m)
     return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
 }
 
+/* Much shorter than 1/40 of the fastest period and than the friction's own time; a first-order start
+ * at 1e-14 needs about 1e-7. */
+#define STEP_FLOOR 1e-12
+
+double
+ss_step_floor(const state *m)
+{
+    double cap = ss_step_cap(m);
+    return STEP_FLOOR * (m->model->quickest != NULL ? fmin(cap, 1 / m->model->quickest(m->scene)) : cap);
+}
+
+/* x is about 1e-4 m and measured by the scene; v by that times the larger of Omega and omega_n; what
+ * else the model has by its own. */
+ss_status
+ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err)
+{
+    double memory = 0;
+    if (m->model->memory != NULL)
+        m->model->memory(m, &memory);
+    scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
+    scale[1] = scale[0] * fmax(m->omega, own_frequency(m->scene));
+    scale[2] = memory > 0 ? memory : 1;
+    for (size_t i = 0; i < m->model->dim; i++)
+        if (!(isfinite(scale[i]) && tol * scale[i] > 0))
+            return ss_fail(err, SS_ERANGE, "amplitudes of this scene lie beyond double precision");
+    return SS_OK;
+}
+
 /* Let u count from the instant of the present step, with the phase there, and positions from where the
  * pull is. */
 void

@@ -21,6 +21,12 @@ enum { STEPS_PER_PERIOD = 40 };
 
 double ss_step_cap(const state *m);                 /* the longest step in the mode */
 
+/* The shortest step that can be one; more digits than double precision has would need shorter ones. */
+double ss_step_floor(const state *m);
+/* What the parts of the state are measured by, so that absolute tolerances are tol times that:
+ * SS_ERANGE if those are no numbers above 0. */
+ss_status ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err);
+
 /* At t = 0, before its first mode.  exact: it is moved in closed form. */
 motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 int ss_motion_start(motion *m);                     /* enter that; 1 if it starts in slip */

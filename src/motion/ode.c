@@ -15,11 +15,6 @@
 #include <string.h>
 #include "base/error.h"
 
-/* A step this much shorter than 1/40 of the fastest period, and than the friction's own time, means
- * that the tolerance asks for more digits than double precision has; a first-order start at 1e-14
- * needs about 1e-7. */
-#define STEP_FLOOR 1e-12
-
 /* How far a pull goes, in the scale of x, before a position takes digits from x - U t. */
 #define FAR 1e3
 
@@ -113,9 +108,7 @@ ode_begin(engine *e)
         gsl_odeiv2_step_reset(o->side);
     const state *m = &e->m->now;
     rates(o, m->u, m->q, e->dq0);
-    o->shortest = STEP_FLOOR * ss_step_cap(m);
-    if (m->model->quickest != NULL)
-        o->shortest = fmin(o->shortest, STEP_FLOOR / m->model->quickest(m->scene));
+    o->shortest = ss_step_floor(m);
     return SS_OK;
 }
 
@@ -133,7 +126,7 @@ all_finite(const double q[], size_t n)
  * than this much of its scale.  (A v of this much Omega times the scale, where Omega is a thousand
  * times omega_n, moved x by 1e-11.)  They have the sign of the motion, so that a scene and its mirror
  * image move alike.  Since v' is omega_n^2 times the scale of x at most, v grows 300-fold in
- * 300 BSIMP_ZERO / omega_n or more: the first step is over STEP_FLOOR.
+ * 300 BSIMP_ZERO / omega_n or more: the first step is over the floor.
  * (Modes without friction of their own start with steps long enough to do without.) */
 #define BSIMP_ZERO 0x1p-46
 
@@ -162,8 +155,11 @@ ode_step(engine *e, double h_max, ss_error *err)
     const state *m = &e->m->now;
     gsl_odeiv2_step *step = o->driver->s;
     size_t dim = o->system.dimension;
-    double h = fmin(o->h_next, h_max), y[MAX_DIM], dydt[MAX_DIM], error[MAX_DIM];
+    double y[MAX_DIM], dydt[MAX_DIM], error[MAX_DIM];
 
+    if (m->model->sight != NULL)
+        h_max = fmin(h_max, m->model->sight(m, e->dq0));
+    double h = fmin(o->h_next, h_max);
     if (!(h > 0))
         return ss_fail(err, SS_ERANGE, "no step from t = %.9g s is short enough: rates of change lie "
                        "beyond double precision", e->m->origin.hi + m->u);
@@ -324,34 +320,16 @@ ss_ode_method_name(size_t i)
     return i < METHODS ? method[i].name : NULL;
 }
 
-static double
-memory_scale(const state *m)
-{
-    double unit = 0;
-    if (m->model->memory != NULL)
-        m->model->memory(m, &unit);
-    return unit;
-}
-
-/* Absolute tolerances in the scene's own measure, since x is about 1e-4 m: x by its scale, v by that
- * times the larger of Omega and omega_n, what else the model has by its own. */
-static void
-absolute_scales(const state *m, double scale[MAX_DIM])
-{
-    const ss_scene *s = m->scene;
-    scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
-    scale[1] = scale[0] * fmax(m->omega, own_frequency(s));
-    scale[2] = memory_scale(m) > 0 ? memory_scale(m) : 1;
-}
-
 static void
 set_zeros(ode *o)
 {
     const state *m = &o->base.m->now;
-    double omega_n = own_frequency(m->scene);
+    double omega_n = own_frequency(m->scene), memory = 0;
+    if (m->model->memory != NULL)
+        m->model->memory(m, &memory);
     o->zero[0] = BSIMP_ZERO * (m->x_scale / o->unit[0]);
     o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->unit[1]);
-    o->zero[2] = BSIMP_ZERO * (memory_scale(m) / o->unit[2]);
+    o->zero[2] = BSIMP_ZERO * (memory / o->unit[2]);
 }
 
 ss_status
@@ -367,6 +345,9 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
     if (method[i].multistep && m->model->guard != NULL && m->model->derivatives == NULL)
         return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone events of "
                        "the %s model are found", name, m->model->name);
+    ss_status st = ss_motion_scales(m, tol, scale, err);
+    if (st != SS_OK)
+        return st;
     ode *o = calloc(1, sizeof *o);
     if (o == NULL)
         return ss_fail_memory(err, NULL);
@@ -377,12 +358,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
     o->multistep = method[i].multistep;
     o->tol = tol;
     o->h_next = ss_step_cap(m);
-    absolute_scales(m, scale);
     for (size_t k = 0; k < m->model->dim; k++) {
-        if (!(isfinite(scale[k]) && tol * scale[k] > 0)) {
-            ode_free(&o->base);
-            return ss_fail(err, SS_ERANGE, "amplitudes of this scene lie beyond double precision");
-        }
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];
     }

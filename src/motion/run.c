@@ -260,8 +260,6 @@ run(sampler *r, engine *e, ss_error *err)
                 double s = until_sample(r, m, r->i);
                 cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
             }
-            if (model->sight != NULL)
-                cap = fmin(cap, model->sight(now, e->dq0));
             st = ss_engine_step(e, cap, err);
             if (st == SS_OK && e->steps % REPORT_STEPS == 0)
                 st = report(r, m->origin.hi + now->u);

@@ -267,7 +267,8 @@ const struct model ss_compliant_model = {
     .n_parameters = 2,
     .dim = 2, .linear = 1, .has_contact = 1, .force_varies = IN_STICK,
     .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
-    .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .guard = guard,
+    .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .series = ss_linear_series,
+    .guard = guard,
     .next = next, .sample = sample,
     .memory = memory, .in_transition = in_microstick, .variation = &variation
 };

@@ -59,6 +59,7 @@ const struct model ss_coulomb_model = {
     .dim = 2, .linear = 1,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives,
+    .series = ss_linear_series,
     .guard = ss_linear_slip_guard, .still = ss_stick_still, .next = ss_stick_next, .sample = sample,
     .variation = &variation
 };

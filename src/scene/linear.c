@@ -37,6 +37,20 @@ ss_linear_derivatives(const state *m, double u, const double q[], const double d
     }
 }
 
+void
+ss_linear_series(const state *m, const double step[], int order, double c[][MAX_DIM])
+{
+    double force[MOST_SERIES + 1];
+    base_force_series(m, step, order, force);
+    force[0] -= m->f0;
+    c[0][0] = m->q[0];
+    c[0][1] = m->q[1];
+    for (int n = 0; n < order; n++) {
+        c[n + 1][0] = step[n] * c[n][1];
+        c[n + 1][1] = step[n] * (force[n] - m->k * c[n][0] - m->c * c[n][1]) / m->scene->mass;
+    }
+}
+
 /* The larger root of m s^2 + c s + k = 0 in modulus, or Omega. */
 double
 ss_linear_fastest(const state *m, const char **what)

@@ -20,7 +20,7 @@
 #include <stickslip/scene.h>
 #include "scene/key.h"
 
-enum { MAX_DIM = 3, ORDERS = 4 };
+enum { MAX_DIM = 3, ORDERS = 4, MOST_SERIES = 26 };
 
 /* The mass, its contact and the base at one instant of a mode. */
 typedef struct state {
@@ -104,8 +104,14 @@ struct model {
      * for what lies inside them, which the multistep methods cannot do where there are events. */
     void (*derivatives)(const state *m, double u, const double q[], const double dqdt[],
                         double higher[][MAX_DIM]);
+    /* The Taylor coefficients of the present state in s / unit, up to an order of MOST_SERIES at most,
+     * by step[n] = unit / (n + 1); NULL if the model has no recurrence for them. */
+    void (*series)(const state *m, const double step[], int order, double c[][MAX_DIM]);
+    /* Shorten a step [unit] to what those can tell of: a pole beyond which the motion is another may
+     * not show in them.  NULL if they always can. */
+    double (*reach)(const state *m, double c[][MAX_DIM], double step);
     /* Not negative within the mode, and its rate of change; NULL if the model has no events.  Where
-     * the model has derivatives it is level + p, p linear in q and v, or in a mode 0 that is not
+     * the model has derivatives or a series it is level + p, p linear in q and v, or in a mode 0 that is not
      * still level - |p|. */
     double (*guard)(const state *m, const double q[], const double dqdt[], double *slope);
     /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever); NULL if in none. */
@@ -203,6 +209,22 @@ swing_force(const state *m, double u)               /* of a base that is not pul
     return m->drive * cos(m->theta + m->omega * u);
 }
 
+/* Its Taylor coefficients at m->u in s / unit, step[n] = unit / (n + 1). */
+static inline void
+base_force_series(const state *m, const double step[], int order, double c[])
+{
+    turn base = base_turn(m, m->u);
+    double force = m->drive * base.co, late = m->drive * base.si;
+    for (int n = 0; n <= order; n++) {
+        double turns = m->omega * step[n], next = -turns * late;
+        c[n] = force;
+        late = turns * force;
+        force = next;
+    }
+    c[0] += m->ramp * m->u - m->drag;
+    c[1] += m->ramp * step[0];
+}
+
 static inline double
 base_force_by(const state *m, turn base, double u)
 {
@@ -227,6 +249,7 @@ void ss_linear_rates(const state *m, double drive, const double q[], double dqdt
 void ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
 void ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
                            double higher[][MAX_DIM]);
+void ss_linear_series(const state *m, const double step[], int order, double c[][MAX_DIM]);
 double ss_linear_fastest(const state *m, const char **what);
 void ss_linear_slip(state *m, double x, double v, int direction);
 double ss_linear_slip_guard(const state *m, const double q[], const double dqdt[], double *slope);

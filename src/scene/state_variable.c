@@ -2,6 +2,8 @@
  * as the paper prints it, towards tanh(alpha v) at the rate gamma f_k).  Smooth: no events. */
 #include "scene/model.h"
 
+#include <string.h>
+
 static const char *
 law_word(int i)
 {
@@ -146,6 +148,69 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
     dfdt[1] = base_force_rate(m, u) / s->mass;
 }
 
+/* Beyond this |alpha v| tanh is 1 to rounding over a whole step within reach: 4 exp(-1.2 x 35) =
+ * 2e-18. */
+#define SATURATED 35
+
+/* The sum of a_i b_j over i + j = n, i and j > 0, from the middle outwards: the coefficients that have
+ * just been computed come last, and do not hold up the others. */
+static double
+products(const double a[], const double b[], int n)
+{
+    double sum = n % 2 == 0 && n > 0 ? a[n / 2] * b[n / 2] : 0;
+    for (int j = (n - 1) / 2; j > 0; j--)
+        sum += a[j] * b[n - j] + a[n - j] * b[j];
+    return sum;
+}
+
+/* u = tanh(alpha v) has u' = alpha R v' with R = 1 - u^2, whose first coefficient is written for the
+ * sake of its digits where u is almost 1. */
+static void
+series(const state *m, const double step[], int order, double c[][MAX_DIM])
+{
+    enum { N = MOST_SERIES + 1 };
+    const ss_scene *s = m->scene;
+    double rate, goal, force[N], a[N], R[N], u[N] = { 0 }, per_mass = 1 / s->mass;
+    double v = s->alpha * m->q[1], e = exp(-2 * fabs(v));
+    int saturated = fabs(v) > SATURATED;
+    law(s, &rate, &goal);
+    base_force_series(m, step, order, force);
+    memcpy(c[0], m->q, sizeof c[0]);
+    u[0] = copysign((1 - e) / (1 + e), v);
+    R[0] = 4 * e / ((1 + e) * (1 + e));
+    for (int n = 0; n < order; n++) {
+        a[n] = (force[n] - s->stiffness * c[n][0] - s->damping * c[n][1] - c[n][2]) * per_mass;
+        c[n + 1][0] = step[n] * c[n][1];
+        c[n + 1][1] = step[n] * a[n];
+        c[n + 1][2] = step[n] * rate * (goal * u[n] - c[n][2]);
+        if (saturated)
+            continue;
+        double outer = R[0] * a[n];
+        if (n > 0) {
+            R[n] = -(products(u, u, n) + 2 * u[0] * u[n]);
+            outer += R[n] * a[0];
+        }
+        u[n + 1] = s->alpha * step[n] * (products(R, a, n) + outer);
+    }
+}
+
+/* v may change by this part of the way to the poles of tanh, i pi / (2 alpha) from v = 0: where tanh is
+ * saturated its series shows nothing of them. */
+#define WAY_TO_POLE 0.4
+
+static double
+reach(const state *m, double c[][MAX_DIM], double step)
+{
+    enum { TERMS = 6 };
+    double most = WAY_TO_POLE * (fabs(m->q[1]) + M_PI / 2 / m->scene->alpha), way = INFINITY;
+    for (; way > most; step *= 0.9) {
+        way = 0;
+        for (int n = TERMS; n > 0; n--)
+            way = (way + fabs(c[n][1])) * step;
+    }
+    return step / 0.9;
+}
+
 static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
@@ -181,6 +246,7 @@ const struct model ss_state_variable_model = {
     .n_parameters = 2, .normalise = normalise,
     .dim = 3, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,
-    .rates = rates, .jacobian = jacobian, .sample = sample,
+    .rates = rates, .jacobian = jacobian, .series = series, .reach = reach,
+    .sample = sample,
     .memory = memory, .in_transition = in_transition
 };

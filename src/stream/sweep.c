@@ -64,7 +64,7 @@ write_options(struct rows *rows, const ss_steady_opts *s, ss_model model)
     ss_rows_note(rows, "max_period: %d", s->max_period);
     ss_rows_note(rows, "max_steps: %lu", s->max_steps);
     ss_rows_note(rows, "method: %s%s", s->shoot ? "shooting, " : "", s->method != NULL ? s->method
-                 : ss_model_is_linear(model) ? "exact" : "rk8pd, bsimp where stiff");
+                 : ss_model_is_linear(model) ? "exact" : "taylor, bsimp where stiff");
 }
 
 static ss_status

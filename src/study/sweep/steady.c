@@ -76,7 +76,7 @@ ss_measure_unit(ss_measure m)
 static const char *
 method_of(const ss_steady_opts *opts, const struct model *model)
 {
-    return opts->method != NULL ? opts->method : model->linear ? EXACT : "rk8pd";
+    return opts->method != NULL ? opts->method : model->linear ? EXACT : TAYLOR;
 }
 
 ss_status

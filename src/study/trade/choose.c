@@ -20,7 +20,8 @@ const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
  * of the methods only. */
 static const struct cost { const char *method; double rhs; unsigned a_step; int at_samples; }
 cost[] = {
-    { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 }, { "rk4", 1, 11, 1 },
+    { TAYLOR, 0.5, 12, 0 }, { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 },
+    { "rk4", 1, 11, 1 },
     { "rk2", 1.2, 3, 1 }, { "rk1imp", 3.5, 9, 1 }, { "rk2imp", 3.5, 9, 1 },
     { "rk4imp", 3.3, 17, 1 }, { "bsimp", 3, 50, 1 }, { "msadams", 4.6, 3, 0 },
     { "msbdf", 6.4, 3, 0 },
@@ -102,35 +103,46 @@ choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
     return ss_fail(err, SS_ETOL, "no method keeps an accuracy of %g in this scene", s->accuracy);
 }
 
+/* SS_ETOL if these two do not agree to within the accuracy. */
+static ss_status
+refer_to(choice *s, const char *method[2], ss_error *err)
+{
+    char text[64];
+    ss_status st = ss_trade_refer(&s->ref, &s->run, &s->p, method, s->user_steps, text, err);
+    if (st != SS_OK)
+        return st;
+    s->known = ss_trade_known(ss_trade_error_x(&s->run, &s->ref));
+    if (s->run.stats.events != s->ref.stats.events)
+        return ss_fail(err, SS_ETOL, "no accuracy can be told: %s find %lu and %lu events", text,
+                       s->ref.stats.events, s->run.stats.events);
+    if (MARGIN * s->known > s->accuracy)
+        return ss_fail(err, SS_ETOL, "an accuracy of %g cannot be told: %s differ by %.2g of max|x|",
+                       s->accuracy, text, s->known);
+    return SS_OK;
+}
+
 static ss_status
 choose(choice *s, ss_sim_opts *opts, ss_error *err)
 {
-    char reference[64];
-    int is_linear = ss_model_is_linear(s->p.scene.model);
+    const char *witness[2];
     ss_status st = ss_trade_run_init(&s->ref, &s->p);
     if (st == SS_OK)
         st = ss_trade_run_init(&s->run, &s->p);
-    if (st == SS_OK)
-        st = ss_trade_refer(&s->ref, &s->run, &s->p, s->user_steps, reference, err);
     if (st != SS_OK)
         return st;
-    s->known = ss_trade_known(&s->p, ss_trade_error_x(&s->run, &s->ref));
-    if (s->run.stats.events != s->ref.stats.events)
-        return ss_fail(err, SS_ETOL, "no accuracy can be kept: rounding alone makes %lu events or "
-                       "%lu", s->ref.stats.events, s->run.stats.events);
-    if (MARGIN * s->known > s->accuracy)
-        return ss_fail(err, SS_ETOL, is_linear
-                       ? "an accuracy of %g cannot be kept: by %s, rounding alone moves x by %.2g "
-                       "of its maximum"
-                       : "an accuracy of %g cannot be told: %s differ by %.2g of max|x|", s->accuracy, reference, s->known);
-    if (opts->method == NULL && !is_linear)
-        return choose_cheapest(s, opts, err);
-    if (opts->method == NULL)
+    st = SS_ETOL;
+    for (int i = 0; st == SS_ETOL && ss_trade_witnesses(&s->p.scene, i, witness); i++)
+        st = refer_to(s, witness, err);
+    if (st != SS_OK)
+        return st;
+    if (strcmp(witness[0], EXACT) == 0
+        && (opts->method == NULL || strcmp(opts->method, EXACT) == 0)) {
         opts->method = EXACT;
-    if (strcmp(opts->method, EXACT) == 0) {
         opts->tol = ss_sim_defaults.tol;
         return SS_OK;
     }
+    if (opts->method == NULL)
+        return choose_cheapest(s, opts, err);
     st = choose_given(s, opts->method, err);
     opts->tol = s->tol;
     return st;

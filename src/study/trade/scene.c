@@ -153,7 +153,9 @@ static ss_status
 measure_rows(measurement *t, ss_error *err)
 {
     ss_trade *trade = t->trade;
-    ss_trade_row between = { .method = EXACT };
+    ss_trade_row between = { .tol = 0 };
+    const char *method[2];
+    ss_trade_witnesses(&t->p.scene, 0, method);
     ss_status st = ss_trade_run_init(&t->ref, &t->p);
     if (st == SS_OK)
         st = ss_trade_run_init(&t->run, &t->p);
@@ -161,16 +163,16 @@ measure_rows(measurement *t, ss_error *err)
         st = make_rows(trade, &t->p.scene);
     t->ref.budget = t->run.budget = REFERENCE_BUDGET * t->opts->budget;
     if (st == SS_OK)
-        st = ss_trade_refer(&t->ref, &t->run, &t->p, 0, trade->reference, err);
+        st = ss_trade_refer(&t->ref, &t->run, &t->p, method, 0, trade->reference, err);
     if (st == SS_EBUDGET && (t->ref.over || t->run.over))
         return ss_fail(err, st, "the run of reference would take about %.2g s: a row's budget of %g s "
                        "allows it %g s", t->ref.over ? t->ref.seconds : t->run.seconds,
                        t->opts->budget, t->ref.budget);
     if (st == SS_OK)
         st = ss_trade_compare(&between, &t->run, &t->ref);
-    trade->known_x = ss_trade_known(&t->p, between.error_x);
-    trade->known_a = ss_trade_known(&t->p, between.error_a);
-    trade->known_t = 2 * between.error_t;
+    trade->known_x = ss_trade_known(between.error_x);
+    trade->known_a = ss_trade_known(between.error_a);
+    trade->known_t = between.error_t;
     trade->events = t->ref.n_events;
     trade->samples = t->p.n;
     for (size_t i = 0; st == SS_OK && i < trade->n; i++) {

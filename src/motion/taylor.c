@@ -1,0 +1,222 @@
+/* taylor.c -- a motion carried by its Taylor series.
+ *
+ * The model gives the series of its state by recurrence.  Order and step follow from the tolerance:
+ * the order N in such a way that the work is least, the step so that the terms of order N - 1 and N
+ * are within the tolerance (A. Jorba, M. Zou, Experimental Mathematics 14, 99, 2005), and within what
+ * the model says that its series can tell of.  The same series is what the step holds: samples are
+ * read off it, and events are the first zeros of the guard's polynomial, proven by bernstein.c.  So
+ * a step needs no cap of a part of a period.
+ *
+ * Coefficients are those in s / unit, where the unit is the last step, so that they neither overflow
+ * nor underflow.  One more than N is there for the sake of the rate of change. */
+#include "motion/engine.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+
+/* Orders of the tolerances 1e-1 and 1e-14, even. */
+enum { LEAST_ORDER = 6, MOST_ORDER = 24 };
+
+/* A step is at most this much longer than the last: terms that are rounding at the last say nothing of
+ * one that is much longer. */
+#define GROWTH 8.0
+
+/* And at most half a period of the mode's fastest motion, over which the terms are e^pi at most. */
+enum { LONGEST = STEPS_PER_PERIOD / 2 };
+
+/* Horner's scheme sums the even and the odd powers of the state and of v' side by side. */
+enum { LANES = MAX_DIM + 1, PAIRS = MOST_ORDER / 2 + 1 };
+
+typedef struct taylor {
+    engine base;
+    int order;
+    double tol;
+    double scale[MAX_DIM];                  /* of the state's parts */
+    double shortest;                        /* of all steps in the mode [s] */
+    double longest;
+    double next;                            /* the length of the next step, about [s] */
+    double unit, per_unit;                  /* [s], [1/s] */
+    double per_order[MOST_ORDER + 2];       /* 1 / (n + 1) */
+    double c[MOST_ORDER + 2][MAX_DIM];      /* of the state in s / unit */
+    double pair[PAIRS][2 * LANES];          /* of even and odd order, v' last */
+} taylor;
+
+static int
+order_of(double tol)
+{
+    int order = 2 * (int)ceil(2 - log10(tol) * 2 / 3);
+    return order < LEAST_ORDER ? LEAST_ORDER : order > MOST_ORDER ? MOST_ORDER : order;
+}
+
+/* The longest step [unit] that keeps the tolerance; 0 if the series is not finite.  The unit is near
+ * it, so that one root serves both orders. */
+static double
+tolerated(const taylor *t)
+{
+    const double *q = t->base.m->now.q;
+    double largest = 0, sum = 0;
+    for (int n = t->order - 1; n <= t->order; n++)
+        for (size_t i = 0; i < MAX_DIM; i++) {
+            double size = fabs(t->c[n][i]) / (t->scale[i] + fabs(q[i]));
+            largest = size > largest ? size : largest;
+            sum += t->c[n][i];
+        }
+    return isfinite(sum) ? pow(t->tol / largest, t->per_order[t->order - 1]) : 0;
+}
+
+static void
+expand(taylor *t)
+{
+    double step[MOST_ORDER + 2];
+    for (int n = 0; n <= t->order + 1; n++)
+        step[n] = t->unit * t->per_order[n];
+    t->base.m->now.model->series(&t->base.m->now, step, t->order + 1, t->c);
+    t->per_unit = 1 / t->unit;
+    t->base.rhs += (unsigned long)t->order;
+}
+
+static void
+pair_up(taylor *t)
+{
+    for (int n = 0; n <= t->order + 1; n++) {
+        double *to = t->pair[n / 2] + n % 2 * LANES;
+        memcpy(to, t->c[n], sizeof t->c[n]);
+        to[MAX_DIM] = n <= t->order ? (n + 1) * t->per_unit * t->c[n + 1][1] : 0;
+    }
+}
+
+/* The state and the rates of change of its first two parts.  Written out, the scheme is one that
+ * compilers do in vectors. */
+static void
+evaluate(const taylor *t, double s, double q[], double dqdt[])
+{
+    double x = s * t->per_unit, y = x * x;
+    const double *c = t->pair[t->order / 2];
+    double q0 = c[0], q1 = c[1], q2 = c[2], a = c[3], p0 = c[4], p1 = c[5], p2 = c[6], b = c[7];
+    while (c != t->pair[0]) {
+        c -= 2 * LANES;
+        q0 = q0 * y + c[0];
+        q1 = q1 * y + c[1];
+        q2 = q2 * y + c[2];
+        a = a * y + c[3];
+        p0 = p0 * y + c[4];
+        p1 = p1 * y + c[5];
+        p2 = p2 * y + c[6];
+        b = b * y + c[7];
+    }
+    q[0] = q0 + x * p0;
+    dqdt[0] = q[1] = q1 + x * p1;
+    q[2] = q2 + x * p2;
+    dqdt[1] = a + x * b;
+    dqdt[2] = 0;
+}
+
+static ss_status
+taylor_begin(engine *e)
+{
+    taylor *t = (taylor *)e;
+    const state *m = &e->m->now;
+    t->longest = LONGEST * ss_step_cap(m);
+    t->shortest = ss_step_floor(m);
+    e->rhs++;
+    m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
+    return SS_OK;
+}
+
+/* Expand the series in units that neither overflow nor are too long for the mode; 0 if there are none. */
+static double
+longest_step(taylor *t)
+{
+    for (t->unit = fmin(t->next, t->longest); t->unit >= t->shortest; t->unit *= 0x1p-10) {
+        expand(t);
+        double step = tolerated(t);
+        if (step > 0)
+            return fmin(step, fmin(GROWTH, t->longest * t->per_unit));
+    }
+    return 0;
+}
+
+static ss_status
+taylor_step(engine *e, double h_max, ss_error *err)
+{
+    taylor *t = (taylor *)e;
+    const state *m = &e->m->now;
+    double step = longest_step(t);
+    (void)h_max;
+    if (step > 0 && m->model->reach != NULL)
+        step = m->model->reach(m, t->c, step);
+    t->next = step * t->unit;
+    if (!(t->next >= t->shortest))
+        return ss_fail(err, SS_ETOL, TAYLOR " cannot keep the tolerance %.3g at t = %.9g s: the step "
+                       "fell below %.3g s", t->tol, e->m->origin.hi + m->u, t->shortest);
+    pair_up(t);
+    for (size_t i = 0; i < MAX_DIM; i++)
+        e->dq0[i] = t->per_unit * t->c[1][i];
+    e->h = t->next;
+    e->steps++;
+    evaluate(t, e->h, e->q1, e->dq1);
+    return SS_OK;
+}
+
+static void
+taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
+{
+    const state *m = &e->m->now;
+    e->rhs++;
+    evaluate((taylor *)e, s, q, dqdt);
+    if (where == ANYWHERE)
+        m->model->rates(m, base_force_by(m, base, m->u + s), q, dqdt);
+}
+
+static int
+taylor_curve(const engine *e, double c[][MAX_DIM])
+{
+    const taylor *t = (const taylor *)e;
+    double step = e->h * t->per_unit, scale = 1;
+    for (int n = 0; n <= t->order + 1; n++, scale *= step)
+        for (size_t i = 0; i < MAX_DIM; i++)
+            c[n][i] = scale * t->c[n][i];
+    return t->order + 1;
+}
+
+static void
+taylor_go_on(engine *e)
+{
+    ss_motion_rebase(e->m);
+}
+
+static void
+taylor_free(engine *e)
+{
+    free(e);
+}
+
+static const struct engine_type taylor_type = {
+    .begin = taylor_begin, .step = taylor_step, .at = taylor_at, .curve = taylor_curve,
+    .go_on = taylor_go_on, .free = taylor_free
+};
+
+ss_status
+ss_taylor_new(engine **out, motion *m, double tol, ss_error *err)
+{
+    double scale[MAX_DIM];
+    if (m->now.model->series == NULL)
+        return ss_fail(err, SS_EINVAL, "method " TAYLOR ": the %s model has no series",
+                       m->now.model->name);
+    ss_status st = ss_motion_scales(&m->now, tol, scale, err);
+    if (st != SS_OK)
+        return st;
+    taylor *t = calloc(1, sizeof *t);
+    if (t == NULL)
+        return ss_fail_memory(err, NULL);
+    t->base = (engine){ .type = &taylor_type, .m = m };
+    t->order = order_of(tol);
+    t->tol = tol;
+    t->next = ss_step_cap(&m->now);
+    for (int n = 0; n < MOST_ORDER + 2; n++)
+        t->per_order[n] = 1.0 / (n + 1);
+    memcpy(t->scale, scale, sizeof scale);
+    *out = &t->base;
+    return SS_OK;
+}
