@@ -151,6 +151,38 @@ events_are_those_of_the_closed_form(void **state)
         }
 }
 
+/* The falling law has no closed form: rk8pd is a method of another kind.  Its front is from a
+ * thousandth of the speed of the base to beyond it. */
+static void
+events_of_a_falling_friction_are_those_of_rk8pd(void **state)
+{
+    static const double front[] = { 1e-5, 1e-4, 1e-3, 0.01, 0.1 };
+    (void)state;
+    for (size_t i = 0; i < sizeof front / sizeof *front; i++) {
+        ss_scene s = read_shipped_named("coulomb");
+        s.model = SS_STRIBECK;
+        s.friction = 0.9;
+        s.static_friction = 1.28;
+        s.stribeck_velocity = front[i];
+        s.settle = 0;
+        s.duration = 5;
+        run other = run_with(&s, "rk8pd", 1e-14, 0);
+        assert_true(other.n_events > 20);
+        for (int k = 4; k <= 14; k += 2) {
+            double tol = pow(10, -k);
+            run r = run_with(&s, "taylor", tol, 0);
+            assert_int_equal(r.n_events, other.n_events);
+            for (size_t e = 0; e < r.n_events; e++)
+                assert_int_equal(r.event[e].kind, other.event[e].kind);
+            double error = difference(&r, &other, 1) / scale_of(&s);
+            if (!(error <= 20 * tol + 1e-12))
+                fail_msg("v_s %g: %.2g at %g", front[i], error, tol);
+            run_free(&r);
+        }
+        run_free(&other);
+    }
+}
+
 int
 main(void)
 {
@@ -158,6 +190,7 @@ main(void)
         cmocka_unit_test(errors_are_about_the_tolerance),
         cmocka_unit_test(no_step_passes_over_the_front),
         cmocka_unit_test(events_are_those_of_the_closed_form),
+        cmocka_unit_test(events_of_a_falling_friction_are_those_of_rk8pd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

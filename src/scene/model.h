@@ -225,6 +225,17 @@ base_force_series(const state *m, const double step[], int order, double c[])
     c[1] += m->ramp * step[0];
 }
 
+/* The sum of a_i b_j over i + j = n, i and j > 0, from the middle outwards: the coefficients that have
+ * just been computed come last, and do not hold up the others. */
+static inline double
+inner_products(const double a[], const double b[], int n)
+{
+    double sum = n % 2 == 0 && n > 0 ? a[n / 2] * b[n / 2] : 0;
+    for (int j = (n - 1) / 2; j > 0; j--)
+        sum += a[j] * b[n - j] + a[n - j] * b[j];
+    return sum;
+}
+
 static inline double
 base_force_by(const state *m, turn base, double u)
 {

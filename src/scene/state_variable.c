@@ -152,17 +152,6 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
  * 2e-18. */
 #define SATURATED 35
 
-/* The sum of a_i b_j over i + j = n, i and j > 0, from the middle outwards: the coefficients that have
- * just been computed come last, and do not hold up the others. */
-static double
-products(const double a[], const double b[], int n)
-{
-    double sum = n % 2 == 0 && n > 0 ? a[n / 2] * b[n / 2] : 0;
-    for (int j = (n - 1) / 2; j > 0; j--)
-        sum += a[j] * b[n - j] + a[n - j] * b[j];
-    return sum;
-}
-
 /* u = tanh(alpha v) has u' = alpha R v' with R = 1 - u^2, whose first coefficient is written for the
  * sake of its digits where u is almost 1. */
 static void
@@ -187,10 +176,10 @@ series(const state *m, const double step[], int order, double c[][MAX_DIM])
             continue;
         double outer = R[0] * a[n];
         if (n > 0) {
-            R[n] = -(products(u, u, n) + 2 * u[0] * u[n]);
+            R[n] = -(inner_products(u, u, n) + 2 * u[0] * u[n]);
             outer += R[n] * a[0];
         }
-        u[n + 1] = s->alpha * step[n] * (products(R, a, n) + outer);
+        u[n + 1] = s->alpha * step[n] * (inner_products(R, a, n) + outer);
     }
 }
 

@@ -62,6 +62,30 @@ sight(const state *m, const double dqdt[])
                                               - (m->c + slope) * dqdt[1]) / m->scene->mass);
 }
 
+/* The fall w has w (1 + |v| / v_s) = 1. */
+static void
+series(const state *m, const double step[], int order, double c[][MAX_DIM])
+{
+    enum { N = MOST_SERIES + 1 };
+    const ss_scene *s = m->scene;
+    double fall = m->mode * (static_friction(s) - s->friction), per_mass = 1 / s->mass;
+    double per_speed = m->mode / s->stribeck_velocity, force[N], w[N], p[N];
+    base_force_series(m, step, order, force);
+    force[0] -= m->f0;
+    c[0][0] = m->q[0];
+    c[0][1] = m->q[1];
+    for (int n = 0; n < order; n++) {
+        p[n] = per_speed * c[n][1];
+        if (n == 0)
+            w[0] = 1 / (p[0] += 1);
+        else
+            w[n] = -w[0] * (w[0] * p[n] + inner_products(w, p, n));
+        c[n + 1][0] = step[n] * c[n][1];
+        c[n + 1][1] = step[n] * per_mass
+            * (force[n] - fall * w[n] - m->k * c[n][0] - m->c * c[n][1]);
+    }
+}
+
 static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
@@ -81,6 +105,6 @@ const struct model ss_stribeck_model = {
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight, .rates = rates,
-    .jacobian = jacobian, .guard = ss_linear_slip_guard, .still = ss_stick_still,
+    .jacobian = jacobian, .series = series, .guard = ss_linear_slip_guard, .still = ss_stick_still,
     .next = ss_stick_next, .sample = sample
 };
