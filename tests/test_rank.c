@@ -402,7 +402,8 @@ finds_the_parameters_of_a_compliant_signal(void **state)
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(fit.conclusive);
         if (!(fabs(fit.friction.value / truth.friction - 1) <= row[k].force))
-            fail_msg("%s at %g dB: f_k %.3g off", ss_shipped_scenes[row[k].scene].name, row[k].snr, fit.friction.value / truth.friction - 1);
+            fail_msg("%s at %g dB: f_k %.3g off", ss_shipped_scenes[row[k].scene].name, row[k].snr,
+                     fit.friction.value / truth.friction - 1);
         assert_true(fabs(fit.base_amplitude.value / truth.base_amplitude - 1) <= row[k].force);
         assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1)
                     <= row[k].stiffness);
@@ -443,8 +444,9 @@ gaps_do_not_matter(void **state)
 }
 
 typedef struct watcher {
-    double last, stop_at;
-    int back;
+    double last, stop_at, widest;       /* the widest step */
+    int back, calls;
+    double seen[4096];
 } watcher;
 
 static int
@@ -452,7 +454,9 @@ watch(double done, void *user)
 {
     watcher *w = user;
     w->back += done < w->last || done < 0 || done > 1;
+    w->widest = fmax(w->widest, done - w->last);
     w->last = done;
+    w->seen[w->calls++ % 4096] = done;
     return done >= w->stop_at;
 }
 
@@ -464,7 +468,7 @@ progress_goes_on_to_the_end_or_stops(void **state)
     (void)state;
     for (int fits = 0; fits < 2; fits++)
         for (int stops = 0; stops < 2; stops++) {
-            watcher w = { 0, stops ? 0.6 : 2, 0 };
+            watcher w = { .stop_at = stops ? 0.6 : 2 };
             ss_rank_opts opts = ss_rank_defaults;
             ss_ranking *r = NULL;
             ss_fit fit;
@@ -476,6 +480,31 @@ progress_goes_on_to_the_end_or_stops(void **state)
             ss_ranking_free(r);
         }
     ss_signal_free(signal);
+}
+
+/* A bar that tells how long it will take: work, counted in motions that are run, and what is said of it
+ * go together.  Four times the samples are no more motions. */
+static void
+progress_of_a_fit_counts_down(void **state)
+{
+    int calls[2];
+    (void)state;
+    for (int fine = 0; fine < 2; fine++) {
+        ss_scene scene = shipped(LIGHT);
+        scene.rate *= fine ? 4 : 1;
+        ss_signal *signal = record_of(&scene, 40);
+        watcher w = { .stop_at = 2 };
+        ss_rank_opts opts = ss_rank_defaults;
+        ss_fit fit;
+        opts.progress = (ss_progress){ watch, &w };
+        assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &opts, NULL), SS_OK);
+        assert_true(fit.conclusive && w.back == 0 && w.widest <= 0.25 && w.last > 0.75);
+        assert_true(w.calls > 200 && w.calls < 4096);
+        assert_true(w.seen[w.calls / 2] > 0.2 && w.seen[w.calls / 2] < 0.8);
+        calls[fine] = w.calls;
+        ss_signal_free(signal);
+    }
+    assert_true(calls[1] < 2 * calls[0]);
 }
 
 static void
@@ -494,6 +523,8 @@ does_not_fit_what_is_not_compliant(void **state)
         }
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(!fit.conclusive && fit.why[0] != '\0');
+        assert_true(isnan(fit.friction.value) && isnan(fit.contact_stiffness.value));
+        assert_true(fit.scene.friction == start.friction && fit.scene.phase == start.phase);
         ss_signal_free(signal);
     }
 }
@@ -528,6 +559,7 @@ main(void)
         cmocka_unit_test(finds_the_parameters_of_a_compliant_signal),
         cmocka_unit_test(gaps_do_not_matter),
         cmocka_unit_test(progress_goes_on_to_the_end_or_stops),
+        cmocka_unit_test(progress_of_a_fit_counts_down),
         cmocka_unit_test(does_not_fit_what_is_not_compliant),
     };
     return cmocka_run_group_tests(tests, no_abort, NULL);

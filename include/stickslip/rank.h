@@ -115,7 +115,7 @@ typedef struct ss_fit {
     int conclusive;             /* 0: the parameters are not determined, scene is that given */
     char why[256];              /* why not */
     ss_scene scene;             /* settled, in step with the record from its first sample */
-    ss_value friction, base_amplitude;              /* with standard errors */
+    ss_value friction, base_amplitude;      /* with standard errors; NaN if not conclusive */
     ss_value contact_stiffness, contact_damping;
     ss_value base_frequency;
     double residual;            /* rms of record less scene over the record about its mean */

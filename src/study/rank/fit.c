@@ -275,6 +275,16 @@ judge(ss_fit *fit, const fitting *w)
     return SS_OK;
 }
 
+/* Numbers that are not determined are not given. */
+static void
+withdraw(ss_fit *fit, const ss_scene *start)
+{
+    const ss_value none = { NAN, NAN };
+    fit->scene = *start;
+    fit->friction = fit->base_amplitude = fit->base_frequency = none;
+    fit->contact_stiffness = fit->contact_damping = none;
+}
+
 /* --- all ----------------------------------------------------------------------------------- */
 
 /* The record from half a cycle on, if it is long: a motion that starts from rest with the record is
@@ -290,47 +300,52 @@ fitted_part(const fitting *w)
                            .from = (double)first / w->rate };
 }
 
+/* Of all work, in cycles of the motion: what progress is measured by. */
+static double
+search_share(const fitting *w)
+{
+    double runs = 2 * STARTS + 1.5 * KEEP * STEPS, cycles = CANDIDATE_SETTLE + 1;
+    double record = (double)w->record.n / w->rate / w->goal.period + CANDIDATE_SETTLE;
+    return runs * cycles / (runs * cycles + KEEP * MATCH_RUNS * record);
+}
+
 static ss_status
 fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
            ss_error *err)
 {
     const ss_stretch whole = { opts->progress, 0, 1 };
-    const ss_stretch searching = ss_stretch_part(&whole, 0.05, 0.3);
-    const ss_stretch matching = ss_stretch_part(&whole, 0.3, 1);
     w->c = wide(&fit->scene, opts->quantity);
     w->record = fitted_part(w);
+    double split = search_share(w);
+    const ss_stretch searching = ss_stretch_part(&whole, 0, split);
+    const ss_stretch matching = ss_stretch_part(&whole, split, 1);
     ss_status st = ss_record_noise(&w->noise, &w->record, w->goal.period * w->rate);
     if (st == SS_OK)
         st = search_starts(w, signal, column, &searching, err);
     if (st == SS_OK)
         st = match_all(w, &matching);
     if (st == SS_OK && w->c.steps > BUDGET)
-        return ss_fail(err, SS_EBUDGET, "scenes like it take more than %.0e integration steps to be "
-                       "fitted", BUDGET);
+        return ss_fail(err, SS_EBUDGET, "its fits take more than %.0e integration steps: the contact is "
+                       "too stiff, or too many samples stand in a cycle", BUDGET);
     if (st != SS_OK)
         return st;
     report(fit, w);
     st = find_residual(fit, w);
-    return st == SS_OK ? judge(fit, w) : st;
+    if (st == SS_OK)
+        st = judge(fit, w);
+    return st;
 }
 
 static ss_status
 check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
       ss_error *err)
 {
-    if (column >= signal->head->n_columns)
-        return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
-    if ((unsigned)opts->quantity > SS_FORCE)
-        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
-    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
-        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
-                       opts->forcing_frequency);
+    ss_status st = ss_column_check(signal, column, opts, err);
+    if (st != SS_OK)
+        return st;
     if (ss_model_of(start) == NULL || !ss_model_of(start)->has_contact)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
-    for (size_t i = 0; i < signal->n; i++)
-        if (!isfinite(signal->values[column * signal->n + i]))
-            return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
     return ss_candidate_check(start, err);
 }
 
@@ -359,6 +374,8 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
                            opts->forcing_frequency, &at_once);
     if (st == SS_OK && w->goal.period > 0)
         st = fit_signal(fit, w, signal, column, opts, err);
+    if (!fit->conclusive)
+        withdraw(fit, start);
     free(missing);
     free(w);
     return st;

@@ -61,7 +61,7 @@ typedef struct matching {
     candidate *c;
     const rank_record *r;
     const ss_stretch *progress;
-    double runs, expected;
+    double runs;                        /* of the motion so far */
     ss_status status;                   /* SS_ENOMEM or SS_STOP */
     double frequency, lead;             /* of the start [Hz], and from there to the first sample [s] */
     double x_unit, v_unit;
@@ -105,7 +105,7 @@ run(matching *w, const double p[MOVED], double *motion, double *clear)
 {
     ss_scene s = scene_at(w, p);
     if (w->status == SS_OK)
-        w->status = ss_stretch_at(w->progress, fmin(w->runs++ / w->expected, 1));
+        w->status = ss_stretch_at(w->progress, 1 - exp(-w->runs++ / MATCH_RUNS));
     if (w->status != SS_OK || w->c->steps > w->c->budget)
         return 0;
     ss_status st = ss_samples_run(&s, w->c->pick, SAMPLES_FINE, motion, clear, w->r->n, &w->c->steps);
@@ -462,7 +462,6 @@ solve(matching *w, point *at, double misfit, match *m)
 {
     static const double cycles[] = { 3, 1 };
     w->n_moved -= 2;
-    w->expected = 6 * PASSES * (double)w->n_moved;
     w->wide = 1;
     if (!stand_at(w, at))
         return;
@@ -488,7 +487,7 @@ ss_status
 ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
               const rank_record *record, const ss_stretch *progress)
 {
-    matching w = { .c = c, .r = record, .progress = progress, .expected = 1 };
+    matching w = { .c = c, .r = record, .progress = progress };
     size_t n = record->n;
     point at = { .left = INFINITY };
     for (size_t j = 0; j < MOVED; j++)

@@ -17,6 +17,8 @@ enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_
  * no accident. */
 #define MATCH_DECISIVE 25
 
+#define MATCH_RUNS 150              /* of the motion that a match takes: 30 to 600 */
+
 typedef struct match {
     ss_scene scene;             /* its record is the one matched, but for the offset and what is left */
     double key[CANDIDATE_KEYS];

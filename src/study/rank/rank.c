@@ -13,20 +13,17 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <stickslip/features.h>
-#include <stickslip/morlet.h>
 #include <stickslip/sim.h>
-#include <stickslip/spikes.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "base/sort.h"
+#include "signal/gaps.h"
 #include "study/rank/candidate.h"
 #include "study/rank/match.h"
-#include "signal/gaps.h"
+#include "study/rank/observation.h"
 
-/* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the power;
- * the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice the
- * damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
+/* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the
+ * power; the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice
+ * the damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
  * contour. */
 const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
@@ -50,187 +47,6 @@ enum { STARTS = 32, KEEP = 4, STEPS = 80 };      /* of the search */
 #define HOPELESS 0.03                   /* of the power of a cycle */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
-#define SPAN 80.0                       /* [dB] of a contour map */
-
-/* --- what is observed of a signal ---------------------------------------------------------- */
-
-typedef struct observation {
-    double value[SS_CRITERIA];
-    int countable;                      /* spikes can be counted */
-    int has_slope;                      /* there are columns for df/dx */
-    ss_coefficients *map;
-} observation;
-
-static double
-median(double *x, size_t n)
-{
-    if (n == 0)
-        return NAN;
-    qsort(x, n, sizeof *x, ss_ascending);
-    return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
-}
-
-static double
-level(const observation *l, size_t c, double top)
-{
-    double size = hypot(l->map->w[2 * c], l->map->w[2 * c + 1]);
-    return fmax(size > 0 ? 20 * log10(size / top) : -SPAN, -SPAN);
-}
-
-/* The median over half cycles of the largest |W| in each along the shortest scale [dB re the
- * map's]. */
-static ss_status
-measure_jumps(observation *l, double half)
-{
-    const ss_scale *s = &l->map->scale[l->map->n_scales - 1];
-    double top = ss_coefficients_max(l->map), rate = l->map->head->rate;
-    size_t halves = (size_t)((double)l->map->n / rate / half);
-    double *most = malloc((halves + 1) * sizeof *most);
-    if (most == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < halves; i++)
-        most[i] = -SPAN;
-    for (size_t k = 0; top > 0 && k < s->n; k++) {
-        size_t i = (size_t)(ss_scale_b(s, k) / half);
-        if (i < halves && !ss_coefficients_edge(l->map, l->map->n_scales - 1, k))
-            most[i] = fmax(most[i], level(l, s->offset + k, top));
-    }
-    l->value[SS_BY_JUMP] = median(most, halves);
-    free(most);
-    return SS_OK;
-}
-
-/* Spikes not more than 20 dB below the strongest: how many a half cycle, and how smooth. */
-static ss_status
-measure_spikes(observation *l, const double *x, const ss_header *head, size_t n, double half,
-               ss_error *err)
-{
-    ss_spikes *found = NULL;
-    ss_span *gap = NULL;
-    ss_spike_opts opts = ss_spike_defaults;
-    size_t count = 0;
-    ss_status st = ss_gaps_of(&gap, &opts.n_gaps, head, n);
-    opts.gap = gap;
-    if (st == SS_OK)
-        st = ss_spikes_find(&found, x, n, head->rate, &opts, err);
-    free(gap);
-    if (st != SS_OK)
-        return st;
-    double *slope = malloc((found->n + 1) * sizeof *slope);
-    for (size_t i = 0; slope != NULL && i < found->n; i++)
-        if (found->spike[i].kind != SS_SPIKE_GLITCH && found->spike[i].level >= -20)
-            slope[count++] = found->spike[i].slope;
-    if (slope != NULL) {
-        l->countable = found->conclusive;
-        l->value[SS_BY_SPIKES] = (double)count * half / ((double)n / head->rate);
-        l->value[SS_BY_SLOPE] = median(slope, count);
-    }
-    ss_spikes_free(found);
-    free(slope);
-    return slope != NULL ? SS_OK : SS_ENOMEM;
-}
-
-static ss_status
-measure_transitions(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
-{
-    ss_features *f = NULL;
-    ss_features_opts opts = ss_features_defaults;
-    opts.displacement = ss_header_column(signal->head, "x");
-    opts.force = ss_header_column(signal->head, "f");
-    ss_status st = ss_features_find(&f, signal, column, &opts, err);
-    if (st != SS_OK)
-        return st;
-    double halves = floor((double)signal->n / signal->head->rate / half);
-    l->has_slope = opts.displacement >= 0 && opts.force >= 0;
-    l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / halves, 1);
-    l->value[SS_BY_FREQUENCY] = f->frequency.value;
-    l->value[SS_BY_DAMPING] = f->damping_ratio.value;
-    l->value[SS_BY_STIFFNESS] = f->contact_slope.value;
-    ss_features_free(f);
-    return SS_OK;
-}
-
-static void
-observation_free(observation *l)
-{
-    ss_coefficients_free(l->map);
-    l->map = NULL;
-}
-
-static ss_status
-observe(observation *l, const ss_signal *signal, size_t column, double period, ss_error *err)
-{
-    const double *x = signal->values + column * signal->n;
-    ss_morlet_opts opts = ss_morlet_defaults;
-    ss_status st;
-    opts.voices = 4;
-    opts.accuracy = 1e-4;
-    opts.detrend = SS_DETREND_MEAN;
-    for (size_t i = 0; i < SS_CRITERIA; i++)
-        l->value[i] = NAN;
-    l->map = NULL;
-    st = measure_transitions(l, signal, column, period / 2, err);
-    if (st == SS_OK)
-        st = measure_spikes(l, x, signal->head, signal->n, period / 2, err);
-    if (st == SS_OK)
-        st = ss_morlet_transform(&l->map, signal, column, &opts, err);
-    if (st == SS_OK)
-        st = measure_jumps(l, period / 2);
-    if (st != SS_OK)
-        observation_free(l);
-    return st;
-}
-
-/* --- two of them compared ------------------------------------------------------------------ */
-
-/* The rms difference of the levels of two maps on one grid, every octave counting the same. */
-static double
-map_distance(const observation *a, const observation *b)
-{
-    double top_a = ss_coefficients_max(a->map), top_b = ss_coefficients_max(b->map), sum = 0;
-    if (!(top_a > 0 && top_b > 0))
-        return NAN;
-    for (size_t i = 0; i < a->map->n_scales; i++) {
-        const ss_scale *s = &a->map->scale[i];
-        double squares = 0, count = 0;
-        for (size_t k = 0; k < s->n; k++) {
-            double d = level(a, s->offset + k, top_a) - level(b, s->offset + k, top_b);
-            if (ss_coefficients_edge(a->map, i, k))
-                continue;
-            squares += d * d;
-            count++;
-        }
-        sum += count > 0 ? squares / count : 0;
-    }
-    return sqrt(sum / (double)a->map->n_scales);
-}
-
-static double
-distance(ss_criterion c, double a, double b)
-{
-    if (isnan(a) && isnan(b))
-        return 0;
-    if (c == SS_BY_FREQUENCY || c == SS_BY_DAMPING || c == SS_BY_STIFFNESS)
-        return fabs(log(a / b));
-    return fabs(a - b);
-}
-
-static void
-compare(ss_rank_row *row, const observation *signal, const observation *model)
-{
-    for (size_t i = SS_BY_MAXIMUM; i < SS_CRITERIA; i++) {
-        row->value[i] = model->value[i];
-        row->distance[i] = distance((ss_criterion)i, signal->value[i], model->value[i]);
-    }
-    /* where noise hides spikes, their number and kind describe the noise */
-    if (!signal->countable)
-        row->distance[SS_BY_SPIKES] = row->distance[SS_BY_SLOPE] = 0;
-    if (!signal->has_slope) {
-        row->value[SS_BY_STIFFNESS] = NAN;
-        row->distance[SS_BY_STIFFNESS] = 0;
-    }
-    row->value[SS_BY_MAP] = row->distance[SS_BY_MAP] = map_distance(signal, model);
-}
 
 /* --- a scene ------------------------------------------------------------------------------- */
 
@@ -279,7 +95,7 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
     for (size_t c = 0; c < run->head->n_columns; c++)
         ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)
-        st = observe(l, run, column, w->goal.period, err);
+        st = ss_observation_of(l, run, column, w->goal.period, err);
     ss_signal_free(run);
     return st;
 }
@@ -329,8 +145,8 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     st = observe_scene(&l, w, &row->adjusted, 1, err);
     if (st != SS_OK)
         return st;
-    compare(row, &w->observation, &l);
-    observation_free(&l);
+    ss_observation_compare(row, &w->observation, &l);
+    ss_observation_free(&l);
     row->explained = 1 - m->left_all / m->power;
     row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(m->left, 1e-12 * m->power) / m->power);
     row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&f->candidate, m->key);
@@ -506,29 +322,15 @@ settle(ss_ranking *r, comparison *w, const found *f)
 static ss_status
 check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts, ss_error *err)
 {
-    if (column >= signal->head->n_columns)
-        return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
-    if (n == 0)
+    ss_status st = ss_column_check(signal, column, opts, err);
+    if (st == SS_OK && n == 0)
         return ss_fail(err, SS_EINVAL, "no scene to rank");
-    if ((unsigned)opts->quantity > SS_FORCE)
-        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
-    if (!(opts->spread >= 0 && opts->spread < 1))
+    if (st == SS_OK && !(opts->spread >= 0 && opts->spread < 1))
         return ss_fail(err, SS_EINVAL, "spread %g is out of range 0 ... 1", opts->spread);
-    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
-        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
-                       opts->forcing_frequency);
-    for (int q = 0; q < SS_QUANTITIES; q++)
-        if (opts->also[q] >= 0 && (size_t)opts->also[q] >= signal->head->n_columns)
-            return ss_fail(err, SS_EINVAL, "there is no column %d", opts->also[q] + 1);
-    for (int q = -1; q < SS_QUANTITIES; q++) {
-        if (q >= 0 && opts->also[q] < 0)
-            continue;
-        const double *x = signal->values + (q < 0 ? column : (size_t)opts->also[q]) * signal->n;
-        for (size_t i = 0; i < signal->n; i++)
-            if (!isfinite(x[i]))
-                return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
-    }
-    return SS_OK;
+    for (int q = 0; st == SS_OK && q < SS_QUANTITIES; q++)
+        if (opts->also[q] >= 0)
+            st = ss_column_check(signal, (size_t)opts->also[q], opts, err);
+    return st;
 }
 
 static ss_status
@@ -579,13 +381,13 @@ rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_s
     for (size_t c = 0; st == SS_OK && c < window->head->n_columns; c++)
         ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
     if (st == SS_OK)
-        st = observe(&w->observation, window, w->column, w->goal.period, err);
+        st = ss_observation_of(&w->observation, window, w->column, w->goal.period, err);
     const rank_record record = record_of(w, w->column);
     if (st == SS_OK)
         st = ss_record_noise(&w->noise, &record, w->goal.period * rate);
     if (st == SS_OK)
         st = rank_scenes(r, f, scene, w, progress, err);
-    observation_free(&w->observation);
+    ss_observation_free(&w->observation);
     free(w->gap);
     free(f);
     ss_signal_free(window);

@@ -1,4 +1,5 @@
-/* record.c -- the samples that a motion is fitted to: their power, their noise, what a sinusoid leaves.
+/* record.c -- the samples that a motion is fitted to: their power, their noise, what a sinusoid
+ * leaves.
  *
  * Slow motion is not in fourth differences, and what repeats is not in what differs one cycle later:
  * the median of either's sizes is that of the noise, or more. */
@@ -7,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <gsl/gsl_statistics_double.h>
+#include "base/error.h"
 
 static int
 is_missing(const rank_record *r, size_t i, size_t n)
@@ -15,6 +17,22 @@ is_missing(const rank_record *r, size_t i, size_t n)
         if (r->missing[i + k])
             return 1;
     return 0;
+}
+
+ss_status
+ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts, ss_error *err)
+{
+    if (column >= signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
+    if ((unsigned)opts->quantity > SS_FORCE)
+        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
+    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
+        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
+                       opts->forcing_frequency);
+    for (size_t i = 0; i < signal->n; i++)
+        if (!isfinite(signal->values[column * signal->n + i]))
+            return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
+    return SS_OK;
 }
 
 double

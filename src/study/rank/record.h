@@ -1,9 +1,10 @@
-/* record.h -- the samples that a motion is fitted to: their power, their noise, what a sinusoid leaves. */
+/* record.h -- the samples that a motion is fitted to: their power, their noise, what a sinusoid
+ * leaves. */
 #ifndef RECORD_H
 #define RECORD_H
 
 #include <stddef.h>
-#include <stickslip/status.h>
+#include <stickslip/rank.h>
 
 typedef struct rank_record {
     const double *x;            /* n samples */
@@ -13,6 +14,9 @@ typedef struct rank_record {
     double from;                /* time of the first in the record whose cycle was searched [s] */
 } rank_record;
 
+/* SS_OK for a column that is there, has finite values and suits the options. */
+ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts,
+                          ss_error *err);
 /* Mean square about the mean. */
 double ss_record_power(const rank_record *r);
 /* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:

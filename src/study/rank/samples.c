@@ -15,6 +15,7 @@
 #include "scene/model.h"
 
 enum { STEPS_MOST = 1000000 };          /* of one run */
+enum { SAMPLES_A_STEP = 4 };            /* so many cost what a step does, about */
 
 typedef struct sampled {
     int pick;
@@ -162,5 +163,6 @@ ss_samples_run(const ss_scene *scene, int pick, double tol, double *value, doubl
         clear[i] = INFINITY;
     ss_status st = (model->guard == NULL && model->jacobian != NULL ? run_smooth : run_events)
         (&t, scene, &opts, steps);
+    *steps += (double)t.n / SAMPLES_A_STEP;
     return st == SS_OK && t.n != n ? SS_EDATA : st;
 }

@@ -1,0 +1,23 @@
+/* observation.h -- what the features, the spikes and the contours of a signal show, and how far two
+ * signals are apart by it. */
+#ifndef OBSERVATION_H
+#define OBSERVATION_H
+
+#include <stickslip/morlet.h>
+#include <stickslip/rank.h>
+
+typedef struct observation {
+    double value[SS_CRITERIA];          /* NaN where there is none */
+    int countable;                      /* spikes can be counted */
+    int has_slope;                      /* there are columns for df/dx */
+    ss_coefficients *map;
+} observation;
+
+/* Of a column whose motion repeats after period [s].  To be freed if that is SS_OK. */
+ss_status ss_observation_of(observation *l, const ss_signal *signal, size_t column, double period,
+                            ss_error *err);
+void ss_observation_free(observation *l);
+/* The model's values into the row, and how far they are from the signal's. */
+void ss_observation_compare(ss_rank_row *row, const observation *signal, const observation *model);
+
+#endif
