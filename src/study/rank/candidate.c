@@ -263,3 +263,13 @@ ss_candidate_distance(const candidate *c, const double key[CANDIDATE_KEYS])
     /* d + mu for those that go by mass, and mu: least at mu = -sum / (of_mass + 1) */
     return sqrt(fmax(squares - sum * sum / (of_mass + 1), 0) / (double)(c->n + 1));
 }
+
+const char *
+ss_candidate_key_name(const candidate *c, size_t key)
+{
+    if (key == CANDIDATE_STIFFNESS)
+        return "stiffness";
+    if (key == CANDIDATE_RATIO)
+        return "friction / (stiffness base_amplitude)";
+    return ss_key_of_field(c->model, c->model->parameter[key - CANDIDATE_OWN].offset)->name;
+}

@@ -51,5 +51,7 @@ ss_scene ss_candidate_resized(const candidate *c, ss_scene s, double size);
 /* How far keys are from the scene's own: the root mean square of their logarithms, and of the
  * mass's, for that mass which makes it least. */
 double ss_candidate_distance(const candidate *c, const double key[CANDIDATE_KEYS]);
+/* As scenes name it. */
+const char *ss_candidate_key_name(const candidate *c, size_t key);
 
 #endif

@@ -40,7 +40,6 @@ enum { UNKNOWNS = MATCH_UNKNOWNS, MOVED = MATCH_SIZE };     /* MOVED: those that
  * its standard deviation is some 2.3 / sqrt n. */
 #define ALLOWED 1.2
 #define UNCERTAIN (3 * 2.3)
-#define QUIET 1e-6                      /* of the power: methods of simulation differ by a tenth of it */
 
 typedef struct point {
     double p[MOVED];                    /* see scene_at */
@@ -63,8 +62,7 @@ typedef struct matching {
     const ss_stretch *progress;
     double runs;                        /* of the motion so far */
     ss_status status;                   /* SS_ENOMEM or SS_STOP */
-    double frequency, lead;             /* of the start [Hz], and from there to the first sample [s] */
-    double x_unit, v_unit;
+    match_origin o;                     /* but for p: of the present point */
     double turn;                        /* of a relative change of the frequency, that which shifts
                                            the ends of the record by a radian or so */
     size_t n_moved, moved[MOVED];       /* those that are adjusted */
@@ -87,15 +85,15 @@ unknowns(const matching *w)
 static ss_scene
 scene_at(const matching *w, const double p[MOVED])
 {
-    double frequency = w->frequency * exp(w->turn * p[MATCH_FREQUENCY]);
+    double frequency = w->o.frequency * exp(w->turn * p[MATCH_FREQUENCY]);
     ss_scene s = ss_candidate_scene(w->c, p, 1 / frequency);
     s.rate = w->r->rate;
     s.duration = (double)w->r->n / s.rate;
-    s.settle = w->lead;
+    s.settle = w->o.lead;
     /* the phase in the middle of the record: there it does not depend on the frequency */
-    s.phase = p[MATCH_PHASE] - 2 * M_PI * frequency * (w->lead + s.duration / 2);
-    s.x0 = w->x_unit * p[MATCH_X0];
-    s.v0 = w->v_unit * p[MATCH_V0];
+    s.phase = p[MATCH_PHASE] - 2 * M_PI * frequency * (w->o.lead + s.duration / 2);
+    s.x0 = w->o.x_unit * p[MATCH_X0];
+    s.v0 = w->o.v_unit * p[MATCH_V0];
     return s;
 }
 
@@ -280,7 +278,7 @@ descend(matching *w, point *at)
         find_step(w, at, &e, damping, step);
         double gain = ss_normal_gain(&e, step);
         int goes_on = gain > least * before * w->used;
-        if (!goes_on && (!old || w->wide > 1))
+        if (!goes_on && !old)
             return;
         int gained = goes_on && try_step(w, at, step);
         if (!(gained && (before - at->left) * w->used > gain / 2) && old)
@@ -317,21 +315,27 @@ settled(const matching *w, const candidate_start *start, double period)
     return ss_candidate_resized(w->c, s, start->size > 0 ? start->size : 1);
 }
 
+static double
+turn_of_record(const rank_record *r, double frequency)
+{
+    return 1 / (2 * M_PI * fmax((double)r->n / r->rate * frequency, 1));
+}
+
 /* Begin from rest, CANDIDATE_SETTLE cycles before the record, as the search did. */
 static void
 begin_at_rest(matching *w, const candidate_start *start, double period, point *at)
 {
     double cycles = (double)w->r->n / w->r->rate / period;
-    w->frequency = 1 / period;
-    w->lead = CANDIDATE_SETTLE * period;
-    w->turn = 1 / (2 * M_PI * fmax(cycles, 1));
+    w->o.frequency = 1 / period;
+    w->o.lead = CANDIDATE_SETTLE * period;
+    w->turn = turn_of_record(w->r, w->o.frequency);
     memset(at->p, 0, sizeof at->p);
     memcpy(at->p, start->key, sizeof start->key);
     at->p[MATCH_PHASE] = 2 * M_PI * (w->r->from / period - start->shift + cycles / 2);
 }
 
-/* Does the record change with the start?  A slope that moves it by less than QUIET over the whole of
- * a start's unit is none. */
+/* Does the record change with the start?  A slope that moves it by less than MATCH_QUIET over all of a
+ * start's unit is none. */
 static int
 remembers(matching *w, const point *at, double power)
 {
@@ -344,7 +348,7 @@ remembers(matching *w, const point *at, double power)
         double d = at->size * (w->tried.motion[i] - w->here.motion[i]) / h;
         squares += d * d / (double)w->r->n;
     }
-    return squares > QUIET * power;
+    return squares > MATCH_QUIET * power;
 }
 
 /* The same motion as one whose start is free, so many cycles before the record or up to half a cycle
@@ -359,12 +363,12 @@ free_start(matching *w, double cycles, point *at, double power)
     ss_sim_opts opts = { .method = w->c->model->linear ? "exact" : "rkck", .tol = 1e-7,
                          .max_steps = 1000000, .samples = find_fastest, .user = &fastest };
     if (w->c->model->dim > 2) {         /* from rest, once */
-        int is_free = w->x_unit > 0;
-        w->x_unit = s.base_amplitude;
-        w->v_unit = 2 * M_PI * s.base_frequency * s.base_amplitude;
+        int is_free = w->o.x_unit > 0;
+        w->o.x_unit = s.base_amplitude;
+        w->o.v_unit = 2 * M_PI * s.base_frequency * s.base_amplitude;
         return !is_free && remembers(w, at, power);
     }
-    s.settle = w->lead - cycles * period;
+    s.settle = w->o.lead - cycles * period;
     s.duration = period / 2;
     s.rate = 2 * LOOKED_AT / period;
     ss_status st = s.settle >= 0 ? ss_sim_run(&s, &opts, NULL, NULL) : SS_EINVAL;
@@ -372,11 +376,11 @@ free_start(matching *w, double cycles, point *at, double power)
         w->status = st;
     if (st != SS_OK || fastest.mode == 0)
         return 0;
-    w->lead = cycles * period - fastest.t;
-    w->x_unit = fmax(fabs(fastest.x), s.base_amplitude);
-    w->v_unit = fabs(fastest.v);
-    at->p[MATCH_X0] = fastest.x / w->x_unit;
-    at->p[MATCH_V0] = fastest.v / w->v_unit;
+    w->o.lead = cycles * period - fastest.t;
+    w->o.x_unit = fmax(fabs(fastest.x), s.base_amplitude);
+    w->o.v_unit = fabs(fastest.v);
+    at->p[MATCH_X0] = fastest.x / w->o.x_unit;
+    at->p[MATCH_V0] = fastest.v / w->o.v_unit;
     return stand_at(w, at);
 }
 
@@ -439,6 +443,8 @@ report(matching *w, const point *at, match *m)
     m->compared = (size_t)w->used;
     m->scene = ss_candidate_resized(w->c, scene_at(w, at->p), at->size);
     memcpy(m->key, at->p, sizeof m->key);
+    m->origin = w->o;
+    memcpy(m->origin.p, at->p, sizeof at->p);
 }
 
 /* The start's slopes are coarse until the last width. */
@@ -483,35 +489,74 @@ solve(matching *w, point *at, double misfit, match *m)
     }
 }
 
+/* Room for all; NULL if there is none. */
+static double *
+prepare(matching *w)
+{
+    size_t n = w->r->n;
+    for (size_t j = 0; j < MOVED; j++)
+        if (j < w->c->n ? w->c->hi[j] > w->c->lo[j] : j >= CANDIDATE_KEYS)
+            w->moved[w->n_moved++] = j;
+    double *room = malloc((n + 1) * (w->n_moved + 5) * sizeof *room);
+    if (room == NULL)
+        return NULL;
+    w->here = (course){ room, room + n };
+    w->tried = (course){ room + 2 * n, room + 3 * n };
+    w->weight = room + 4 * n;
+    for (size_t k = 0; k < w->n_moved; k++)
+        w->slope[k] = room + (k + 5) * n;
+    return room;
+}
+
+/* All is left of the record. */
+static match
+no_match(const rank_record *record)
+{
+    match m = { .power = ss_record_power(record) };
+    m.left = m.left_all = m.power;
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        for (size_t k = 0; k < UNKNOWNS; k++)
+            m.covariance[i][k] = NAN;
+    return m;
+}
+
 ss_status
 ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
               const rank_record *record, const ss_stretch *progress)
 {
     matching w = { .c = c, .r = record, .progress = progress };
-    size_t n = record->n;
     point at = { .left = INFINITY };
-    for (size_t j = 0; j < MOVED; j++)
-        if (j < c->n ? c->hi[j] > c->lo[j] : j >= CANDIDATE_KEYS)
-            w.moved[w.n_moved++] = j;
-    double *room = malloc((n + 1) * (w.n_moved + 5) * sizeof *room);
-    if (room != NULL) {
-        w.here = (course){ room, room + n };
-        w.tried = (course){ room + 2 * n, room + 3 * n };
-        w.weight = room + 4 * n;
-        for (size_t k = 0; k < w.n_moved; k++)
-            w.slope[k] = room + (k + 5) * n;
-        *m = (match){ .power = ss_record_power(record), .scene = settled(&w, start, period) };
-        memcpy(m->key, start->key, sizeof m->key);
-        m->left = m->left_all = m->power;
-        m->white = 0;
-        for (size_t i = 0; i < UNKNOWNS; i++)
-            for (size_t k = 0; k < UNKNOWNS; k++)
-                m->covariance[i][k] = NAN;
-        begin_at_rest(&w, start, period, &at);
-        if (start->size > 0)
-            solve(&w, &at, start->misfit, m);
-    } else {
-        w.status = SS_ENOMEM;
+    double *room = prepare(&w);
+    if (room == NULL)
+        return SS_ENOMEM;
+    *m = no_match(record);
+    m->scene = settled(&w, start, period);
+    memcpy(m->key, start->key, sizeof m->key);
+    begin_at_rest(&w, start, period, &at);
+    if (start->size > 0)
+        solve(&w, &at, start->misfit, m);
+    free(room);
+    return w.status;
+}
+
+ss_status
+ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
+               const ss_stretch *progress)
+{
+    matching w = { .c = c, .r = record, .progress = progress, .o = from->origin };
+    point at = { .left = INFINITY };
+    double *room = prepare(&w);
+    if (room == NULL)
+        return SS_ENOMEM;
+    *m = no_match(record);
+    m->scene = from->scene;
+    memcpy(m->key, from->key, sizeof m->key);
+    memcpy(at.p, from->origin.p, sizeof at.p);
+    w.turn = turn_of_record(record, w.o.frequency);
+    w.n_moved -= w.o.x_unit > 0 ? 0 : 2;
+    if (stand_at(&w, &at)) {
+        descend_all(&w, &at);
+        report(&w, &at, m);
     }
     free(room);
     return w.status;
@@ -520,7 +565,7 @@ ss_match_find(match *m, candidate *c, const candidate_start *start, double perio
 double
 ss_match_excess(const match *m, double noise)
 {
-    return m->left / fmax(fmin(noise, m->white), QUIET * m->power);
+    return m->left / fmax(fmin(noise, m->white), MATCH_QUIET * m->power);
 }
 
 int

@@ -19,7 +19,18 @@ enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_
 
 #define MATCH_RUNS 150              /* of the motion that a match takes: 30 to 600 */
 
+/* Of the power: methods of simulation differ by a tenth of it. */
+#define MATCH_QUIET 1e-6
+
+/* Where the motion begins: its unknowns, and what they are measured by. */
+typedef struct match_origin {
+    double p[MATCH_SIZE];
+    double frequency, lead;             /* [Hz], and from the start to the first sample [s] */
+    double x_unit, v_unit;              /* 0: from rest */
+} match_origin;
+
 typedef struct match {
+    match_origin origin;
     ss_scene scene;             /* its record is the one matched, but for the offset and what is left */
     double key[CANDIDATE_KEYS];
     double left;                /* mean square of what is left of the samples away from events */
@@ -35,6 +46,10 @@ typedef struct match {
  * SS_STOP if the progress function stops it. */
 ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
                         const rank_record *record, const ss_stretch *progress);
+
+/* Adjust the motion of a match to another record of the same time, of c->pick. */
+ss_status ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
+                         const ss_stretch *progress);
 
 /* What a match leaves over the noise of this variance, or less if what is left is not white. */
 double ss_match_excess(const match *m, double noise);

@@ -260,39 +260,71 @@ judge(ss_ranking *r, const comparison *w, const found *f)
         }
 }
 
-/* Does the scene that is named explain the other columns too?  Its model may do so with other
- * parameters, as it could if it were asked for that column alone. */
+static double
+variance_of(const match *m, size_t key)
+{
+    return fmax(m->left, MATCH_QUIET * m->power) * m->covariance[key][key];
+}
+
+/* The key by which two matches of one candidate contradict each other most, beyond what their errors
+ * allow, and *errors by how many; c->n: none does. */
+static size_t
+contradicted_key(const candidate *c, const match *a, const match *b, double *errors)
+{
+    double most = MATCH_DECISIVE;
+    size_t worst = c->n;
+    for (size_t i = 0; i < c->n; i++) {
+        double d = a->key[i] - b->key[i], squares = d * d / (variance_of(a, i) + variance_of(b, i));
+        if (squares > most)             /* NaN is not: a key without an error */
+            most = squares, worst = i;
+    }
+    *errors = sqrt(most);
+    return worst;
+}
+
+/* One column more: r->why, if what it says contradicts the scene that is named for the first. */
+static ss_status
+ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
+{
+    const size_t column = (size_t)w->opts->also[quantity];
+    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
+    const rank_record record = record_of(w, column);
+    const char *first = w->signal->head->column[w->column].name;
+    const char *other = w->signal->head->column[column].name;
+    candidate c = named->candidate;
+    const char *model = ss_model_name(c.scene.model);
+    match m;
+    double noise, errors;
+    c.pick = quantity;
+    ss_status st = ss_record_noise(&noise, &record, w->goal.period * record.rate);
+    if (st == SS_OK)
+        st = ss_match_other(&m, &c, &named->match, &record, &silent);
+    if (st != SS_OK)
+        return st;
+    size_t key = contradicted_key(&c, &named->match, &m, &errors);
+    if (!ss_match_explains(&m, noise))
+        snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
+                 "leaves %.3g %% of that, %.3g times the noise", model, first, other,
+                 100 * m.left / m.power, ss_match_excess(&m, noise));
+    else if (key < c.n)
+        snprintf(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
+                 "%.2g %% apart, %.2g standard errors", model, first, other,
+                 ss_candidate_key_name(&c, key), 100 * fabs(expm1(m.key[key] - named->match.key[key])),
+                 errors);
+    return SS_OK;
+}
+
+/* Do the other columns say the same?  A scene that explains one of them by itself must do so with the
+ * same parameters, but for its size, which is in the units of the column. */
 static ss_status
 ask_other_columns(ss_ranking *r, const comparison *w, const found *f)
 {
-    const found *named = &f[r->row[0].scene];
-    const ss_scene *s = &named->match.scene;
-    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
     ss_status st = SS_OK;
-    for (int q = 0; st == SS_OK && q < SS_QUANTITIES; q++) {
-        if (w->opts->also[q] < 0 || (size_t)w->opts->also[q] == w->column)
-            continue;
-        candidate c = named->candidate;
-        match m;
-        double noise;
-        const rank_record record = record_of(w, (size_t)w->opts->also[q]);
-        candidate_start start = { .size = 1 };
-        memcpy(start.key, named->match.key, sizeof start.key);
-        start.shift = s->base_frequency * (w->from - s->settle) - s->phase / (2 * M_PI);
-        c.pick = q;
-        st = ss_record_noise(&noise, &record, w->goal.period * record.rate);
-        if (st == SS_OK)
-            st = ss_match_find(&m, &c, &start, 1 / s->base_frequency, &record, &silent);
-        if (st != SS_OK || ss_match_explains(&m, noise))
-            continue;
+    for (int q = 0; st == SS_OK && r->why[0] == '\0' && q < SS_QUANTITIES; q++)
+        if (w->opts->also[q] >= 0 && (size_t)w->opts->also[q] != w->column)
+            st = ask_column(r, w, &f[r->row[0].scene], q);
+    if (r->why[0] != '\0')
         r->verdict = SS_UNDECIDED;
-        snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
-                 "leaves %.3g %% of that, %.3g times the noise", ss_model_name(s->model),
-                 w->signal->head->column[w->column].name,
-                 w->signal->head->column[w->opts->also[q]].name, 100 * m.left / m.power,
-                 ss_match_excess(&m, noise));
-        break;
-    }
     return st;
 }
 
