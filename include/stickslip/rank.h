@@ -47,7 +47,7 @@ typedef struct ss_rank_opts {
                                    of those of the scene  0 <= spread < 1 */
     double forcing_frequency;   /* [Hz]; 0: found from what repeats */
     int also[SS_QUANTITIES];    /* other columns of the same recording, by what they are of, that the
-                                   answer must explain too; -1: none */
+                                   answer must explain too, with the same parameters; -1: none */
     ss_progress progress;
 } ss_rank_opts;
 extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found, no others */
@@ -130,7 +130,8 @@ typedef struct ss_fit {
  * Errors are those of white noise of the residual's size.  It is conclusive if what is left is no more
  * than noise, no other scene leaves as little, and its sticks last long enough.  That it is not is an
  * answer: SS_OK.  opts may be NULL; its spread and other columns are not used.  SS_EINVAL for another
- * model, SS_EBUDGET where the scenes to be tried take more than 1e8 integration steps. */
+ * model, SS_EBUDGET where the scenes to be tried take more than 1e8 integration steps,
+ * of which four samples count as one. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 
