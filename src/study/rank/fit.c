@@ -340,13 +340,11 @@ static ss_status
 check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
       ss_error *err)
 {
-    ss_status st = ss_column_check(signal, column, opts, err);
-    if (st != SS_OK)
-        return st;
     if (ss_model_of(start) == NULL || !ss_model_of(start)->has_contact)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
-    return ss_candidate_check(start, err);
+    ss_status st = ss_column_check(signal, column, opts, err);
+    return st == SS_OK ? ss_candidate_check(start, err) : st;
 }
 
 ss_status
