@@ -482,7 +482,7 @@ sweeps(int variant)
                            .threads = 1 + variant % 2, .sink = drop_row };
     opts.steady.measures = 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
     opts.steady.max_cycles = 20;
-    opts.steady.shoot = variant / 2 == 1;
+    opts.steady.search = variant / 2 == 1 ? SS_SEARCH_SHOOT : SS_SEARCH_AUTO;
     if (variant / 2 == 2)
         opts.steady.method = "rk8pd";
     return ss_sweep_run(&scene[SS_COMPLIANT], &opts, &err);

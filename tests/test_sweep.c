@@ -31,13 +31,13 @@ den_hartog(double r, double beta)
 }
 
 static ss_steady
-steady_of(const ss_scene *scene, unsigned measures, int shoot)
+steady_of(const ss_scene *scene, unsigned measures, ss_search search)
 {
     ss_steady_opts opts = ss_steady_defaults;
     ss_steady out;
     ss_error err = { 0 };
     opts.measures = measures;
-    opts.shoot = shoot;
+    opts.search = search;
     if (ss_steady_find(&out, scene, &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     return out;
@@ -84,11 +84,11 @@ gives_den_hartogs_amplitude(void **state)
         is_near(den_hartog_amplitude(row[i].r, row[i].beta), row[i].X, 5e-7, "the formula");
     for (double r = 0.65; r < 2; r += 0.09)
         for (double part = 0.3; part < 1; part += 0.3)
-            for (int shoot = 0; shoot < 2; shoot++) {
+            for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
                 double beta = part * den_hartog_limit(r), X = den_hartog_amplitude(r, beta);
                 ss_scene s = den_hartog(r, beta);
                 ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_AMPLITUDE) | BIT(SS_STOPS)
-                                         | BIT(SS_ENERGY) | BIT(SS_PERIOD), shoot);
+                                         | BIT(SS_ENERGY) | BIT(SS_PERIOD), way);
                 /* the state is within tol of its limit, in units of Z_e; v adds at most 1/r of it;
                  * the last cycle is measured, a little nearer to or farther from it */
                 double allow = 4e-9;
@@ -143,7 +143,7 @@ stops_where_den_hartog_says(void **state)
     assert_int_equal(ss_axis_parse(&axis[1], "friction=0.025:0.975:39", NULL), SS_OK);
     ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 2, .sink = compare_with_limit, .user = &m };
-    opts.steady.shoot = 1;
+    opts.steady.search = SS_SEARCH_SHOOT;
     opts.steady.measures = BIT(SS_STOPS) | BIT(SS_AMPLITUDE);
     opts.steady.max_cycles = 2000;
     assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_OK);
@@ -171,10 +171,10 @@ gives_the_settled_numbers(void **state)
           (100.862 - 48.363 + 119.228 - 102.022) / 200, 1e-5, 1 } };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
-        for (int shoot = 0; shoot < 2; shoot++) {
+        for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
             ss_scene s = read_shipped_named(row[i].name);
             ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_V_MAX) | BIT(SS_STOPS)
-                                     | BIT(SS_STICK_FRACTION) | BIT(SS_MICROSLIPS), shoot);
+                                     | BIT(SS_STICK_FRACTION) | BIT(SS_MICROSLIPS), way);
             double tol = 2 * ss_steady_defaults.tol * s.base_amplitude;
             is_near(at.value[SS_X_MAX], row[i].x, row[i].dx + tol, row[i].name);
             if (!isnan(row[i].v))
@@ -214,7 +214,7 @@ balances_energy(void **state)
     (void)state;
     for (size_t i = 0; i < 4; i++) {
         ss_scene s = read_shipped_named(name[i]);
-        ss_steady at = steady_of(&s, BIT(SS_ENERGY) | BIT(SS_V_MAX) | BIT(SS_A_MAX), 0);
+        ss_steady at = steady_of(&s, BIT(SS_ENERGY) | BIT(SS_V_MAX) | BIT(SS_A_MAX), SS_SEARCH_AUTO);
         s.settle = 60 / s.base_frequency;
         s.rate = 40000;
         s.duration = 1 / s.base_frequency + 1 / s.rate;     /* both ends */
@@ -250,13 +250,13 @@ static void
 multipliers_are_the_rate_of_approach(void **state)
 {
     static const struct { const char *name; int from; } row[] = { { "coulomb", 25 },
-        { "compliant-heavy", 50 }, { "compliant-light", 42 } };
+        { "compliant-heavy", 50 }, { "compliant-light", 42 }, { "state-variable", 16 } };
     (void)state;
-    for (size_t i = 0; i < 3; i++)
-        for (int shoot = 0; shoot < 2; shoot++) {
+    for (size_t i = 0; i < 4; i++)
+        for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
             ss_scene s = read_shipped_named(row[i].name);
             ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE)
-                                     | BIT(SS_X_PHASE) | BIT(SS_V_PHASE), shoot);
+                                     | BIT(SS_X_PHASE) | BIT(SS_V_PHASE), way);
             record r = { 0 };
             ss_sim_opts opts = ss_sim_defaults;
             opts.samples = keep_strobe;
@@ -274,6 +274,52 @@ multipliers_are_the_rate_of_approach(void **state)
         }
 }
 
+/* Near resonance the largest multiplier is near 1.  Simulation takes thousands of cycles there. */
+static void
+shooting_ends_a_slow_approach(void **state)
+{
+    (void)state;
+    for (double r = 0.9995; r < 1.001; r += 0.001) {
+        double beta = 0.08, X = den_hartog_amplitude(r, beta);
+        ss_scene s = den_hartog(r, beta);
+        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady at;
+        opts.measures = BIT(SS_AMPLITUDE) | BIT(SS_PERIOD);
+        opts.max_cycles = 100;
+        opts.search = SS_SEARCH_SIMULATE;
+        assert_int_equal(ss_steady_find(&at, &s, &opts, NULL), SS_EDATA);
+        opts.search = SS_SEARCH_AUTO;
+        assert_int_equal(ss_steady_find(&at, &s, &opts, NULL), SS_OK);
+        is_near(at.value[SS_AMPLITUDE], X, 4e-9 * X, "amplitude");
+        assert_true(at.value[SS_PERIOD] == 1);
+    }
+}
+
+/* Where alpha v is small the friction is theta' = -gamma (theta - c v), c = f_k alpha: the multipliers are
+ * exp(lambda T), lambda the roots of l^3 + g l^2 + (k + g c) / m l + g k / m. */
+static void
+differences_give_the_multipliers_of_a_linear_friction(void **state)
+{
+    ss_scene s = read_shipped_named("state-variable");
+    const double T = 1 / s.base_frequency, c = 5;
+    (void)state;
+    for (s.gamma = 10; s.gamma < 2e4; s.gamma *= 10) {
+        double g = s.gamma, m = s.mass, k = s.stiffness, real = -g;
+        s.alpha = 1e-6;
+        s.friction = c / s.alpha;
+        for (int i = 0; i < 50; i++)
+            real -= (((real + g) * real + (k + g * c) / m) * real + g * k / m)
+                / ((3 * real + 2 * g) * real + (k + g * c) / m);
+        double decay = (g + real) / 2, swing = sqrt(-g * k / m / real - decay * decay);
+        ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE),
+                                 SS_SEARCH_AUTO);
+        /* what tolerance leaves of a walk, 1e-12 of x, over the size of the differences, 1e-4 */
+        is_near(at.value[SS_FLOQUET], exp(-decay * T), 1e-7, "modulus");
+        is_near(at.value[SS_FLOQUET_2], exp(-decay * T), 1e-7, "modulus");
+        is_near(cos(at.value[SS_FLOQUET_ANGLE]), cos(swing * T), 1e-7, "angle");
+    }
+}
+
 /* Non-stop motion: no direction is lost, and the product of the multipliers is that of the two
  * saltations, since an undamped oscillator keeps areas: each multiplies v by a+/a-. */
 static void
@@ -284,7 +330,7 @@ multipliers_have_the_product_of_the_jumps(void **state)
     for (size_t i = 0; i < 4; i++) {
         double r = row[i][0], beta = row[i][1], X = den_hartog_amplitude(r, beta);
         ss_scene s = den_hartog(r, beta);
-        ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2), 1);
+        ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2), SS_SEARCH_SHOOT);
         /* at x = X: drive - k x -+ beta, where drive = k Z_e cos(phase):
          * from Den Hartog, cos of the phase at the turning point is X / V */
         double force = X * (1 - r * r) - X;
@@ -419,12 +465,13 @@ every_value_is_there_or_the_status_says_why(void **state)
     for (size_t i = 0; i < 2; i++)
         for (size_t k = 0; k < sizeof key / sizeof *key; k++)
             for (size_t j = 0; j < sizeof scale / sizeof *scale; j++)
-                for (int shoot = 0; shoot < 2; shoot++) {
+                for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
                     ss_scene s = read_shipped_named(name[i]);
                     ss_error err = { 0 };
                     ss_steady at;
                     ss_steady_opts opts = { .measures = BIT(SS_PERIOD) * 2 - 1, .tol = 1e-6,
-                        .max_period = 4, .max_cycles = 100, .shoot = shoot, .max_steps = 5000 };
+                        .max_period = 4, .max_cycles = 100,
+                        .search = way, .max_steps = 5000 };
                     double *x = ss_scene_number(&s, key[k], NULL, NULL);
                     if (x == NULL)
                         continue;
@@ -452,10 +499,13 @@ refuses_what_cannot_be_measured(void **state)
     (void)state;
     opts.measures = BIT(SS_STOPS);
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
-    opts.measures = BIT(SS_AMPLITUDE);
-    opts.shoot = 1;
+    opts.measures = BIT(SS_CYCLES);
+    opts.search = SS_SEARCH_SHOOT;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
-    opts.shoot = 0;
+    opts.measures = BIT(SS_AMPLITUDE);
+    opts.search = (ss_search)(SS_SEARCH_SHOOT + 1);
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    opts.search = SS_SEARCH_AUTO;
     opts.method = "exact";
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
     opts = ss_steady_defaults;
@@ -659,6 +709,8 @@ main(void)
         cmocka_unit_test(gives_the_settled_numbers),
         cmocka_unit_test(balances_energy),
         cmocka_unit_test(multipliers_are_the_rate_of_approach),
+        cmocka_unit_test(shooting_ends_a_slow_approach),
+        cmocka_unit_test(differences_give_the_multipliers_of_a_linear_friction),
         cmocka_unit_test(multipliers_have_the_product_of_the_jumps),
         cmocka_unit_test(free_decay_ends_where_it_must),
         cmocka_unit_test(finds_sub_harmonics),

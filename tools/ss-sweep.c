@@ -18,7 +18,9 @@ static const char usage[] =
 "                        floquet,floquet2,floquet_angle (default: stops ...\n"
 "                        period without x_max, where the model has them)\n"
 "  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
-"      --shoot           find the period by Newton's method, not by simulation\n"
+"      --simulate        find the period by simulation alone; without this the end\n"
+"                        of the approach is left to Newton's method\n"
+"      --shoot           find a period by Newton's method at once\n"
 "  -t, --tol=TOL         how near to periodic, see the manual (default 1e-9)\n"
 "      --max-period=N    longest period, in cycles of the forcing (8)\n"
 "      --max-cycles=N    cycles after which a motion is aperiodic (10000)\n"
@@ -31,7 +33,7 @@ static const char usage[] =
 "  -o, --output=FILE     .tsv, complete or absent (default: standard output)\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
-enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_PERIOD, OPT_CYCLES, OPT_STEPS, OPT_SETTLE, OPT_METHOD,
+enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_SIMULATE, OPT_PERIOD, OPT_CYCLES, OPT_STEPS, OPT_SETTLE, OPT_METHOD,
        OPT_SHARD };
 
 typedef struct request {
@@ -120,6 +122,7 @@ parse(request *req, int argc, char *argv[])
     static const struct option longopts[] = {
         { "vary", required_argument, NULL, 'y' }, { "measure", required_argument, NULL, 'm' },
         { "set", required_argument, NULL, 's' }, { "shoot", no_argument, NULL, OPT_SHOOT },
+        { "simulate", no_argument, NULL, OPT_SIMULATE },
         { "tol", required_argument, NULL, 't' },
         { "max-period", required_argument, NULL, OPT_PERIOD },
         { "max-cycles", required_argument, NULL, OPT_CYCLES },
@@ -140,7 +143,8 @@ parse(request *req, int argc, char *argv[])
             break;
         case 'm': pick_measures(req, optarg); break;
         case 's': req->settings[req->n_settings++] = optarg; break;
-        case OPT_SHOOT: steady->shoot = 1; break;
+        case OPT_SIMULATE: steady->search = SS_SEARCH_SIMULATE; break;
+        case OPT_SHOOT: steady->search = SS_SEARCH_SHOOT; break;
         case 't': steady->tol = tool_number_in("--tol", optarg, ss_steady_tolerances); break;
         case OPT_PERIOD:
             steady->max_period = (int)tool_integer("--max-period", optarg, 1, SS_PERIOD_MAX);

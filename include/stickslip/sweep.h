@@ -37,13 +37,22 @@ typedef enum ss_measure {
 const char *ss_measure_name(ss_measure measure);    /* "stops"; NULL from SS_MEASURES on */
 const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a number */
 
+/* How the periodic state is looked for. */
+typedef enum ss_search {
+    SS_SEARCH_AUTO,         /* simulate until the motion is near a period, then shoot; simulate on where
+                               that fails, and always where SS_CYCLES is wanted */
+    SS_SEARCH_SIMULATE,
+    SS_SEARCH_SHOOT         /* at once: a period of one cycle, which may be another than the one that
+                               the scene settles to; simulate where there is none that is stable */
+} ss_search;
+
 typedef struct ss_steady_opts {
     unsigned measures;          /* wanted: a set of 1u << ss_measure */
     double tol;                 /* see ss_steady_find */
     int max_period;             /* the longest period that is searched, 1 ... SS_PERIOD_MAX cycles */
     unsigned long max_cycles;   /* > 0: a motion without a period by then is aperiodic */
     unsigned long settle;       /* > 0: simulate so many cycles instead of searching for the limit */
-    int shoot;                  /* Newton on the period map; exact method, no SS_CYCLES */
+    ss_search search;
     const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
                                    else as ss_sim_run chooses */
     unsigned long max_steps;    /* > 0: stop after so many, or after 20 right-hand sides for
@@ -64,8 +73,8 @@ typedef struct ss_steady {
  * 2, ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k,
  * v in those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when the difference is
  * at most tol and the state, by the rate at which the differences shrink, lies within tol of its
- * limit.  With shoot,
- * Newton's steps and residual are at most tol.  Settle, duration and rate of the scene do not
+ * limit.  By shooting,
+ * Newton's last step and residual are at most tol.  Settle, duration and rate of the scene do not
  * matter.
  *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for

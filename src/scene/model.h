@@ -54,14 +54,15 @@ void ss_state_follow(state *m);
 /* In which modes the friction force varies. */
 enum { IN_STICK = 1, IN_SLIP = 2 };
 
-/* How a difference d of two neighbouring states changes, in the order x_ref, q[0], v. */
+/* How a difference d of two neighbouring states changes, in the order x_ref (or the state's third number,
+ * if it has one), q[0], v. */
 enum { D_REF, D_Q, D_V, D_MOST };
 struct variation {
     /* Which of the three can differ within the mode. */
     void (*free)(const state *m, int is_free[D_MOST]);
     /* Across the event that has led here from a mode, where q, at a rate of change that was before
      * and is after: another state reaches the event at another time.  A column of d is the
-     * difference by one of those at the start. */
+     * difference by one of those at the start.  NULL if the model is not linear. */
     void (*cross)(const state *m, int mode, const double q[], const double before[],
                   const double after[], double d[D_MOST][D_MOST]);
     /* Move a state; 0 if its mode does not hold there. */
@@ -128,7 +129,7 @@ struct model {
     /* 1 where the mass neither slips nor stands still, so that it may oscillate on its contact; NULL
      * if there is no such place. */
     int (*in_transition)(const state *m, double v);
-    /* NULL if the model is not linear. */
+    /* NULL if neighbouring states are not to be had. */
     const struct variation *variation;
 };
 

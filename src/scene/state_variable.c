@@ -226,6 +226,24 @@ in_transition(const state *m, double v)
     return fabs(m->scene->alpha * v) < 1;
 }
 
+static void
+all_free(const state *m, int is_free[D_MOST])
+{
+    (void)m;
+    is_free[D_REF] = is_free[D_Q] = is_free[D_V] = 1;
+}
+
+static int
+move(state *m, const double d[D_MOST])
+{
+    m->q[0] += d[D_Q];
+    m->q[1] += d[D_V];
+    m->q[2] += d[D_REF];
+    return 1;
+}
+
+static const struct variation variation = { .free = all_free, .move = move };
+
 const struct model ss_state_variable_model = {
     .name = "state-variable",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -237,5 +255,5 @@ const struct model ss_state_variable_model = {
     .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,
     .rates = rates, .jacobian = jacobian, .series = series, .reach = reach,
     .sample = sample,
-    .memory = memory, .in_transition = in_transition
+    .memory = memory, .in_transition = in_transition, .variation = &variation
 };

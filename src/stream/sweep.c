@@ -55,6 +55,7 @@ write_axis(struct rows *rows, const ss_axis *axis)
 static void
 write_options(struct rows *rows, const ss_steady_opts *s, ss_model model)
 {
+    static const char *const search[] = { "simulation, then shooting", "simulation", "shooting" };
     char tol[SS_NUMBER_MAX];
     ss_rows_note(rows, "tolerance: %s", ss_number_text(tol, s->tol));
     if (s->settle > 0)
@@ -63,7 +64,8 @@ write_options(struct rows *rows, const ss_steady_opts *s, ss_model model)
         ss_rows_note(rows, "max_cycles: %lu", s->max_cycles);
     ss_rows_note(rows, "max_period: %d", s->max_period);
     ss_rows_note(rows, "max_steps: %lu", s->max_steps);
-    ss_rows_note(rows, "method: %s%s", s->shoot ? "shooting, " : "", s->method != NULL ? s->method
+    ss_rows_note(rows, "search: %s", (unsigned)s->search < 3 ? search[s->search] : "");
+    ss_rows_note(rows, "method: %s", s->method != NULL ? s->method
                  : ss_model_is_linear(model) ? "exact" : "taylor, bsimp where stiff");
 }
 

@@ -43,7 +43,8 @@ void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], con
 /* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
  * is. */
 void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);
-/* Modulus of the largest and of the next multiplier, argument of the largest. */
-void ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);
+/* Modulus of the largest and of the next multiplier, argument of the largest in 0 ... pi; NaN where t is
+ * not finite.  SS_ENOMEM. */
+ss_status ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);
 
 #endif

@@ -8,6 +8,9 @@
 #include "study/sweep/meter.h"
 
 #include <math.h>
+#include <string.h>
+#include <gsl/gsl_complex_math.h>
+#include <gsl/gsl_eigen.h>
 
 void
 ss_tangent_begin(tangent *t, const state *m)
@@ -71,31 +74,37 @@ ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], doub
         d[k] = lost[k] ? 0 : unit[k] * a[k][3] / a[k][k];
 }
 
-/* The eigenvalues of the last two rows and columns, or of all three of which one is then 0: the
- * mode in which x_ref counts for nothing lies on the way. */
-void
+ss_status
 ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle)
 {
-    const double (*d)[3] = t->d;
-    int never_slips = d[D_REF][D_REF] == 1 && d[D_REF][D_Q] == 0 && d[D_REF][D_V] == 0;
-    double trace = d[D_Q][D_Q] + d[D_V][D_V], minors = d[D_Q][D_Q] * d[D_V][D_V] - d[D_Q][D_V] * d[D_V][D_Q];
-    if (!never_slips) {
-        trace += d[D_REF][D_REF];
-        minors += d[D_REF][D_REF] * (d[D_Q][D_Q] + d[D_V][D_V]) - d[D_REF][D_Q] * d[D_Q][D_REF] - d[D_REF][D_V] * d[D_V][D_REF];
+    double d[D_MOST][D_MOST], sum = 0;
+    gsl_complex value[D_MOST];
+    gsl_matrix_view matrix = gsl_matrix_view_array(d[0], D_MOST, D_MOST);
+    gsl_vector_complex_view values = gsl_vector_complex_view_array((double *)value, D_MOST);
+    *first = *second = *angle = NAN;
+    memcpy(d, t->d, sizeof d);
+    for (int i = 0; i < D_MOST * D_MOST; i++)
+        sum += d[i / D_MOST][i % D_MOST];
+    if (!isfinite(sum))
+        return SS_OK;
+    gsl_eigen_nonsymm_workspace *w = gsl_eigen_nonsymm_alloc(D_MOST);
+    if (w == NULL)
+        return SS_ENOMEM;
+    gsl_eigen_nonsymm_params(0, 1, w);          /* balanced: x and v differ by powers of ten */
+    int st = gsl_eigen_nonsymm(&matrix.matrix, &values.vector, w);
+    gsl_eigen_nonsymm_free(w);
+    if (st != 0)
+        return SS_OK;
+    *first = -1;
+    for (int i = 0; i < D_MOST; i++) {
+        double modulus = gsl_complex_abs(value[i]);
+        if (modulus > *first) {
+            *second = *first;
+            *first = modulus;
+            *angle = modulus > 0 ? fabs(gsl_complex_arg(value[i])) : 0;
+        } else {
+            *second = fmax(*second, modulus);
+        }
     }
-    double under = trace * trace / 4 - minors;
-    if (under < 0) {
-        *first = *second = sqrt(minors);
-        *angle = acos(fmax(-1, fmin(1, trace / 2 / *first)));
-    } else {
-        double large = trace / 2 + copysign(sqrt(under), trace);
-        *first = fabs(large);
-        *second = large != 0 ? fabs(minors / large) : 0;
-        *angle = large < 0 ? M_PI : 0;
-    }
-    if (never_slips && *first < 1) {            /* it stays wherever it came to rest */
-        *second = *first;
-        *first = 1;
-        *angle = 0;
-    }
+    return SS_OK;
 }

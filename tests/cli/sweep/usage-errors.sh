@@ -18,8 +18,6 @@ try $vary --measure stops,stops coulomb
 try $vary --measure '' coulomb
 try $vary --measure transition coulomb
 try $vary --measure stops state-variable
-try $vary --measure floquet --method rk8pd coulomb
-try $vary --shoot state-variable
 try $vary --shoot --measure cycles coulomb
 try $vary --method exact state-variable
 try $vary --method magic coulomb

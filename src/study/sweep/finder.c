@@ -1,0 +1,159 @@
+/* finder.c -- see finder.h. */
+#include "study/sweep/finder.h"
+
+#include <float.h>
+#include <math.h>
+#include "base/error.h"
+
+/* --- states -------------------------------------------------------------------------------- */
+
+/* *unit: what y is measured by. */
+static double
+memory_of(const state *m, double *unit)
+{
+    *unit = 1;
+    return m->model->memory != NULL ? m->model->memory(m, unit) : 0;
+}
+
+section
+ss_section_of(const state *m)
+{
+    double unit;
+    double x = m->x_ref + m->q[0] - pull_of(m->scene) * m->u;
+    return (section){ x, m->q[1], memory_of(m, &unit) };
+}
+
+static double
+part(double difference, double unit)
+{
+    return difference == 0 ? 0 : fabs(difference) / unit;
+}
+
+double
+ss_section_distance(const finder *f, section a, section b)
+{
+    return fmax(fmax(part(a.x - b.x, f->unit.x), part(a.v - b.v, f->unit.v)),
+                part(a.y - b.y, f->unit.y));
+}
+
+section
+ss_section_before(const finder *f, int cycles)
+{
+    return f->last[(f->recorded - 1 - (unsigned long)cycles) % SECTIONS];
+}
+
+static section
+section_units(const state *m)
+{
+    section unit = { m->x_scale, m->x_scale * fmax(m->omega, own_frequency(m->scene)), 1 };
+    memory_of(m, &unit.y);
+    return unit;
+}
+
+ss_status
+ss_finder_begin(finder *f, const char *method)
+{
+    const ss_sim_opts sim = { .method = method, .tol = fmax(1e-14, f->opts->tol / 1000),
+                              .max_steps = f->opts->max_steps };
+    ss_status st = ss_walk_begin(&f->w, f->scene, &sim, f->err);
+    f->unit = section_units(&f->w.m.now);
+    return st;
+}
+
+ss_status
+ss_finder_begin_at(finder *f, const motion *from)
+{
+    const motion copy = *from;          /* which may be the walk's own */
+    f->n = 0;
+    return ss_walk_begin_at(&f->w, &copy);
+}
+
+/* --- walking ------------------------------------------------------------------------------- */
+
+/* A point takes many cycles: one that costs much more than the motion asks for is refused before it has
+ * used up the steps of the point.  A cycle has a tenth of those, 10^6 at least, and always three times
+ * what the fastest period of the mode asks for; each is worth RHS_PER_STEP right-hand sides, which
+ * unlike steps cost about the same in every method. */
+#define CYCLE_STEPS 1e6
+
+static double
+cycle_work(const finder *f)
+{
+    double tenth = (double)f->opts->max_steps / 10;
+    double needed = 1 / f->scene->base_frequency / ss_step_cap(&f->w.m.now);
+    return RHS_PER_STEP * fmax(fmax(CYCLE_STEPS, tenth), 3 * needed);
+}
+
+static ss_status
+check_work(const finder *f, double since, int cycles)
+{
+    double most = cycles * cycle_work(f);
+    if (f->opts->max_steps == 0 || (double)f->w.e->rhs - since <= most)
+        return SS_OK;
+    return ss_fail(f->err, SS_EBUDGET, "more than %.2g right-hand sides in a forcing cycle at t = %.9g s: "
+                   "the tolerance forces short steps", most / cycles,
+                   f->w.m.origin.hi + f->w.m.now.u);
+}
+
+ss_status
+ss_finder_go(finder *f, int cycles, meter *r, tangent *t)
+{
+    walk *w = &f->w;
+    double period = 1 / f->scene->base_frequency, none = 4 * DBL_EPSILON * period;
+    instant end = instant_sample(f->n + cycles, f->scene->base_frequency);
+    double since = (double)w->e->rhs;
+    for (double left; (left = instant_diff(end, w->m.origin) - w->m.now.u) > none;) {
+        ss_event event;
+        double q[MAX_DIM], rates[MAX_DIM];
+        int is_event, mode = w->m.now.mode;
+        ss_status st = check_work(f, since, cycles);
+        if (st == SS_OK)
+            st = ss_walk_leg(w, fmin(left, period), f->err);
+        if (st != SS_OK)
+            return st;
+        if (r != NULL)
+            ss_meter_leg(r, w);
+        if (t != NULL) {
+            ss_tangent_leg(t, w);
+            ss_walk_at(w, w->h, q, rates);
+        }
+        int ends = w->ends;
+        st = ss_walk_on(w, &is_event, &event, f->err);
+        if (st != SS_OK)
+            return st;
+        if (t != NULL && ends && is_event)
+            ss_tangent_event(t, w, mode, q, rates);
+        if (r != NULL && is_event)
+            ss_meter_event(r, &event);
+    }
+    f->n += cycles;
+    return SS_OK;
+}
+
+ss_status
+ss_finder_measure(finder *f, int cycles, int period, ss_steady *out)
+{
+    meter r;
+    tangent t;
+    const motion start = f->w.m;
+    section at = ss_section_of(&start.now);
+    ss_meter_begin(&r, f->opts->measures, &start.now);
+    ss_status st = ss_finder_go(f, cycles, &r, NULL);
+    if (st != SS_OK)
+        return st;
+    f->unresolved = ss_motion_unresolved(&f->w.m) - ss_motion_unresolved(&start);
+    ss_meter_end(&r, cycles, period > 0, out->value);
+    out->value[SS_PERIOD] = period;
+    out->value[SS_X_PHASE] = at.x;
+    out->value[SS_V_PHASE] = at.v + f->scene->surface_velocity;
+    if (period == 0 || !(f->opts->measures & FLOQUET))
+        return SS_OK;
+    const motion end = f->w.m;
+    st = ss_finder_begin_at(f, &start);
+    if (st == SS_OK)
+        st = ss_finder_derive(f, period, MULTIPLIERS, &t);
+    if (st == SS_OK)
+        st = ss_tangent_multipliers(&t, &out->value[SS_FLOQUET], &out->value[SS_FLOQUET_2],
+                                    &out->value[SS_FLOQUET_ANGLE]);
+    return st == SS_OK ? ss_finder_begin_at(f, &end) : st;
+}

@@ -1,0 +1,61 @@
+/* finder.h -- a search for the periodic state of a scene, forcing cycle by forcing cycle. */
+#ifndef FINDER_H
+#define FINDER_H
+
+#include "study/sweep/meter.h"
+
+/* The state at the start of a forcing cycle: x - U t, v over the surface, and y of the model (memory), 0
+ * if it has none. */
+typedef struct section {
+    double x, v, y;
+} section;
+
+enum { SECTIONS = 2 * SS_PERIOD_MAX + 1 };
+
+typedef struct finder {
+    const ss_scene *scene;
+    const ss_steady_opts *opts;
+    ss_error *err;
+    int in_closed_form;                 /* the walk and its tangent are */
+    walk w;
+    double n;                           /* forcing cycles walked, from the walk's t = 0 */
+    section unit;                       /* of a difference */
+    section last[SECTIONS];             /* the latest, cycle after cycle, in a ring */
+    unsigned long recorded;             /* of them */
+    unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
+} finder;
+
+section ss_section_of(const state *m);
+/* The largest difference, in units of the finder. */
+double ss_section_distance(const finder *f, section a, section b);
+/* The state so many cycles before the latest. */
+section ss_section_before(const finder *f, int cycles);
+/* A difference within rounding says nothing of a rate. */
+#define ROUNDING (64 * DBL_EPSILON)
+
+/* At the scene's initial state, by this method. */
+ss_status ss_finder_begin(finder *f, const char *method);
+/* At a state, where a cycle begins. */
+ss_status ss_finder_begin_at(finder *f, const motion *from);
+/* Walk so many forcing cycles, with a meter and a tangent unless they are NULL. */
+ss_status ss_finder_go(finder *f, int cycles, meter *r, tangent *t);
+/* Measure so many cycles from here on; period 0 if they do not close. */
+ss_status ss_finder_measure(finder *f, int cycles, int period, ss_steady *out);
+
+/* settle.c: simulate until the motion is periodic, or near enough to a period for shooting to find it
+ * where that is allowed, and measure it. */
+ss_status ss_finder_settle(finder *f, int may_shoot, ss_steady *out);
+
+#define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
+
+/* shoot.c: look by Newton's method, from the present state on, for one that repeats after *period cycles,
+ * and measure it.  *period becomes its period, 0 if there is none or it is not stable; *at, the state. */
+ss_status ss_finder_shoot(finder *f, int *period, ss_steady *out, section *at);
+/* The derivative of so many cycles by the state that they begin with, the present one; then the finder
+ * stands where they end. */
+typedef enum derivative_use {
+    NEWTON, MULTIPLIERS                 /* which want more digits where there is no closed form */
+} derivative_use;
+ss_status ss_finder_derive(finder *f, int cycles, derivative_use use, tangent *t);
+
+#endif

@@ -1,0 +1,135 @@
+/* settle.c -- the periodic state that a scene settles to, by simulation.
+ *
+ * The state at the start of each forcing cycle is an iterated map.  It has period p when it repeats
+ * after p cycles.  It approaches its limit geometrically, so the rate at which the last differences
+ * shrink gives the distance that remains, and a slow approach is not mistaken for the limit.  The last
+ * part of an approach may be left to shooting. */
+#include "study/sweep/finder.h"
+
+#include <float.h>
+
+static void
+record_section(finder *f)
+{
+    f->last[f->recorded++ % (SECTIONS)] = ss_section_of(&f->w.m.now);
+}
+
+static int
+has_period(const finder *f, int p)
+{
+    if (f->recorded <= (unsigned long)p)
+        return 0;
+    double now = ss_section_distance(f, ss_section_before(f, 0), ss_section_before(f, p));
+    if (now <= ROUNDING || !(now <= f->opts->tol))
+        return now <= ROUNDING;
+    if (f->recorded <= 2 * (unsigned long)p)
+        return 0;
+    double before = ss_section_distance(f, ss_section_before(f, p), ss_section_before(f, 2 * p)), ratio = now / before;
+    return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
+}
+
+/* The state within tol of its limit is within 2 tol of itself after any multiple of its period, so
+ * a state that is as near after fewer cycles has not reached the shorter period yet. */
+static int
+find_period(const finder *f)
+{
+    for (int p = 1; p <= f->opts->max_period; p++) {
+        if (has_period(f, p))
+            return p;
+        if (f->recorded > (unsigned long)p
+            && ss_section_distance(f, ss_section_before(f, 0), ss_section_before(f, p)) <= 10 * f->opts->tol)
+            return 0;
+    }
+    return 0;
+}
+
+/* Settle for the given cycles; then find the first cycle that returns to its first state. */
+static ss_status
+settle_and_look(finder *f, int *period)
+{
+    ss_status st = SS_OK;
+    for (unsigned long i = 0; st == SS_OK && i < f->opts->settle; i++)
+        st = ss_finder_go(f, 1, NULL, NULL);
+    const motion here = f->w.m;
+    for (int p = 1; st == SS_OK && *period == 0 && p <= f->opts->max_period; p++) {
+        st = ss_finder_go(f, 1, NULL, NULL);
+        if (ss_section_distance(f, ss_section_of(&f->w.m.now), ss_section_of(&here.now)) <= f->opts->tol)
+            *period = p;
+    }
+    return st == SS_OK ? ss_finder_begin_at(f, &here) : st;
+}
+
+/* --- the end of the approach by shooting ------------------------------------------------------- */
+
+/* Newton's method is tried where the motion has come so near to a period, by its own size, and comes
+ * nearer.  It is tried again after twice as many cycles. */
+#define NEAR 0.3
+enum { FIRST_TRY = 2 };
+
+static int
+comes_near(const finder *f, int p)
+{
+    if (f->recorded <= 2 * (unsigned long)p)
+        return 0;
+    section now = ss_section_before(f, 0), before = ss_section_before(f, p);
+    double difference = ss_section_distance(f, now, before);
+    return difference <= NEAR * (1 + ss_section_distance(f, now, (section){ 0 }))
+        && difference < ss_section_distance(f, before, ss_section_before(f, 2 * p));
+}
+
+/* Newton's method may find another motion than that which is approached: then the motion does not come
+ * nearer to it.  Or it may land on a limit at which a contact only touches, which the motion approaches
+ * from one side: there simulation can tell how many events a cycle has. */
+static ss_status
+try_to_shoot(finder *f, int p, ss_steady *out, int *period)
+{
+    const motion here = f->w.m;
+    section at = { 0 };
+    *period = p;
+    ss_status st = ss_finder_shoot(f, period, out, &at);
+    int leaves = ss_section_distance(f, ss_section_before(f, 0), at)
+        > ss_section_distance(f, ss_section_before(f, p), at);
+    if (*period > 0 && (leaves || f->unresolved > 0))
+        *period = 0;
+    return st == SS_OK && *period == 0 ? ss_finder_begin_at(f, &here) : st;
+}
+
+/* --- either ------------------------------------------------------------------------------------ */
+
+/* Until the period is known; *measured: by shooting, which has measured it. */
+static ss_status
+settle(finder *f, int may_shoot, int *period, int *measured, ss_steady *out)
+{
+    ss_status st = SS_OK;
+    unsigned long next_try = FIRST_TRY;
+    record_section(f);
+    for (unsigned long i = 1; st == SS_OK && *period == 0 && i <= f->opts->max_cycles; i++) {
+        st = ss_finder_go(f, 1, NULL, NULL);
+        record_section(f);
+        *period = find_period(f);
+        if (!may_shoot || i < next_try || st != SS_OK)
+            continue;
+        for (int p = 1; st == SS_OK && *period == 0 && p <= f->opts->max_period; p++) {
+            if (!comes_near(f, p))
+                continue;
+            next_try = 2 * i;
+            st = try_to_shoot(f, p, out, period);
+            *measured = *period > 0;
+        }
+    }
+    return st;
+}
+
+ss_status
+ss_finder_settle(finder *f, int may_shoot, ss_steady *out)
+{
+    int period = 0, measured = 0, asked = f->opts->settle > 0;
+    ss_status st = asked ? settle_and_look(f, &period) : settle(f, may_shoot, &period, &measured, out);
+    if (st != SS_OK || measured)
+        return st;
+    double cycles = asked ? (double)f->opts->settle : (double)(f->recorded - 1);
+    st = ss_finder_measure(f, period > 0 ? period : f->opts->max_period, period, out);
+    if (st == SS_OK && (period > 0 || asked))
+        out->value[SS_CYCLES] = cycles;
+    return st;
+}
