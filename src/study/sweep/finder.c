@@ -36,12 +36,6 @@ ss_section_distance(const finder *f, section a, section b)
                 part(a.y - b.y, f->unit.y));
 }
 
-section
-ss_section_before(const finder *f, int cycles)
-{
-    return f->last[(f->recorded - 1 - (unsigned long)cycles) % SECTIONS];
-}
-
 static section
 section_units(const state *m)
 {
@@ -128,32 +122,4 @@ ss_finder_go(finder *f, int cycles, meter *r, tangent *t)
     }
     f->n += cycles;
     return SS_OK;
-}
-
-ss_status
-ss_finder_measure(finder *f, int cycles, int period, ss_steady *out)
-{
-    meter r;
-    tangent t;
-    const motion start = f->w.m;
-    section at = ss_section_of(&start.now);
-    ss_meter_begin(&r, f->opts->measures, &start.now);
-    ss_status st = ss_finder_go(f, cycles, &r, NULL);
-    if (st != SS_OK)
-        return st;
-    f->unresolved = ss_motion_unresolved(&f->w.m) - ss_motion_unresolved(&start);
-    ss_meter_end(&r, cycles, period > 0, out->value);
-    out->value[SS_PERIOD] = period;
-    out->value[SS_X_PHASE] = at.x;
-    out->value[SS_V_PHASE] = at.v + f->scene->surface_velocity;
-    if (period == 0 || !(f->opts->measures & FLOQUET))
-        return SS_OK;
-    const motion end = f->w.m;
-    st = ss_finder_begin_at(f, &start);
-    if (st == SS_OK)
-        st = ss_finder_derive(f, period, MULTIPLIERS, &t);
-    if (st == SS_OK)
-        st = ss_tangent_multipliers(&t, &out->value[SS_FLOQUET], &out->value[SS_FLOQUET_2],
-                                    &out->value[SS_FLOQUET_ANGLE]);
-    return st == SS_OK ? ss_finder_begin_at(f, &end) : st;
 }

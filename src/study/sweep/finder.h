@@ -28,8 +28,6 @@ typedef struct finder {
 section ss_section_of(const state *m);
 /* The largest difference, in units of the finder. */
 double ss_section_distance(const finder *f, section a, section b);
-/* The state so many cycles before the latest. */
-section ss_section_before(const finder *f, int cycles);
 /* A difference within rounding says nothing of a rate. */
 #define ROUNDING (64 * DBL_EPSILON)
 
@@ -39,23 +37,34 @@ ss_status ss_finder_begin(finder *f, const char *method);
 ss_status ss_finder_begin_at(finder *f, const motion *from);
 /* Walk so many forcing cycles, with a meter and a tangent unless they are NULL. */
 ss_status ss_finder_go(finder *f, int cycles, meter *r, tangent *t);
-/* Measure so many cycles from here on; period 0 if they do not close. */
-ss_status ss_finder_measure(finder *f, int cycles, int period, ss_steady *out);
 
-/* settle.c: simulate until the motion is periodic, or near enough to a period for shooting to find it
- * where that is allowed, and measure it. */
-ss_status ss_finder_settle(finder *f, int may_shoot, ss_steady *out);
+/* --- period.c ---------------------------------------------------------------------------------- */
 
 #define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
 
-/* shoot.c: look by Newton's method, from the present state on, for one that repeats after *period cycles,
- * and measure it.  *period becomes its period, 0 if there is none or it is not stable; *at, the state. */
-ss_status ss_finder_shoot(finder *f, int *period, ss_steady *out, section *at);
+/* A state where a cycle begins or ends, and the units of its numbers. */
+void ss_finder_coordinates(const motion *m, double c[D_MOST]);
+void ss_finder_coordinate_units(const finder *f, double unit[D_MOST]);
+/* Move it by d; 0 if its mode does not allow that. */
+int ss_finder_move(motion *m, const double d[D_MOST]);
+
 /* The derivative of so many cycles by the state that they begin with, the present one; then the finder
  * stands where they end. */
 typedef enum derivative_use {
     NEWTON, MULTIPLIERS                 /* which want more digits where there is no closed form */
 } derivative_use;
 ss_status ss_finder_derive(finder *f, int cycles, derivative_use use, tangent *t);
+/* Measure so many cycles from here on; period 0 if they do not close. */
+ss_status ss_finder_measure(finder *f, int cycles, int period, ss_steady *out);
+
+/* --- the searches ------------------------------------------------------------------------------ */
+
+/* shoot.c: look by Newton's method, from the present state on, for one that repeats after *period cycles,
+ * and measure it.  approached: only the one to which the motion goes from here.  *period becomes its
+ * period, 0 if there is none or it is not stable. */
+ss_status ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out);
+/* settle.c: simulate until the motion is periodic, or near enough to a period for shooting to find it
+ * where that is allowed, and measure it. */
+ss_status ss_finder_settle(finder *f, int may_shoot, ss_steady *out);
 
 #endif

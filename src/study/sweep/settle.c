@@ -14,17 +14,24 @@ record_section(finder *f)
     f->last[f->recorded++ % (SECTIONS)] = ss_section_of(&f->w.m.now);
 }
 
+/* The state so many cycles before the latest. */
+static section
+section_before(const finder *f, int cycles)
+{
+    return f->last[(f->recorded - 1 - (unsigned long)cycles) % SECTIONS];
+}
+
 static int
 has_period(const finder *f, int p)
 {
     if (f->recorded <= (unsigned long)p)
         return 0;
-    double now = ss_section_distance(f, ss_section_before(f, 0), ss_section_before(f, p));
+    double now = ss_section_distance(f, section_before(f, 0), section_before(f, p));
     if (now <= ROUNDING || !(now <= f->opts->tol))
         return now <= ROUNDING;
     if (f->recorded <= 2 * (unsigned long)p)
         return 0;
-    double before = ss_section_distance(f, ss_section_before(f, p), ss_section_before(f, 2 * p)), ratio = now / before;
+    double before = ss_section_distance(f, section_before(f, p), section_before(f, 2 * p)), ratio = now / before;
     return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
 }
 
@@ -37,7 +44,7 @@ find_period(const finder *f)
         if (has_period(f, p))
             return p;
         if (f->recorded > (unsigned long)p
-            && ss_section_distance(f, ss_section_before(f, 0), ss_section_before(f, p)) <= 10 * f->opts->tol)
+            && ss_section_distance(f, section_before(f, 0), section_before(f, p)) <= 10 * f->opts->tol)
             return 0;
     }
     return 0;
@@ -71,25 +78,21 @@ comes_near(const finder *f, int p)
 {
     if (f->recorded <= 2 * (unsigned long)p)
         return 0;
-    section now = ss_section_before(f, 0), before = ss_section_before(f, p);
+    section now = section_before(f, 0), before = section_before(f, p);
     double difference = ss_section_distance(f, now, before);
     return difference <= NEAR * (1 + ss_section_distance(f, now, (section){ 0 }))
-        && difference < ss_section_distance(f, before, ss_section_before(f, 2 * p));
+        && difference < ss_section_distance(f, before, section_before(f, 2 * p));
 }
 
-/* Newton's method may find another motion than that which is approached: then the motion does not come
- * nearer to it.  Or it may land on a limit at which a contact only touches, which the motion approaches
- * from one side: there simulation can tell how many events a cycle has. */
+/* Where Newton's method lands on a limit at which a contact only touches, and which the motion approaches
+ * from one side, simulation can tell how many events a cycle has. */
 static ss_status
 try_to_shoot(finder *f, int p, ss_steady *out, int *period)
 {
     const motion here = f->w.m;
-    section at = { 0 };
     *period = p;
-    ss_status st = ss_finder_shoot(f, period, out, &at);
-    int leaves = ss_section_distance(f, ss_section_before(f, 0), at)
-        > ss_section_distance(f, ss_section_before(f, p), at);
-    if (*period > 0 && (leaves || f->unresolved > 0))
+    ss_status st = ss_finder_shoot(f, 1, period, out);
+    if (f->unresolved > 0)
         *period = 0;
     return st == SS_OK && *period == 0 ? ss_finder_begin_at(f, &here) : st;
 }

@@ -124,11 +124,10 @@ begin(finder *f)
 static ss_status
 shoot(finder *f, ss_steady *out, int *period)
 {
-    section at;
     ss_status st = ss_finder_go(f, APPROACH, NULL, NULL);
     *period = 1;
     if (st == SS_OK)
-        st = ss_finder_shoot(f, period, out, &at);
+        st = ss_finder_shoot(f, 0, period, out);
     if (st != SS_OK || *period > 0)
         return st;
     ss_walk_end(&f->w);
