@@ -21,7 +21,7 @@
 #include "study/rank/samples.h"
 
 enum { STARTS_MOST = 256 };
-#define SAME 0.02               /* of a key: what one descent reaches from both */
+#define SAME 0.02               /* of a key: one descent reaches the same from both */
 
 static double *
 own(const candidate *c, ss_scene *s, size_t i)

@@ -31,13 +31,13 @@ typedef struct candidate {
     double lo[CANDIDATE_KEYS], hi[CANDIDATE_KEYS];  /* of the search; equal for a fixed key */
     candidate_start start[CANDIDATE_KEPT];          /* the best first, no two the same */
     size_t n_starts;
-    double steps;               /* of all runs so far: what they cost */
+    double steps;               /* of all runs so far: their cost */
     double budget;              /* of steps: the search ends when it is used up */
 } candidate;
 
 /* SS_OK for a scene in range whose base moves. */
 ss_status ss_candidate_check(const ss_scene *scene, ss_error *err);
-/* What the scene says, and each key free within a factor, >= 1. */
+/* The scene's own keys, each free within a factor, >= 1. */
 candidate ss_candidate_of(const ss_scene *scene, int pick, double factor);
 /* Find c->start: starts points all over the range, and the keep <= CANDIDATE_KEPT best of them each
  * improved by at most so many steps.  SS_OK also where none of them moves: then all is left; SS_STOP

@@ -25,7 +25,7 @@ bins_of(double samples)
     return n;
 }
 
-/* Sums and counts of each bin; what the squares add up to. */
+/* Sums and counts of each bin; returns the sum of the squares. */
 static double
 gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n,
        double cycles)
@@ -108,7 +108,7 @@ ss_cycle_period(const double *x, const char *missing, size_t n, double rate, dou
     return best;
 }
 
-/* What repeats after a period does so after two and three of them: if nearly all of its power is
+/* A signal that repeats after a period does so after two and three of them: if nearly all of its power is
  * left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
 static double
 shortest(const double *x, const char *missing, size_t n, double rate, double period)

@@ -2,11 +2,11 @@
  *
  * The settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c), from the
  * stiffness and damping that the transitions show or, where they show none, from wide about the
- * scene's; from the best of what that finds the motion is fitted to the record (match.c).
+ * scene's; from the best starts so found the motion is fitted to the record (match.c).
  *
  * The sum of squares has many hollows: a motion with one micro-slip more or less is another motion.
- * So there are several starts, and the lowest is the answer only if what it leaves is no more than
- * noise and no other that leaves as little, within what noise moves it by, has other parameters. */
+ * So there are several starts, and the lowest is the answer only if its residual is no more than
+ * noise and no other, as low within the effect of noise, has other parameters. */
 #include <stickslip/rank.h>
 
 #include <math.h>
@@ -40,7 +40,7 @@ typedef struct fitting {
     rank_record record;                /* the part of it that is fitted */
     match best;
     double noise;                       /* variance, at most */
-    double rival;                       /* what the best of other parameters leaves; infinite: none */
+    double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
 
 /* --- matches ------------------------------------------------------------------------------- */
@@ -80,7 +80,7 @@ wide(const ss_scene *start, ss_quantity quantity)
     return c;
 }
 
-/* Starts from about what the transitions show, and from all over the range. */
+/* Starts near the values that the transitions show, and from all over the range. */
 static ss_status
 search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stretch *progress,
               ss_error *err)
@@ -300,7 +300,7 @@ fitted_part(const fitting *w)
                            .from = (double)first / w->rate };
 }
 
-/* Of all work, in cycles of the motion: what progress is measured by. */
+/* Of all work, in cycles of the motion: for the progress. */
 static double
 search_share(const fitting *w)
 {

@@ -10,7 +10,7 @@
  * by least squares (Levenberg 1944, Marquardt 1963).  A sample that an event crosses as a parameter
  * moves jumps, so the sum of squares has steps.  But an event that is a little from its place changes
  * only the samples beside it: these weigh nothing, and others the more the farther they are from the
- * events of the motion.  What is left of the sum is smooth, with one minimum and the errors of a
+ * events of the motion.  The sum of the rest is smooth, with one minimum and the errors of a
  * linear problem.  The weights reach full size after many samples first, then after fewer and fewer,
  * and in the end two samples or so an event are lost, of hundreds a cycle, and what they say of the
  * event's time.
@@ -35,7 +35,7 @@ enum { UNKNOWNS = MATCH_UNKNOWNS, MOVED = MATCH_SIZE };     /* MOVED: those that
 #define UNLIKELY 0.2                    /* of the power: if the search leaves that, it is the end */
 #define LOST 0.03                       /* of the power: no start makes up for that */
 
-/* What is left is noise if its mean square is at most this much above it, and above what the estimate
+/* A residual is noise if its mean square is at most this much above it, and above what the estimate
  * of the noise may be low by: it rests on medians of n numbers, two of which may share a sample, so
  * its standard deviation is some 2.3 / sqrt n. */
 #define ALLOWED 1.2
@@ -124,7 +124,7 @@ weigh(matching *w, const double *clear)
     }
 }
 
-/* Size and offset of the motion that leave least of the samples used, and what that is. */
+/* Size and offset of the motion that leave least of the samples used, and that residual. */
 static void
 regress(const matching *w, const double *motion, point *at)
 {
@@ -167,8 +167,8 @@ stand_at(matching *w, const point *at)
 
 /* --- least squares ------------------------------------------------------------------------- */
 
-/* Over which slopes are differences: what a method of simulation resolves, but wider for the start
- * while the way is long, as what follows it can change unevenly. */
+/* Slopes are differences over this: as small as a method of simulation resolves, but wider for the
+ * start while the way is long, as the motion after it can change unevenly. */
 static double
 step_of(const matching *w, size_t j)
 {
@@ -221,7 +221,7 @@ find_normal(const matching *w, const point *at, normal *e)
 }
 
 /* A damped step: within the ranges of the keys, and none so far that slopes mean nothing there.
- * (What the record hardly shows, as the start where all of it dies out, else goes anywhere.) */
+ * (An unknown that the record hardly shows, as a start that has died out, else goes anywhere.) */
 static void
 find_step(const matching *w, const point *at, const normal *e, double damping, double step[UNKNOWNS])
 {
@@ -461,7 +461,7 @@ descend_all(matching *w, point *at)
 }
 
 /* The settled motion first, then those of any start that leave less.  A start three cycles before the
- * record is nearly forgotten there, so that what is left changes slowly with it; from one cycle before
+ * record is nearly forgotten there, so that the residual changes slowly with it; from one cycle before
  * descents end on the way, unless they begin near. */
 static void
 solve(matching *w, point *at, double misfit, match *m)

@@ -22,7 +22,7 @@ enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_
 /* Of the power: methods of simulation differ by a tenth of it. */
 #define MATCH_QUIET 1e-6
 
-/* Where the motion begins: its unknowns, and what they are measured by. */
+/* Where the motion begins: its unknowns and their units. */
 typedef struct match_origin {
     double p[MATCH_SIZE];
     double frequency, lead;             /* [Hz], and from the start to the first sample [s] */
@@ -31,12 +31,12 @@ typedef struct match_origin {
 
 typedef struct match {
     match_origin origin;
-    ss_scene scene;             /* its record is the one matched, but for the offset and what is left */
+    ss_scene scene;             /* its record is the one matched, but for offset and residual */
     double key[CANDIDATE_KEYS];
-    double left;                /* mean square of what is left of the samples away from events */
-    double left_all;            /* and of all that are not missing */
+    double left;                /* mean square of the residual away from events */
+    double left_all;            /* and over all samples that are not missing */
     double power;               /* of these about their mean */
-    double white;               /* variance of the white noise that what is left can hold at most */
+    double white;               /* variance of the white noise in the residual, at most */
     size_t compared;            /* samples away from events */
     double covariance[MATCH_UNKNOWNS][MATCH_UNKNOWNS];  /* for noise of variance 1; NaN: no fit */
 } match;
@@ -51,9 +51,9 @@ ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, do
 ss_status ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
                          const ss_stretch *progress);
 
-/* What a match leaves over the noise of this variance, or less if what is left is not white. */
+/* The residual of a match over noise of this variance, or of less if the residual is not white. */
 double ss_match_excess(const match *m, double noise);
-/* 1 if that is no more than noise and what is not known of it. */
+/* 1 if that is no more than noise, within the error of its estimate. */
 int ss_match_explains(const match *m, double noise);
 
 #endif

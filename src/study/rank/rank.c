@@ -100,8 +100,8 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
     return st;
 }
 
-/* The best of the matches from the starts of the search.  A descent over the record changes what a
- * start leaves of the cycle little where that is much: of such starts the best will do. */
+/* The best of the matches from the starts of the search.  Where a start leaves much of the
+ * cycle, a descent over the record changes that little: of such starts the best will do. */
 static ss_status
 match_scene(found *f, const comparison *w, const ss_stretch *progress)
 {
@@ -205,7 +205,7 @@ ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double facto
     return changed;
 }
 
-/* By how much, in standard errors squared, what a scene leaves is more than what another does. */
+/* By how much, in standard errors squared, the residual of a scene is below that of another. */
 static double
 lead_of(const match *m, const match *over, double noise)
 {
@@ -222,7 +222,7 @@ is_sinusoid(const comparison *w, const match *m)
     return ss_match_explains(&sinusoid, w->noise);
 }
 
-/* What the verdict is, by what the scenes leave of the column. */
+/* The verdict, by the residuals of the scenes. */
 static void
 judge(ss_ranking *r, const comparison *w, const found *f)
 {

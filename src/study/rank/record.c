@@ -1,5 +1,5 @@
-/* record.c -- the samples that a motion is fitted to: their power, their noise, what a sinusoid
- * leaves.
+/* record.c -- the samples that a motion is fitted to: their power, their noise, their distance
+ * from a sinusoid.
  *
  * Slow motion is not in fourth differences, and what repeats is not in what differs one cycle later:
  * the median of either's sizes is that of the noise, or more. */
@@ -75,7 +75,7 @@ fast_variance(const rank_record *r, double *d)
     return gaussian_variance(d, count);
 }
 
-/* By what a cycle later differs, interpolated between two samples: what repeats is not in it,
+/* By the difference one cycle later, interpolated between two samples: no periodic motion is in it,
  * however fast. */
 static double
 cycle_variance(const rank_record *r, double samples, double *d)

@@ -1,5 +1,5 @@
-/* record.h -- the samples that a motion is fitted to: their power, their noise, what a sinusoid
- * leaves. */
+/* record.h -- the samples that a motion is fitted to: their power, their noise, their distance
+ * from a sinusoid. */
 #ifndef RECORD_H
 #define RECORD_H
 
@@ -20,9 +20,9 @@ ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_
 /* Mean square about the mean. */
 double ss_record_power(const rank_record *r);
 /* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:
- * no more than what is there. */
+ * at most as much as there is. */
 ss_status ss_record_noise(double *variance, const rank_record *r, double samples);
-/* What a sinusoid of this frequency [Hz] and an offset leave: its mean square. */
+/* The mean square that a sinusoid of this frequency [Hz] and an offset leave. */
 double ss_record_sinusoid(const rank_record *r, double frequency);
 
 #endif

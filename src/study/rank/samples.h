@@ -12,8 +12,8 @@ enum { SAMPLES_REACH = 18 };        /* samples */
 
 /* The n samples of a scene's record, of the quantity pick; without a closed form to some thirty times
  * the tolerance.  clear, unless it is NULL, becomes the distance of each to the nearest event, in
- * samples, if that is at most SAMPLES_REACH, else infinite.  *steps grows by what it
- * cost.  As ss_sim_run, or SS_EDATA. */
+ * samples, if that is at most SAMPLES_REACH, else infinite.  *steps grows by
+ * the cost.  As ss_sim_run, or SS_EDATA. */
 ss_status ss_samples_run(const ss_scene *scene, int pick, double tol, double *value, double *clear,
                          size_t n, double *steps);
 
