@@ -75,4 +75,66 @@ random_scene(uint64_t number)
     return s;
 }
 
+static inline double
+between(rng *r, double from, double to)
+{
+    return from * pow(to / from, uniform(r));
+}
+
+/* One time in two none of it; else of either sign, if that is asked for. */
+static inline double
+perhaps(rng *r, double from, double to, int is_signed)
+{
+    double x = between(r, from, to), sign = is_signed && uniform(r) < .5 ? -1 : 1;
+    return uniform(r) < .5 ? 0 : sign * x;
+}
+
+enum { RIG_PERIODS = 30, RIG_SAMPLES = 300 };
+
+/* Coulomb and compliant scenes with all keys, each of which one time in two does nothing. */
+static inline ss_scene
+random_rig(uint64_t number)
+{
+    rng r = { number * UINT64_C(0xd1342543de82ef95) + 7 };
+    ss_scene s = ss_scene_defaults;
+    double omega = between(&r, 1, 100), X = between(&r, 1e-6, 1e-2), fastest = 1, zeta;
+    s.model = uniform(&r) < .5 ? SS_COULOMB : SS_COMPLIANT;
+    s.mass = between(&r, 1e-3, 1e3);
+    s.stiffness = s.mass * omega * omega;
+    s.friction = between(&r, .01, 2) * s.stiffness * X;
+    s.static_friction = uniform(&r) < .5 ? 0 : s.friction * between(&r, 1, 3);
+    zeta = perhaps(&r, 1e-3, 3, 0);
+    s.damping = zeta * 2 * s.mass * omega;
+    fastest = fmax(fastest, zeta + sqrt(fmax(0, zeta * zeta - 1)));
+    s.base_velocity = perhaps(&r, 1e-3, 1, 1) * X * omega;
+    s.surface_velocity = perhaps(&r, 1e-3, 1, 1) * X * omega;
+    if (uniform(&r) < .75) {
+        double ratio = between(&r, .1, 10);
+        if (fabs(ratio - 1) < .2)
+            ratio += .4;
+        s.base_frequency = ratio * omega / (2 * M_PI);
+        s.base_amplitude = between(&r, .1, 3) * X;
+        s.phase = 2 * M_PI * uniform(&r);
+        fastest = fmax(fastest, ratio);
+    }
+    if (uniform(&r) < .5) {
+        s.x0 = X * (2 * uniform(&r) - 1);
+        s.v0 = X * omega * (2 * uniform(&r) - 1);
+    } else {
+        s.v0 = uniform(&r) < .5 ? s.surface_velocity : 0;
+    }
+    if (s.model == SS_COMPLIANT) {
+        s.contact_stiffness = between(&r, .5, 300) * s.stiffness;
+        double k = s.stiffness + s.contact_stiffness, c = between(&r, 1e-3, 2);
+        s.contact_damping = c * 2 * sqrt(k * s.mass);
+        s.release = uniform(&r) < .5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+        double all = (s.contact_damping + s.damping) / (2 * sqrt(k * s.mass));
+        fastest = fmax(fastest, sqrt(k / s.stiffness) * (all + sqrt(fmax(1, all * all) - 1)));
+        fastest = fmax(fastest, sqrt(k / s.stiffness));
+    }
+    s.duration = RIG_PERIODS / fastest * 2 * M_PI / omega;
+    s.rate = RIG_SAMPLES / s.duration;
+    return s;
+}
+
 #endif

@@ -15,6 +15,7 @@
 
 #include "extremes/runs.h"
 #include "oracle.h"
+#include "random_scene.h"
 #include "shipped.h"
 
 static const char *const methods[] = { "exact", "rk8pd", "rkf45", "msadams" };
@@ -222,79 +223,6 @@ a_falling_friction_is_coulombs_at_its_ends(void **state)
 
 /* --- random scenes ------------------------------------------------------------------------- */
 
-typedef struct rng { uint64_t s; } rng;
-
-/* splitmix64 (Steele, Lea & Flood 2014) */
-static double
-uniform(rng *r)
-{
-    uint64_t z = r->s += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
-static double
-between(rng *r, double from, double to)
-{
-    return from * pow(to / from, uniform(r));
-}
-
-/* One time in two none of it; else of either sign, if that is asked for. */
-static double
-perhaps(rng *r, double from, double to, int is_signed)
-{
-    double x = between(r, from, to), sign = is_signed && uniform(r) < .5 ? -1 : 1;
-    return uniform(r) < .5 ? 0 : sign * x;
-}
-
-enum { PERIODS = 30, SAMPLES = 300 };
-
-static ss_scene
-random_rig(uint64_t number)
-{
-    rng r = { number * UINT64_C(0xd1342543de82ef95) + 7 };
-    ss_scene s = ss_scene_defaults;
-    double omega = between(&r, 1, 100), X = between(&r, 1e-6, 1e-2), fastest = 1, zeta;
-    s.model = uniform(&r) < .5 ? SS_COULOMB : SS_COMPLIANT;
-    s.mass = between(&r, 1e-3, 1e3);
-    s.stiffness = s.mass * omega * omega;
-    s.friction = between(&r, .01, 2) * s.stiffness * X;
-    s.static_friction = uniform(&r) < .5 ? 0 : s.friction * between(&r, 1, 3);
-    zeta = perhaps(&r, 1e-3, 3, 0);
-    s.damping = zeta * 2 * s.mass * omega;
-    fastest = fmax(fastest, zeta + sqrt(fmax(0, zeta * zeta - 1)));
-    s.base_velocity = perhaps(&r, 1e-3, 1, 1) * X * omega;
-    s.surface_velocity = perhaps(&r, 1e-3, 1, 1) * X * omega;
-    if (uniform(&r) < .75) {
-        double ratio = between(&r, .1, 10);
-        if (fabs(ratio - 1) < .2)
-            ratio += .4;
-        s.base_frequency = ratio * omega / (2 * M_PI);
-        s.base_amplitude = between(&r, .1, 3) * X;
-        s.phase = 2 * M_PI * uniform(&r);
-        fastest = fmax(fastest, ratio);
-    }
-    if (uniform(&r) < .5) {
-        s.x0 = X * (2 * uniform(&r) - 1);
-        s.v0 = X * omega * (2 * uniform(&r) - 1);
-    } else {
-        s.v0 = uniform(&r) < .5 ? s.surface_velocity : 0;
-    }
-    if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = between(&r, .5, 300) * s.stiffness;
-        double k = s.stiffness + s.contact_stiffness, c = between(&r, 1e-3, 2);
-        s.contact_damping = c * 2 * sqrt(k * s.mass);
-        s.release = uniform(&r) < .5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
-        double all = (s.contact_damping + s.damping) / (2 * sqrt(k * s.mass));
-        fastest = fmax(fastest, sqrt(k / s.stiffness) * (all + sqrt(fmax(1, all * all) - 1)));
-        fastest = fmax(fastest, sqrt(k / s.stiffness));
-    }
-    s.duration = PERIODS / fastest * 2 * M_PI / omega;
-    s.rate = SAMPLES / s.duration;
-    return s;
-}
-
 /* A random scene, what the oracle says of it, and how far x moves if the scene changes in its last
  * digits. */
 typedef struct trial {
@@ -316,9 +244,9 @@ complain(const trial *t, const char *what, double got, double allowed)
 static double *
 x_of(const oracle *o, double duration)
 {
-    double *x = malloc(SAMPLES * sizeof *x);
-    for (size_t i = 0, piece = 0; i < SAMPLES; i++) {
-        long double t = (long double)i * duration / SAMPLES, truth[3];
+    double *x = malloc(RIG_SAMPLES * sizeof *x);
+    for (size_t i = 0, piece = 0; i < RIG_SAMPLES; i++) {
+        long double t = (long double)i * duration / RIG_SAMPLES, truth[3];
         while (piece + 1 < o->n && o->piece[piece + 1].t0 <= t)
             piece++;
         oracle_at(o, piece, t, truth);
@@ -339,7 +267,7 @@ trial_of(uint64_t number)
     oracle *other = oracle_new(&nudged, t.scene.duration);
     t.x = x_of(t.o, t.scene.duration);
     double *y = x_of(other, t.scene.duration);
-    for (size_t i = 0; i < SAMPLES; i++) {
+    for (size_t i = 0; i < RIG_SAMPLES; i++) {
         t.scale = fmax(t.scale, fabs(t.x[i]));
         t.spread = fmax(t.spread, fabs(t.x[i] - y[i]));
     }
