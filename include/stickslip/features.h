@@ -87,8 +87,8 @@ typedef struct ss_features {
                                    known: of those near the height that counts as a fall */
     ss_value slip_rate;         /* [1/s] */
     ss_value repetition_frequency;      /* [Hz] at which the signal repeats itself */
-    const char *why_slips;      /* they are not known, or how they were counted; else NULL */
-    const char *why_repetition, *why_ringing;   /* it is not known; else NULL.  No text is to be freed */
+    const char *why_slips, *why_ringing;        /* they are not known, or how they were found; else NULL */
+    const char *why_repetition; /* it is not known; else NULL.  No text is to be freed */
     ss_value frequency_raw;     /* [Hz] the paper's reading: label of the local maxima */
     ss_value frequency;         /* [Hz] damped, one for all transitions */
     ss_value damping_ratio;

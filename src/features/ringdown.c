@@ -14,7 +14,8 @@
  * all windows share, of the slow part or the ends: that moves the fit as the windows change. So all
  * are cut at their starts, or at their ends, and half of what that moves the fit by, noise apart, is
  * added in quadrature.  So is all that the fit moves by, noise apart, when the slow part may bend,
- * see add_slow_part; and what is left beyond white noise, see add_colour. */
+ * see add_slow_part, or beside a steady line, see add_line; and what is left beyond white noise, see
+ * add_colour. */
 #include "features/ringdown.h"
 
 #include <gsl/gsl_cdf.h>
@@ -47,6 +48,9 @@
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 #define FINE 1e-8
+#define LOWEST_LINE 0.7         /* re the oscillation's frequency, see add_line */
+#define HIGHEST_LINE 1.4
+enum { LINES = 15 };
 enum { FEW = 4 };               /* windows that a jackknife needs */
 enum { PLACES = 16 };           /* of the core, a period */
 
@@ -342,43 +346,77 @@ find_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, size
 
 /* --- oscillations that go on behind the windows -------------------------------------------- */
 
-/* So many periods behind the window, in one of the least length and before limit: is there an
- * oscillation of this frequency, of more than twice the amplitude that the fit leaves it?  -1: that
+typedef struct tail {           /* behind a window */
+    double left;                /* mean square that the ringing leaves there */
+    ss_window at;
+} tail;
+
+/* So many periods behind the window, in a window of the least length and before limit; empty: that
  * cannot be looked at. */
-static int
-rings_behind(fitter *k, ss_window win, double late_by, size_t limit)
+static tail
+tail_of(fitter *k, ss_window win, double late_by, size_t limit)
 {
     size_t first = win.end + periods(k, late_by);
     ss_window late = { first, first + periods(k, LEAST) };
     if (ss_window_length(win) == 0 || late.end > limit || has_gap(k, (ss_window){ win.end, late.end }))
-        return -1;
+        return (tail){ 0, { 0, 0 } };
     double mean = ss_varpro_project(&k->fit, win).ring / (double)ss_window_length(win);
-    linear fitted = ss_varpro_project(&k->fit, late);
     double apart = (double)(late.first + late.end - win.first - win.end) / 2;
-    double m = (double)ss_window_length(late), left = m * mean * exp(-2 * k->fit.s * apart);
+    return (tail){ mean * exp(-2 * k->fit.s * apart), late };
+}
+
+/* Is there an oscillation, as k->fit has it, of more than twice the amplitude that is left? */
+static int
+rings_there(fitter *k, tail behind)
+{
+    linear fitted = ss_varpro_project(&k->fit, behind.at);
+    double m = (double)ss_window_length(behind.at);
     int is_one = fitted.ring > EXPLAINED * (fitted.ring + fitted.rss)
-        || belong(k, fitted.rss, ss_window_length(late) - k->fit.columns);
-    return is_one && fitted.ring > 4 * left + k->noise * gsl_cdf_chisq_Qinv(CHANCE, 2);
+        || belong(k, fitted.rss, ss_window_length(behind.at) - k->fit.columns);
+    return is_one && fitted.ring > 4 * m * behind.left + k->noise * gsl_cdf_chisq_Qinv(CHANCE, 2);
+}
+
+/* Does it ring, or hum at a frequency near, behind more than half of the windows? */
+static int
+rings_behind(fitter *k, const tail *behind, size_t n)
+{
+    static const double tone[] = { 0, 0.7, 0.85, 1, 1.15, 1.3 };   /* re w; 0: it itself */
+    const double w = k->fit.w, s = k->fit.s;
+    size_t seen = 0, most = 0;
+    for (size_t t = 0; t < sizeof tone / sizeof *tone; t++) {
+        size_t on = seen = 0;
+        if (tone[t] > 0)
+            k->fit.w = tone[t] * w, k->fit.s = 0;
+        for (size_t i = 0; i < n; i++)
+            if (ss_window_length(behind[i].at) > 0) {
+                seen++;
+                on += (size_t)rings_there(k, behind[i]);
+            }
+        most = on > most ? on : most;
+    }
+    k->fit.w = w, k->fit.s = s;
+    return seen >= FEW && 2 * most > seen;
 }
 
 /* A train of micro-slips looks like a strongly damped oscillation, though the contact rings on behind
- * it; a hum goes on, too.  So all windows are looked behind at growing distances; more than half of
- * them decide. */
-static int
-rings_on(fitter *k, const ss_window *window, size_t n)
+ * it; a hum goes on, too.  So all windows are looked behind at growing distances. */
+static ss_status
+rings_on(fitter *k, const ss_window *window, size_t n, int *is)
 {
-    for (double late_by = 2; late_by <= LATEST; late_by *= 2) {
-        size_t seen = 0, on = 0, limit = k->n;
+    tail *behind = malloc((n + 1) * sizeof *behind);
+    if (behind == NULL)
+        return SS_ENOMEM;
+    *is = 0;
+    for (double late_by = 2; late_by <= LATEST && !*is; late_by *= 2) {
+        size_t limit = k->n;
         for (size_t i = n; i-- > 0;) {
-            int is = rings_behind(k, window[i], late_by, limit);
+            behind[i] = tail_of(k, window[i], late_by, limit);
             limit = ss_window_length(window[i]) > 0 ? window[i].first : limit;
-            seen += is >= 0;
-            on += is > 0;
         }
-        if (seen >= FEW && 2 * on > seen)
-            return 1;
+        *is = rings_behind(k, behind, n);
     }
-    return 0;
+    free(behind);
+    return SS_OK;
 }
 
 /* --- standard errors ----------------------------------------------------------------------- */
@@ -528,6 +566,65 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
                 value[j].error = hypot(value[j].error, moved[j]);
     }
     ss_varpro_bend(&k->fit, 0);
+    k->fit.w = at[0], k->fit.s = at[1];
+    return st;
+}
+
+/* The sum of squares that all windows leave, with a steady line of frequency line in each. */
+static double
+rss_with_line(fitter *k, const ss_window *window, size_t n, double line)
+{
+    double sum = 0;
+    ss_varpro_add_line(&k->fit, line);
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0)
+            sum += ss_varpro_project(&k->fit, window[i]).rss;
+    return sum;
+}
+
+/* A line in every window that explains more than chance is no part of the model, of which the fit
+ * may have taken it for one: it is off by what it moves by beside the line. */
+static ss_status
+add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    const double at[2] = { k->fit.w, k->fit.s };
+    double least = INFINITY, best = 0, ring = 0;
+    size_t used = 0, samples = ss_window_total(window, n);
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        if (ss_window_length(window[i]) <= VARPRO_COLUMNS + 2)
+            return SS_OK;
+        ring += ss_varpro_project(&k->fit, window[i]).ring;
+        used++;
+    }
+    double plain = rss_with_line(k, window, n, 0);
+    for (int l = 0; l < LINES; l++) {
+        double line = at[0] * (LOWEST_LINE + l * (HIGHEST_LINE - LOWEST_LINE) / (LINES - 1));
+        double rss = rss_with_line(k, window, n, line);
+        if (rss < least) {
+            least = rss;
+            best = line;
+        }
+    }
+    double more = 2 * (double)used, left = (double)(samples - (k->fit.columns + 2) * used);
+    double noise = fmax(least / left, MISFIT * MISFIT * ring / (double)samples);
+    double F = (plain - least) / more / noise;
+    ss_status st = SS_OK;
+    if (F > gsl_cdf_fdist_Qinv(CHANCE / LINES, more, left)) {
+        int ok;
+        double variance = -1, with[2];
+        ss_varpro_add_line(&k->fit, best);
+        st = ss_varpro_fit(&k->fit, window, n, FINE, &ok);
+        if (st == SS_OK && ok) {
+            variances(k, window, n, &variance, with);
+            const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
+            for (int j = 0; j < 2; j++)
+                value[j].error = sqrt(value[j].error * value[j].error + moved[j] * moved[j] + with[j]);
+        } else
+            value[0].error = value[1].error = INFINITY;
+    }
+    ss_varpro_add_line(&k->fit, 0);
     k->fit.w = at[0], k->fit.s = at[1];
     return st;
 }
@@ -687,18 +784,23 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
             for (size_t i = 0; i < n; i++)
                 window[i] = cut(k, window[i], longest);
     } while (longest < k->fit.room);
-    if (rings_on(k, window, n)) {
+    int is_on;
+    st = rings_on(k, window, n, &is_on);
+    if (st == SS_OK && is_on) {
         for (size_t i = 0; i < n; i++)
             window[i].end = window[i].first;
         return SS_OK;
     }
     value[0].value = k->fit.w;
     value[1].value = k->fit.s;
-    st = jackknife(k, window, n, value);
+    if (st == SS_OK)
+        st = jackknife(k, window, n, value);
     if (st == SS_OK)
         st = add_misfit(k, window, n, value);
     if (st == SS_OK)
         st = add_slow_part(k, window, n, value);
+    if (st == SS_OK)
+        st = add_line(k, window, n, value);
     if (st == SS_OK)
         add_colour(k, window, n, white, value);
     return st == SS_OK ? fit_each(k, window, n, each) : st;

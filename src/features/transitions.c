@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "features/extent.h"
 #include "features/fold.h"
+#include "features/hum.h"
 #include "features/force.h"
 #include "base/list.h"
 #include "base/sort.h"
@@ -277,12 +278,15 @@ count_crossings(const search *s, const ss_window *window, size_t n, double f, si
     return st;
 }
 
-/* Why what was fitted is no ringing at about omega radians a sample; NULL if it is. */
+/* Why what was fitted to used of n transitions is no ringing at about omega radians a sample; NULL if
+ * it is.  What fewer than half of them show is picked by the fit itself. */
 static const char *
-judge_fit(const ss_value all[2], double omega, size_t used, size_t crossed)
+judge_fit(const ss_value all[2], double omega, size_t n, size_t used, size_t crossed)
 {
     if (isnan(all[0].value) || used < FEW || fabs(log2(all[0].value / omega)) > NEAR)
         return "what recurs lasts under 2 periods or is no damped oscillation";
+    if (2 * used < n)
+        return "fewer than half of the transitions last 2 periods as one oscillation";
     if (2 * crossed > used)
         return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
     if (!(all[1].value > 0))
@@ -292,31 +296,71 @@ judge_fit(const ss_value all[2], double omega, size_t used, size_t crossed)
     return NULL;
 }
 
+/* One fit about the anchors, kept off bars, and its judgement. *why: it is no ringing. */
+static ss_status
+fit_once(const search *s, const size_t *anchor, size_t n, double f, const ss_window *bar, size_t n_bars,
+         ss_window *window, ss_value all[2], ss_value *each, const char **why)
+{
+    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
+    size_t used, crossed;
+    ss_status st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f, isnan(forcing) ? 0 : turn * forcing,
+                                   s->out->noise / s->largest, bar, n_bars, window, all, each);
+    if (st == SS_OK)
+        st = count_crossings(s, window, n, f, &used, &crossed);
+    if (st == SS_OK)
+        *why = judge_fit(all, turn * f, n, used, crossed);
+    return st;
+}
+
+/* Two periods into the longest stretch without jumps and kinks between each anchor and the next: the
+ * stick behind a train of micro-slips. */
+static void
+move_to_sticks(const search *s, const size_t *anchor, size_t n, double f, size_t *moved)
+{
+    const ss_spikes *found = s->out->spikes;
+    for (size_t i = 0; i < n; i++) {
+        double from = (double)anchor[i] / s->rate - 1 / f, longest = 0;
+        double to = (i + 1 < n ? (double)anchor[i + 1] / s->rate : (double)s->n / s->rate) - 1 / f;
+        size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
+        moved[i] = anchor[i];
+        for (; from < to; k++) {
+            if (k < found->n && !cuts(&found->spike[k], f))
+                continue;
+            double next = k < found->n ? fmin(found->spike[k].t, to) : to;
+            if (next - from > longest) {
+                longest = next - from;
+                moved[i] = (size_t)((from + 2 / f) * s->rate);
+            }
+            from = next;
+        }
+        moved[i] = moved[i] < s->n ? moved[i] : s->n - 1;
+    }
+}
+
 /* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
- * smaller one does little harm, so that windows are kept off jumps, and then off kinks, only where
- * nothing can be fitted else that deserves it.  *why: it is no ringing. */
+ * smaller one does little harm, so that windows are kept off jumps, and then off kinks, and then
+ * moved behind trains of these, only where nothing can be fitted else that deserves it.  *why: it is
+ * no ringing. */
 static ss_status
 fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
     ss_value *each, const char **why)
 {
-    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
-    double white = s->out->noise / s->largest;
-    ss_status st = SS_OK;
+    size_t *moved = malloc((n + 1) * sizeof *moved);
+    ss_status st = moved != NULL ? SS_OK : SS_ENOMEM;
     *why = "";
     for (bars which = BAR_GAPS; which <= BAR_EVENTS && st == SS_OK && *why != NULL; which++) {
         ss_window *bar = NULL;
-        size_t n_bars = 0, used, crossed;
+        size_t n_bars = 0;
         st = find_bars(s, which, f, &bar, &n_bars);
-        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps)) {
-            st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f, isnan(forcing) ? 0 : turn * forcing,
-                                 white, bar, n_bars, window, all, each);
-            if (st == SS_OK)
-                st = count_crossings(s, window, n, f, &used, &crossed);
-            if (st == SS_OK)
-                *why = judge_fit(all, turn * f, used, crossed);
+        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps))
+            st = fit_once(s, anchor, n, f, bar, n_bars, window, all, each, why);
+        if (st == SS_OK && *why != NULL && which == BAR_EVENTS && n > 0) {
+            move_to_sticks(s, anchor, n, f, moved);
+            st = fit_once(s, moved, n, f, bar, n_bars, window, all, each, why);
         }
         free(bar);
     }
+    free(moved);
     return st;
 }
 
@@ -328,15 +372,22 @@ fit_and_judge(search *s, const double *about, double f, int singly, ss_window *w
     size_t n = out->n;
     size_t *anchor = malloc((n + 1) * sizeof *anchor);
     ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
+    double repeats = out->repetition_frequency.value;
+    ss_hum hum = SS_HUM_NONE;
     ss_status st = SS_ENOMEM;
     if (anchor != NULL && each != NULL) {
         for (size_t i = 0; i < n; i++)
             anchor[i] = (size_t)(about[i] * s->rate);
-        st = singly ? fit_singly(s, anchor, n, f, window, all, each)
-            : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
+        st = singly || isnan(repeats) ? SS_OK
+            : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
+        if (st == SS_OK)
+            st = singly ? fit_singly(s, anchor, n, f, window, all, each)
+                : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
     }
     if (st == SS_OK && singly)
-        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, 0);
+        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, n, 0);
+    if (st == SS_OK && hum == SS_HUM_HIDDEN)
+        out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
     if (st == SS_OK && out->why_ringing != NULL)
         ss_ringdown_clear(anchor, n, window, all, each);
     if (st == SS_OK) {
@@ -352,6 +403,8 @@ fit_and_judge(search *s, const double *about, double f, int singly, ss_window *w
             }
         }
     }
+    if (st == SS_OK && hum == SS_HUM_SUBTRACTED && out->why_ringing == NULL)
+        out->why_ringing = "fitted to what is left when a steady hum near it is subtracted";
     free(anchor);
     free(each);
     return st;
@@ -530,6 +583,17 @@ find_single(search *s)
 #define LOOKED 5.0              /* periods behind it up to which the band is looked for */
 #define LEFT 2.0                /* periods before the end that are not looked at */
 
+/* Where it may ring behind a transition: behind the last spike of those that are known by spikes. */
+static void
+span_behind(const search *s, size_t i, double period, double *from, double *to, double *last)
+{
+    const ss_transition *tr = &s->out->transition[i];
+    double next = i + 1 < s->out->n ? tr[1].onset : (double)s->n / s->rate;
+    *from = s->spiked ? tr->end + SETTLED / 2 * period : tr->onset + SETTLED * period;
+    *to = s->spiked ? tr->end + LOOKED / 2 * period : tr->onset + LOOKED * period;
+    *last = s->spiked ? next - LEFT / 4 * period : tr->end - LEFT * period;
+}
+
 /* The mean square of |W| over the root of the scale, which is that of the amplitude, over LOOKED less
  * SETTLED periods behind the onsets; 0: fewer than half of the transitions last so long. */
 static double
@@ -539,10 +603,10 @@ power_behind(const search *s, const ss_scale *scale, const double *level)
     double sum = 0, period = 1 / scale->f;
     size_t used = 0;
     for (size_t i = 0; i < out->n; i++) {
-        const ss_transition *tr = &out->transition[i];
-        double from = tr->onset + SETTLED * period, to = tr->onset + LOOKED * period, one = 0;
+        double from, to, last, one = 0;
+        span_behind(s, i, period, &from, &to, &last);
         size_t first = (size_t)ceil(from / (scale->b_num / scale->b_den)), k = first;
-        if (to > tr->end - LEFT * period || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
+        if (to > last || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
                                                          0.5 * (to - from) + ROW_REACH * scale->a))
             continue;
         for (; k < scale->n && ss_scale_b(scale, k) <= to; k++)
@@ -578,31 +642,34 @@ strongest_band(const search *s, double *f)
     return st;
 }
 
-/* The oscillation of the strongest band is fitted; what is finer resolved but weaker is none. */
+/* Fit about two periods behind the transitions. */
 static ss_status
-find_ringing_behind(search *s)
+fit_behind(search *s, double f)
 {
     ss_features *out = s->out;
-    double label = 0;
-    ss_status st = out->n < FEW ? SS_OK : strongest_band(s, &label);
-    double f = true_frequency(s, label);
-    if (st != SS_OK)
-        return st;
-    if (!(label > 0)) {
-        out->why_ringing = "no band of frequencies stands out behind the transitions";
-        return SS_OK;
-    }
     double *about = malloc((out->n + 1) * sizeof *about);
     ss_window *window = malloc((out->n + 1) * sizeof *window);
-    st = SS_ENOMEM;
+    ss_status st = SS_ENOMEM;
     if (about != NULL && window != NULL) {
-        for (size_t i = 0; i < out->n; i++)
-            about[i] = fmin(out->transition[i].onset + 2 / f, (double)(s->n - 1) / s->rate);
-        st = fit_and_judge(s, about, f, 1, window);
+        for (size_t i = 0; i < out->n; i++) {
+            const ss_transition *tr = &out->transition[i];
+            about[i] = fmin((s->spiked ? tr->end : tr->onset) + 2 / f, (double)(s->n - 1) / s->rate);
+        }
+        st = fit_and_judge(s, about, f, !s->spiked, window);
     }
     free(about);
     free(window);
     return st;
+}
+
+/* The oscillation of the strongest band is fitted; what is finer resolved but weaker is none. */
+static ss_status
+find_ringing_behind(search *s)
+{
+    double label = 0;
+    ss_status st = s->out->n < FEW ? SS_OK : strongest_band(s, &label);
+    s->out->why_ringing = "no band of frequencies stands out behind the transitions";
+    return st == SS_OK && label > 0 ? fit_behind(s, true_frequency(s, label)) : st;
 }
 
 /* How far gaps reach for spikes as blunt as those found. */
@@ -649,8 +716,11 @@ find_transitions(search *s)
         if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
             out->n = 0;                 /* the spikes know the times better */
     }
-    if (st == SS_OK && out->n == 0 && spiked)
+    if (st == SS_OK && out->n == 0 && spiked) {
         st = find_spiked(s);
+        if (st == SS_OK)
+            st = find_ringing_behind(s);
+    }
     if (st == SS_OK && out->n == 0 && !s->cycles.modulated)
         st = find_single(s);
     if (st == SS_OK && out->n == 0 && out->spikes->conclusive && s->n < SHORT)

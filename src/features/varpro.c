@@ -1,8 +1,8 @@
 /* varpro.c -- a damped oscillation fitted to windows of a signal; its linear parameters are
  * projected out.
  *
- * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) and a slow part of two to
- * four columns. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
+ * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t), a slow part of two to
+ * four columns, and a steady line if asked for. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
  * projected out of each window (variable projection, Golub and Pereyra 1973, with Kaufman's
  * Jacobian), and two numbers are left to fit to all windows at once, by GSL's Levenberg-Marquardt. */
 #include "features/varpro.h"
@@ -15,7 +15,7 @@
 ss_status
 ss_varpro_init(varpro *v, const double *x, size_t room)
 {
-    enum { PIECES = VARPRO_COLUMNS + VARPRO_DERIVATIVES + 5 };
+    enum { PIECES = VARPRO_COLUMNS + VARPRO_DERIVATIVES + 7 };
     double *at = malloc(PIECES * room * sizeof *at);
     *v = (varpro){ .x = x, .room = room, .memory = at };
     if (at == NULL)
@@ -27,6 +27,7 @@ ss_varpro_init(varpro *v, const double *x, size_t room)
     v->r = at;
     v->slow.cos = at + room, v->slow.sin = at + 2 * room;
     v->ring.cos = at + 3 * room, v->ring.sin = at + 4 * room;
+    v->steady.cos = at + 5 * room, v->steady.sin = at + 6 * room;
     return SS_OK;
 }
 
@@ -41,14 +42,30 @@ ss_varpro_start(varpro *v, double w, double s, double forcing)
 {
     v->w = w, v->s = s;
     v->forcing = forcing;
+    v->line = 0;
     ss_varpro_bend(v, 0);
+}
+
+static void
+count_columns(varpro *v)
+{
+    enum { RING = 2, LINE = 2 };
+    size_t slow = v->is_cubic ? 4 : v->forcing > 0 ? 3 : 2;
+    v->columns = slow + RING + (v->line > 0 ? LINE : 0);
 }
 
 void
 ss_varpro_bend(varpro *v, int is_cubic)
 {
     v->is_cubic = is_cubic;
-    v->columns = is_cubic ? VARPRO_COLUMNS : v->forcing > 0 ? VARPRO_COLUMNS - 1 : VARPRO_COLUMNS - 2;
+    count_columns(v);
+}
+
+void
+ss_varpro_add_line(varpro *v, double line)
+{
+    v->line = line;
+    count_columns(v);
 }
 
 /* In lanes, which do not wait for each other. */
@@ -131,10 +148,16 @@ make_basis(varpro *v, size_t n)
     basis *b = &v->basis;
     size_t c = v->columns - 2;
     if (b->n == n && b->columns == v->columns && b->w == v->w && b->s == v->s
-        && b->forcing == v->forcing)
+        && b->forcing == v->forcing && b->line == v->line)
         return;
-    b->n = n, b->columns = v->columns, b->w = v->w, b->s = v->s, b->forcing = v->forcing;
+    b->n = n, b->columns = v->columns, b->w = v->w, b->s = v->s;
+    b->forcing = v->forcing, b->line = v->line;
     slow_columns(v, b->q, n);
+    if (v->line > 0) {
+        extend(&v->steady, v->line, 0, n);
+        memcpy(b->q[c - 2], v->steady.cos, n * sizeof(double));
+        memcpy(b->q[c - 1], v->steady.sin, n * sizeof(double));
+    }
     extend(&v->ring, v->w, v->s, n);
     memcpy(b->q[c], v->ring.cos, n * sizeof(double));
     memcpy(b->q[c + 1], v->ring.sin, n * sizeof(double));

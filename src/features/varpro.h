@@ -7,7 +7,7 @@
 #include <stickslip/status.h>
 #include "features/window.h"
 
-enum { VARPRO_COLUMNS = 6, VARPRO_DERIVATIVES = 4 };
+enum { VARPRO_COLUMNS = 7, VARPRO_DERIVATIVES = 4 };
 
 /* exp(-s t) cos(w t) and exp(-s t) sin(w t), t in samples, as many samples as were asked for yet. */
 typedef struct wave {
@@ -20,7 +20,7 @@ typedef struct wave {
  * oscillation's.  Windows of one length share it. */
 typedef struct basis {
     size_t n, columns;          /* n is 0: none yet */
-    double w, s, forcing;
+    double w, s, forcing, line;
     double *q[VARPRO_COLUMNS];
     double norm[VARPRO_COLUMNS], cross;        /* of a column less those before; of sin along cos */
 } basis;
@@ -31,8 +31,9 @@ typedef struct varpro {
     double w, s;                /* of the oscillation, per sample */
     double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
     int is_cubic;               /* t^2 (of the line only) and t^3 are in the slow part, too */
-    size_t columns;             /* of the slow part and of the oscillation */
-    wave slow, ring;            /* cos and sin of the forcing; the oscillation */
+    double line;                /* per sample: a steady line that each window has, too; 0: none */
+    size_t columns;             /* of the slow part, the line and the oscillation */
+    wave slow, steady, ring;    /* cos and sin of the forcing and the line; the oscillation */
     basis basis;
     double *r;                  /* the residual */
     double *j[VARPRO_DERIVATIVES];      /* its derivatives; two are by w and by s, two spare */
@@ -56,6 +57,9 @@ void ss_varpro_start(varpro *v, double w, double s, double forcing);
 
 /* Let the slow part bend as a cubic does, or no more. */
 void ss_varpro_bend(varpro *v, int is_cubic);
+
+/* Let each window have a steady line of this frequency per sample, too; 0: no more. */
+void ss_varpro_add_line(varpro *v, double line);
 
 /* Fit the amplitudes to a window of more samples than columns: makes the basis, fills r. */
 linear ss_varpro_project(varpro *v, ss_window win);

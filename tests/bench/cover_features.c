@@ -297,7 +297,7 @@ misses(int part, int of, double bound, int above)
 int
 main(int argc, char *argv[])
 {
-    int draws = argc > 1 ? atoi(argv[1]) : 30, errors = 0;
+    int draws = argc > 1 ? atoi(argv[1]) : 31, errors = 0;
     unsigned long seed = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     tally all[CONDITIONS] = { { 0 } };

@@ -1,0 +1,332 @@
+/* hum.c -- steady lines in a signal that are no part of what repeats in it.
+ *
+ * Under a Hann window of m whole periods, what repeats has all its power in the bins m k - 1, m k and
+ * m k + 1: the others are free for what does not repeat.  A line fills the four bins about it. Where
+ * cycles differ by chance the powers in the free bins are exponential: of N the largest is more than
+ * ten times the next with a chance below N^-9. So up to three lines are taken for hum which stand so
+ * far above all else that is free; more of them, as those of a signal that repeats after two periods
+ * or is forced twice, are left alone.
+ *
+ * The band about the frequency is shifted to zero and thinned first, so that a bin costs little.  The
+ * period must be known to a small part of an oscillation over all m periods: it is sought where the
+ * strongest harmonics have most power.  Long records are treated in parts, as a hum may drift. */
+#include "features/hum.h"
+
+#include <gsl/gsl_fft_complex.h>
+#include <gsl/gsl_fft_real.h>
+#include <gsl/gsl_min.h>
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define BAND 0.5                /* of the frequency, to either side */
+#define ABOVE 10.0              /* a line's power re all others' */
+#define REACH 4.0               /* bins about a line that it may have filled */
+#define CLEAR 0.1               /* of a line's power, in free bins: with less it is not measured well */
+#define SEEN 0.001              /* the same, for it to be looked for */
+enum { LINES = 3, FEWEST = 6, FREE = 16, STRONGEST = 16 };
+enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
+
+typedef struct zoomed {         /* x = Re z exp(i center t) in the band, at t = 0, step, 2 step ... */
+    double complex *z;          /* under the window */
+    size_t n;
+    double step, center;        /* samples, rad a sample */
+    double length;              /* of the window in samples: cycles periods */
+    size_t cycles;
+} zoomed;
+
+typedef struct line {
+    double at;                  /* [bins] */
+    double complex amplitude;
+    double seen;                /* of its power, in free bins */
+} line;
+
+/* Fourier sum at an angular frequency: of a line there, its amplitude. */
+static double complex
+sum_at(const zoomed *zoom, double w)
+{
+    double turn = (w - zoom->center) * zoom->step, c = cos(turn), s = sin(turn);
+    double re = 0, im = 0, at_c = 1, at_s = 0;
+    for (size_t i = 0; i < zoom->n; i++) {
+        double a = creal(zoom->z[i]), b = cimag(zoom->z[i]), next = at_c * c - at_s * s;
+        re += a * at_c + b * at_s;
+        im += b * at_c - a * at_s;
+        at_s = at_c * s + at_s * c;
+        at_c = next;
+    }
+    return 2 * zoom->step / zoom->length * (re + I * im);
+}
+
+static double
+power(double complex z)
+{
+    return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
+/* What a line of amplitude 1 leaves so many bins away. */
+static double complex
+shape(double x)
+{
+    double s = fabs(x) < 1e-6 ? 1 : fabs(fabs(x) - 1) < 1e-6 ? 0.5
+        : sin(M_PI * x) / (M_PI * x) / (1 - x * x);
+    return s * cexp(-I * M_PI * x);
+}
+
+static size_t
+power_of_two(double least)
+{
+    size_t size = 1;
+    while ((double)size < least)
+        size *= 2;
+    return size;
+}
+
+static ss_status
+zoom_in(zoomed *zoom, const double *x, size_t n, double f)
+{
+    size_t size = power_of_two((double)n), middle = (size_t)(f * (double)size);
+    size_t half = (size_t)(BAND * f * (double)size), few = power_of_two(2. * (double)half + 1);
+    double *r = calloc(size, sizeof *r);
+    zoom->z = calloc(few, sizeof *zoom->z);
+    if (r == NULL || zoom->z == NULL) {
+        free(r);
+        return SS_ENOMEM;
+    }
+    for (size_t i = 0; i < n; i++)
+        r[i] = x[i];
+    gsl_fft_real_radix2_transform(r, 1, size);
+    for (size_t j = middle - half; j <= middle + half && j < size / 2; j++)
+        if (j > 0)
+            zoom->z[(j + few - middle) % few] = 2 / (double)size * (r[j] + I * r[size - j]);
+    free(r);
+    gsl_fft_complex_radix2_backward((double *)zoom->z, 1, few);
+    zoom->step = (double)size / (double)few;
+    zoom->center = 2 * M_PI * (double)middle / (double)size;
+    zoom->n = few;
+    return SS_OK;
+}
+
+static void
+apply_window(zoomed *zoom)
+{
+    zoom->n = (size_t)fmin((double)zoom->n, ceil(zoom->length / zoom->step));
+    for (size_t i = 0; i < zoom->n; i++)
+        zoom->z[i] *= 0.5 - 0.5 * cos(2 * M_PI * (double)i * zoom->step / zoom->length);
+}
+
+/* --- the period ------------------------------------------------------------------------------ */
+
+typedef struct harmonics {
+    const zoomed *zoom;
+    size_t n, k[STRONGEST];
+    double power[STRONGEST];
+} harmonics;
+
+/* Keep it if it is one of the strongest. */
+static void
+insert(harmonics *h, size_t k, double strength)
+{
+    size_t i = h->n < STRONGEST ? h->n++ : STRONGEST - 1;
+    if (i == STRONGEST - 1 && h->power[i] > strength)
+        return;
+    for (; i > 0 && h->power[i - 1] < strength; i--) {
+        h->power[i] = h->power[i - 1];
+        h->k[i] = h->k[i - 1];
+    }
+    h->power[i] = strength;
+    h->k[i] = k;
+}
+
+static double
+less_harmonic(double period, void *user)
+{
+    const harmonics *h = user;
+    double sum = 0;
+    for (size_t i = 0; i < h->n; i++)
+        sum -= sqrt(power(sum_at(h->zoom, 2 * M_PI * (double)h->k[i] / period)));
+    return sum;
+}
+
+/* The period at which the strongest harmonics have most, to a thousandth of a bin; as it was where
+ * that has no maximum near it. */
+static ss_status
+refine_period(const zoomed *zoom, double low, double high, double *period)
+{
+    harmonics h = { .zoom = zoom };
+    for (size_t k = (size_t)ceil(low * *period); (double)k <= high * *period; k++)
+        insert(&h, k, power(sum_at(zoom, 2 * M_PI * (double)k / *period)));
+    if (h.n == 0)
+        return SS_OK;
+    double bin = *period * *period / (zoom->length * (double)h.k[0]), best = *period;
+    double least = less_harmonic(best, &h);
+    gsl_function f = { less_harmonic, &h };
+    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    if (m == NULL)
+        return SS_ENOMEM;
+    for (int i = -4; i <= 4; i++) {     /* quarters of a bin */
+        double at = *period + 0.25 * i * bin, found = less_harmonic(at, &h);
+        if (found < least) {
+            least = found;
+            best = at;
+        }
+    }
+    if (gsl_min_fminimizer_set(m, &f, best, best - 0.3 * bin, best + 0.3 * bin) == 0)
+        for (int i = 0; i < 30 && gsl_min_fminimizer_x_upper(m) - gsl_min_fminimizer_x_lower(m) > 1e-3 * bin; i++)
+            if (gsl_min_fminimizer_iterate(m) != 0)
+                break;
+    *period = gsl_min_fminimizer_x_minimum(m);
+    gsl_min_fminimizer_free(m);
+    return SS_OK;
+}
+
+/* --- the lines ------------------------------------------------------------------------------- */
+
+typedef struct comb {
+    size_t first, n, cycles;
+    double complex *bin;        /* [n] from the bin first on */
+    line line[LINES];
+    size_t n_lines;
+} comb;
+
+static int
+is_free(const comb *c, size_t i)
+{
+    size_t phase = (c->first + i) % c->cycles;
+    return phase > 1 && phase < c->cycles - 1;
+}
+
+/* The strongest free bin off the lines that are known; its power into *most.  c->n: there is none. */
+static size_t
+strongest(const comb *c, double *most)
+{
+    size_t best = c->n;
+    *most = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        int is_known = 0;
+        for (size_t l = 0; l < c->n_lines; l++)
+            is_known |= fabs((double)(c->first + i) - c->line[l].at) <= REACH;
+        if (!is_known && is_free(c, i) && power(c->bin[i]) > *most) {
+            *most = power(c->bin[i]);
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* How much of the power in the free bins near bin i a line at a place explains. */
+static double
+explained(const comb *c, size_t i, double at, line *fitted)
+{
+    double complex sum = 0;
+    double norm = 0;
+    for (size_t k = i > REACH ? i - (size_t)REACH : 0; k < c->n && (double)k <= (double)i + REACH; k++)
+        if (is_free(c, k)) {
+            double complex s = shape((double)(c->first + k) - at);
+            sum += conj(s) * c->bin[k];
+            norm += power(s);
+        }
+    *fitted = (line){ at, sum / norm, norm };
+    return norm > SEEN ? power(sum) / norm : 0;
+}
+
+/* The line that explains most about bin i, on ever finer grids. */
+static line
+measure(const comb *c, size_t i)
+{
+    double best = 0;
+    line found = { (double)(c->first + i), 0, 0 }, here;
+    for (double step = 0.25; step > 1e-4; step /= 4) {
+        double middle = found.at;
+        for (int l = -8; l <= 8; l++) {
+            double now = explained(c, i, middle + l * step, &here);
+            if (now > best) {
+                best = now;
+                found = here;
+            }
+        }
+    }
+    return found;
+}
+
+/* Take lines out of the bins; keep as many as stand above all that is left then. */
+static void
+find_lines(comb *c)
+{
+    size_t kept = 0, n_free = 0;
+    double weakest = INFINITY, rest;
+    for (size_t i = 0; i < c->n; i++)
+        n_free += (size_t)is_free(c, i);
+    size_t at = strongest(c, &rest);
+    while (n_free >= FREE && c->n_lines < LINES && at < c->n) {
+        line found = c->line[c->n_lines++] = measure(c, at);
+        for (size_t i = 0; i < c->n; i++)
+            c->bin[i] -= found.amplitude * shape((double)(c->first + i) - found.at);
+        weakest = fmin(weakest, rest);
+        at = strongest(c, &rest);
+        if (rest * ABOVE < weakest)
+            kept = c->n_lines;
+    }
+    c->n_lines = kept;
+}
+
+/* --- all of it ------------------------------------------------------------------------------- */
+
+static ss_status
+subtract_zoomed(zoomed *zoom, double *x, size_t n, double f, double period, ss_hum *found)
+{
+    double low = (1 - BAND) * f, high = fmin((1 + BAND) * f, 0.5);
+    comb c = { .cycles = zoom->cycles };
+    zoom->length = (double)zoom->cycles * period;
+    apply_window(zoom);
+    ss_status st = refine_period(zoom, low, high, &period);
+    double length = (double)zoom->cycles * period;
+    c.first = (size_t)ceil(low * length + REACH);
+    c.n = (size_t)fmax(0, high * length - REACH - (double)c.first);
+    c.bin = malloc((c.n + 1) * sizeof *c.bin);
+    if (st != SS_OK || c.bin == NULL) {
+        free(c.bin);
+        return SS_ENOMEM;
+    }
+    for (size_t i = 0; i < c.n; i++)
+        c.bin[i] = sum_at(zoom, 2 * M_PI * (double)(c.first + i) / length);
+    find_lines(&c);
+    free(c.bin);
+    for (size_t l = 0; l < c.n_lines; l++)
+        if (c.line[l].seen < CLEAR) {
+            *found = SS_HUM_HIDDEN;
+            return SS_OK;
+        }
+    for (size_t l = 0; l < c.n_lines; l++) {
+        double w = 2 * M_PI * c.line[l].at / length;
+        for (size_t i = 0; i < n; i++)
+            x[i] -= creal(c.line[l].amplitude * cexp(I * w * (double)i));
+    }
+    if (c.n_lines > 0 && *found == SS_HUM_NONE)
+        *found = SS_HUM_SUBTRACTED;
+    return SS_OK;
+}
+
+ss_status
+ss_hum_subtract(double *x, size_t n, double f, double period, ss_hum *found)
+{
+    size_t cycles = (size_t)((double)n / period);
+    size_t parts = 1 + (size_t)((double)n * f / PART), each = cycles / parts;
+    ss_status st = SS_OK;
+    *found = SS_HUM_NONE;
+    if (each < FEWEST) {
+        each = FEWEST;
+        parts = cycles / FEWEST;
+    }
+    if ((double)each * period * f > LONGEST)
+        return SS_OK;
+    for (size_t i = 0; i < parts && st == SS_OK; i++) {
+        size_t first = (size_t)((double)(i * each) * period);
+        size_t end = i + 1 < parts ? (size_t)((double)((i + 1) * each) * period) : n;
+        zoomed zoom = { .cycles = (size_t)((double)(end - first) / period) };
+        st = zoom_in(&zoom, x + first, end - first, f);
+        if (st == SS_OK)
+            st = subtract_zoomed(&zoom, x + first, end - first, f, period, found);
+        free(zoom.z);
+    }
+    return st;
+}
