@@ -192,7 +192,10 @@ headers(int variant)
 static ss_status
 read_streams(int variant)
 {
-    static const char *const table[] = {
+    static char array[400];                     /* .npy with a header of 288 bytes, no NUL among them */
+    snprintf(array, sizeof array, "\223NUMPY\1 %c%c%-288sabcd", 288 & 255, 288 >> 8,
+             "{'descr': [('t', '|u1'), ('x', '|u1')], 'shape': (2,), 'fortran_order': False}");
+    const char *const table[] = {
         "time (ms);\"x\";f\ns;m;N\n0,0;1,5;2\n1,0;2,5;3\n2,0;3;4\n",
         "# x y\n 0 1\n 0.25 2\n 0.5 4\n",
         "\"t\",\"Kraft \xe4\"\n0,1\n1,2\n",
@@ -200,23 +203,31 @@ read_streams(int variant)
         "t;x\n0;1\n0,1;2\n7;3\n",
         "t;x\n0;1\n1;\n2;3\n4;5\n",
         "t;x\n0;1\n1;2\n1,5;3\n3;4\n4;5\n",
+        "t,x,label\n0,1,ok\n0.1,2,ok\n0.2,3,\n",
+        "2024-02-28T23:59:59,1\n2024-02-29T00:00:00,2\n",
+        "LabVIEW Measurement\nX_Columns\tMulti\n***End_of_Header***\nY_Unit_Label\tN\tm\nX_Dimension\tTime\tTime\n"
+        "X0\t0\t0\nDelta_X\t0,1\t0,1\n***End_of_Header***\nX_Value\ta\tX_Value\tb\tComment\n0\t1\t0\t2\tnow\n0,1\t3\t0,1\t4\n",
+        "t,x\n0,1\nStep 2\nt,y\n0,1\n0.1,2\n",
+        array,
     };
-    static const ss_read_opts gaps = { .gaps = SS_GAPS_SPLIT }, uneven = { .resample = 7 };
+    static const ss_calibration first = { "1", 2, "N" };
+    static const ss_read_opts gaps = { .gaps = SS_GAPS_SPLIT }, uneven = { .resample = 7 },
+        second = { .table = 2, .from = 0, .to = 1, .calibration = &first, .n_calibrations = 1 };
     ss_signal *back = NULL;
-    const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : NULL;
+    const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : variant == 12 ? &second : NULL;
     const char *from = variant < 2 ? text[variant] : table[variant - 2];
     FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : strlen(from), "r");
     ss_status st = ss_signal_read(&back, in, "in", opts, &err);
     fclose(in);
     ss_signal_free(back);
-    return st >= SS_EDATA && st <= SS_EUNEVEN ? SS_OK : st;
+    return st >= SS_EDATA && st <= SS_ETABLES ? SS_OK : st;
 }
 
 static ss_status
 write_streams(int variant)
 {
     rewind(scrap);
-    return ss_signal_write(signal, scrap, variant == 0 ? SS_TSV : SS_AU, NULL);
+    return ss_signal_write(signal, scrap, (ss_format)variant, NULL);
 }
 
 static ss_status
@@ -616,8 +627,8 @@ static const struct row {
     size_t most;                /* allocations that fail in turn, spread over all; 20 times that
                                    with LONG=1, which is all of them for most rows */
 } row[] = {
-    { "headers", headers, 1, 100 }, { "reading streams", read_streams, 9, 100 },
-    { "writing streams", write_streams, 2, 100 }, { "signals", signals, 8, 100 },
+    { "headers", headers, 1, 100 }, { "reading streams", read_streams, 14, 100 },
+    { "writing streams", write_streams, 3, 100 }, { "signals", signals, 8, 100 },
     { "noises", noises, 1, 100 }, { "simulations", simulations, 3, 100 },
     { "closed forms", closed_forms, 2, 100 }, { "trades", trades, 2, 20 },
     { "transforms", transforms, 6, 30 }, { "streams", streams, 4, 30 },

@@ -151,8 +151,9 @@ FILE *tool_output_kept(const char *path);
 /* Go on writing at this offset; what lies behind it is dropped. */
 void tool_cut(FILE *out, long offset);
 
-/* What --format names: a format of streams. */
+/* What --format names: a format of streams; with words, one that holds them. */
 tool_kind tool_format(const char *text);
+tool_kind tool_format_of_words(const char *text);
 /* What --method names: a method of simulation. */
 const char *tool_method(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */

@@ -45,16 +45,30 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     tool_usage("--output: the ending of '%s' gives the form and must be one of%s", path, list);
 }
 
-tool_kind
-tool_format(const char *text)
+/* What --format names, among those that hold words, or all. */
+static tool_kind
+choose_format(const char *text, int words)
 {
     enum { MOST = 32 };
     const char *name[MOST + 1] = { NULL };
     ss_format format = SS_TSV;
-    for (size_t i = 0; i < MOST && ss_format_name(i) != NULL; i++)
-        name[i] = ss_format_name(i);
+    for (size_t i = 0, n = 0; n < MOST && ss_format_name(i) != NULL; i++)
+        if (ss_format_find(&format, ss_format_name(i)) && (!words || ss_format_has_words(format)))
+            name[n++] = ss_format_name(i);
     ss_format_find(&format, name[tool_choice("--format", text, name)]);
     return (tool_kind)(TOOL_STREAM + format);
+}
+
+tool_kind
+tool_format(const char *text)
+{
+    return choose_format(text, 0);
+}
+
+tool_kind
+tool_format_of_words(const char *text)
+{
+    return choose_format(text, 1);
 }
 
 void

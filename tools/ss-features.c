@@ -22,7 +22,7 @@ static const char usage[] =
 "      --drop=HEIGHT       transitions are falls by more than this, in a force\n"
 "      --threads=N         for the transform (1)\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE       .tsv; - is standard output\n"
+"  -o, --output=FILE       .tsv or .csv; --format=tsv|csv of standard output\n"
 "  -q, --quiet             no warnings\n"
 "  -v, --verbose           report intermediate results\n"
 "  -h, --help              show this text and exit\n"
@@ -35,6 +35,7 @@ enum {
 
 static const struct option longopts[] = {
     { "column", required_argument, NULL, 'c' }, TOOL_READING_LONGOPTS,
+    { "format", required_argument, NULL, TOOL_OPT_FORMAT },
     { "threshold", required_argument, NULL, OPT_THRESHOLD },
     { "norm", required_argument, NULL, OPT_NORM },
     { "fmin", required_argument, NULL, OPT_FMIN },
@@ -51,6 +52,7 @@ typedef struct request {
     ss_features_opts opts;
     tool_reading reading;
     const char *column, *displacement, *force, *output;
+    tool_kind kind;
 } request;
 
 static void
@@ -71,6 +73,7 @@ set_option(request *req, int c)
     case OPT_THREADS:      opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
                            break;
     case 'o':              req->output = optarg; break;
+    case TOOL_OPT_FORMAT:  req->kind = tool_format_of_words(optarg); break;
     default:
         if (!tool_reading_option(&req->reading, c, optarg))
             tool_option(c);
@@ -87,7 +90,7 @@ find_column(const ss_header *head, const char *path, const char *asked, const ch
 int
 main(int argc, char *argv[])
 {
-    request req = { .opts = ss_features_defaults };
+    request req = { .opts = ss_features_defaults, .kind = TOOL_TSV };
     ss_features *features = NULL;
     ss_error err = { 0 };
 
@@ -98,7 +101,7 @@ main(int argc, char *argv[])
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
     tool_reading_end(&req.reading, req.column);
-    tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, TOOL_TSV);
+    tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, req.kind);
     const char *path = tool_input(argc, argv, optind);
 
     ss_signal *signal = tool_read_signal(path, &req.reading.opts);

@@ -29,7 +29,7 @@ static const char usage[] =
 "      --wisdom=FILE      let FFTW measure the fastest FFTs, keep them in FILE\n"
 "      --check            compare with the other method, report the difference\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE      .tsv, .au, .h5 with the signal; --format=tsv|au if none\n"
+"  -o, --output=FILE      .tsv, .au, .csv, or .h5; --format=tsv|au|csv\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 enum {

@@ -23,7 +23,8 @@ static const char usage[] =
 "                        signal does, from SCENE's mass, stiffness and release\n"
 "                        rule (default compliant-light)\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv; with --fit any name (default: standard output)\n"
+"  -o, --output=FILE     .tsv or .csv; --format=tsv|csv of standard output; with\n"
+"                        --fit any name\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 
@@ -224,8 +225,9 @@ main(int argc, char *argv[])
         { "column", required_argument, NULL, 'c' }, { "as", required_argument, NULL, 'a' },
         { "set", required_argument, NULL, 's' }, { "spread", required_argument, NULL, 'p' },
         { "forcing", required_argument, NULL, 'F' }, { "fit", no_argument, NULL, OPT_FIT },
-        TOOL_READING_LONGOPTS, TOOL_LONGOPTS };
-    job j = { .settings = calloc((size_t)argc, sizeof *j.settings), .opts = ss_rank_defaults };
+        TOOL_READING_LONGOPTS,
+        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
+    job j = { .kind = TOOL_TSV, .settings = calloc((size_t)argc, sizeof *j.settings), .opts = ss_rank_defaults };
     int fits = 0;
 
     tool_begin(argv, "ss-rank", usage);
@@ -241,6 +243,7 @@ main(int argc, char *argv[])
         case 'F': j.opts.forcing_frequency = tool_number("--forcing", optarg, 1e-9, 1e12); break;
         case OPT_FIT: fits = 1; break;
         case 'o': j.output = optarg; break;
+        case TOOL_OPT_FORMAT: j.kind = tool_format_of_words(optarg); break;
         default:
             if (!tool_reading_option(&j.reading, c, optarg))
                 tool_option(c);
@@ -251,7 +254,7 @@ main(int argc, char *argv[])
     if (fits)
         tool_writes(j.output);
     else
-        j.kind = tool_output_kind(j.output, TOOL_WORDS, TOOL_TSV);
+        j.kind = tool_output_kind(j.output, TOOL_WORDS, j.kind);
     j.signal_path = optind < argc ? argv[optind] : "-";
     const char *shipped[16];
     size_t n = 0;

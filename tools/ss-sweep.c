@@ -30,7 +30,7 @@ static const char usage[] =
 "  -j, --threads=N       work on N points at a time (1)\n"
 "      --shard=I/N       every N-th point only: index I modulo N\n"
 "  -r, --resume=FILE     append to FILE the rows that it lacks, or begin it\n"
-"  -o, --output=FILE     .tsv, complete or absent (default: standard output)\n"
+"  -o, --output=FILE     .tsv or .csv; --format=tsv|csv of standard output\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_SIMULATE, OPT_PERIOD, OPT_CYCLES, OPT_STEPS, OPT_SETTLE, OPT_METHOD,
@@ -38,6 +38,7 @@ enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_SIMULATE, OPT_PERIOD, OPT_CYCLES, OPT_STE
 
 typedef struct request {
     const char *scene_path, *path, *resume;
+    tool_kind kind;
     const char **settings;
     size_t n_settings;
     ss_axis *axis;
@@ -131,7 +132,7 @@ parse(request *req, int argc, char *argv[])
         { "method", required_argument, NULL, OPT_METHOD },
         { "threads", required_argument, NULL, 'j' },
         { "shard", required_argument, NULL, OPT_SHARD },
-        { "resume", required_argument, NULL, 'r' }, TOOL_LONGOPTS };
+        { "resume", required_argument, NULL, 'r' }, { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     ss_steady_opts *steady = &req->opts.steady;
     ss_error err = { 0 };
 
@@ -159,14 +160,17 @@ parse(request *req, int argc, char *argv[])
         case OPT_SHARD: parse_shard(&req->opts, optarg); break;
         case 'r': req->resume = optarg; break;
         case 'o': req->path = optarg; break;
+        case TOOL_OPT_FORMAT: req->kind = tool_format_of_words(optarg); break;
         default: tool_option(c);
         }
     if (optind == argc)
         tool_usage("SCENE is missing: give a file, or the name of a shipped scene");
     req->scene_path = tool_input(argc, argv, optind);
-    req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, TOOL_TSV));
+    req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, req->kind));
     if (req->resume != NULL && strcmp(req->resume, "-") == 0)
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
+    if (req->resume != NULL && req->kind != TOOL_TSV)
+        tool_usage("--resume needs rows of tsv, which say what sweep they are of");
     if (req->resume != NULL && req->path != NULL)
         tool_usage("--resume and --output exclude each other");
 }
@@ -231,7 +235,7 @@ check_settings(const request *req)
 int
 main(int argc, char *argv[])
 {
-    request req = { .opts = { .steady = ss_steady_defaults, .shards = 1, .threads = 1,
+    request req = { .kind = TOOL_TSV, .opts = { .steady = ss_steady_defaults, .shards = 1, .threads = 1,
                               .sink = write_row, .progress.function = report } };
     ss_error err = { 0 };
 

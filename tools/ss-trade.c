@@ -23,8 +23,8 @@ static const char usage[] =
 "  -t, --target=TOL      write the fastest options of ss-sim, or of ss-morlet,\n"
 "                        that keep x, or W, within TOL\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv, or the work-precision diagram as .gp, .png, .svg\n"
-"                        or .pdf (default: rows on standard output)\n"
+"  -o, --output=FILE     .tsv or .csv, or the work-precision diagram as .gp,\n"
+"                        .png, .svg or .pdf; --format=tsv|csv of standard output\n"
 "  -q, --quiet           no progress; -v, --verbose: report the measurement\n"
 "  -h, --help            show this text; --version: show the version\n";
 
@@ -55,6 +55,7 @@ typedef struct request {
     const char **settings, *column, *output, *path;
     size_t n_settings;
     tool_reading reading;
+    tool_kind kind;
     int dense;
     ss_trade_opts opts;
     char *name;
@@ -160,8 +161,8 @@ main(int argc, char *argv[])
         { "set", required_argument, NULL, 's' }, { "budget", required_argument, NULL, 'b' },
         { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, 'c' },
         { "dense", no_argument, NULL, OPT_DENSE }, TOOL_READING_LONGOPTS,
-        TOOL_LONGOPTS };
-    request req = { .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
+        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
+    request req = { .kind = TOOL_TSV, .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
     ss_plot_opts plot = ss_plot_defaults;
 
     tool_begin(argv, "ss-trade", usage);
@@ -175,6 +176,7 @@ main(int argc, char *argv[])
         case 'b': req.opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
         case 't': req.opts.target = tool_number("--target", optarg, 1e-14, 1); break;
         case 'o': req.output = optarg; break;
+        case TOOL_OPT_FORMAT: req.kind = tool_format_of_words(optarg); break;
         case OPT_DENSE: req.dense = 1; break;
         default:
             if (!tool_reading_option(&req.reading, c, optarg))
@@ -185,7 +187,7 @@ main(int argc, char *argv[])
         tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
     if (optind + 1 != argc)
         tool_usage("unexpected argument '%s'", argv[optind + 1]);
-    tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, TOOL_TSV);
+    tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, req.kind);
     if (req.opts.target > 0 && kind < TOOL_STREAM)
         tool_usage("--target writes options, not a picture");
 

@@ -144,11 +144,12 @@ void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 
 typedef enum ss_format {
     SS_TSV,                     /* text, tab-separated, fewest digits that read back the same */
-    SS_AU                       /* Sun AU, 64-bit float, the header in its annotation */
+    SS_AU,                      /* Sun AU, 64-bit float, the header in its annotation */
+    SS_CSV                      /* a line of names, commas between cells, nothing else: for other programs */
 } ss_format;
 
-/* The name of the i-th format that can be written, which is also the ending of its files: "tsv", "au";
- * NULL after the last. */
+/* The name of the i-th format that can be written, which is also the ending of its files: "tsv", "au",
+ * "csv"; NULL after the last. */
 const char *ss_format_name(size_t i);
 /* 1 and the format of that name, or 0 where none can be written. */
 int ss_format_find(ss_format *found, const char *name);

@@ -38,8 +38,10 @@ static const struct foreign {
     { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV" },
     { "\320\317\021\340", "a workbook", "; save its sheet as CSV" },
     { "MATLAB 5.0 MAT-file", "a MATLAB file older than v7.3",
-      "; in MATLAB, save('FILE', '-v7.3') writes one that can be read" },
-    { "TDSm", "a LabVIEW TDMS file", "; export it as text" },
+      "; in MATLAB, save('FILE', 'x', '-v7.3') writes HDF5; in Python, "
+      "numpy.save('x.npy', scipy.io.loadmat('FILE')['x'])" },
+    { "TDSm", "a LabVIEW TDMS file", "; in Python, nptdms.TdmsFile.read('FILE').as_dataframe(time_index=True)"
+      ".to_csv('run.csv', index_label='t_s')" },
     { "CDF\001", NETCDF }, { "CDF\002", NETCDF },
 };
 

@@ -109,7 +109,7 @@ write_length(struct output *out, const struct format *format, size_t samples, do
         fprintf(out->file, "# samples: %zu\n", samples);
         return;
     }
-    for (int i = 0; i < COEFFICIENT_COLUMNS; i++)
+    for (int i = 0; format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++)
         out->used += format->number(out->buffer + out->used,
                                     i == 2 ? (double)(samples - 1) / rate : 0,
                                     i + 1 == COEFFICIENT_COLUMNS);

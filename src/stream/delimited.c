@@ -12,6 +12,7 @@
 #include "base/utf8.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
+#include "stream/csv.h"
 #include "stream/delimited.h"
 #include "stream/format.h"
 #include "stream/reader.h"
@@ -486,4 +487,12 @@ open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     return st;
 }
 
-const struct format ss_format_delimited = { .name = "csv", .open = open_table };
+const struct format ss_format_delimited = {
+    .name = "csv",
+    .open = open_table,
+    .begin = ss_csv_begin,
+    .number = ss_csv_number,
+    .has_time = 1,
+    .separator = ',',
+    .word = ss_csv_word,
+};

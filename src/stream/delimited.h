@@ -106,8 +106,6 @@ size_t ss_delimited_find_mixed(struct table *t);
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
  * a bad cell: the latter if it begins with a number or stands below a row of names. */
 ss_status ss_delimited_read_names(struct table *t, ss_error *err);
-/* The unit at the end of a name, velocity_in_s, or "": a part of the list of such. */
-const char *ss_unit_of_name(const char *name);
 
 /* Names, units and clock from lines that begin with what they are about: Interval, Delta_X, Unit
  * (delimited_labview.c).  Call behind ss_delimited_read_names. */

@@ -213,8 +213,8 @@ ss_delimited_check_labview(struct table *t, ss_error *err)
         }
     if (t->first_x == 0 || (t->labview && t->layout == LAYOUT_NO))
         return SS_OK;
-    double step = t->n_rows > 1 ? t->value[t->n_columns] - t->value[0] : c.increment;
-    if (fabs(step - 1) < 1e-6 && fabs(c.increment - 1) > 1e-6) {
+    double step = t->n_rows > 1 ? t->value[t->n_columns] - t->value[0] : 1;
+    if (t->n_rows < 2 || (fabs(step - 1) < 1e-6 && fabs(c.increment - 1) > 1e-6)) {
         t->column[0].kind = COLUMN_TEXT;        /* they are numbered */
         return SS_OK;
     }

@@ -23,14 +23,16 @@ struct format {
     int has_time;               /* a column of time is written as the others are */
     int has_notes;              /* lines "# key: value" may stand anywhere */
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
+    void (*word)(FILE *out, const char *word);  /* writes such a cell; NULL: as it is */
 };
 
 /* The list, in the order of ss_format: ss_format_tsv and so on.  That without first bytes is asked last. */
 #define FORMAT_LIST(row) \
     row(tsv) \
     row(au) \
+    row(delimited) \
     row(wav) \
-    row(delimited)
+    row(npy)
 
 #define FORMAT_DECLARATION(name) extern const struct format ss_format_##name;
 FORMAT_LIST(FORMAT_DECLARATION)

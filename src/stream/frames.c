@@ -14,8 +14,8 @@ gather(const unsigned char *p, sample_type type)
     return x;
 }
 
-static double
-decode(const unsigned char *p, sample_type type)
+double
+ss_sample_raw(const unsigned char *p, sample_type type)
 {
     uint64_t bits = gather(p, type);
     if (type.is_float && type.bytes == sizeof(double)) {
@@ -29,10 +29,18 @@ decode(const unsigned char *p, sample_type type)
         memcpy(&x, &half, sizeof x);
         return x;
     }
-    double full = ldexp(1, 8 * (int)type.bytes - 1);        /* to [-1, 1) */
-    if (type.is_unsigned)
-        return (double)bits / full - 1;
-    return (double)bits / full - ((double)bits >= full ? 2 : 0);
+    uint64_t sign = UINT64_C(1) << (8 * type.bytes - 1);
+    if (type.is_unsigned || bits < sign)
+        return (double)bits;
+    return -(double)(~bits & (sign - 1)) - 1;
+}
+
+/* Integers as fractions of full scale, [-1, 1). */
+static double
+decode(const unsigned char *p, sample_type type)
+{
+    double x = ss_sample_raw(p, type);
+    return type.is_float ? x : ldexp(x, 1 - 8 * (int)type.bytes) - (type.is_unsigned ? 1 : 0);
 }
 
 static ss_status

@@ -11,4 +11,7 @@ ss_status ss_frames_columns(ss_header *head, size_t n);
  * may follow them; with reader->is_chunk, nothing but chunks. */
 void ss_frames_begin(ss_reader *reader, sample_type type, uint64_t bytes, uint64_t end);
 
+/* One such value as it is: an integer, or floating point. */
+double ss_sample_raw(const unsigned char *p, sample_type type);
+
 #endif

@@ -69,7 +69,10 @@ ss_rows_word(struct rows *rows, const char *word)
 {
     if (rows->cells++ > 0)
         fputc(rows->format->separator, rows->out);
-    fputs(word, rows->out);
+    if (rows->format->word != NULL)
+        rows->format->word(rows->out, word);
+    else
+        fputs(word, rows->out);
 }
 
 void

@@ -2,7 +2,7 @@
 # that writes signals, coefficients or rows writes it.  It has a line FISH, then its rate, names and
 # numbers with a bar between.
 mkdir -p src/stream bin
-sed 's/^    row(delimited)$/    row(delimited) \\\n    row(fish)/' "$SRC/src/stream/format.h" > src/stream/format.h
+sed 's/^    row(npy)$/    row(npy) \\\n    row(fish)/' "$SRC/src/stream/format.h" > src/stream/format.h
 diff "$SRC/src/stream/format.h" src/stream/format.h | grep -c '^> ' || true
 cat > src/stream/fish.c <<'C'
 #include <stdlib.h>

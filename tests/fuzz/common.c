@@ -17,7 +17,7 @@ fuzz_check(int is_true, const char *what)
 void
 fuzz_check_refusal(ss_status status, const ss_error *err)
 {
-    fuzz_check((status >= SS_EDATA && status <= SS_EUNEVEN) || status == SS_ENOMEM
+    fuzz_check((status >= SS_EDATA && status <= SS_ETABLES) || status == SS_ENOMEM
                || status == SS_ERANGE, "refused as malformed, or beyond what a double holds");
     fuzz_check(err->text[0] != '\0', "refused with a text");
     ss_error shown = *err;

@@ -1,5 +1,5 @@
-/* fuzz_delimited.c -- tables of data-acquisition systems, their clock found, named and given, gaps
- * refused and filled, uneven stamps too. */
+/* fuzz_delimited.c -- tables of data-acquisition systems and arrays of NumPy, their clock found, named and
+ * given, gaps refused and filled, uneven stamps too; one of several tables, a span of it, a factor. */
 #include "fuzz.h"
 
 #include <string.h>
@@ -7,9 +7,11 @@
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
+    static const ss_calibration first = { "1", 1e3, "N" };
     static const ss_read_opts opts[] = {
         { .rate = 0 }, { .time = "1" }, { .rate = 1000 }, { .gaps = SS_GAPS_INTERPOLATE },
-        { .gaps = SS_GAPS_SPLIT }, { .resample = 100 } };
+        { .gaps = SS_GAPS_SPLIT }, { .resample = 100 },
+        { .table = 2, .time_unit = "ms" }, { .from = 0.1, .to = 1e9, .calibration = &first, .n_calibrations = 1 } };
     if (size < 4 || memcmp(bytes, ".snd", 4) == 0)
         return 0;
     for (size_t i = 0; i < sizeof opts / sizeof *opts; i++)

@@ -53,6 +53,28 @@ done
 printf 'RIFF\044\0\0\0WAVEfmt \020\0\0\0\001\0\001\0\100\037\0\0\0\0\0\0\002\0\020\0data\0\0\0\0\0\0\001\002' > au/wav-length0
 printf 'RIFF\0\0\0\0WAVEfmt \020\0\0\0\001\0\002\0\100\037\0\0\0\0\0\0\010\0\030\0data\010\0\0\0abcdefgh' > au/wav-wide
 
+printf 'label,t_s,x\nok,0,1\nlate,0.5,2\nok,1,3\n' > delimited/words
+printf '%s\n' 'when;x' '2024-02-28T23:59:59,5+01:00;1' '2024-02-29T00:00:00,0+01:00;2' > delimited/dates
+printf '%s\n' Date,Time,x 2024/02/28,23:59:59.5,1 2024/02/29,00:00:00.0,2 > delimited/times
+printf '%s\n' 'Step 1' t,Fx sec,N 0,1 0.01,2 '' 'Step 2' t,Fz,Fx sec,N,N 0,1,2 0.01,2,3 > delimited/tables
+printf 'Channel name\ta\tb\nUnit\tN\tg\nInterval\t0.001\t0.001\n1.5\t2.5\n1.0D-2\t2.25\n' > delimited/interval
+for layout in No One Multi; do
+    case $layout in No) row='\t1\t2' ;; One) row='0\t1\t2' ;; *) row='0\t1\t0\t2' ;; esac
+    {
+        printf 'LabVIEW Measurement\t\nX_Columns\t%s\n***End_of_Header***\t\n' $layout
+        for segment in 1 2; do
+            printf 'Channels\t2\nY_Unit_Label\tN\tm\nX_Dimension\tTime\tTime\nX0\t0\t0\nDelta_X\t0,5\t0,5\n'
+            printf '***End_of_Header***\nX_Value\ta\tb\tComment\n%b\tnow\n\n' "$row"
+        done
+    } > delimited/labview-$layout
+done
+npy() { printf '\223NUMPY\001\000%b\000%s\n%b' "$(printf '\\%o' $((${#1} + 1)))" "$1" "$2"; }
+npy "{'descr': '<i2', 'fortran_order': False, 'shape': (3, 2), }" '\001\000\002\000\003\000\004\000\005\000\006\000' \
+    > delimited/npy
+npy "{'descr': '>f4', 'fortran_order': True, 'shape': (2, 2), }" '\077\200\000\000\100\000\000\000\077\200\000\000\077\200\000\000' \
+    > delimited/npy-fortran
+npy "{'descr': [('t', '|u1'), ('', '|V2'), ('x', '<u2')], 'fortran_order': False, 'shape': (2,), }" \
+    '\000zz\001\000\001zz\002\000' > delimited/npy-fields
 printf 't,x\n0,1\n1e-310,2\n2e-310,3\n' > delimited/subnormal-step
 printf '%s\n' 'Time (ms);Force [N];x/mm' '0,0;1,5;-2' '0,5;1,25;3' '1,0;0;4' '1,5;1e-3;5' \
     > delimited/semicolon

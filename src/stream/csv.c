@@ -1,0 +1,42 @@
+/* csv.c -- writing comma-separated values, as RFC 4180 has them: a line of names, then rows.  A cell with a
+ * comma, a quote or a line's end in it stands in quotes; a number that is not known is an empty cell. */
+#include <string.h>
+#include "stream/csv.h"
+
+void
+ss_csv_word(FILE *out, const char *word)
+{
+    if (strcmp(word, "-") == 0)
+        return;
+    if (strpbrk(word, ",\"\r\n") == NULL) {
+        fputs(word, out);
+        return;
+    }
+    fputc('"', out);
+    for (; *word != '\0'; word++)
+        fputs(*word == '"' ? "\"\"" : (char[]){ *word, '\0' }, out);
+    fputc('"', out);
+}
+
+ss_status
+ss_csv_begin(FILE *out, const ss_header *head, const char *magic, ss_error *err)
+{
+    (void)magic, (void)err;
+    if (head->has_time)
+        fputs(head->n_columns > 0 ? "t," : "t", out);
+    for (size_t c = 0; c < head->n_columns; c++) {
+        ss_csv_word(out, head->column[c].name);
+        if (c + 1 < head->n_columns)
+            fputc(',', out);
+    }
+    fputc('\n', out);
+    return ferror(out) ? SS_EIO : SS_OK;
+}
+
+size_t
+ss_csv_number(char *to, double x, int last)
+{
+    size_t n = ss_number_format(to, x);
+    to[n] = last ? '\n' : ',';
+    return n + 1;
+}
