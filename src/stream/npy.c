@@ -27,6 +27,7 @@ struct npy {
     uint64_t shape[2];
     int dimensions;
     size_t rows, columns;
+    int no_memory;
 };
 
 /* --- the header ---------------------------------------------------------------------------- */
@@ -87,6 +88,7 @@ add_field(struct npy *a, const char *name, const char *type)
     struct field f = { .type = type_of(type), .at = a->record };
     if (more != NULL)
         a->field = more;
+    a->no_memory = more == NULL;
     if (more == NULL || f.type.bytes == 0 || a->record > RECORD_MOST || a->n_fields > MAX_COLUMNS)
         return 0;
     a->record += f.type.bytes;
@@ -280,7 +282,8 @@ open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st == SS_OK && t.names == NULL)
         st = ss_delimited_no_memory(&t, err);
     if (st == SS_OK && (!read_dictionary(&a, text) || !arrange(&a)))
-        st = ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', array.astype('f8')) writes "
+        st = a.no_memory ? ss_fail_memory(err, in->name)
+            : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', array.astype('f8')) writes "
                      "one of one or two dimensions that is", in->name, ss_cell_trim(text));
     if (st == SS_OK)
         st = read_records(in, &a, &value, err);
