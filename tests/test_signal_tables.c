@@ -56,6 +56,9 @@ static const struct table_case {
       "ch2[N] ch3[m/s^2]", 2000, 0.25, 2.25 },
     { "LabVIEW with a column of x each", LVM("Multi") SEGMENT "X_Value\tforce\tX_Value\taccel\tComment\n"
       "0.25\t1.5\t0.25\t2.5\n0.2505\t1.25\t0.2505\t2.25\n", NULL, 0, "force[N] accel[m/s^2]", 2000, 0.25, 2.25 },
+    { "LabVIEW with times of too few digits", LVM("One") SEGMENT_OF("0.0000002", "0") "X_Value\ta\tb\tComment\n"
+      "0.000000\t1.5\t2.5\n0.000000\t1.25\t2.25\n0.000000\t1\t2\n0.000001\t7\t8\n", NULL, 0, "a[N] b[m/s^2]",
+      5000000, 0, 8 },
     { "LabVIEW with decimal commas", LVM("No") SEGMENT_OF("0,0005", "0,25") "X_Value\tforce\taccel\tComment\n"
       "\t1,5\t2,5\n\t1,25\t2,25\n", NULL, 0, "force[N] accel[m/s^2]", 2000, 0.25, 2.25 },
     { "headers of National Instruments", "Channel name\tforce\taccel\nUnit\tN\tg\nInterval\t0.001\t0.001\n"

@@ -197,12 +197,26 @@ equal_columns(const struct table *t, size_t a, size_t b)
     return 1;
 }
 
+#define MOST_APART 0.1          /* sample periods that a time may be off, as on any clock */
+#define MOST_ROUNDING 5.1e-7    /* [s] of LabVIEW's six decimals */
+
+/* How far the first column is from rows of this step, at most. */
+static double
+farthest(const struct table *t, double step)
+{
+    double most = 0;
+    for (size_t i = 0; i < t->n_rows; i++)
+        most = fmax(most, fabs(t->value[i * t->n_columns] - t->value[0] - (double)i * step));
+    return most;
+}
+
 /* The times that the header gives to the rows may stand before them too, or the rows' numbers. */
 ss_status
 ss_delimited_check_labview(struct table *t, ss_error *err)
 {
     const struct counted c = t->counted;
-    if (!(c.increment > 0) || c.numbered || t->column[0].kind != COLUMN_NUMBERS)
+    if (!(c.increment > 0) || c.numbered || t->column[0].kind != COLUMN_NUMBERS || t->opts->time != NULL
+        || t->opts->rate > 0)
         return SS_OK;
     if (t->labview && t->layout == LAYOUT_MULTI)
         for (size_t i = 2; i < t->n_columns; i += 2) {
@@ -213,11 +227,12 @@ ss_delimited_check_labview(struct table *t, ss_error *err)
         }
     if (t->first_x == 0 || (t->labview && t->layout == LAYOUT_NO))
         return SS_OK;
-    double step = t->n_rows > 1 ? t->value[t->n_columns] - t->value[0] : 1;
-    if (t->n_rows < 2 || (fabs(step - 1) < 1e-6 && fabs(c.increment - 1) > 1e-6)) {
-        t->column[0].kind = COLUMN_TEXT;        /* they are numbered */
-        return SS_OK;
+    if (farthest(t, c.increment) <= fmax(MOST_APART * c.increment, MOST_ROUNDING)) {
+        t->counted.origin = t->value[0];
+    } else if (farthest(t, 1) > 1e-6) {         /* nor are they numbered */
+        t->counted = (struct counted){ 0, 0, 0 };
+        return take_first(t, err);
     }
-    t->counted = (struct counted){ 0, 0, 0 };
-    return take_first(t, err);
+    t->column[0].kind = COLUMN_TEXT;
+    return SS_OK;
 }

@@ -35,7 +35,7 @@ done
 
 echo "uneven stamps"
 for x in 5e-324 1 1e307 1.7e308; do
-    printf 't,x\n0,%s\n0.9,-%s\n2.1,%s\n3,-%s\n4,%s\n' $x $x $x $x $x > uneven.csv
+    printf 't_s,x\n0,%s\n0.9,-%s\n2.1,%s\n3,-%s\n4,%s\n' $x $x $x $x $x > uneven.csv
     ss-cat --resample 1 uneven.csv 2>&1 | grep -v '^#'
 done
-printf 't,x\n0,1\n1e-300,2\n2.1e-300,1e9\n3e-300,4\n4e-300,1\n' | ss-cat --resample 1e300 2>&1 || echo "exit $?"
+printf 't,x\n0,1\n1e-300,2\n2.1e-300,1e9\n3e-300,4\n4e-300,1\n' | ss-cat --time-unit s --resample 1e300 2>&1 || echo "exit $?"
