@@ -117,7 +117,7 @@ static int
 has_word(const char *name, const char *const *word)
 {
     for (; *word != NULL; word++)
-        for (const char *p = name; p != NULL; p = strpbrk(p, "_ "), p += p != NULL)
+        for (const char *p = name; *p != '\0'; p += strcspn(p, "_ "), p += *p != '\0')
             if (strncasecmp(p, *word, strlen(*word)) == 0)
                 return 1;
     return 0;
