@@ -120,6 +120,102 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
         }
 }
 
+static int
+to_store(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
+{
+    return ss_store_writer_rows(user, scale, first, n, w, samples, NULL) != SS_OK;
+}
+
+/* The file's size after a transform of x has been written as a whole, or as a stream in pieces. */
+static long
+write_transform(const ss_signal *signal, const ss_morlet_opts *opts, int stream)
+{
+    ss_morlet *plan = NULL;
+    ss_stream *flow = NULL;
+    ss_store_writer *writer = NULL;
+    ss_coefficients grid = { .n = stream ? 0 : signal->n, .center = opts->center };
+    const double *x = signal->values + signal->n;
+    struct stat st;
+    assert_int_equal(ss_morlet_new(&plan, signal->n, signal->head->rate, opts, NULL), SS_OK);
+    assert_int_equal(ss_coefficients_header(&grid.head, signal->head, 1, grid.n, opts), SS_OK);
+    grid.n_scales = ss_morlet_scales(plan);
+    grid.scale = malloc(grid.n_scales * sizeof *grid.scale);
+    memcpy(grid.scale, ss_morlet_scale(plan, 0), grid.n_scales * sizeof *grid.scale);
+    assert_int_equal(ss_store_writer_new(&writer, path, NULL, &grid, NULL), SS_OK);
+    if (stream) {
+        assert_int_equal(ss_stream_new(&flow, signal->head->rate, opts, to_store, writer, NULL), SS_OK);
+        assert_int_equal(ss_stream_push(flow, x, signal->n, NULL), SS_OK);
+        assert_int_equal(ss_stream_end(flow, NULL), SS_OK);
+    } else
+        assert_int_equal(ss_morlet_each(plan, x, to_store, writer, NULL), SS_OK);
+    assert_int_equal(ss_store_writer_end(writer, signal->n, NULL), SS_OK);
+    ss_store_writer_free(writer);
+    ss_stream_free(flow);
+    ss_morlet_free(plan);
+    ss_header_free(grid.head);
+    free(grid.scale);
+    assert_int_equal(stat(path, &st), 0);
+    return (long)st.st_size;
+}
+
+/* The largest error of what the file holds, in units of the accuracy times the largest |W| of its
+ * scale, by the sum. */
+static double
+error_of_file(const ss_signal *signal, const ss_morlet_opts *opts)
+{
+    ss_coefficients *back = NULL;
+    ss_morlet_opts exact = *opts;
+    ss_morlet *plan = NULL;
+    double worst = 0;
+    exact.engine = SS_ENGINE_QUADRATURE, exact.accuracy = 1e-13, exact.rounded = 0, exact.force = 1;
+    assert_int_equal(ss_store_read_coefficients(&back, path, NULL), SS_OK);
+    assert_int_equal(ss_morlet_new(&plan, signal->n, signal->head->rate, &exact, NULL), SS_OK);
+    assert_int_equal(ss_morlet_scales(plan), back->n_scales);
+    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    assert_int_equal(ss_morlet_execute(plan, signal->values + signal->n, w, NULL), SS_OK);
+    for (size_t i = 0; i < back->n_scales; i++) {
+        const ss_scale *scale = &back->scale[i];
+        double most = 0, error = 0;
+        assert_int_equal(scale->offset, ss_morlet_scale(plan, i)->offset);
+        for (size_t k = scale->offset; k < scale->offset + scale->n; k++) {
+            most = fmax(most, hypot(w[2 * k], w[2 * k + 1]));
+            error = fmax(error, hypot(w[2 * k] - back->w[2 * k], w[2 * k + 1] - back->w[2 * k + 1]));
+        }
+        worst = fmax(worst, error / (opts->accuracy * most));
+    }
+    free(w);
+    ss_morlet_free(plan);
+    ss_coefficients_free(back);
+    return worst;
+}
+
+/* 20 bits of noise and some more are needed of 64, and 10. */
+static void
+rounded_coefficients_keep_the_accuracy_in_half_the_bytes(void **state)
+{
+    static const double accuracy[] = { 1e-6, 1e-3, 1e-12 }, part[] = { 0.5, 0.3, 0.9 };
+    ss_signal *signal = new_signal(20000);
+    double *x = signal->values + signal->n;
+    (void)state;
+    memset(x, 0, signal->n * sizeof *x);
+    ss_noise_add_once(x, signal->n, 1, 1);
+    for (int row = 0; row < 12; row++) {
+        int stream = row % 2;
+        ss_morlet_opts opts = ss_morlet_defaults;
+        opts.accuracy = accuracy[row / 4], opts.dense = row / 2 % 2, opts.voices = 4;
+        opts.fmin = 2, opts.fmax = 40;
+        long whole = write_transform(signal, &opts, stream);
+        opts.rounded = 1;
+        long size = write_transform(signal, &opts, stream);
+        double error = error_of_file(signal, &opts);
+        int small = !opts.dense || (double)size < part[row / 4] * (double)whole;    /* rows are short */
+        if (!(error <= 1 && error > 0.1 && small))
+            fail_msg("accuracy %g, row %d: error %g, %ld of %ld bytes", opts.accuracy, row, error,
+                     size, whole);
+    }
+    ss_signal_free(signal);
+}
+
 static void
 scales_can_be_read_one_by_one(void **state)
 {
@@ -317,6 +413,7 @@ main(void)
         cmocka_unit_test(a_signal_reads_back_exactly),
         cmocka_unit_test(coefficients_read_back_exactly),
         cmocka_unit_test(a_file_made_piece_by_piece_reads_back_exactly),
+        cmocka_unit_test(rounded_coefficients_keep_the_accuracy_in_half_the_bytes),
         cmocka_unit_test(scales_can_be_read_one_by_one),
         cmocka_unit_test(edges_and_times_are_those_of_the_whole),
         cmocka_unit_test(events_are_stored_with_their_kinds_as_words),

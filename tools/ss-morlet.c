@@ -27,7 +27,7 @@ static const char usage[] =
 "      --stream           write coefficients as they are complete; needs --fmin\n"
 "      --inverse          read coefficients, write the signal that has them\n"
 "      --wisdom=FILE      let FFTW measure the fastest FFTs, keep them in FILE\n"
-"      --check            compare with the other method, report the difference\n"
+"      --check            compare methods; --exact-bits: no rounding in HDF5\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE      .tsv, .au, .csv, or .h5; --format=tsv|au|csv\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
@@ -35,7 +35,8 @@ TOOL_READING_USAGE
 enum {
     OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
     OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_WISDOM, OPT_CHECK
+    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_WISDOM, OPT_CHECK,
+    OPT_EXACT_BITS
 };
 
 static const struct option longopts[] = {
@@ -59,6 +60,7 @@ static const struct option longopts[] = {
     { "inverse", no_argument, NULL, OPT_INVERSE },
     { "wisdom", required_argument, NULL, OPT_WISDOM },
     { "check", no_argument, NULL, OPT_CHECK },
+    { "exact-bits", no_argument, NULL, OPT_EXACT_BITS },
     { "format", required_argument, NULL, TOOL_OPT_FORMAT },
     TOOL_LONGOPTS
 };
@@ -73,7 +75,7 @@ typedef struct request {
     tool_reading reading;
     const char *column, *output, *wisdom;
     int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
-    int stream, inverse, check;
+    int stream, inverse, check, exact_bits;
     int accurate;                       /* --accuracy was given */
     int transforms;                     /* an option was given that is of the transform alone */
     tool_kind kind;                     /* what is written */
@@ -123,6 +125,7 @@ set_option(request *req, int c)
                          opts->planner = SS_PLANNER_MEASURE;
                          break;
     case OPT_CHECK:      req->check = 1; break;
+    case OPT_EXACT_BITS: req->exact_bits = 1; break;
     case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
     case 'o':            req->output = optarg; break;
     default:
@@ -157,6 +160,9 @@ check_request(request *req)
     if (req->stream && req->check)
         tool_usage("--stream excludes --check, which needs the whole record");
     req->kind = tool_output_kind(req->output, TOOL_SIGNALS, req->kind);
+    if (req->exact_bits && req->kind != TOOL_H5)
+        tool_usage("--exact-bits needs an output in HDF5; other forms keep all bits");
+    opts->rounded = req->kind == TOOL_H5 && !req->exact_bits && !req->inverse;
 }
 
 /* Report a library call's failure with the input's name. */

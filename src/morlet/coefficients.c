@@ -80,6 +80,7 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
         || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
         || ss_header_note(head, "detrend", detrend_name[opts->detrend])
         || note_number(head, "accuracy", opts->accuracy)
+        || (opts->rounded && ss_header_note(head, "rounded", "yes"))
         || ss_header_note(head, "method", engine_name[opts->engine])
         || ss_header_note(head, "label", "f = center / (2 pi a)");
     return failed ? SS_ENOMEM : SS_OK;

@@ -11,6 +11,7 @@ fill_plan(ss_morlet *plan, ss_error *err)
 {
     ss_status st = ss_morlet_grid(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
                                   err);
+    ss_morlet_leave_rounding(&plan->opts);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
         plan->scale[i].offset = plan->total;
         plan->total += plan->scale[i].n;

@@ -788,6 +788,7 @@ prepare(ss_stream *s, ss_error *err)
     ss_status st = ss_morlet_grid(&s->scale, &s->n_scales, 0, s->rate, &s->opts, err);
     if (st != SS_OK)
         return st;
+    ss_morlet_leave_rounding(&s->opts);
     s->state = calloc(s->n_scales, sizeof *s->state);
     if (s->state == NULL)
         return SS_ENOMEM;

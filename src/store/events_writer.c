@@ -25,13 +25,13 @@ ss_h5_write_events(h5_file *file, const ss_event *event, size_t n)
         direction[i] = event[i].direction;
     }
     const h5_dataset v[] = {
-        { "t", "s", "time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real, 0, 3, 0 },
+        { "t", "s", "time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real, 0, 3, 0, 0 },
         { "kind", &none, "what begins: stick, slip, or slip the other way", text, text, kind, 0, 1,
-          0 },
-        { "x", "m", "displacement", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real, 1, 3, 0 },
-        { "v", "m/s", "velocity", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real, 2, 3, 0 },
+          0, 0 },
+        { "x", "m", "displacement", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real, 1, 3, 0, 0 },
+        { "v", "m/s", "velocity", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real, 2, 3, 0, 0 },
         { "direction", "1", "sign of the slip that begins, or ended at a stick", H5T_STD_I8LE,
-          H5T_NATIVE_INT, direction, 0, 1, 0 },
+          H5T_NATIVE_INT, direction, 0, 1, 0, 0 },
     };
     if (status == SS_OK)
         status = ss_h5_write_lists(file, group, v, sizeof v / sizeof *v, n);

@@ -37,6 +37,7 @@ typedef struct wavelet_writer {
     ss_span *gap;
     size_t n_gaps;
     char *unit;                 /* of the coefficients */
+    double tolerance;           /* of rounding, re the largest |W| of a scale; 0: all bits stay */
     int dense;
     hid_t group;
     struct rows *rows;          /* of each scale; if dense, the first has the datasets of all */

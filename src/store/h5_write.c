@@ -80,7 +80,7 @@ layout(const h5_dataset *v, int rank, const hsize_t dims[])
     H5Pset_chunk(plist, rank, chunk);
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
         H5Pset_shuffle(plist);
-        H5Pset_deflate(plist, 4);
+        H5Pset_deflate(plist, v->fast ? 1 : 4);
     }
     return plist;
 }

@@ -14,6 +14,7 @@ typedef struct h5_dataset {
     size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
     hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
                                    kept in chunks of so many values of a row */
+    int fast;                   /* 1: deflate fast; else well */
 } h5_dataset;
 
 /* What the writers of all groups share: the clock of the file, and room for a piece of values. */

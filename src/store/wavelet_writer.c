@@ -11,6 +11,7 @@
 struct rows {
     hid_t time, re, im, edge;
     size_t done;
+    double most;                /* the largest |W| so far */
 };
 
 /* One coefficient a sample at every scale, so that all share one line of times? */
@@ -51,9 +52,9 @@ open_rows(wavelet_writer *w, hid_t group, size_t i)
         { .name = "time", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
           .chunk = chunk },
         { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient",
-          .file_type = H5T_IEEE_F64LE, .chunk = chunk },
+          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .fast = w->tolerance > 0 },
         { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient",
-          .file_type = H5T_IEEE_F64LE, .chunk = chunk },
+          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .fast = w->tolerance > 0 },
         { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
           .file_type = H5T_STD_U8LE, .chunk = chunk },
     };
@@ -89,13 +90,13 @@ open_dense(wavelet_writer *w)
         memcpy(row + 4 * i, of, sizeof of);
     }
     const h5_dataset v[] = {
-        { "scale", "s", "scale a", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, 0, 4, 0 },
+        { "scale", "s", "scale a", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, 0, 4, 0, 0 },
         { "frequency", "Hz", "frequency label omega_c / (2 pi a)", H5T_IEEE_F64LE,
-          H5T_NATIVE_DOUBLE, row, 1, 4, 0 },
+          H5T_NATIVE_DOUBLE, row, 1, 4, 0, 0 },
         { "m", "1", "log2 of the scale in seconds", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, 2, 4,
-          0 },
+          0, 0 },
         { "j", "1", "number of the scale, a = 2^(j/voices) s", H5T_STD_I32LE, H5T_NATIVE_DOUBLE,
-          row, 3, 4, 0 },
+          row, 3, 4, 0, 0 },
     };
     ss_status st = ss_h5_write_lists(w->pieces->file, w->group, v, sizeof v / sizeof *v, w->n_scales);
     free(row);
@@ -133,7 +134,7 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
         return SS_ENOMEM;
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->rows[i] = (struct rows){ -1, -1, -1, -1, 0 };
+        w->rows[i] = (struct rows){ -1, -1, -1, -1, 0, 0 };
     w->dense = is_dense(w);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
 }
@@ -186,6 +187,24 @@ close_rows(struct rows *r)
     return good;
 }
 
+/* Added and subtracted, this rounds to a multiple of the largest power of two that is at most
+ * TOL/sqrt(2) x most: re and im are off by half of that, W by TOL/2 x most.  0: all bits are kept. */
+static double
+rounding_of(double tolerance, double most)
+{
+    double unit = tolerance * M_SQRT1_2 * most;
+    return tolerance >= 2e-13 && unit > 1e-280 && unit < 1e280 ? ldexp(0x1.8p52, ilogb(unit)) : 0;
+}
+
+static double
+largest_of(const double *x, size_t n, double most)
+{
+    double square = 0;
+    for (size_t k = 0; k < n; k++)
+        square = fmax(square, x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1]);
+    return fmax(most, sqrt(square));
+}
+
 /* n coefficients of scale i, as many as fit into a piece. */
 static int
 write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
@@ -196,9 +215,10 @@ write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t sample
     size_t first = w->rows[i].done;
     int rank = w->dense ? 2 : 1;
     const hsize_t where[2] = { i, first }, *at = where + 2 - rank;
+    double shift = rounding_of(w->tolerance, w->rows[i].most);
     for (size_t k = 0; k < n; k++) {
-        p->value[0][k] = x[2 * k];
-        p->value[1][k] = x[2 * k + 1];
+        p->value[0][k] = x[2 * k] + shift - shift;
+        p->value[1][k] = x[2 * k + 1] + shift - shift;
         p->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, p->rate, p->start, w->gap,
                                                  w->n_gaps);
     }
@@ -212,6 +232,7 @@ ss_status
 ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
     struct rows *rows = &w->rows[i];
+    rows->most = w->tolerance > 0 ? largest_of(x, n, rows->most) : 0;
     for (size_t m; n > 0; n -= m, x += 2 * m) {
         m = n < H5_PIECE ? n : H5_PIECE;
         if (!write_rows(w, i, m, x, samples))

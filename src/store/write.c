@@ -69,6 +69,10 @@ begin_empty(ss_store_writer **out, const char *path, const ss_header *signal,
     w->pieces.growing = grid->n == 0;
     if (signal != NULL)
         st = ss_signal_writer_open(&w->signal, &w->pieces, signal, grid->n);
+    const char *rounded = ss_header_find_note(grid->head, "rounded");
+    const char *accuracy = ss_header_find_note(grid->head, "accuracy");
+    if (rounded != NULL && accuracy != NULL)
+        w->wavelet.tolerance = strtod(accuracy, NULL);
     return st == SS_OK ? ss_wavelet_writer_open(&w->wavelet, &w->pieces, grid) : st;
 }
 
