@@ -174,6 +174,8 @@ touch_rows(map *m, size_t row, size_t beside, touch *meet)
     const line *a = &m->line[row - m->first], *b = &m->line[beside - m->first];
     double ratio = from->b_num / from->b_den / (to->b_num / to->b_den);
     for (size_t i = a->lo; i < a->hi; i++) {
+        if (m->level[a->at + (i - a->lo)] == 0)         /* most of noise is */
+            continue;
         double at = (double)i * ratio + 0.5;
         size_t j = at < (double)to->n ? (size_t)at : to->n - 1;
         if (j >= b->lo && j < b->hi)

@@ -35,10 +35,10 @@ multiply(double *x, size_t n, double factor)
 }
 
 static void
-normalise(record *rec)
+normalise(record *rec, double most)
 {
     int e;
-    rec->x_max = frexp(largest(rec->x, rec->n), &e);
+    rec->x_max = frexp(most, &e);
     for (int left = -e; left != 0;) {       /* 2^-e may be too large for a double */
         int step = left > 1000 ? 1000 : left < -1000 ? -1000 : left;
         multiply(rec->x, rec->n, ldexp(1, step));
@@ -69,7 +69,8 @@ subtract(record *rec, ss_detrend detrend)
 ss_status
 ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
 {
-    size_t i = largest(x, n) <= DBL_MAX ? n : 0;
+    double most = largest(x, n);
+    size_t i = most <= DBL_MAX ? n : 0;
     for (; i < n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", i + 1,
@@ -78,10 +79,10 @@ ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_
     if (rec->x == NULL)
         return SS_ENOMEM;
     memcpy(rec->x, x, n * sizeof *x);
-    normalise(rec);
+    normalise(rec, most);
     if (detrend != SS_DETREND_NONE) {
         subtract(rec, detrend);
-        normalise(rec);
+        normalise(rec, largest(rec->x, n));
     }
     return SS_OK;
 }
