@@ -206,6 +206,49 @@ finds_two_tone_bursts(void **state)
     ss_signal_free(signal);
 }
 
+/* So long that the map is passed over in several strips, with a burst at each quarter of the record,
+ * where strips may meet: each burst is one maximum, and all are alike. */
+static void
+a_long_map_has_the_maxima_of_a_short_one(void **state)
+{
+    enum { RATE = 1000, EVERY = 500, N = 1600 * EVERY };
+    ss_header *head = ss_header_new(RATE, 0);
+    ss_signal *signal;
+    ss_coefficients *coef;
+    ss_maximum *peak;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    size_t n = 0, inside = 0;
+    double least = INFINITY, most = 0;
+    (void)state;
+    ss_header_add_column(head, "a", "");
+    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+    for (size_t i = 0; i < N; i++) {
+        double u = ((double)((i + EVERY / 2) % EVERY) - EVERY / 2.) / 80;
+        signal->values[i] = exp(-u * u / 2) * cos(2 * M_PI * 50 * 80. / RATE * u);
+    }
+    opts.fmin = 20, opts.fmax = 120;
+    assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
+    assert_true(coef->scale[coef->n_scales - 1].offset > 4 << 20);
+    assert_int_equal(ss_maxima_find(&peak, &n, coef, 20), SS_OK);
+    for (size_t i = 0; i < n; i++) {
+        double at = peak[i].t * RATE;
+        if (at < EVERY / 2. || at > N - EVERY / 2.)     /* a burst that an end cuts */
+            continue;
+        inside++;
+        assert_true(fabs(at - EVERY * (double)inside) < 10);
+        assert_true(fabs(log2(peak[i].f / 50)) < 0.1);
+        least = fmin(least, peak[i].prominence);
+        most = fmax(most, isfinite(peak[i].prominence) ? peak[i].prominence : 0);
+    }
+    assert_int_equal(inside, N / EVERY - 1);
+    if (!(most - least < 3))
+        fail_msg("prominences of %g to %g dB", least, most);
+    free(peak);
+    ss_coefficients_free(coef);
+    ss_signal_free(signal);
+    ss_header_free(head);
+}
+
 int
 main(void)
 {
@@ -216,6 +259,7 @@ main(void)
         cmocka_unit_test(silence_has_no_maxima),
         cmocka_unit_test(spikes_are_the_maxima_of_one_scale),
         cmocka_unit_test(finds_two_tone_bursts),
+        cmocka_unit_test(a_long_map_has_the_maxima_of_a_short_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
