@@ -1,4 +1,4 @@
-/* load.c -- open a path with any kind of signal. */
+/* load.c -- open a path with any kind of signal, or with the measured base of a scene. */
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,6 +9,7 @@
 #include <stickslip/store.h>
 #include "base/error.h"
 #include "stream/calibration.h"
+#include "scene/model.h"
 
 static ss_status
 load_stream(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
@@ -92,4 +93,101 @@ ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_e
                                  colon + 1);
     free(file);
     return status;
+}
+
+/* --- a measured base ------------------------------------------------------------------------ */
+
+/* POSIX's cksum: the CRC of the bytes and of their number, whose lowest byte comes first. */
+static unsigned long
+crc_further(unsigned long crc, unsigned long byte)
+{
+    crc ^= byte << 24;
+    for (int i = 0; i < 8; i++)
+        crc = (crc << 1 ^ (crc & 0x80000000 ? 0x04c11db7 : 0)) & 0xffffffff;
+    return crc;
+}
+
+/* Of the file, or of that before ":/". */
+static ss_status
+sum_file(char text[48], const char *path, ss_error *err)
+{
+    struct stat st;
+    const char *colon = stat(path, &st) == 0 ? NULL : strstr(path, ":/");
+    char *file = strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    FILE *in = fopen(file, "rb");
+    int why = errno;
+    free(file);
+    if (in == NULL)
+        return ss_fail_errno(err, path, why);
+    unsigned long crc = 0;
+    unsigned long long size = 0;
+    for (int c; (c = getc(in)) != EOF; size++)
+        crc = crc_further(crc, (unsigned long)c);
+    why = ferror(in) ? errno : 0;
+    fclose(in);
+    for (unsigned long long n = size; n > 0; n >>= 8)
+        crc = crc_further(crc, (unsigned long)(n & 0xff));
+    snprintf(text, 48, "%lu %llu", ~crc & 0xffffffff, size);
+    return why == 0 ? SS_OK : ss_fail_errno(err, path, why);
+}
+
+/* -1 if there is none. */
+static int
+base_column(const ss_header *head, const char *name)
+{
+    if (name != NULL && *name != '\0')
+        return ss_header_column(head, name);
+    return head->n_columns == 1 ? 0 : ss_header_column(head, "z");
+}
+
+ss_status
+ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err)
+{
+    static const ss_read_opts opts = { 0 };
+    ss_signal *signal = NULL;
+    ss_base *b = NULL;
+    ss_error why = { 0 };
+    if (base == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_signal_load(&signal, path, &opts, err);
+    if (st != SS_OK)
+        return st;
+    int c = base_column(signal->head, column);
+    if (c < 0)
+        st = ss_fail(err, SS_EDATA, "%s: no column '%s'", path,
+                     column != NULL && *column != '\0' ? column : "z");
+    else if ((st = ss_base_new(&b, signal, (size_t)c, &why)) != SS_OK)
+        ss_fail(err, st, "%s: %s", path, why.text);
+    ss_signal_free(signal);
+    if (st == SS_OK)
+        st = sum_file(b->cksum, path, err);
+    if (st == SS_OK)
+        *base = b;
+    else
+        ss_base_free(b);
+    return st;
+}
+
+ss_status
+ss_scene_load_base(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err)
+{
+    if (base == NULL || scene == NULL || scene_path == NULL)
+        return SS_FAIL_NULL(err);
+    const char *slash = strrchr(scene_path, '/');
+    size_t folder = slash != NULL ? (size_t)(slash - scene_path) + 1 : 0;
+    *base = NULL;
+    if (*scene->base_file == '\0')
+        return SS_OK;
+    char *path = malloc(folder + sizeof scene->base_file);
+    if (path == NULL)
+        return ss_fail_memory(err, scene->base_file);
+    memcpy(path, scene_path, folder);
+    strcpy(path + folder, scene->base_file);
+    ss_status st = ss_base_load(base, path, scene->base_column, err);
+    free(path);
+    if (st == SS_OK)
+        scene->base = *base;
+    return st;
 }

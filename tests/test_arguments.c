@@ -44,6 +44,14 @@ readers_refuse_null(void **state)
     assert_refused(ss_scene_load(&read, NULL, NULL, 0, &e), &e);
     assert_refused(ss_scene_load(&read, "coulomb", NULL, 1, &e), &e);
     assert_refused(ss_scene_check(NULL, &e), &e);
+    ss_base *base;
+    assert_refused(ss_scene_load_base(NULL, &read, "a", &e), &e);
+    assert_refused(ss_scene_load_base(&base, NULL, "a", &e), &e);
+    assert_refused(ss_scene_load_base(&base, &read, NULL, &e), &e);
+    assert_refused(ss_base_load(NULL, "a", NULL, &e), &e);
+    assert_refused(ss_base_load(&base, NULL, NULL, &e), &e);
+    assert_refused(ss_base_new(&base, NULL, 0, &e), &e);
+    ss_base_free(NULL);
     assert_refused(ss_reader_new(NULL, in, "in", NULL, &e), &e);
     assert_refused(ss_reader_new(&reader, NULL, "in", NULL, &e), &e);
     assert_refused(ss_reader_new(&reader, in, NULL, NULL, &e), &e);

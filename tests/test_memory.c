@@ -262,6 +262,15 @@ noises(int variant)
 }
 
 static ss_status
+bases(int variant)
+{
+    ss_base *base = NULL;
+    ss_status st = ss_base_new(&base, signal, (size_t)variant, &err);
+    ss_base_free(base);
+    return st;
+}
+
+static ss_status
 simulations(int variant)
 {
     ss_signal *made = NULL;
@@ -629,7 +638,8 @@ static const struct row {
 } row[] = {
     { "headers", headers, 1, 100 }, { "reading streams", read_streams, 14, 100 },
     { "writing streams", write_streams, 3, 100 }, { "signals", signals, 8, 100 },
-    { "noises", noises, 1, 100 }, { "simulations", simulations, 3, 100 },
+    { "noises", noises, 1, 100 }, { "bases", bases, 1, 100 },
+    { "simulations", simulations, 3, 100 },
     { "closed forms", closed_forms, 2, 100 }, { "trades", trades, 2, 20 },
     { "transforms", transforms, 6, 30 }, { "streams", streams, 4, 30 },
     { "inverses", inverses, 1, 30 }, { "comparisons", comparisons, 2, 30 },

@@ -18,7 +18,7 @@
 #include "random_scene.h"
 #include "shipped.h"
 
-static const char *const methods[] = { "exact", "rk8pd", "rkf45", "msadams" };
+static const char *const methods[] = { "exact", "rk8pd", "taylor", "rkf45", "msadams" };
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static run
@@ -97,7 +97,7 @@ a_pulled_slider_keeps_its_closed_form(void **state)
 {
     /* times of events over the length of a slip: where a step leaves 1e-12 f_s / k in x, a stick ends
      * later by that over U, 2e-10 of a slip */
-    static const double allowed[METHODS] = { 1e-11, 1e-10, 1e-8, 1e-6 };
+    static const double allowed[METHODS] = { 1e-11, 1e-10, 1e-10, 1e-8, 1e-6 };
     (void)state;
     for (int i = 0; i < METHODS; i++) {
         slides_as_the_closed_form_says(42e-6, 0, methods[i], allowed[i]);
@@ -219,6 +219,183 @@ a_falling_friction_is_coulombs_at_its_ends(void **state)
         run_free(&a);
         run_free(&b);
     }
+}
+
+/* --- a measured base ------------------------------------------------------------------------ */
+
+typedef double course(double t);
+
+static ss_base *
+base_of(course *z, double from, double to, double rate)
+{
+    ss_header *head = ss_header_new(rate, from);
+    ss_signal *signal = NULL;
+    ss_base *base = NULL;
+    ss_header_add_column(head, "z", "m");
+    assert_int_equal(ss_signal_new(&signal, head, (size_t)((to - from) * rate) + 1), SS_OK);
+    for (size_t i = 0; i < signal->n; i++)
+        signal->values[i] = z(from + (double)i / rate);
+    assert_int_equal(ss_base_new(&base, signal, 0, NULL), SS_OK);
+    ss_signal_free(signal);
+    ss_header_free(head);
+    return base;
+}
+
+static double
+pulled(double t)
+{
+    return 42e-6 * t;
+}
+
+static double
+swung(double t)
+{
+    return .0006 * cos(2 * M_PI * 2.5 * t);
+}
+
+static double
+shaken(double t)                        /* by noise, always the same */
+{
+    rng r = { (uint64_t)(t * 10 + 1000.5) };
+    return 1e-3 * (uniform(&r) - .5);
+}
+
+/* A spline through a line is the line.  By ss-sim(1) x is off by at most 4 times tolerance times steps, in
+ * units of f_s / k; a stick ends later by that over U. */
+static void
+a_base_that_was_measured_as_a_line_pulls(void **state)
+{
+    ss_base *base = base_of(pulled, -3, 60, 10);
+    (void)state;
+    for (int model = 0; model < 2; model++)
+        for (int i = 1; i < METHODS; i++) {
+            ss_scene s = slider(42e-6, 0), measured;
+            s.model = model == 0 ? SS_COULOMB : SS_COMPLIANT;
+            s.contact_stiffness = 30 * s.stiffness;
+            s.contact_damping = .02;
+            measured = s;
+            measured.base_velocity = 0;
+            measured.base = base;
+            run a = run_by(&s, "exact"), b = run_by(&measured, methods[i]);
+            double late = 4e-12 * (double)b.stats.steps * s.static_friction / s.stiffness / 42e-6;
+            assert_int_equal(a.n_events, b.n_events);
+            for (size_t k = 0; k < a.n_events; k++)
+                near(methods[i], b.event[k].t, a.event[k].t, late);
+            near("x", difference(&a, &b, 1), 0, late * 7e-3);
+            for (size_t k = 0; k < a.n; k++) {
+                near("z", b.sample[k].z, a.sample[k].z, 1e-17);
+                near("s", b.sample[k].s, a.sample[k].s, late * 7e-3 * s.stiffness);
+            }
+            run_free(&a);
+            run_free(&b);
+        }
+    ss_base_free(base);
+}
+
+/* Sampled 2000 times a second, a cosine is off by h^4 / 384 of its fourth derivative, 1e-11, away from
+ * the ends. */
+static void
+a_base_that_was_measured_as_a_cosine_swings(void **state)
+{
+    static const char *const scenes[] = { "coulomb", "compliant-heavy", "state-variable" };
+    ss_base *base = base_of(swung, -1, 5, 2000);
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        ss_scene s = read_shipped_named(scenes[i]), measured;
+        s.settle = 0;
+        measured = s;
+        measured.base_amplitude = measured.base_frequency = 0;
+        measured.base = base;
+        run a = run_by(&s, "rk8pd"), b = run_by(&measured, "rk8pd");
+        assert_int_equal(a.n_events, b.n_events);
+        near("x", difference(&a, &b, 1) / max_x(&a), 0, 1e-9);
+        run_free(&a);
+        run_free(&b);
+    }
+    ss_base_free(base);
+}
+
+enum { KNOTS = 101 };
+
+/* The natural spline through shaken() at 10 Hz from 0, by another way: Thomas's algorithm. */
+static long double
+spline(const long double bend[], long double t)
+{
+    long double p = t * 10, i = fminl(floorl(p), KNOTS - 2), s = p - i;
+    size_t k = (size_t)i;
+    long double a = shaken((double)k / 10), b = shaken((double)(k + 1) / 10);
+    return (1 - s) * a + s * b + ((powl(1 - s, 3) - (1 - s)) * bend[k] + (s * s * s - s) * bend[k + 1]) / 6;
+}
+
+static void
+solve_spline(long double bend[KNOTS])
+{
+    long double c[KNOTS] = { 0 }, d[KNOTS] = { 0 };
+    for (int i = 1; i < KNOTS - 1; i++) {
+        long double z = shaken((i - 1) / 10.) - 2 * (long double)shaken(i / 10.) + shaken((i + 1) / 10.);
+        long double pivot = 4 - c[i - 1];
+        c[i] = 1 / pivot;
+        d[i] = (6 * z - d[i - 1]) / pivot;
+    }
+    bend[KNOTS - 1] = 0;
+    for (int i = KNOTS - 2; i >= 0; i--)
+        bend[i] = i > 0 ? d[i] - c[i] * bend[i + 1] : 0;
+}
+
+/* A stick ends where a spline through noise first leaves the limit, however shortly it does. */
+static void
+a_stick_ends_between_the_samples_of_the_base(void **state)
+{
+    ss_base *base = base_of(shaken, 0, 10, 10);
+    long double bend[KNOTS];
+    int found = 0;
+    (void)state;
+    solve_spline(bend);
+    for (int i = 0; i < 40; i++) {
+        ss_scene s = slider(0, 0);
+        double limit = 3e-4 + i * 1e-5;
+        s.base = base;
+        s.duration = 9.9;
+        s.friction = s.static_friction = limit * s.stiffness;
+        double first = -1;
+        for (double t = 0; t < 9.9 && first < 0; t += 1e-4)
+            if (fabsl(spline(bend, t)) > limit) {
+                long double lo = fmax(0, t - 1e-4), hi = t;
+                for (int k = 0; k < 80; k++)
+                    *(fabsl(spline(bend, (lo + hi) / 2)) > limit ? &hi : &lo) = (lo + hi) / 2;
+                first = (double)hi;
+            }
+        run r = run_by(&s, "rk8pd");
+        for (size_t k = 0; k < r.n; k += 97)
+            near("z", r.sample[k].z, (double)spline(bend, r.sample[k].t),
+                 KNOTS * DBL_EPSILON * 1e-3);
+        if (first < 0)
+            assert_int_equal(r.n_events, 0);
+        else
+            near("slip", r.event[0].t, first, 1e-12);
+        found += first > 0;
+        run_free(&r);
+    }
+    assert_true(found > 10 && found < 40);
+    ss_base_free(base);
+}
+
+static void
+a_base_covers_the_scene_or_is_refused(void **state)
+{
+    ss_base *base = base_of(pulled, 1, 20, 10);
+    ss_scene s = slider(0, 0);
+    ss_error err = { 0 };
+    (void)state;
+    s.base = base;
+    strcpy(s.base_file, "z.tsv");
+    assert_int_equal(ss_sim_run(&s, &ss_sim_defaults, NULL, &err), SS_EDATA);
+    assert_string_equal(err.text, "z.tsv: the base is known from 1 s to 20 s, and the scene moves from 0 to "
+                        "48 s");
+    s.base = NULL;
+    assert_int_equal(ss_sim_run(&s, &ss_sim_defaults, NULL, &err), SS_EINVAL);
+    assert_string_equal(err.text, "z.tsv: the measured base has not been read");
+    ss_base_free(base);
 }
 
 /* --- random scenes ------------------------------------------------------------------------- */
@@ -373,6 +550,10 @@ main(void)
         cmocka_unit_test(counts_and_times_are_those_of_other_programs),
         cmocka_unit_test(a_falling_friction_cycles_as_published),
         cmocka_unit_test(a_falling_friction_is_coulombs_at_its_ends),
+        cmocka_unit_test(a_base_that_was_measured_as_a_line_pulls),
+        cmocka_unit_test(a_base_that_was_measured_as_a_cosine_swings),
+        cmocka_unit_test(a_stick_ends_between_the_samples_of_the_base),
+        cmocka_unit_test(a_base_covers_the_scene_or_is_refused),
         cmocka_unit_test(random_rigs_agree_with_the_oracle),
         cmocka_unit_test(a_belt_and_a_pull_are_one_motion),
     };

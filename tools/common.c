@@ -407,6 +407,8 @@ tool_read_scene(const char *path, const char *const settings[], size_t n)
     if (st == SS_EINVAL)
         tool_usage("--set: %s", err.text);
     tool_check(st, &err);
+    static ss_base *base;               /* the last one; it lives as long as the scene */
+    tool_check(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
     return scene;
 }
 

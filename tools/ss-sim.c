@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include "common.h"
 
 static const char usage[] =
@@ -11,6 +12,7 @@ static const char usage[] =
 "Simulate an oscillator with dry friction.  SCENE is a file, - for standard\n"
 "input, or the name of a shipped scene; the record goes to standard output.\n"
 "  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
+"  -b, --base=FILE[:COL] the base moves as measured in FILE, column z or COL\n"
 "  -c, --columns=LIST    of t,x,v,a,f,s,y,z,mode (default t,x,v,a,f)\n"
 "  -e, --events          write the events in the record, not the samples\n"
 "  -m, --method=NAME     a GSL step type, taylor: a series, or exact: closed form\n"
@@ -32,6 +34,7 @@ enum { OPT_MAX_STEPS = TOOL_OPT_FIRST };
 
 /* What was asked for. */
 typedef struct request {
+    const char *base;                   /* NULL: the scene's */
     const char *scene_path, *path;      /* path: of the output, NULL or "-" for standard output */
     const char **settings;
     size_t n_settings;
@@ -146,6 +149,30 @@ write_scene(const request *req, const ss_scene *scene)
     tool_check(ss_scene_write(scene, out), NULL);
 }
 
+/* The base moves as measured, whatever the scene says.  What stands behind the last colon is a column,
+ * unless the name of a file goes on there. */
+static void
+set_base(ss_scene *scene, const char *given)
+{
+    static ss_base *base;
+    ss_error err = { 0 };
+    char *path = strdup(given), *colon = path != NULL ? strrchr(path, ':') : NULL;
+    if (path == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    const char *column = "";
+    if (colon != NULL && colon[1] != '/' && access(path, F_OK) != 0) {
+        *colon = '\0';
+        column = colon + 1;
+    }
+    tool_check(ss_base_load(&base, tool_reads(path), column, &err), &err);
+    const char *slash = strrchr(path, '/');
+    snprintf(scene->base_file, sizeof scene->base_file, "%s", slash != NULL ? slash + 1 : path);
+    snprintf(scene->base_column, sizeof scene->base_column, "%s", column);
+    scene->base = base;
+    scene->base_amplitude = scene->base_frequency = scene->phase = 0;
+    free(path);
+}
+
 /* What was asked for, or what keeps the accuracy if that was. */
 static void
 set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
@@ -196,7 +223,8 @@ static void
 parse(request *req, int argc, char *argv[])
 {
     static const struct option longopts[] = {
-        { "set", required_argument, NULL, 's' }, { "columns", required_argument, NULL, 'c' },
+        { "set", required_argument, NULL, 's' },
+        { "base", required_argument, NULL, 'b' }, { "columns", required_argument, NULL, 'c' },
         { "events", no_argument, NULL, 'e' }, { "method", required_argument, NULL, 'm' },
         { "tol", required_argument, NULL, 't' },
         { "accuracy", required_argument, NULL, 'a' },
@@ -206,9 +234,10 @@ parse(request *req, int argc, char *argv[])
     ss_sim_opts *opts = &req->opts;
     ss_error err = { 0 };
 
-    for (int c; (c = getopt_long(argc, argv, "s:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
+    for (int c; (c = getopt_long(argc, argv, "s:b:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 's': req->settings[req->n_settings++] = optarg; break;
+        case 'b': req->base = optarg; break;
         case 'c':
             if (ss_sim_columns_parse(&req->columns, optarg, &err) != SS_OK)
                 tool_usage("--columns: %s", err.text);
@@ -283,6 +312,8 @@ main(int argc, char *argv[])
         tool_end();
         return 0;
     }
+    if (req.base != NULL)
+        set_base(&scene, req.base);
     check_samples(&req, &scene);
     set_method(&req.opts, &scene, req.accuracy);
     o.head = ss_sim_header(&scene, &req.columns);

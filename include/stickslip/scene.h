@@ -1,13 +1,14 @@
 /* stickslip/scene.h -- a scene: one friction model, its parameters, and its record.
  *
  * All models share  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  t = 0 at the start of
- * settling; they differ in the friction force f, which depends on v = x' - S.  The text form is
+ * settling, or with z(t) as measured in place of the cosine; they differ in the friction force f, which depends on v = x' - S.  The text form is
  * described in stickslip-scene(5). */
 #ifndef STICKSLIP_SCENE_H
 #define STICKSLIP_SCENE_H
 
 #include <stddef.h>
 #include <stdio.h>
+#include <stickslip/signal.h>
 #include <stickslip/status.h>
 
 SS_BEGIN_DECLARATIONS
@@ -28,6 +29,10 @@ typedef enum ss_release {
     SS_RELEASE_SPRING,      /* microstick ends when K_y |y| > f_k, the paper's words */
     SS_RELEASE_TOTAL        /* microstick ends when |K_y y + c v| > f_k: friction is continuous */
 } ss_release;
+
+/* The displacement of a base as it was measured. */
+typedef struct ss_base ss_base;
+enum { SS_BASE_FILE = 256, SS_BASE_COLUMN = 64 };
 
 typedef struct ss_scene {
     ss_model model;
@@ -50,6 +55,10 @@ typedef struct ss_scene {
     ss_release release;         /*                             compliant only */
 
     double stribeck_velocity;   /* v_s    [m/s]    > 0         stribeck only */
+
+    char base_file[SS_BASE_FILE];       /* where z(t) is, "": nowhere; ss_scene_load_base reads it */
+    char base_column[SS_BASE_COLUMN];   /* "": z, or the only one */
+    const ss_base *base;                /* NULL, or z(t), the caller's, in place of Z_e cos(...) */
 
     double settle;              /* [s] >= 0  simulated before the record starts, not written */
     double duration;            /* [s] >= 0  length of the record */
@@ -103,6 +112,12 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 
 /* Write every key that the model has, one a line, in the fewest digits that read back the same. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
+
+/* z(t) [m] by the natural cubic spline through a column of a signal, whose clock is the scene's: t = 0 is
+ * the start of settling.  To be freed with ss_base_free.  SS_EDATA: another unit than m, or fewer than 3
+ * samples; SS_ENOMEM. */
+ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
+void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
 /* The number of a scene that a key names, and its unit unless that is NULL; NULL if the scene's model
  * has no such number, and err says so. */

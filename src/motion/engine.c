@@ -65,7 +65,8 @@ guard_of_step(const engine *e, double *of_q, double *of_v)
     g.level = m->model->guard(m, origin, origin, of_q);
     m->model->guard(m, q, q, of_q);
     m->model->guard(m, q, v, of_v);
-    double a = (m->drive + fabs(m->ramp * (m->u + e->h)) + fabs(m->drag) + fabs(m->f0)
+    double base = m->scene->base != NULL ? m->scene->stiffness * m->scene->base->size : m->drive;
+    double a = (base + fabs(m->ramp * (m->u + e->h)) + fabs(m->drag) + fabs(m->f0)
                 + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1])) / m->scene->mass;
     g.rounding = a * e->h * (fabs(*of_v) + fabs(*of_q) * e->h / 8);     /* of v' */
     return g;
@@ -167,6 +168,15 @@ ss_engine_step(engine *e, double h_max, ss_error *err)
     if (st != SS_OK || 0 * e->dq1[0] + 0 * e->dq1[1] + 0 * e->dq1[2] == 0)
         return st;
     return fail_lost(e, err);
+}
+
+void
+ss_engine_rest(engine *e, double h)
+{
+    memcpy(e->q1, e->m->now.q, sizeof e->q1);
+    memset(e->dq1, 0, sizeof e->dq1);
+    e->has_end = 0;
+    e->h = h;
 }
 
 /* The step is done with, and no event was in it. */

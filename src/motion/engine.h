@@ -56,7 +56,8 @@ ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol,
 const char *ss_ode_method_name(size_t i);   /* NULL after the last */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
 ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
-ss_status ss_exact_check(const struct model *model, ss_error *err);    /* has it a closed form? */
+int ss_exact_applies(const ss_scene *scene);        /* has it a closed form? */
+ss_status ss_exact_check(const ss_scene *scene, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 /* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over
  * mass has done (G), in the present mode of an exact engine; their rates of change are -(k/m) S,
@@ -73,6 +74,7 @@ ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
 ss_status ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err);
 int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s from now */
 void ss_engine_accept(engine *e);                           /* it does not */
+void ss_engine_rest(engine *e, double h);       /* in place of a step: the mass stands still so long */
 
 /* run.c: SS_OK if the scene is one and its record can be counted. */
 ss_status ss_record_check(const ss_scene *scene, ss_error *err);

@@ -51,6 +51,7 @@ ss_motion_rebase(motion *m)
     m->origin = instant_add(m->origin, now->u);
     now->u = 0;
     now->theta = 2 * M_PI * instant_cycles(m->origin, now->scene->base_frequency) + m->phase;
+    ss_state_meet_base(now, m->origin.hi + m->origin.lo);
 }
 
 /* What the closed form rounds off of x: an ulp for each of its four terms. */

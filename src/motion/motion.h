@@ -54,7 +54,7 @@ motion_sample(const motion *m, turn base, double u, const double q[], const doub
     double pulled = scene->base_velocity * m->origin.hi;
     s->x += pulled + scene->surface_velocity * u;
     s->v += scene->surface_velocity;
-    s->z += pulled + scene->base_velocity * u;
+    s->z += pulled + scene->base_velocity * u + (scene->base != NULL ? measured_base(now, u) : 0);
 }
 
 #endif

@@ -274,8 +274,12 @@ ode_go_on(engine *e)
 {
     const state *m = &e->m->now;
     if (!((ode *)e)->multistep) {
-        e->has_start &= m->ramp == 0;       /* else positions change */
+        e->has_start &= !m->moves;          /* positions change, and the measured base */
         ss_motion_rebase(e->m);
+    } else if (m->scene->base != NULL && m->u >= m->u_knot) {
+        e->has_start = 0;
+        ss_motion_rebase(e->m);
+        ss_engine_begin(e);
     } else if (fabs(m->ramp * m->u) > FAR * m->scene->stiffness * m->x_scale) {
         ss_motion_rebase(e->m);
         ss_engine_begin(e);

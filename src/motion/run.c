@@ -251,9 +251,12 @@ run(sampler *r, engine *e, ss_error *err)
         double h, cap = ss_step_cap(now);
         int still = model->still != NULL && model->still(now, &h), ends = still && isfinite(h);
         ss_status st = SS_OK;
+        double knot = r->scene->base != NULL ? now->u_knot - now->u : INFINITY;
         if (still) {
-            h -= now->u;
+            h = ends ? h - now->u : knot;
+            ss_engine_rest(e, h);
         } else {
+            cap = fmin(cap, knot);
             if (!has_budget(r, e))
                 return over_budget(r, e, cap, err);
             if (e->lands_on_samples && r->i < r->n) {
@@ -308,6 +311,10 @@ ss_record_check(const ss_scene *scene, ss_error *err)
     ss_status st = ss_scene_check(scene, err);
     if (st == SS_OK && ss_scene_samples(scene) == SIZE_MAX)
         return ss_fail(err, SS_EINVAL, "duration x rate is more than 2^53 samples");
+    if (st == SS_OK && scene->base == NULL && *scene->base_file != '\0')
+        return ss_fail(err, SS_EINVAL, "%s: the measured base has not been read", scene->base_file);
+    if (st == SS_OK && scene->base != NULL)
+        return ss_base_covers(scene->base, scene->settle + scene->duration, scene->base_file, err);
     return st;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "scene/model.h"
 
 static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
     { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "s", "N" }, { "y", "m" },
@@ -74,6 +75,8 @@ note_scene(ss_header *head, const ss_scene *scene)
         line = end + 1;
     }
     free(text);
+    if (st == SS_OK && scene->base != NULL && *scene->base->cksum != '\0')
+        st = ss_header_note(head, "base_cksum", scene->base->cksum);
     return st;
 }
 

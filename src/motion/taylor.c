@@ -153,7 +153,7 @@ taylor_step(engine *e, double h_max, ss_error *err)
     pair_up(t);
     for (size_t i = 0; i < MAX_DIM; i++)
         e->dq0[i] = t->per_unit * t->c[1][i];
-    e->h = t->next;
+    e->h = m->scene->base != NULL ? fmin(t->next, m->u_knot - m->u) : t->next;
     e->steps++;
     evaluate(t, e->h, e->q1, e->dq1);
     return SS_OK;

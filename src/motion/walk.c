@@ -74,8 +74,7 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
         if (w->ends)
             return SS_OK;
         w->h = longest;
-        memcpy(e->q1, m->q, sizeof m->q);
-        e->h = longest;
+        ss_engine_rest(e, longest);
         return SS_OK;
     }
     w->h = longest;

@@ -6,6 +6,7 @@
 #include <stickslip/scene.h>
 
 enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
+enum { ANY_TEXT, PATH };                           /* of texts; a PATH does not leave its folder */
 /* A TERM of the equation of motion that most scenes do not have: 0 if left out, and then a scene is
  * written without it.  FORCING is left out altogether or not at all. */
 enum { OPTIONAL, REQUIRED, TERM, FORCING };
@@ -16,14 +17,17 @@ typedef struct scene_key {
     int range;                      /* of a number */
     size_t offset;                  /* in ss_scene, of a double or an enumeration: one key each */
     const char *unit;               /* of a number */
+    size_t room;                    /* of a text, with its NUL; 0 for a number or an enumeration */
     /* Of an enumeration: its i-th word, from 0 to the first NULL.  NULL for a number. */
     const char *(*word)(int i);
 } scene_key;
 
 #define KEY_NUMBER(field, required, range, unit) \
-    { #field, required, range, offsetof(ss_scene, field), unit, NULL }
+    { #field, required, range, offsetof(ss_scene, field), unit, 0, NULL }
 #define KEY_STATIC_FRICTION KEY_NUMBER(static_friction, TERM, NOT_NEGATIVE, "N")
-#define KEY_WORD(field, required, word) { #field, required, 0, offsetof(ss_scene, field), "", word }
+#define KEY_WORD(field, required, word) { #field, required, 0, offsetof(ss_scene, field), "", 0, word }
+#define KEY_TEXT(field, range) { #field, TERM, range, offsetof(ss_scene, field), "", \
+                                 sizeof ((ss_scene *)0)->field, NULL }
 
 /* A number of the scene that a fit may vary besides k and f_k / (k Z_e). */
 typedef struct parameter {
@@ -39,6 +43,7 @@ const scene_key *ss_key_at(const struct model *model, size_t i);
 /* The key of this name, or of this field, that the model has; NULL if none. */
 const scene_key *ss_key_named(const struct model *model, const char *name);
 const scene_key *ss_key_of_field(const struct model *model, size_t offset);
+int ss_key_is_named(const ss_scene *scene, const scene_key *k);    /* has it this TERM? */
 /* The first TERM that a scene has; NULL if none. */
 const char *ss_scene_term(const ss_scene *scene);
 /* 1 if the key belongs to the record that is made of the motion, not to the motion. */

@@ -22,6 +22,8 @@ static const scene_key of_motion[] = {
     KEY_NUMBER(damping, TERM, NOT_NEGATIVE, "N s/m"),
     KEY_NUMBER(base_velocity, TERM, ANY_NUMBER, "m/s"),
     KEY_NUMBER(surface_velocity, TERM, ANY_NUMBER, "m/s"),
+    KEY_TEXT(base_file, PATH),
+    KEY_TEXT(base_column, ANY_TEXT),
 };
 enum { OF_MOTION = sizeof of_motion / sizeof *of_motion };
 
@@ -68,9 +70,16 @@ ss_scene_term(const ss_scene *scene)
     const struct model *model = ss_model_of(scene);
     const scene_key *k;
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
-        if (k->required == TERM && *(const double *)(const void *)((const char *)scene + k->offset) != 0)
+        if (k->required == TERM && ss_key_is_named(scene, k))
             return k->name;
     return NULL;
+}
+
+int
+ss_key_is_named(const ss_scene *scene, const scene_key *k)
+{
+    const char *field = (const char *)scene + k->offset;
+    return k->room > 0 ? *field != '\0' : *(const double *)(const void *)field != 0;
 }
 
 int

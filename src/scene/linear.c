@@ -21,17 +21,30 @@ ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, dou
     dfdt[1] = base_force_rate(m, u) / mass;
 }
 
+/* Of the base's force, besides its swing. */
+static void
+rest_rates(const state *m, double u, double rate[ORDERS - 1])
+{
+    double k = m->scene->stiffness, s = u - m->u_piece;
+    rate[0] = m->ramp + k * measured_speed(m, u);
+    rate[1] = 2 * k * (m->z[2] + 3 * m->z[3] * s);
+    rate[2] = 6 * k * m->z[3];
+}
+
 /* By differentiating the equation of motion. */
 void
 ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
                       double higher[][MAX_DIM])
 {
     turn base = base_turn(m, u);
-    const double wave[] = { -base.si, -base.co, base.si }, ramp[ORDERS - 1] = { m->ramp };
+    const double wave[] = { -base.si, -base.co, base.si };
+    double rest[ORDERS - 1] = { 0 };
+    if (m->moves)
+        rest_rates(m, u, rest);
     double mass = m->scene->mass, D = m->drive * m->omega;
     double d[ORDERS + 2] = { q[0], q[1], dqdt[1] };
     for (int i = 0; i < ORDERS - 1; i++, D *= m->omega) {
-        d[i + 3] = (D * wave[i] + ramp[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
+        d[i + 3] = (D * wave[i] + rest[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
         higher[i][0] = d[i + 2];
         higher[i][1] = d[i + 3];
     }

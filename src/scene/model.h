@@ -22,6 +22,15 @@
 
 enum { MAX_DIM = 3, ORDERS = 4, MOST_SERIES = 26 };
 
+/* base.c; n samples at start + i / rate. */
+struct ss_base {
+    double start, rate;
+    size_t n;
+    double size;                    /* largest |z| */
+    double *z, *bend;               /* bend: z'' in units of the interval */
+    char cksum[48];                 /* of the file, as POSIX's cksum prints it; "": of none */
+};
+
 /* The mass, its contact and the base at one instant of a mode. */
 typedef struct state {
     const ss_scene *scene;
@@ -30,7 +39,9 @@ typedef struct state {
     double drive;                   /* k Z_e [N] */
     double ramp;                    /* k (U - S) [N/s] */
     double drag;                    /* d S [N] */
-    int moves;                      /* there is a pull or a surface that moves */
+    int moves;                      /* there is a pull, a surface that moves or a measured base */
+    double z[4];                    /* the measured base in powers of u - u_piece, until u_knot */
+    double u_piece, u_knot;
     double x_scale;                 /* x is measured by it: absolute tolerances are tol times it */
     double tol;                     /* of the integrator */
 
@@ -50,6 +61,10 @@ typedef struct state {
 state ss_state_of(const ss_scene *scene, double tol);
 /* Let positions count from where the pull (below) has come to since u = 0. */
 void ss_state_follow(state *m);
+/* base.c: from u, which is the time t, the measured base is that of this interval, if there is one. */
+void ss_state_meet_base(state *m, double t);
+/* SS_EDATA if it is not known from 0 to end; name is that of its file. */
+ss_status ss_base_covers(const ss_base *base, double end, const char *name, ss_error *err);
 
 /* In which modes the friction force varies. */
 enum { IN_STICK = 1, IN_SLIP = 2 };
@@ -158,7 +173,8 @@ static inline double
 amplitude_of(const ss_scene *s)                     /* X of the supported ranges [m] */
 {
     double speed = fmax(fmax(fabs(s->v0), fabs(s->base_velocity)), fabs(s->surface_velocity));
-    double X = fmax(fmax(s->base_amplitude, fabs(s->x0)), speed / own_frequency(s));
+    double z = s->base != NULL ? s->base->size : s->base_amplitude;
+    double X = fmax(fmax(z, fabs(s->x0)), speed / own_frequency(s));
     return pull_of(s) != 0 ? fmax(X, static_friction(s) / s->stiffness) : X;
 }
 
@@ -210,7 +226,49 @@ swing_force(const state *m, double u)               /* of a base that is not pul
     return m->drive * cos(m->theta + m->omega * u);
 }
 
-/* Its Taylor coefficients at m->u in s / unit, step[n] = unit / (n + 1). */
+static inline double
+measured_base(const state *m, double u)             /* [m] */
+{
+    double s = u - m->u_piece;
+    return m->z[0] + s * (m->z[1] + s * (m->z[2] + s * m->z[3]));
+}
+
+static inline double
+measured_speed(const state *m, double u)
+{
+    double s = u - m->u_piece;
+    return m->z[1] + s * (2 * m->z[2] + s * 3 * m->z[3]);
+}
+
+static inline double
+with_rest(const state *m, double swing, double u)   /* the base's force from that of its swing */
+{
+    if (!m->moves)
+        return swing;
+    double force = swing + (m->ramp * u - m->drag);
+    return m->scene->base == NULL ? force : force + m->scene->stiffness * measured_base(m, u);
+}
+
+static inline double
+base_force_by(const state *m, turn base, double u)
+{
+    return with_rest(m, m->drive * base.co, u);
+}
+
+static inline double
+base_force(const state *m, double u)
+{
+    return with_rest(m, swing_force(m, u), u);
+}
+
+static inline double
+base_force_rate(const state *m, double u)
+{
+    double rate = -m->drive * m->omega * sin(m->theta + m->omega * u) + m->ramp;
+    return m->scene->base == NULL ? rate : rate + m->scene->stiffness * measured_speed(m, u);
+}
+
+/* The Taylor coefficients of that at m->u in s / unit, step[n] = unit / (n + 1). */
 static inline void
 base_force_series(const state *m, const double step[], int order, double c[])
 {
@@ -224,6 +282,13 @@ base_force_series(const state *m, const double step[], int order, double c[])
     }
     c[0] += m->ramp * m->u - m->drag;
     c[1] += m->ramp * step[0];
+    if (m->scene->base == NULL)
+        return;
+    double k = m->scene->stiffness, unit = step[0], s = m->u - m->u_piece;
+    c[0] += k * measured_base(m, m->u);
+    c[1] += k * unit * measured_speed(m, m->u);
+    c[2] += k * unit * unit * (m->z[2] + 3 * m->z[3] * s);
+    c[3] += k * unit * unit * unit * m->z[3];
 }
 
 /* The sum of a_i b_j over i + j = n, i and j > 0, from the middle outwards: the coefficients that have
@@ -235,24 +300,6 @@ inner_products(const double a[], const double b[], int n)
     for (int j = (n - 1) / 2; j > 0; j--)
         sum += a[j] * b[n - j] + a[n - j] * b[j];
     return sum;
-}
-
-static inline double
-base_force_by(const state *m, turn base, double u)
-{
-    return m->drive * base.co + (m->ramp * u - m->drag);
-}
-
-static inline double
-base_force(const state *m, double u)
-{
-    return swing_force(m, u) + (m->ramp * u - m->drag);
-}
-
-static inline double
-base_force_rate(const state *m, double u)
-{
-    return -m->drive * m->omega * sin(m->theta + m->omega * u) + m->ramp;
 }
 
 /* --- linear.c: what Coulomb and compliant contact share ------------------------------------ */

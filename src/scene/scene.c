@@ -44,6 +44,18 @@ word_of(ss_scene *scene, const scene_key *k)
     return (int *)(void *)((char *)scene + k->offset);
 }
 
+static char *
+text_of(ss_scene *scene, const scene_key *k)
+{
+    return (char *)scene + k->offset;
+}
+
+static int
+is_number(const scene_key *k)
+{
+    return k->word == NULL && k->room == 0;
+}
+
 static int
 in_range(const scene_key *k, double x)
 {
@@ -79,6 +91,30 @@ fail_at(struct place at, ss_error *err, const char *text)
     return ss_fail(err, SS_EDATA, "%s:%ld: %s", at.name, at.line, text);
 }
 
+/* A scene may be a stranger's: its files lie beside it or below. */
+static int
+leaves_folder(const char *path)
+{
+    size_t length = strlen(path);
+    return path[0] == '/' || strncmp(path, "../", 3) == 0 || strstr(path, "/../") != NULL
+        || strcmp(path, "..") == 0 || (length > 2 && strcmp(path + length - 3, "/..") == 0);
+}
+
+static ss_status
+set_text(ss_scene *scene, const scene_key *k, const char *value, struct place at, ss_error *err)
+{
+    char message[128];
+    const char *wrong = *value == '\0' ? "is empty" : strlen(value) >= k->room ? "is too long"
+        : k->range == PATH && leaves_folder(value)
+        ? "leads out of the scene's folder; a file there or below is meant" : NULL;
+    if (wrong == NULL) {
+        strcpy(text_of(scene, k), value);
+        return SS_OK;
+    }
+    snprintf(message, sizeof message, "%s %s", k->name, wrong);
+    return fail_at(at, err, message);
+}
+
 static ss_status
 set_value(ss_scene *scene, const scene_key *k, const char *value, struct place at, ss_error *err)
 {
@@ -96,6 +132,8 @@ set_value(ss_scene *scene, const scene_key *k, const char *value, struct place a
         }
         return fail_at(at, err, text);
     }
+    if (k->room > 0)
+        return set_text(scene, k, value, at, err);
     double x = ss_number_parse(value, &end);
     if (end == value || *end != '\0') {
         snprintf(text, sizeof text, "%s is '%.64s', but must be a number", k->name, value);
@@ -190,7 +228,7 @@ ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *
         fail_unknown(name, (struct place){ "", -1 }, err);
     } else if (k == NULL) {
         ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model->name, name);
-    } else if (k->word != NULL) {
+    } else if (!is_number(k)) {
         ss_fail(err, SS_EINVAL, "%s is not a number", name);
     } else {
         if (unit != NULL)
@@ -287,6 +325,7 @@ missing_key(const struct model *model, given *g)
     return forced ? forcing : NULL;
 }
 
+#define BASES "base_file and base_amplitude exclude each other: the base moves by one of them"
 #define STATIC_IS_LESS "static_friction is less than friction, it must be at least as large"
 
 /* After the last line: every key belongs to the model, and none is missing. */
@@ -309,6 +348,9 @@ check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
                      model->name);
         return fail_at(last, err, text);
     }
+    long file = *line_of(g, find_key("base_file"));
+    if (file != 0 && scene->base_amplitude != 0)
+        return fail_at((struct place){ last.name, file }, err, BASES);
     long s = *line_of(g, find_key("static_friction")), f = *line_of(g, find_key("friction"));
     if (s != 0 && scene->static_friction < scene->friction)
         return fail_at((struct place){ last.name, s < 0 || f < 0 ? -1 : s }, err, STATIC_IS_LESS);
@@ -437,13 +479,15 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
         if (k->word != NULL && !is_choice(k, *word_of(&copy, k)))
             return ss_fail(err, SS_EINVAL, "%s is no known choice", k->name);
-        if (k->word == NULL && !in_range(k, *number_of(&copy, k))) {
+        if (is_number(k) && !in_range(k, *number_of(&copy, k))) {
             char text[SS_NUMBER_MAX];
             ss_number_format(text, *number_of(&copy, k));
             return ss_fail(err, SS_EINVAL, "%s = %s is out of range, it must be %s", k->name,
                            text, range_text(k));
         }
     }
+    if ((scene->base != NULL || *scene->base_file != '\0') && scene->base_amplitude != 0)
+        return ss_fail(err, SS_EINVAL, BASES);
     if (scene->static_friction != 0 && scene->static_friction < scene->friction
         && ss_key_named(model, "static_friction") != NULL)
         return ss_fail(err, SS_EINVAL, STATIC_IS_LESS);
@@ -459,11 +503,12 @@ ss_scene_write(const ss_scene *scene, FILE *out)
     const scene_key *k;
     for (size_t i = 0; (k = ss_key_at(ss_model_of(scene), i)) != NULL; i++) {
         char text[SS_NUMBER_MAX];
-        if (k->required == TERM && *number_of(&copy, k) == 0)
+        if (k->required == TERM && !ss_key_is_named(scene, k))
             continue;
-        if (k->word == NULL)
+        if (is_number(k))
             ss_number_format(text, *number_of(&copy, k));
-        fprintf(out, "%s = %s\n", k->name, k->word != NULL ? k->word(*word_of(&copy, k)) : text);
+        fprintf(out, "%s = %s\n", k->name, k->word != NULL ? k->word(*word_of(&copy, k))
+                : k->room > 0 ? text_of(&copy, k) : text);
     }
     return ferror(out) ? SS_EIO : SS_OK;
 }

@@ -5,14 +5,17 @@ state
 ss_state_of(const ss_scene *scene, double tol)
 {
     double hold = static_friction(scene) / scene->stiffness;
-    return (state){ .scene = scene, .model = ss_model_of(scene),
-                    .omega = 2 * M_PI * scene->base_frequency,
-                    .drive = scene->stiffness * scene->base_amplitude,
-                    .ramp = scene->stiffness * pull_of(scene),
-                    .drag = scene->damping * scene->surface_velocity,
-                    .moves = scene->base_velocity != 0 || scene->surface_velocity != 0,
-                    .x_scale = fmax(amplitude_of(scene), hold),
-                    .tol = tol, .theta = atan2(sin(scene->phase), cos(scene->phase)) };
+    state m = { .scene = scene, .model = ss_model_of(scene),
+                .omega = 2 * M_PI * scene->base_frequency,
+                .drive = scene->stiffness * scene->base_amplitude,
+                .ramp = scene->stiffness * pull_of(scene),
+                .drag = scene->damping * scene->surface_velocity,
+                .moves = scene->base_velocity != 0 || scene->surface_velocity != 0
+                    || scene->base != NULL,
+                .x_scale = fmax(amplitude_of(scene), hold),
+                .tol = tol, .theta = atan2(sin(scene->phase), cos(scene->phase)) };
+    ss_state_meet_base(&m, 0);
+    return m;
 }
 
 void

@@ -97,6 +97,32 @@ time_to_rise(const state *m, double angle, double R, double level)
     return peak + rising_zero(m, top, R, level - R * peak, -since, 0);
 }
 
+/* Where a measured base and the pull carry the force beyond its limit: within the interval of the base, or
+ * INFINITY.  Between its extrema a cubic goes one way. */
+static double
+end_in_piece(const state *m, double x, double limit)
+{
+    double length = m->u_knot - m->u, u = m->u, a = 3 * m->z[3], b = m->z[2];
+    double c = m->z[1] + m->ramp / m->scene->stiffness, root = sqrt(fmax(b * b - a * c, 0));
+    double far = -(b + copysign(root, b)), first = far / a, second = c / far;   /* of 3 z3 s^2 + 2 z2 s + c */
+    double at[] = { m->u_piece + fmin(first, second), m->u_piece + fmax(first, second), u + length };
+    for (int i = 0; i < 3; i++) {
+        double lo = u, hi = at[i];
+        if (!(hi > u && hi <= m->u + length)
+            || fabs(ss_stick_force(m, base_force(m, hi), x)) <= limit)
+            continue;
+        while (lo + (hi - lo) / 2 > lo && lo + (hi - lo) / 2 < hi) {
+            double mid = lo + (hi - lo) / 2;
+            if (fabs(ss_stick_force(m, base_force(m, mid), x)) > limit)
+                hi = mid;
+            else
+                lo = mid;
+        }
+        return hi;
+    }
+    return INFINITY;
+}
+
 /* The end of a stick in closed form, or to rounding.  A stick that begins at its limit, within
  * rounding, with the force on its way out, ends at once; without this the crossing would be in the
  * past, and the stick would last a whole turn. */
@@ -109,12 +135,15 @@ ss_stick_still(const state *m, double *u_end)
     if (m->mode != 0)
         return 0;
     *u_end = INFINITY;
-    if ((m->omega == 0 || m->drive == 0) && m->ramp == 0)
+    if ((m->omega == 0 || m->drive == 0) && m->ramp == 0 && s->base == NULL)
         return 1;
     double theta = m->theta + m->omega * m->u, force = ss_stick_force(m, base_force(m, m->u), x);
     double size = m->drive + s->stiffness * fabs(x) + limit + fabs(m->drag) + fabs(m->ramp * m->u);
+    size += s->base != NULL ? s->stiffness * s->base->size : 0;
     if (force * base_force_rate(m, m->u) > 0 && limit - fabs(force) <= 8 * DBL_EPSILON * size) {
         *u_end = m->u;
+    } else if (s->base != NULL) {
+        *u_end = end_in_piece(m, x, limit);
     } else if (m->ramp == 0) {
         *u_end = end_of_swing(m, theta);
     } else {

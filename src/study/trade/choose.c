@@ -159,7 +159,7 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     if ((st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err)) != SS_OK)
         return st;
     if (opts->method != NULL && strcmp(opts->method, EXACT) == 0)
-        st = ss_exact_check(ss_model_of(scene), err);
+        st = ss_exact_check(scene, err);
     if (st != SS_OK)
         return st;
     const run empty = { .progress = opts->progress };

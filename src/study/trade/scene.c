@@ -59,7 +59,7 @@ make_rows(ss_trade *trade, const ss_scene *scene)
     for (size_t m = 0; m < methods; m++) {
         const char *method = ss_sim_method_name(m);
         int exact = strcmp(method, EXACT) == 0;
-        if (exact && !ss_model_is_linear(scene->model))
+        if (exact && !ss_exact_applies(scene))
             continue;
         for (int i = 1; i < TOLERANCES - 1; i++) {
             trade->row[trade->n++] = (ss_trade_row){ .method = method, .status = SS_STOP,
