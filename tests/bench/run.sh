@@ -12,7 +12,7 @@ compile() {     # NAME LIBRARIES: is it there?
     $CCLD -o "$out/$1" "tests/bench/$1.c" "$BUILD/libstickslip.a" $2 $LIBS
 }
 
-# Ratios: CPU time over that of our fastest GSL method, and of the closed form, with no larger error.
+# Ratios: CPU time over that of our fastest method by steps, and of the closed form, with no larger error.
 table() {
     awk -F '\t' '
     /^#/ { print; next }
@@ -29,7 +29,7 @@ table() {
     }
     END {
         line = "%-16s %7s  %-13s %7s %9s %6s %10s %7s %7s\n"
-        printf line, "scene", "s", "method", "setting", "error x", "events", "CPU s", "/ GSL", "/ exact"
+        printf line, "scene", "s", "method", "setting", "error x", "events", "CPU s", "/ steps", "/ exact"
         for (i = 1; i <= n; i++) {
             split(row[i], a)
             printf line, a[1], a[2], a[3], a[4], a[5], a[6], a[7], ratio(i, 0), ratio(i, 1)
@@ -51,11 +51,19 @@ else
     echo "SciPy left out: $PYTHON has none (PYTHON=... names another)"
 fi
 
+if "$PYTHON" -c 'import heyoka' 2> /dev/null; then
+    heyoka=1
+else
+    heyoka=0
+    echo "heyoka left out: $PYTHON has none (PYTHON=... names another)"
+fi
+
 for seconds in 10 1000; do
     [ $seconds = 10 ] || [ "$LONG_RECORD" = 1 ] || continue
     rows=$out/rows-$seconds.tsv
     "$out/cost_sim" compare $seconds > "$rows"
     [ $cvode = 0 ] || "$out/cost_cvode" $seconds >> "$rows"
+    [ $heyoka = 0 ] || "$PYTHON" tests/bench/cost_heyoka.py $seconds 1e-6 1e-8 1e-9 1e-11 1e-12 1e-13 >> "$rows"
     if [ $seconds != 10 ]; then
         echo "SciPy left out at $seconds s: it would take a quarter of an hour"
     elif [ $scipy = 1 ]; then
