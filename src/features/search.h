@@ -8,8 +8,11 @@
 #include "features/cycles.h"
 #include "features/levels.h"
 #include "features/quantity.h"
+#include "features/window.h"
 
 #define CENTER 6.0              /* of the wavelet */
+#define STRONG 20.0             /* [dB] below the strongest: spikes that begin or end a transition */
+enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 
 static const ss_value unknown = { NAN, NAN };
 
@@ -32,11 +35,21 @@ typedef struct search {
     ss_features *out;
 } search;
 
+static inline int
+is_event(const ss_spike *spike)
+{
+    return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
+}
+
 /* Room for n transitions of which nothing is known, in place of those before. */
 ss_status ss_transitions_new(ss_features *out, size_t n);
 
 /* The transitions, in time order, and, where they ring, the frequency and damping that they have in
  * common, into s->out, which has spikes and repetition_frequency.  None found: s->out->n is 0. */
 ss_status ss_transitions_find(search *s);
+
+/* Fit an oscillation of about f to every transition in s->out, each about a time [s], and judge it, with
+ * the windows that were fitted; singly: each by itself, as they need not be alike. */
+ss_status ss_oscillation_fit(search *s, const double *about, double f, int singly, ss_window *window);
 
 #endif

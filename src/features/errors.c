@@ -1,0 +1,275 @@
+/* errors.c -- standard errors of a fitted oscillation.
+ *
+ * By the jackknife over windows, in its linearised form.  What it cannot see is a misfit that all
+ * windows share, of the slow part or the ends: that moves the fit as the windows change.  So all
+ * are cut at their starts, or at their ends, and half of what that moves the fit by, noise apart, is
+ * added in quadrature.  So is all that the fit moves by, noise apart, when the slow part may bend,
+ * see add_slow_part, or beside a steady line, see add_line; and what is left beyond white noise, see
+ * add_colour. */
+#include "features/fitter.h"
+
+#include <gsl/gsl_cdf.h>
+#include <stdlib.h>
+
+#define WHITE 1.2               /* of the white noise's variance: more is coloured */
+#define SEEN 2.0                /* standard deviations: a move that noise does not make */
+#define LOWEST_LINE 0.7         /* re the oscillation's frequency, see add_line */
+#define HIGHEST_LINE 1.4
+enum { LINES = 15 };
+
+/* Of one window: H = J'J and g = J'r, and the sum of squares. */
+typedef struct normal {
+    double ww, ws, ss, w, s, rss;
+} normal;
+
+static normal
+normal_of(fitter *k, ss_window win)
+{
+    size_t n = ss_window_length(win);
+    const double *j_w = k->fit.j[0], *j_s = k->fit.j[1], *r = k->fit.r;
+    linear fitted = ss_varpro_derive(&k->fit, win);
+    return (normal){ ss_dot(j_w, j_w, n), ss_dot(j_w, j_s, n), ss_dot(j_s, j_s, n),
+                     ss_dot(j_w, r, n), ss_dot(j_s, r, n), fitted.rss };
+}
+
+/* The variances from the curvature of the sum of squares. */
+static void
+errors_of_fit(const normal *h, double variance, ss_value value[2])
+{
+    double det = h->ww * h->ss - h->ws * h->ws;
+    value[0].error = sqrt(variance * h->ss / det);
+    value[1].error = sqrt(variance * h->ww / det);
+}
+
+/* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i. */
+static ss_status
+jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    normal *each = malloc(n * sizeof *each), all = { 0 };
+    double moved[2] = { 0, 0 }, mean[2] = { 0, 0 };
+    size_t used = 0, samples = ss_window_total(window, n);
+    if (each == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        normal h = each[used++] = normal_of(k, window[i]);
+        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
+        all.rss += h.rss;
+    }
+    errors_of_fit(&all, all.rss / (double)(samples - k->fit.columns * used - 2), value);
+    for (int pass = 0; pass < 2 && used >= FIT_FEW; pass++)
+        for (size_t i = 0; i < used; i++) {
+            normal h = each[i];
+            double ww = all.ww - h.ww, ws = all.ws - h.ws, ss = all.ss - h.ss;
+            double det = ww * ss - ws * ws, d[2];
+            d[0] = (ss * h.w - ws * h.s) / det;
+            d[1] = (ww * h.s - ws * h.w) / det;
+            for (int j = 0; j < 2; j++) {
+                if (pass == 0)
+                    mean[j] += d[j] / (double)used;
+                else
+                    moved[j] += (d[j] - mean[j]) * (d[j] - mean[j]);
+            }
+        }
+    for (int j = 0; j < 2 && used >= FIT_FEW; j++)
+        value[j].error = sqrt(moved[j] * (double)(used - 1) / (double)used);
+    free(each);
+    return SS_OK;
+}
+
+/* The variances of w and s from the curvature of the sum of squares of all windows; *variance: of
+ * the samples, found if it is not known (negative). */
+static void
+variances(fitter *k, const ss_window *window, size_t n, double *variance, double of[2])
+{
+    normal all = { 0 };
+    ss_value value[2];
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        normal h = normal_of(k, window[i]);
+        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
+        all.rss += h.rss;
+        used++;
+    }
+    if (*variance < 0)
+        *variance = all.rss / (double)(ss_window_total(window, n) - k->fit.columns * used - 2);
+    errors_of_fit(&all, *variance, value);
+    of[0] = value[0].error * value[0].error;
+    of[1] = value[1].error * value[1].error;
+}
+
+/* Half of what w and s move by when all windows are cut by FIT_TRIM_END, at one end or the other, beyond
+ * what noise moves them by: its variance is that of the cut fit less that of the whole (Hausman
+ * 1978). */
+static ss_status
+add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    const double at[2] = { k->fit.w, k->fit.s };
+    double most[2] = { 0, 0 }, whole[2], less[2], variance = -1;
+    size_t off = periods(k, FIT_TRIM_END);
+    ss_window *cut_off = malloc(n * sizeof *cut_off);
+    ss_status st = cut_off != NULL ? SS_OK : SS_ENOMEM;
+    int ok;
+    if (st == SS_OK)
+        variances(k, window, n, &variance, whole);
+    for (int end = 0; end < 2 && st == SS_OK; end++) {
+        for (size_t i = 0; i < n; i++) {
+            size_t part = off < ss_window_length(window[i]) ? off : ss_window_length(window[i]);
+            cut_off[i] = window[i];
+            if (end)
+                cut_off[i].end -= part;
+            else
+                cut_off[i].first += part;
+        }
+        st = ss_varpro_fit(&k->fit, cut_off, n, FIT_FINE, &ok);
+        if (st == SS_OK && ok) {
+            variances(k, cut_off, n, &variance, less);
+            const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
+            for (int j = 0; j < 2; j++)
+                most[j] = fmax(most[j], moved[j] * moved[j] - fmax(less[j] - whole[j], 0));
+        }
+        k->fit.w = at[0], k->fit.s = at[1];
+    }
+    for (int j = 0; j < 2; j++)
+        value[j].error = sqrt(value[j].error * value[j].error + 0.25 * most[j]);
+    free(cut_off);
+    return st;
+}
+
+/* What a filter leaves of a slip goes on into every stick, slowly and alike: neither the jackknife nor
+ * shorter windows see all of it.  If the fit moves by more than SEEN standard deviations of what noise
+ * moves it by (Hausman again) where the slow part may bend as a cubic, it is off by as much. */
+static ss_status
+add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    const double at[2] = { k->fit.w, k->fit.s };
+    double whole[2], bent[2], variance = -1;
+    int ok;
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_COLUMNS + 2)
+            return SS_OK;
+    variances(k, window, n, &variance, whole);
+    ss_varpro_bend(&k->fit, 1);
+    ss_status st = ss_varpro_fit(&k->fit, window, n, FIT_FINE, &ok);
+    if (st == SS_OK && ok) {
+        variances(k, window, n, &variance, bent);
+        const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
+        for (int j = 0; j < 2; j++)
+            if (moved[j] * moved[j] > SEEN * SEEN * fmax(bent[j] - whole[j], 0))
+                value[j].error = hypot(value[j].error, moved[j]);
+    }
+    ss_varpro_bend(&k->fit, 0);
+    k->fit.w = at[0], k->fit.s = at[1];
+    return st;
+}
+
+/* The sum of squares that all windows leave, with a steady line of frequency line in each. */
+static double
+rss_with_line(fitter *k, const ss_window *window, size_t n, double line)
+{
+    double sum = 0;
+    ss_varpro_add_line(&k->fit, line);
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0)
+            sum += ss_varpro_project(&k->fit, window[i]).rss;
+    return sum;
+}
+
+/* A line in every window that explains more than chance is no part of the model, of which the fit
+ * may have taken it for one: it is off by what it moves by beside the line. */
+static ss_status
+add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
+{
+    const double at[2] = { k->fit.w, k->fit.s };
+    double least = INFINITY, best = 0, ring = 0;
+    size_t used = 0, samples = ss_window_total(window, n);
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        if (ss_window_length(window[i]) <= VARPRO_COLUMNS + 2)
+            return SS_OK;
+        ring += ss_varpro_project(&k->fit, window[i]).ring;
+        used++;
+    }
+    double plain = rss_with_line(k, window, n, 0);
+    for (int l = 0; l < LINES; l++) {
+        double line = at[0] * (LOWEST_LINE + l * (HIGHEST_LINE - LOWEST_LINE) / (LINES - 1));
+        double rss = rss_with_line(k, window, n, line);
+        if (rss < least) {
+            least = rss;
+            best = line;
+        }
+    }
+    double more = 2 * (double)used, left = (double)(samples - (k->fit.columns + 2) * used);
+    double noise = fmax(least / left, FIT_MISFIT * FIT_MISFIT * ring / (double)samples);
+    double F = (plain - least) / more / noise;
+    ss_status st = SS_OK;
+    if (F > gsl_cdf_fdist_Qinv(FIT_CHANCE / LINES, more, left)) {
+        int ok;
+        double variance = -1, with[2];
+        ss_varpro_add_line(&k->fit, best);
+        st = ss_varpro_fit(&k->fit, window, n, FIT_FINE, &ok);
+        if (st == SS_OK && ok) {
+            variances(k, window, n, &variance, with);
+            const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
+            for (int j = 0; j < 2; j++)
+                value[j].error = sqrt(value[j].error * value[j].error + moved[j] * moved[j] + with[j]);
+        } else
+            value[0].error = value[1].error = INFINITY;
+    }
+    ss_varpro_add_line(&k->fit, 0);
+    k->fit.w = at[0], k->fit.s = at[1];
+    return st;
+}
+
+/* A residual above the white noise is no part of the model.  It may lie in the band of the oscillation:
+ * then all of its energy in a window disturbs the fit, not only the share that white noise has there.
+ * Nor is the fit finer than its tolerance. */
+static void
+add_colour(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2])
+{
+    double variance = -1, unused[2];
+    size_t used = 0, samples = ss_window_total(window, n);
+    ss_value more[2];
+    normal all = { 0 };
+    variances(k, window, n, &variance, unused);
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        normal h = normal_of(k, window[i]);
+        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
+        used++;
+    }
+    double excess = fmax(0, variance - WHITE * white * white);
+    errors_of_fit(&all, excess * 0.5 * (double)samples / (double)used, more);
+    for (int j = 0; j < 2; j++)
+        value[j].error = sqrt(value[j].error * value[j].error + more[j].error * more[j].error
+                              + FIT_FINE * FIT_FINE * k->fit.w * k->fit.w);
+}
+
+/* --- all of it ----------------------------------------------------------------------------- */
+
+void
+ss_errors_of_one(fitter *k, ss_window win, ss_value value[2])
+{
+    normal h = normal_of(k, win);
+    errors_of_fit(&h, h.rss / (double)(ss_window_length(win) - k->fit.columns - 2), value);
+}
+
+ss_status
+ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2])
+{
+    ss_status st = jackknife(k, window, n, value);
+    if (st == SS_OK)
+        st = add_misfit(k, window, n, value);
+    if (st == SS_OK)
+        st = add_slow_part(k, window, n, value);
+    if (st == SS_OK)
+        st = add_line(k, window, n, value);
+    if (st == SS_OK)
+        add_colour(k, window, n, white, value);
+    return st;
+}

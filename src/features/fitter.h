@@ -1,0 +1,78 @@
+/* fitter.h -- what the parts of the fit of a damped oscillation share; see ringdown.c. */
+#ifndef FITTER_H
+#define FITTER_H
+
+#include <math.h>
+#include <stickslip/features.h>
+#include "features/varpro.h"
+
+/* In periods of the oscillation. */
+#define FIT_LEAST 2.0           /* shorter windows cannot separate oscillation, line and decay */
+#define FIT_BLOCK 0.125         /* a step of growth, or of what is looked for in a window */
+#define FIT_TRIM_END 0.4        /* kept off the end found, where a misfit not yet seen may hide */
+
+#define FIT_CHANCE 1e-3         /* of an error of a test */
+#define FIT_MISFIT 1e-3         /* of the oscillation's amplitude: passes for noise */
+#define FIT_EXPLAINED 0.9       /* of the sum of squares, to pass for an oscillation all the same */
+enum { FIT_FEW = 4 };           /* windows that a jackknife needs */
+#define FIT_FINE 1e-8           /* tolerance of the last fits */
+
+typedef struct fitter {
+    varpro fit;
+    size_t n;                   /* samples */
+    double noise;               /* variance */
+    double *limit;              /* see ss_sticks_belong; 0: not known yet */
+    size_t n_gaps;
+    const ss_window *gap;
+} fitter;
+
+/* So many periods in samples. */
+static inline size_t
+periods(const fitter *k, double n)
+{
+    return (size_t)ceil(n * (2 * M_PI / k->fit.w));
+}
+
+/* --- sticks.c: where a stick begins and ends, as the w, s and noise at hand show it ----------- */
+
+/* Find the variance of the noise in the windows. */
+ss_status ss_sticks_noise(fitter *k, const ss_window *window, size_t n);
+
+int ss_sticks_has_gap(const fitter *k, ss_window win);
+
+/* The window of so many periods about an anchor where the line and the oscillation leave least, among
+ * the places where there is at least a quarter of the most oscillation. */
+ss_window ss_sticks_place(fitter *k, size_t anchor, double size_in_periods);
+
+/* Do the q samples that raise the sum of squares by rise belong to the stick? */
+int ss_sticks_belong(fitter *k, double rise, size_t q);
+
+/* Grow windows of up to limit samples about n cores. */
+void ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit);
+
+/* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
+ss_window ss_sticks_cut(const fitter *k, ss_window win, size_t longest);
+
+/* Keep off both ends as growth found them. */
+ss_window ss_sticks_trim(const fitter *k, ss_window win);
+
+/* --- slips.c: micro-slips too weak for any one window, and what rings behind the windows ------ */
+
+/* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
+ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at);
+
+/* Empty the window whose gain, taken by itself, changes most at a place. */
+void ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at);
+
+/* *is: it rings on behind the windows, or hums. */
+ss_status ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is);
+
+/* --- errors.c: standard errors ---------------------------------------------------------------- */
+
+/* Those of w and s as k has them, fitted to n windows; white: the rms of the white noise. */
+ss_status ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2]);
+
+/* Those of a fit to one window alone, from its curvature. */
+void ss_errors_of_one(fitter *k, ss_window win, ss_value value[2]);
+
+#endif

@@ -1,0 +1,246 @@
+/* oscillation.c -- the oscillation behind transitions that are known by about, and its judgement. */
+#include <math.h>
+#include <stdlib.h>
+#include "base/list.h"
+#include "features/fold.h"
+#include "features/hum.h"
+#include "features/ringdown.h"
+#include "features/scale_rows.h"
+#include "features/search.h"
+#include "signal/gaps.h"
+
+#define NEAR 1.0                /* [octaves] what is fitted is as near to what recurs */
+#define SHARPER 1.5             /* than the oscillation, in frequency: an event within it */
+#define PRECISE 10.0            /* a frequency is this many of its standard errors, at least */
+#define POSITIVE 3.0            /* standard errors by which a damping ratio is more than 0 */
+
+/* omega and s per sample into Hz and damping ratio. */
+static void
+set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_value *ratio)
+{
+    double w = fit[0].value, s = fit[1].value, r = hypot(w, s);
+    *frequency = (ss_value){ w * rate / (2 * M_PI), fit[0].error * rate / (2 * M_PI) };
+    *ratio = (ss_value){ s / r, hypot(w * w * fit[1].error, w * s * fit[0].error) / (r * r * r) };
+}
+
+static int
+earlier_window(const void *a, const void *b)
+{
+    const ss_window *p = a, *q = b;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+/* Does the spike end a stick in which f rings?  At scales that see no more than the oscillation itself,
+ * its own crests pass for kinks. */
+static int
+cuts(const ss_spike *spike, double f)
+{
+    return is_event(spike) && spike->level >= -STRONG && spike->f > SHARPER * f;
+}
+
+typedef enum bars { BAR_GAPS, BAR_JUMPS, BAR_EVENTS } bars;
+
+/* What no stick reaches over: gaps, and strong jumps, or jumps and kinks, which have no samples of
+ * their own. */
+static ss_status
+find_bars(const search *s, bars which, double f, ss_window **bar, size_t *n)
+{
+    const ss_spikes *found = s->out->spikes;
+    *bar = malloc((s->n_gaps + found->n + 1) * sizeof **bar);
+    if (*bar == NULL)
+        return SS_ENOMEM;
+    for (*n = 0; *n < s->n_gaps; ++*n)
+        ss_gap_rows(&s->gap[*n], s->rate, &(*bar)[*n].first, &(*bar)[*n].end);
+    for (size_t i = 0; i < found->n && which != BAR_GAPS; i++)
+        if (which == BAR_EVENTS ? cuts(&found->spike[i], f)
+            : found->spike[i].kind == SS_SPIKE_JUMP && found->spike[i].level >= -STRONG) {
+            size_t at = (size_t)ceil(fmax(found->spike[i].t * s->rate, 0));
+            (*bar)[(*n)++] = (ss_window){ at, at };
+        }
+    qsort(*bar, *n, sizeof **bar, earlier_window);
+    return SS_OK;
+}
+
+/* Where the transitions are known already, each stick by itself, as they need not be alike. */
+static ss_status
+fit_singly(const search *s, const size_t *anchor, size_t n, double f, ss_window *window,
+           ss_value all[2], ss_value *each)
+{
+    ss_window *bar = NULL;
+    size_t n_bars = 0;
+    ss_status st = find_bars(s, BAR_EVENTS, f, &bar, &n_bars);
+    if (st == SS_OK)
+        st = ss_ringdown_fit_each(s->x, s->n, anchor, n, 2 * M_PI / s->rate * f, bar, n_bars, window,
+                                  all, each);
+    free(bar);
+    return st;
+}
+
+/* Does a jump or kink that ends a stick lie between the two, by more than the scale that shows it? */
+static int
+crosses_event(const ss_spikes *found, double from, double to, double f)
+{
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
+    for (; i < found->n && found->spike[i].t < to; i++) {
+        double a = ROW_CENTER / (2 * M_PI * found->spike[i].f), t = found->spike[i].t;
+        if (cuts(&found->spike[i], f) && t > from + a && t < to - a)
+            return 1;
+    }
+    return 0;
+}
+
+/* How many of the windows cross an event, of the record or of its mean cycle. */
+static ss_status
+count_crossings(const search *s, const ss_window *window, size_t n, double f, size_t *used,
+                size_t *crossed)
+{
+    double period;
+    ss_spikes *folded = NULL;
+    ss_status st = ss_fold_spikes(s, &folded, &period);
+    *used = *crossed = 0;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        double from = (double)window[i].first / s->rate, to = (double)window[i].end / s->rate;
+        if (from == to)
+            continue;
+        ++*used;
+        if (crosses_event(s->out->spikes, from, to, f)) {
+            ++*crossed;
+        } else if (folded != NULL) {
+            double shift = period * (1 - floor(from / period));
+            *crossed += (size_t)crosses_event(folded, from + shift, to + shift, f);
+        }
+    }
+    ss_spikes_free(folded);
+    return st;
+}
+
+/* Why what was fitted to used of n transitions is no ringing at about omega radians a sample; NULL if
+ * it is.  What fewer than half of them show is picked by the fit itself. */
+static const char *
+judge_fit(const ss_value all[2], double omega, size_t n, size_t used, size_t crossed)
+{
+    if (isnan(all[0].value) || used < FEW || fabs(log2(all[0].value / omega)) > NEAR)
+        return "what recurs lasts under 2 periods or is no damped oscillation";
+    if (2 * used < n)
+        return "fewer than half of the transitions last 2 periods as one oscillation";
+    if (2 * crossed > used)
+        return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
+    if (!(all[1].value > 0))
+        return "what recurs does not decay";
+    if (!(all[0].error < all[0].value / PRECISE))
+        return "the transitions do not agree on a frequency";
+    return NULL;
+}
+
+/* One fit about the anchors, kept off bars, and its judgement. *why: it is no ringing. */
+static ss_status
+fit_once(const search *s, const size_t *anchor, size_t n, double f, const ss_window *bar, size_t n_bars,
+         ss_window *window, ss_value all[2], ss_value *each, const char **why)
+{
+    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
+    size_t used, crossed;
+    ss_status st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f, isnan(forcing) ? 0 : turn * forcing,
+                                   s->out->noise / s->largest, bar, n_bars, window, all, each);
+    if (st == SS_OK)
+        st = count_crossings(s, window, n, f, &used, &crossed);
+    if (st == SS_OK)
+        *why = judge_fit(all, turn * f, n, used, crossed);
+    return st;
+}
+
+/* Two periods into the longest stretch without jumps and kinks between each anchor and the next: the
+ * stick behind a train of micro-slips. */
+static void
+move_to_sticks(const search *s, const size_t *anchor, size_t n, double f, size_t *moved)
+{
+    const ss_spikes *found = s->out->spikes;
+    for (size_t i = 0; i < n; i++) {
+        double from = (double)anchor[i] / s->rate - 1 / f, longest = 0;
+        double to = (i + 1 < n ? (double)anchor[i + 1] / s->rate : (double)s->n / s->rate) - 1 / f;
+        size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
+        moved[i] = anchor[i];
+        for (; from < to; k++) {
+            if (k < found->n && !cuts(&found->spike[k], f))
+                continue;
+            double next = k < found->n ? fmin(found->spike[k].t, to) : to;
+            if (next - from > longest) {
+                longest = next - from;
+                moved[i] = (size_t)((from + 2 / f) * s->rate);
+            }
+            from = next;
+        }
+        moved[i] = moved[i] < s->n ? moved[i] : s->n - 1;
+    }
+}
+
+/* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
+ * smaller one does little harm, so that windows are kept off jumps, and then off kinks, and then
+ * moved behind trains of these, only where nothing can be fitted else that deserves it.  *why: it is
+ * no ringing. */
+static ss_status
+fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
+    ss_value *each, const char **why)
+{
+    size_t *moved = malloc((n + 1) * sizeof *moved);
+    ss_status st = moved != NULL ? SS_OK : SS_ENOMEM;
+    *why = "";
+    for (bars which = BAR_GAPS; which <= BAR_EVENTS && st == SS_OK && *why != NULL; which++) {
+        ss_window *bar = NULL;
+        size_t n_bars = 0;
+        st = find_bars(s, which, f, &bar, &n_bars);
+        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps))
+            st = fit_once(s, anchor, n, f, bar, n_bars, window, all, each, why);
+        if (st == SS_OK && *why != NULL && which == BAR_EVENTS && n > 0) {
+            move_to_sticks(s, anchor, n, f, moved);
+            st = fit_once(s, moved, n, f, bar, n_bars, window, all, each, why);
+        }
+        free(bar);
+    }
+    free(moved);
+    return st;
+}
+
+ss_status
+ss_oscillation_fit(search *s, const double *about, double f, int singly, ss_window *window)
+{
+    ss_features *out = s->out;
+    size_t n = out->n;
+    size_t *anchor = malloc((n + 1) * sizeof *anchor);
+    ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
+    double repeats = out->repetition_frequency.value;
+    ss_hum hum = SS_HUM_NONE;
+    ss_status st = SS_ENOMEM;
+    if (anchor != NULL && each != NULL) {
+        for (size_t i = 0; i < n; i++)
+            anchor[i] = (size_t)(about[i] * s->rate);
+        st = singly || isnan(repeats) ? SS_OK
+            : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
+        if (st == SS_OK)
+            st = singly ? fit_singly(s, anchor, n, f, window, all, each)
+                : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
+    }
+    if (st == SS_OK && singly)
+        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, n, 0);
+    if (st == SS_OK && hum == SS_HUM_HIDDEN)
+        out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
+    if (st == SS_OK && out->why_ringing != NULL)
+        ss_ringdown_clear(anchor, n, window, all, each);
+    if (st == SS_OK) {
+        set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
+        if (!(out->damping_ratio.value > POSITIVE * out->damping_ratio.error))
+            out->damping_ratio = unknown;
+        for (size_t i = 0; i < n; i++) {
+            ss_transition *tr = &out->transition[i];
+            set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
+            if (window[i].end > window[i].first) {
+                tr->from = (double)window[i].first / s->rate;
+                tr->to = (double)window[i].end / s->rate;
+            }
+        }
+    }
+    if (st == SS_OK && hum == SS_HUM_SUBTRACTED && out->why_ringing == NULL)
+        out->why_ringing = "fitted to what is left when a steady hum near it is subtracted";
+    free(anchor);
+    free(each);
+    return st;
+}

@@ -1,0 +1,192 @@
+/* slips.c -- micro-slips too weak to show in one window, and what rings behind the windows. */
+#include "features/fitter.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
+#define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
+#define LATEST 32.0             /* behind a window, see rings_on */
+
+/* --- micro-slips too weak for any one window ----------------------------------------------- */
+
+/* A micro-slip changes the oscillation by a complex gain, and about equally in all sticks, at about
+ * the same distance from their starts. So at each distance the gain is tried as a third parameter
+ * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
+ * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well. */
+enum { PARAMETERS = VARPRO_DERIVATIVES };   /* w, s, real and imaginary part of the gain */
+typedef struct score {
+    double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
+} score;
+
+/* Add a window's at the places first, first + step, ... */
+static void
+add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
+{
+    size_t n = ss_window_length(win);
+    double **j = k->fit.j;
+    linear fitted = ss_varpro_derive(&k->fit, win);
+    for (size_t l = 0; l < n_places; l++, to++) {
+        size_t at = first + l * step;
+        int used = at < n ? PARAMETERS : 2;
+        if (at < n) {
+            for (size_t i = 0; i < n; i++) {
+                double c = i < at ? 0 : k->fit.ring.cos[i], s = i < at ? 0 : k->fit.ring.sin[i];
+                j[2][i] = fitted.a * c + fitted.b * s;
+                j[3][i] = fitted.b * c - fitted.a * s;
+            }
+            for (int p = 2; p < PARAMETERS; p++)
+                ss_varpro_project_out(&k->fit, j[p], n);
+        }
+        for (int p = 0; p < used; p++) {
+            for (int q = 0; q < used; q++)
+                to->h[p * PARAMETERS + q] += ss_dot(j[p], j[q], n);
+            to->g[p] += ss_dot(j[p], k->fit.r, n);
+        }
+    }
+}
+
+/* g' H^-1 g; destroys H. */
+static double
+statistic(score *at)
+{
+    double y[PARAMETERS], sum = 0;
+    gsl_matrix_view h = gsl_matrix_view_array(at->h, PARAMETERS, PARAMETERS);
+    gsl_vector_view v = gsl_vector_view_array(y, PARAMETERS);
+    memcpy(y, at->g, sizeof y);
+    if (gsl_linalg_cholesky_decomp1(&h.matrix) != GSL_SUCCESS)
+        return 0;                       /* no window reaches there */
+    gsl_linalg_cholesky_svx(&h.matrix, &v.vector);
+    for (int p = 0; p < PARAMETERS; p++)
+        sum += at->g[p] * y[p];
+    return sum;
+}
+
+/* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
+ss_status
+ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
+{
+    size_t step = periods(k, FIT_BLOCK), longest = 0;
+    for (size_t i = 0; i < n; i++)
+        longest = ss_window_length(window[i]) > longest ? ss_window_length(window[i]) : longest;
+    size_t n_places = longest / step;
+    score *place = calloc(n_places + 1, sizeof *place);
+    if (place == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0)
+            add_scores(k, window[i], step, step, n_places, place);
+    double most = 1;
+    *at = k->fit.room;
+    for (size_t l = 0; l < n_places; l++) {
+        double chance = (l + 1) * step < periods(k, FIT_LEAST) ? BREAK_EARLY : BREAK;
+        double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
+        double over = statistic(&place[l]) / limit;
+        if (over > most) {
+            most = over;
+            *at = (l + 1) * step;
+        }
+    }
+    free(place);
+    return SS_OK;
+}
+
+/* Empty the window whose gain, taken by itself, changes most at a place. */
+void
+ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
+{
+    size_t worst = n;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        score s = { { 0 }, { 0 } };
+        if (ss_window_length(window[i]) <= at)
+            continue;
+        add_scores(k, window[i], at, 1, 1, &s);
+        double found = statistic(&s);
+        if (found > most) {
+            most = found;
+            worst = i;
+        }
+    }
+    if (worst < n)
+        window[worst].end = window[worst].first;
+}
+
+/* --- oscillations that go on behind the windows -------------------------------------------- */
+
+typedef struct tail {           /* behind a window */
+    double left;                /* mean square that the ringing leaves there */
+    ss_window at;
+} tail;
+
+/* So many periods behind the window, in a window of the least length and before limit; empty: that
+ * cannot be looked at. */
+static tail
+tail_of(fitter *k, ss_window win, double late_by, size_t limit)
+{
+    size_t first = win.end + periods(k, late_by);
+    ss_window late = { first, first + periods(k, FIT_LEAST) };
+    if (ss_window_length(win) == 0 || late.end > limit
+        || ss_sticks_has_gap(k, (ss_window){ win.end, late.end }))
+        return (tail){ 0, { 0, 0 } };
+    double mean = ss_varpro_project(&k->fit, win).ring / (double)ss_window_length(win);
+    double apart = (double)(late.first + late.end - win.first - win.end) / 2;
+    return (tail){ mean * exp(-2 * k->fit.s * apart), late };
+}
+
+/* Is there an oscillation, as k->fit has it, of more than twice the amplitude that is left? */
+static int
+rings_there(fitter *k, tail behind)
+{
+    linear fitted = ss_varpro_project(&k->fit, behind.at);
+    double m = (double)ss_window_length(behind.at);
+    int is_one = fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss)
+        || ss_sticks_belong(k, fitted.rss, ss_window_length(behind.at) - k->fit.columns);
+    return is_one && fitted.ring > 4 * m * behind.left + k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+}
+
+/* Does it ring, or hum at a frequency near, behind more than half of the windows? */
+static int
+rings_behind(fitter *k, const tail *behind, size_t n)
+{
+    static const double tone[] = { 0, 0.7, 0.85, 1, 1.15, 1.3 };   /* re w; 0: it itself */
+    const double w = k->fit.w, s = k->fit.s;
+    size_t seen = 0, most = 0;
+    for (size_t t = 0; t < sizeof tone / sizeof *tone; t++) {
+        size_t on = seen = 0;
+        if (tone[t] > 0)
+            k->fit.w = tone[t] * w, k->fit.s = 0;
+        for (size_t i = 0; i < n; i++)
+            if (ss_window_length(behind[i].at) > 0) {
+                seen++;
+                on += (size_t)rings_there(k, behind[i]);
+            }
+        most = on > most ? on : most;
+    }
+    k->fit.w = w, k->fit.s = s;
+    return seen >= FIT_FEW && 2 * most > seen;
+}
+
+/* A train of micro-slips looks like a strongly damped oscillation, though the contact rings on behind
+ * it; a hum goes on, too.  So all windows are looked behind at growing distances. */
+ss_status
+ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is)
+{
+    tail *behind = malloc((n + 1) * sizeof *behind);
+    if (behind == NULL)
+        return SS_ENOMEM;
+    *is = 0;
+    for (double late_by = 2; late_by <= LATEST && !*is; late_by *= 2) {
+        size_t limit = k->n;
+        for (size_t i = n; i-- > 0;) {
+            behind[i] = tail_of(k, window[i], late_by, limit);
+            limit = ss_window_length(window[i]) > 0 ? window[i].first : limit;
+        }
+        *is = rings_behind(k, behind, n);
+    }
+    free(behind);
+    return SS_OK;
+}
+

@@ -1,0 +1,179 @@
+/* sticks.c -- where a stick begins and ends.
+ *
+ * A core shorter than any stick that can be used is put where an oscillation explains most; from
+ * there the window grows.  With w and s fixed, q more samples raise the sum of squares by the
+ * noise's variance times chi-square of q degrees of freedom if they still belong to the stick:
+ * growth ends where they raise it by more. */
+#include "features/fitter.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics_double.h>
+#include <stdlib.h>
+
+#define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
+enum { PLACES = 16 };           /* of the core, a period */
+
+/* What of the sum of squares the noise makes: its median over the windows, robust to those that
+ * hold something else; not less than the misfit allowed for. */
+ss_status
+ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
+{
+    double *variance = malloc(2 * n * sizeof *variance);
+    size_t used = 0;
+    if (variance == NULL)
+        return SS_ENOMEM;
+    double *ring = variance + n;
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) <= k->fit.columns)
+            continue;
+        linear fitted = ss_varpro_project(&k->fit, window[i]);
+        double freedom = (double)(ss_window_length(window[i]) - k->fit.columns);
+        variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
+        ring[used++] = fitted.ring / (double)ss_window_length(window[i]);
+    }
+    if (used > 0)
+        k->noise = fmax(gsl_stats_select(variance, 1, used, used / 2),
+                        FIT_MISFIT * FIT_MISFIT * gsl_stats_select(ring, 1, used, used / 2));
+    free(variance);
+    return SS_OK;
+}
+
+/* How many gaps begin before sample i. */
+static size_t
+gaps_before(const fitter *k, size_t i)
+{
+    size_t lo = 0, hi = k->n_gaps;
+    while (lo < hi) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (k->gap[mid].first < i)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+int
+ss_sticks_has_gap(const fitter *k, ss_window win)
+{
+    size_t g = gaps_before(k, win.end);
+    return g > 0 && k->gap[g - 1].end > win.first;
+}
+
+/* The window of so many periods about an anchor where the line and the oscillation leave least,
+ * among the places where there is at least a quarter of the most oscillation. */
+ss_window
+ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
+{
+    size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
+    size_t before = periods(k, 2), after = periods(k, 1);
+    ss_window best = { 0, 0 };
+    size = size > k->fit.columns + 2 ? size : k->fit.columns + 2;
+    double most = 0, least = INFINITY;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t first = anchor > before ? anchor - before : 0;
+             first <= anchor + after && first + size <= k->n; first += step) {
+            ss_window here = { first, first + size };
+            if (ss_sticks_has_gap(k, here))
+                continue;
+            linear fitted = ss_varpro_project(&k->fit, here);
+            if (pass == 0) {
+                most = fmax(most, fitted.ring);
+            } else if (fitted.ring >= 0.25 * most && fitted.rss < least) {
+                least = fitted.rss;
+                best = here;
+            }
+        }
+    return best;
+}
+
+/* Do the q samples that raise the sum of squares by rise belong to the stick? */
+int
+ss_sticks_belong(fitter *k, double rise, size_t q)
+{
+    if (!(k->limit[q] > 0))
+        k->limit[q] = gsl_cdf_chisq_Qinv(FIT_CHANCE, (double)q);
+    return rise <= k->noise * k->limit[q];
+}
+
+/* Move one end of the window outwards, in steps down to one sample, at most room samples. */
+static ss_window
+grow(fitter *k, ss_window win, size_t room, int backwards)
+{
+    double start = ss_varpro_project(&k->fit, win).rss, rss = start;
+    size_t added = 0;
+    for (size_t step = periods(k, FIT_BLOCK); step > 0; step /= 2)
+        while (added + step <= room) {
+            ss_window more = win;
+            if (backwards)
+                more.first -= step;
+            else
+                more.end += step;
+            double now = ss_varpro_project(&k->fit, more).rss;
+            if (!ss_sticks_belong(k, now - rss, step)
+                || !ss_sticks_belong(k, now - start, added + step))
+                break;
+            win = more;
+            rss = now;
+            added += step;
+        }
+    return win;
+}
+
+static ss_window
+grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
+{
+    if (ss_window_length(core) >= longest)
+        return core;
+    size_t most = longest - ss_window_length(core), left = core.first - low;
+    if (ss_window_length(core) == 0
+        || !ss_sticks_belong(k, ss_varpro_project(&k->fit, core).rss,
+                             ss_window_length(core) - k->fit.columns))
+        return (ss_window){ 0, 0 };
+    ss_window win = grow(k, core, left < most ? left : most, 1);
+    size_t right = high - win.end;
+    most = longest - ss_window_length(win);
+    return grow(k, win, right < most ? right : most, 0);
+}
+
+/* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
+ss_window
+ss_sticks_cut(const fitter *k, ss_window win, size_t longest)
+{
+    size_t least = periods(k, FIT_LEAST), end = periods(k, FIT_TRIM_END);
+    if (ss_window_length(win) <= longest)
+        return win;
+    win.end = win.first + longest;
+    win.end -= end < longest - least ? end : longest - least;
+    return win;
+}
+
+/* Keep off both ends as growth found them. */
+ss_window
+ss_sticks_trim(const fitter *k, ss_window win)
+{
+    size_t least = periods(k, FIT_LEAST), start = periods(k, TRIM_START);
+    if (ss_window_length(win) < least)
+        return (ss_window){ win.first, win.first };
+    size_t spare = ss_window_length(win) - least;
+    win.first += start < spare ? start : spare;
+    return ss_sticks_cut(k, win, ss_window_length(win) - 1);
+}
+
+/* Windows about the cores, as the w, s and noise at hand show them. */
+void
+ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit)
+{
+    for (size_t i = 0; i < n; i++) {
+        size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
+        size_t g = gaps_before(k, core[i].end);
+        if (g > 0 && k->gap[g - 1].end > low)
+            low = k->gap[g - 1].end;
+        if (g < k->n_gaps && k->gap[g].first < high)
+            high = k->gap[g].first;
+        low = low < core[i].first ? low : core[i].first;
+        high = high > core[i].end ? high : core[i].end;
+        window[i] = grow_both(k, core[i], low, high, limit);
+    }
+}
+
