@@ -46,12 +46,39 @@ newton_step(finder *f, int period, motion *at, tangent *t, double *off)
     return SS_OK;
 }
 
+static void
+times(const tangent *t, const double d[D_MOST], double out[D_MOST])
+{
+    for (int i = 0; i < D_MOST; i++) {
+        out[i] = 0;
+        for (int j = 0; j < D_MOST; j++)
+            out[i] += t->d[i][j] * d[j];
+    }
+}
+
+/* What 2^30 repetitions leave of a difference. */
+static void
+at_last(const tangent *t, const double difference[D_MOST], double left[D_MOST])
+{
+    tangent power = *t;
+    for (int n = 0; n < 30; n++) {
+        tangent square = { 0 };
+        for (int i = 0; i < D_MOST; i++)
+            for (int j = 0; j < D_MOST; j++)
+                for (int k = 0; k < D_MOST; k++)
+                    square.d[i][j] += power.d[i][k] * power.d[k][j];
+        power = square;
+    }
+    times(&power, difference, left);
+}
+
 /* Whether the motion from a state goes, over so many cycles, to the periodic one as its derivative says:
- * otherwise that is another motion than the one which is approached. */
+ * otherwise that is another motion than the one which is approached, or none is. */
 static ss_status
 is_approached(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
 {
-    double unit[D_MOST], centre[D_MOST], before[D_MOST], after[D_MOST], far = 0, off = 0;
+    double unit[D_MOST], centre[D_MOST], before[D_MOST], after[D_MOST], expected[D_MOST], left[D_MOST];
+    double far = 0, off = 0, rest = 0;
     ss_status st = ss_finder_begin_at(f, from);
     if (st == SS_OK)
         st = ss_finder_go(f, cycles, NULL, NULL);
@@ -59,14 +86,17 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     ss_finder_coordinates(at, centre);
     ss_finder_coordinates(from, before);
     ss_finder_coordinates(&f->w.m, after);
+    for (int i = 0; i < D_MOST; i++)
+        before[i] -= centre[i];
+    times(t, before, expected);
+    at_last(t, before, left);
     for (int i = 0; i < D_MOST; i++) {
-        double expected = centre[i];
-        for (int j = 0; j < D_MOST; j++)
-            expected += t->d[i][j] * (before[j] - centre[j]);
-        off = fmax(off, fabs(after[i] - expected) / unit[i]);
-        far = fmax(far, fabs(before[i] - centre[i]) / unit[i]);
+        off = fmax(off, fabs(after[i] - centre[i] - expected[i]) / unit[i]);
+        far = fmax(far, fabs(before[i]) / unit[i]);
+        rest = fmax(rest, fabs(left[i]) / unit[i]);
     }
-    *yes = from->now.mode == at->now.mode && off <= NONLINEAR * far + f->opts->tol;
+    *yes = from->now.mode == at->now.mode && off <= NONLINEAR * far + f->opts->tol
+        && rest <= f->opts->tol;
     return st;
 }
 
