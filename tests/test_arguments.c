@@ -221,6 +221,21 @@ simulations_refuse_null(void **state)
     assert_refused(ss_trade_choose(NULL, &scene, 1e-6, &e), &e);
     assert_refused(ss_trade_choose(&opts, NULL, 1e-6, &e), &e);
     assert_null(ss_trade_cheapest(NULL, 1));
+    ss_models *models = NULL;
+    ss_scene simpler;
+    ss_need need[SS_COMPARED] = { { 0, 0 } };
+    size_t n;
+    assert_null(ss_scene_simpler(NULL, &scene, 0));
+    assert_null(ss_scene_simpler(&simpler, NULL, 0));
+    assert_refused(ss_models_measure(NULL, &scene, NULL, &e), &e);
+    assert_refused(ss_models_measure(&models, NULL, NULL, &e), &e);
+    assert_refused(ss_needs_parse(NULL, &n, "x=1", &e), &e);
+    assert_refused(ss_needs_parse(need, NULL, "x=1", &e), &e);
+    assert_refused(ss_needs_parse(need, &n, NULL, &e), &e);
+    assert_int_equal(ss_models_keeps(NULL, need, 1), 0);
+    assert_null(ss_models_cheapest(NULL, need, 1));
+    assert_null(ss_compared_name(SS_COMPARED));
+    assert_null(ss_compared_unit(SIZE_MAX));
 }
 
 static void
@@ -433,6 +448,9 @@ writers_of_rows_refuse_null(void **state)
     ss_signal signal = { .head = head };
     const ss_features_opts *const opts = &ss_features_defaults;
     static const ss_trade trade;
+    static const ss_models models;
+    char *sentence = NULL;
+    ss_need need = { 0, 1 };
     FILE *out = tmpfile();
     (void)state;
     assert_int_equal(ss_event_writer_new(NULL, out, SS_TSV, head), SS_EINVAL);
@@ -454,6 +472,14 @@ writers_of_rows_refuse_null(void **state)
     assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU), SS_EINVAL);
+    assert_int_equal(ss_models_write(NULL, "x", NULL, 0, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_write(&models, NULL, NULL, 0, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_write(&models, "x", NULL, 1, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_write(&models, "x", NULL, 0, NULL, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_write(&models, "x", NULL, 0, out, SS_AU, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_answer(NULL, &models, &need, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_answer(&sentence, NULL, &need, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_models_answer(&sentence, &models, NULL, 1, NULL), SS_EINVAL);
     rankings_refuse_null(out);
     ss_table *table = NULL;
     ss_error e = { 0 };
@@ -497,6 +523,7 @@ plots_refuse_null(void **state)
 {
     static const ss_signal signal;
     static const ss_coefficients c;
+    static const ss_models models;
     static const ss_trade trade;
     static const ss_table table;
     static const ss_map_opts map;
@@ -516,6 +543,9 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_contour(out, NULL, contour, opts, &e), &e);
     assert_refused(ss_plot_contour(out, &c, NULL, opts, &e), &e);
     assert_refused(ss_plot_contour(out, &c, contour, NULL, &e), &e);
+    assert_refused(ss_plot_models(NULL, &models, opts, &e), &e);
+    assert_refused(ss_plot_models(out, NULL, opts, &e), &e);
+    assert_refused(ss_plot_models(out, &models, NULL, &e), &e);
     assert_refused(ss_plot_trade(NULL, &trade, opts, &e), &e);
     assert_refused(ss_plot_trade(out, NULL, opts, &e), &e);
     assert_refused(ss_plot_trade(out, &trade, NULL, &e), &e);
@@ -615,6 +645,7 @@ nothing_is_freed_without_complaint(void **state)
     ss_morlet_free(NULL);
     ss_coefficients_free(NULL);
     ss_trade_free(NULL);
+    ss_models_free(NULL);
     ss_stream_free(NULL);
     ss_coefficient_writer_free(NULL);
     ss_spikes_free(NULL);

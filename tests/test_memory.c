@@ -304,6 +304,24 @@ trades(int variant)
 }
 
 static ss_status
+model_trades(int variant)
+{
+    ss_models *made = NULL;
+    ss_scene brief = scene[SS_COMPLIANT];
+    const ss_need need = { 0, 0.1 };
+    char *sentence = NULL;
+    (void)variant;
+    brief.settle = 0;
+    brief.duration = 0.02;
+    ss_status st = ss_models_measure(&made, &brief, NULL, &err);
+    if (st == SS_OK)
+        st = ss_models_answer(&sentence, made, &need, 1, &err);
+    free(sentence);
+    ss_models_free(made);
+    return st;
+}
+
+static ss_status
 transforms(int variant)
 {
     ss_coefficients *made = NULL;
@@ -641,6 +659,7 @@ static const struct row {
     { "noises", noises, 1, 100 }, { "bases", bases, 1, 100 },
     { "simulations", simulations, 3, 100 },
     { "closed forms", closed_forms, 2, 100 }, { "trades", trades, 2, 20 },
+    { "simpler models", model_trades, 1, 20 },
     { "transforms", transforms, 6, 30 }, { "streams", streams, 4, 30 },
     { "inverses", inverses, 1, 30 }, { "comparisons", comparisons, 2, 30 },
     { "reading coefficients", read_coefficients, 1, 30 },

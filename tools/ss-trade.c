@@ -1,5 +1,5 @@
-/* ss-trade -- what accuracy costs on a scene, or in the transform of a signal, method by method,
- * measured on this machine. */
+/* ss-trade -- what accuracy costs on a scene, or in the transform of a signal, method by method, and
+ * what a simpler scene costs in accuracy, measured on this machine. */
 #include <ctype.h>
 #include <float.h>
 #include <getopt.h>
@@ -23,7 +23,11 @@ static const char usage[] =
 "  -t, --target=TOL      write the fastest options of ss-sim, or of ss-morlet,\n"
 "                        that keep x, or W, within TOL\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv or .csv, or the work-precision diagram as .gp,\n"
+"  -m, --models          the scene beside each simpler one that it contains: errors\n"
+"                        of x, v, a, f, of the contours and of the features\n"
+"  -n, --need=LIST       the cheapest of these that keeps a list of NAME=ERROR, as\n"
+"                        x=1e-2,a=0.1,map=3dB,microslips, in one sentence\n"
+"  -o, --output=FILE     .tsv or .csv, or a picture of error against time as .gp,\n"
 "                        .png, .svg or .pdf; --format=tsv|csv of standard output\n"
 "  -q, --quiet           no progress; -v, --verbose: report the measurement\n"
 "  -h, --help            show this text; --version: show the version\n";
@@ -56,7 +60,9 @@ typedef struct request {
     size_t n_settings;
     tool_reading reading;
     tool_kind kind;
-    int dense;
+    int dense, models;
+    ss_need need[SS_COMPARED];
+    size_t n_needs;
     ss_trade_opts opts;
     char *name;
 } request;
@@ -153,6 +159,69 @@ measure_signal(request *req)
     return trade;
 }
 
+/* --- simpler scenes ------------------------------------------------------------------------ */
+
+static void
+set_needs(request *req, const char *list)
+{
+    ss_error err = { 0 };
+    req->models = 1;
+    if (ss_needs_parse(req->need, &req->n_needs, list, &err) != SS_OK)
+        tool_usage("--need: %s", err.text);
+}
+
+static ss_status
+draw_models(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+{
+    return ss_plot_models(out, user, opts, err);
+}
+
+static void
+write_sentence(FILE *out, const ss_models *models, const request *req)
+{
+    char *sentence;
+    ss_error err = { 0 };
+    tool_check(ss_models_answer(&sentence, models, req->need, req->n_needs, &err), &err);
+    fprintf(out, "%s\n", sentence);
+    free(sentence);
+}
+
+static void
+compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
+{
+    ss_models *models = NULL;
+    ss_models_opts opts = ss_models_defaults;
+    ss_error err = { 0 };
+    ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
+    req->name = tool_name_scene(req->path, req->settings, req->n_settings);
+    plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
+    opts.progress.function = tool_progress;
+    tool_check(ss_models_measure(&models, &scene, &opts, &err), &err);
+    tool_note("%zu scenes, %zu samples of each compared", models->n, models->samples);
+    if (kind < TOOL_STREAM)
+        tool_draw(req->output, plot, draw_models, models);
+    else if (req->n_needs > 0 && req->output == NULL)
+        write_sentence(tool_output(NULL), models, req);
+    else
+        tool_check(ss_models_write(models, req->name, req->need, req->n_needs, tool_output(req->output),
+                                   tool_stream(kind), &err), &err);
+    ss_models_free(models);
+}
+
+static void
+trade_accuracy(request *req, tool_kind kind, ss_plot_opts *plot)
+{
+    ss_trade *trade = is_scene(req->path) ? measure_scene(req) : measure_signal(req);
+    plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
+    if (kind < TOOL_STREAM)
+        tool_draw(req->output, plot, write_script, trade);
+    else if (req->opts.target > 0)
+        write_options(tool_output(req->output), trade, req->opts.target);
+    else
+        tool_check(ss_trade_write(trade, req->name, tool_output(req->output), tool_stream(kind)), NULL);
+    ss_trade_free(trade);
+}
+
 int
 main(int argc, char *argv[])
 {
@@ -160,6 +229,7 @@ main(int argc, char *argv[])
     static const struct option longopts[] = {
         { "set", required_argument, NULL, 's' }, { "budget", required_argument, NULL, 'b' },
         { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, 'c' },
+        { "models", no_argument, NULL, 'm' }, { "need", required_argument, NULL, 'n' },
         { "dense", no_argument, NULL, OPT_DENSE }, TOOL_READING_LONGOPTS,
         { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     request req = { .kind = TOOL_TSV, .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
@@ -169,12 +239,14 @@ main(int argc, char *argv[])
     tool_reading_begin(&req.reading, argc);
     if (req.settings == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "s:c:b:t:o:qvh", longopts, NULL)) != -1;)
+    for (int c; (c = getopt_long(argc, argv, "s:c:b:t:mn:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case 's': req.settings[req.n_settings++] = optarg; break;
         case 'c': req.column = optarg; break;
         case 'b': req.opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
         case 't': req.opts.target = tool_number("--target", optarg, 1e-14, 1); break;
+        case 'm': req.models = 1; break;
+        case 'n': set_needs(&req, optarg); break;
         case 'o': req.output = optarg; break;
         case TOOL_OPT_FORMAT: req.kind = tool_format_of_words(optarg); break;
         case OPT_DENSE: req.dense = 1; break;
@@ -190,18 +262,17 @@ main(int argc, char *argv[])
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, req.kind);
     if (req.opts.target > 0 && kind < TOOL_STREAM)
         tool_usage("--target writes options, not a picture");
+    if (req.models && (req.opts.target > 0 || req.column != NULL || req.dense))
+        tool_usage("--models compares scenes, and --target, --column and --dense are for methods");
+    if (req.n_needs > 0 && kind < TOOL_STREAM)
+        tool_usage("--need writes an answer, not a picture");
 
     req.path = argv[optind];
     req.opts.progress.function = tool_progress;
-    ss_trade *trade = is_scene(req.path) ? measure_scene(&req) : measure_signal(&req);
-    plot.title = strcmp(req.name, tool_input_name("-")) == 0 ? NULL : req.name;
-    if (kind < TOOL_STREAM)
-        tool_draw(req.output, &plot, write_script, trade);
-    else if (req.opts.target > 0)
-        write_options(tool_output(req.output), trade, req.opts.target);
+    if (req.models)
+        compare_models(&req, kind, &plot);
     else
-        tool_check(ss_trade_write(trade, req.name, tool_output(req.output), tool_stream(kind)), NULL);
-    ss_trade_free(trade);
+        trade_accuracy(&req, kind, &plot);
     free(req.name);
     tool_reading_free(&req.reading);
     free(req.settings);

@@ -60,6 +60,10 @@ ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
  * logarithmic, one line a method, the frontier ringed.  opts->from and to do not apply. */
 ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err);
 
+/* Error against CPU time, as a multiple of the scene's own, a point a simpler scene for each of x, v, a
+ * and f; and under it the same of the map.  opts->from and to do not apply. */
+ss_status ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err);
+
 typedef struct ss_map_opts {
     size_t x, y;                /* columns of the table that make a grid */
     size_t z[2], n_z;           /* one or two columns drawn over it */

@@ -137,6 +137,12 @@ const ss_scene_range *ss_model_range(ss_model model, size_t i);
 /* SS_OK if a scene that has passed ss_scene_check lies within them, else SS_EINVAL. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
+/* The i-th of the simpler scenes that a scene contains, the one that loses most the last: without
+ * damping, with static friction as kinetic, without damping of the contact, as the model that it comes
+ * to in the limit (a stiff contact, friction that follows v at once: Coulomb's), and without friction.
+ * Gives its name, "damping=0" or that of its model, static; NULL after the last. */
+const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
+
 /* Properties of a model; "?" or 0 for a number that is not that of a model. */
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", ... */
 int ss_model_has_events(ss_model model);            /* stick, slip and reverse */

@@ -83,5 +83,72 @@ const ss_trade_row *ss_trade_cheapest(const ss_trade *trade, double accuracy);
  * times the reference's steps, both with what was reached; else as ss_sim_run. */
 ss_status ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_error *err);
 
+/* --- simpler models ------------------------------------------------------------------------ */
+
+/* What is compared of a scene and of a simpler one in its place: the largest and the root mean square
+ * error of x - U t, v, a and f in the record, over the largest value of the scene; the largest and the
+ * rms difference of the contour maps of a, the rms over the drawn area [dB]; the difference of the
+ * numbers of events and of micro-slips (slips that a slip in the same direction precedes) in the
+ * record; and the relative error of each number of ss_features of a, found with the scene's mass and
+ * stiffness and its x and f. */
+enum { SS_COMPARED_EVENTS = 10, SS_COMPARED_MICROSLIPS, SS_COMPARED = 23 };
+const char *ss_compared_name(size_t i);             /* "x", "x_rms", ...; NULL from SS_COMPARED on */
+const char *ss_compared_unit(size_t i);             /* "dB"; "" if it is a number */
+
+enum { SS_MODELS_SCENE, SS_MODELS_SETTLED, SS_MODELS_SIMPLER };    /* rows; from the last on, the simpler */
+typedef struct ss_models_row {
+    const char *name;           /* of ss_scene_simpler, or "settled"; of the first row: its model */
+    ss_scene scene;
+    ss_status status;           /* SS_OK, or why there is no such row, with the reason */
+    ss_error reason;
+    double error[SS_COMPARED];  /* NaN where one of the scenes has no such number */
+    size_t events, microslips;  /* in the record */
+    double seconds;             /* CPU time of one run */
+} ss_models_row;
+
+typedef struct ss_models {
+    size_t samples;             /* compared */
+    size_t n;
+    ss_models_row *row;
+} ss_models;
+
+typedef struct ss_models_opts {
+    double span;                /* [dB] > 0 below the largest |W| that the maps show */
+    int threads;                /* of the transforms, 1 ... SS_THREADS_MAX */
+    ss_progress progress;
+} ss_models_opts;
+extern const ss_models_opts ss_models_defaults;     /* 80 dB, one thread */
+
+/* Compare a scene with each simpler one that it contains (ss_scene_simpler), and with its own periodic
+ * state at the same phase (ss_steady_find), each run in closed form where it has one, else by
+ * ss_sim_method_for at 1e-12, and transformed with ss_morlet_defaults.  A simpler scene that cannot be
+ * run is a row with its reason.  A record without usable scales has no map.  Times as in
+ * ss_trade_measure.  opts may be NULL.  To be freed with ss_models_free; SS_STOP; else as ss_sim_run. */
+ss_status ss_models_measure(ss_models **out, const ss_scene *scene, const ss_models_opts *opts,
+                            ss_error *err);
+void ss_models_free(ss_models *models);             /* NULL is allowed */
+
+typedef struct ss_need {
+    size_t what;                /* of ss_compared_name */
+    double within;              /* >= 0, in its unit */
+} ss_need;
+/* From a list such as "x=1e-2,a=0.1,map=3dB,microslips": name=error, or a name alone for a count that is
+ * to stay as it is.  need has room for SS_COMPARED; *n: how many. */
+ss_status ss_needs_parse(ss_need need[SS_COMPARED], size_t *n, const char *list, ss_error *err);
+
+/* 1 if a row keeps all the needs. */
+int ss_models_keeps(const ss_models_row *row, const ss_need *need, size_t n);
+/* The cheapest row that keeps the needs; of those that cost as much, to a fifth, the one that lost most.
+ * The settled state is none: it is the same model. */
+const ss_models_row *ss_models_cheapest(const ss_models *models, const ss_need *need, size_t n);
+/* "coulomb suffices for x within 1 %; a within 10 % needs compliant", to be freed with free().  SS_EDATA:
+ * the scene itself has no such number, as a model without events has no micro-slips. */
+ss_status ss_models_answer(char **sentence, const ss_models *models, const ss_need *need, size_t n,
+                           ss_error *err);
+/* Write a row a scene as ss-trade(1) describes, times as multiples of the first; with needs, n > 0, their
+ * answer and which rows keep them.  SS_EINVAL: the format holds numbers only; SS_EIO; as above. */
+ss_status ss_models_write(const ss_models *models, const char *name, const ss_need *need, size_t n,
+                          FILE *out, ss_format format, ss_error *err);
+
 SS_END_DECLARATIONS
 #endif

@@ -20,6 +20,10 @@ static const scene_key keys[] = {
     KEY_STATIC_FRICTION,
 };
 
+static const vanishing vanishing_terms[] = {
+    { "contact_damping=0", offsetof(ss_scene, contact_damping) },
+};
+
 static double
 stiffness_ratio(const ss_scene *s)
 {
@@ -265,6 +269,8 @@ const struct model ss_compliant_model = {
     .parameter = { { .offset = offsetof(ss_scene, contact_stiffness), .by_mass = 1 },
                    { .offset = offsetof(ss_scene, contact_damping), .by_mass = 1 } },
     .n_parameters = 2,
+    .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
+    .limit = ss_to_coulomb,
     .dim = 2, .linear = 1, .has_contact = 1, .force_varies = IN_STICK,
     .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .series = ss_linear_series,

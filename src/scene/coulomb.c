@@ -3,6 +3,12 @@
 
 static const scene_key keys[] = { KEY_STATIC_FRICTION };
 
+void
+ss_to_coulomb(ss_scene *scene)
+{
+    scene->model = SS_COULOMB;
+}
+
 static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {

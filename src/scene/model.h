@@ -84,6 +84,12 @@ struct variation {
     int (*move)(state *m, const double d[D_MOST]);
 };
 
+/* A number of the scene whose absence makes it simpler. */
+typedef struct vanishing {
+    const char *name;               /* of the simpler scene: "damping=0" */
+    size_t offset;                  /* in ss_scene */
+} vanishing;
+
 struct model {
     const char *name;               /* in scenes */
     const scene_key *keys;          /* besides those of every scene (keys.c) */
@@ -92,6 +98,11 @@ struct model {
     size_t n_ranges;
     parameter parameter[PARAMETERS];
     size_t n_parameters;
+    const vanishing *vanishing;     /* besides those of every scene (simpler.c) */
+    size_t n_vanishing;
+    /* Rewrite a scene as one of the simpler model that it comes to as its own laws become fast or
+     * stiff; NULL if it is the simplest. */
+    void (*limit)(ss_scene *scene);
     size_t dim;                     /* of the state */
     int linear;                     /* in each mode, with the coefficients k, c and f0 */
     int has_contact;                /* an elastic one, of contact_stiffness and contact_damping */
@@ -150,6 +161,8 @@ struct model {
 
 const struct model *ss_model_at(size_t i);          /* models.c; NULL after the last */
 const struct model *ss_model_of(const ss_scene *scene);
+
+void ss_to_coulomb(ss_scene *scene);                 /* coulomb.c: the limit of most models */
 
 static inline double
 own_frequency(const ss_scene *scene)                /* omega_n [rad/s] */

@@ -47,6 +47,16 @@ normalise(ss_scene *s)
     s->law = SS_LAW_SCALED;
 }
 
+/* The friction that the law settles to. */
+static void
+limit(ss_scene *s)
+{
+    if (s->law == SS_LAW_LITERAL && s->friction > 0)
+        s->friction = 1;
+    s->static_friction = 0;
+    ss_to_coulomb(s);
+}
+
 static int
 start(state *m)
 {
@@ -265,7 +275,7 @@ const struct model ss_state_variable_model = {
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .parameter = { { .offset = offsetof(ss_scene, gamma) },
                    { .offset = offsetof(ss_scene, alpha), .by_speed = 1 } },
-    .n_parameters = 2, .normalise = normalise,
+    .n_parameters = 2, .normalise = normalise, .limit = limit,
     .dim = 3, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,
     .rates = rates, .jacobian = jacobian, .series = series, .reach = reach,

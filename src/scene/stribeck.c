@@ -103,7 +103,7 @@ const struct model ss_stribeck_model = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
-    .dim = 2, .force_varies = IN_SLIP,
+    .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight, .rates = rates,
     .jacobian = jacobian, .series = series, .guard = ss_linear_slip_guard, .still = ss_stick_still,
     .next = ss_stick_next, .sample = sample

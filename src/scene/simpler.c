@@ -1,0 +1,66 @@
+/* simpler.c -- the simpler scenes that a scene contains: a number that becomes 0, the model that it
+ * comes to in a limit, and that without friction. */
+#include "scene/model.h"
+
+static const vanishing of_every[] = {
+    { "damping=0", offsetof(ss_scene, damping) },
+    { "static_friction=0", offsetof(ss_scene, static_friction) },
+};
+enum { OF_EVERY = sizeof of_every / sizeof *of_every };
+
+/* 0 if the scene has no such number, or it is 0 already. */
+static int
+vanishes(ss_scene *scene, size_t offset)
+{
+    double *number = (double *)(void *)((char *)scene + offset);
+    int there = *number != 0 && ss_key_of_field(ss_model_of(scene), offset) != NULL;
+    *number = 0;
+    return there;
+}
+
+static int
+reaches_limit(ss_scene *scene)
+{
+    const struct model *model = ss_model_of(scene);
+    if (model->limit == NULL)
+        return 0;
+    model->limit(scene);
+    return 1;
+}
+
+/* The name of step i of simplification, which *scene becomes; "" if it has nothing to lose there, NULL
+ * after the last step. */
+static const char *
+step(ss_scene *scene, size_t i)
+{
+    const struct model *model = ss_model_of(scene);
+    if (i < OF_EVERY)
+        return vanishes(scene, of_every[i].offset) ? of_every[i].name : "";
+    i -= OF_EVERY;
+    if (i < model->n_vanishing)
+        return vanishes(scene, model->vanishing[i].offset) ? model->vanishing[i].name : "";
+    i -= model->n_vanishing;
+    if (i == 0)
+        return reaches_limit(scene) ? ss_model_name(scene->model) : "";
+    if (i > 1)
+        return NULL;
+    reaches_limit(scene);
+    scene->static_friction = 0;
+    return vanishes(scene, offsetof(ss_scene, friction)) ? "friction=0" : "";
+}
+
+const char *
+ss_scene_simpler(ss_scene *out, const ss_scene *scene, size_t i)
+{
+    if (out == NULL || scene == NULL || ss_model_of(scene) == NULL)
+        return NULL;
+    for (size_t k = 0;; k++) {
+        ss_scene simpler = *scene;
+        const char *name = step(&simpler, k);
+        if (name != NULL && (name[0] == '\0' || i-- > 0))
+            continue;
+        if (name != NULL)
+            *out = simpler;
+        return name;
+    }
+}

@@ -1,0 +1,384 @@
+/* models.c -- which model a scene requires: the scene beside simpler ones, measured.
+ *
+ * All run on the same clock, so errors are differences of samples.  The maps are those that are drawn:
+ * each is measured in dB below its own largest |W|, and what lies below the span is blank in either. */
+#include <stickslip/trade.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <stickslip/features.h>
+#include <stickslip/sweep.h>
+#include "base/error.h"
+#include "base/progress.h"
+#include "motion/engine.h"
+#include "study/curve.h"
+#include "study/trade/common.h"
+
+const ss_models_opts ss_models_defaults = { .span = 80, .threads = 1 };
+
+/* --- what is compared ---------------------------------------------------------------------- */
+
+enum { COLUMNS = 4, A = 2, F = 3, MAP = 2 * COLUMNS, FEATURES = SS_COMPARED_MICROSLIPS + 1 };
+
+#define FEATURE(field) offsetof(ss_features, field)
+/* offset: of a number of ss_features. */
+static const struct { const char *name, *unit; size_t offset; } compared[SS_COMPARED] = {
+    { "x", "", 0 }, { "x_rms", "", 0 }, { "v", "", 0 }, { "v_rms", "", 0 },
+    { "a", "", 0 }, { "a_rms", "", 0 }, { "f", "", 0 }, { "f_rms", "", 0 },
+    [MAP] = { "map", "dB", 0 }, { "map_rms", "dB", 0 },
+    [SS_COMPARED_EVENTS] = { "events", "", 0 }, { "microslips", "", 0 },
+    [FEATURES] = { "slips", "", FEATURE(slips) },
+    { "slip_rate", "", FEATURE(slip_rate) },
+    { "repetition_frequency", "", FEATURE(repetition_frequency) },
+    { "transition_frequency_raw", "", FEATURE(frequency_raw) },
+    { "transition_frequency", "", FEATURE(frequency) },
+    { "damping_ratio", "", FEATURE(damping_ratio) },
+    { "total_stiffness_raw", "", FEATURE(total_stiffness_raw) },
+    { "total_stiffness", "", FEATURE(total_stiffness) },
+    { "contact_stiffness", "", FEATURE(contact_stiffness) },
+    { "contact_damping", "", FEATURE(contact_damping) },
+    { "contact_stiffness_slope", "", FEATURE(contact_slope) },
+};
+
+const char *
+ss_compared_name(size_t i)
+{
+    return i < SS_COMPARED ? compared[i].name : NULL;
+}
+
+const char *
+ss_compared_unit(size_t i)
+{
+    return i < SS_COMPARED ? compared[i].unit : NULL;
+}
+
+/* --- one run ------------------------------------------------------------------------------- */
+
+typedef struct portrait {           /* of one scene */
+    ss_signal *signal;              /* x - U t, v, a, f */
+    ss_coefficients *map;           /* NULL: no scale is usable */
+    ss_features *features;
+    double largest;                 /* |W| of the map */
+    ss_sim_stats stats;
+    size_t events, microslips;
+    int slip;                       /* direction of the last slip; 0: none */
+    size_t seen;
+} portrait;
+
+static void
+portrait_free(portrait *p)
+{
+    ss_features_free(p->features);
+    ss_coefficients_free(p->map);
+    ss_signal_free(p->signal);
+}
+
+static int
+keep_samples(const ss_sample *s, size_t n, void *user)
+{
+    portrait *p = user;
+    size_t all = p->signal->n;
+    for (size_t i = 0; i < n; i++, p->seen++) {
+        const double row[COLUMNS] = { s[i].x, s[i].v, s[i].a, s[i].f };
+        for (size_t c = 0; c < COLUMNS; c++)
+            p->signal->values[c * all + p->seen] = row[c];
+    }
+    return 0;
+}
+
+static int
+count_event(const ss_event *e, void *user)
+{
+    portrait *p = user;
+    p->events++;
+    if (e->kind == SS_STICK)
+        return 0;
+    p->microslips += e->kind == SS_SLIP && p->slip == e->direction;
+    p->slip = e->direction;
+    return 0;
+}
+
+static int
+pass_samples(const ss_sample *s, size_t n, void *user)
+{
+    (void)s, (void)n, (void)user;
+    return 0;
+}
+
+/* p NULL: for the time alone. */
+static ss_status
+simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
+{
+    ss_sim_opts opts = ss_sim_defaults;
+    opts.method = ss_model_is_linear(scene->model) ? EXACT : NULL;
+    opts.samples = p != NULL ? keep_samples : pass_samples;
+    opts.events = p != NULL ? count_event : NULL;
+    opts.user = p;
+    *seconds = ss_trade_cpu_time();
+    ss_status st = ss_sim_run(scene, &opts, p != NULL ? &p->stats : NULL, err);
+    *seconds = ss_trade_cpu_time() - *seconds;
+    return st;
+}
+
+static ss_status
+make_signal(portrait *p, const ss_scene *scene, ss_error *err)
+{
+    ss_sim_columns columns;
+    ss_status st = ss_sim_columns_parse(&columns, "t,x,v,a,f", err);
+    ss_header *head = st == SS_OK ? ss_sim_header(scene, &columns) : NULL;
+    if (st == SS_OK)
+        st = head != NULL ? ss_signal_new(&p->signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
+    ss_header_free(head);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}
+
+static ss_status
+make_map(portrait *p, const ss_models_opts *how, ss_error *err)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.threads = how->threads;
+    ss_status st = ss_morlet_transform(&p->map, p->signal, A, &opts, err);
+    if (st == SS_OK)
+        p->largest = ss_coefficients_max(p->map);
+    return st == SS_ESCALE ? SS_OK : st;
+}
+
+static ss_status
+find_features(portrait *p, const ss_scene *scene, const ss_models_opts *how, ss_error *err)
+{
+    ss_features_opts opts = ss_features_defaults;
+    opts.mass = scene->mass;
+    opts.stiffness = scene->stiffness;
+    opts.displacement = 0;
+    opts.force = F;
+    opts.threads = how->threads;
+    return ss_features_find(&p->features, p->signal, A, &opts, err);
+}
+
+/* Simulate a scene and look at its record. */
+static ss_status
+portray(portrait *p, const ss_scene *scene, const ss_models_opts *how, double *seconds, ss_error *err)
+{
+    *p = (portrait){ .seen = 0 };
+    ss_status st = make_signal(p, scene, err);
+    if (st == SS_OK)
+        st = simulate(scene, p, seconds, err);
+    if (st == SS_OK)
+        st = make_map(p, how, err);
+    if (st == SS_OK)
+        st = find_features(p, scene, how, err);
+    for (size_t i = 0; st == SS_OK && i < p->signal->n; i++)    /* x is compared as x - U t */
+        p->signal->values[i] -= scene->base_velocity * (scene->settle + (double)i / scene->rate);
+    return st;
+}
+
+/* --- comparison ---------------------------------------------------------------------------- */
+
+static double
+level(const portrait *p, size_t i, double span)
+{
+    const double *w = p->map->w + 2 * i;
+    return fmax(-span, 20 * log10(hypot(w[0], w[1]) / p->largest));
+}
+
+/* Over the area that is drawn: a coefficient's share of its row is the same for all. */
+static void
+compare_maps(double error[2], const portrait *p, const portrait *ref, double span)
+{
+    double squares = 0, area = 0, largest = 0;
+    for (size_t i = 0; i < ref->map->n_scales; i++) {
+        const ss_scale *scale = &ref->map->scale[i];
+        for (size_t k = 0; k < scale->n; k++) {
+            double here = level(p, scale->offset + k, span);
+            double there = level(ref, scale->offset + k, span);
+            if (ss_coefficients_edge(ref->map, i, k) || fmax(here, there) <= -span)
+                continue;
+            largest = fmax(largest, fabs(here - there));
+            squares += (here - there) * (here - there) / (double)scale->n;
+            area += 1 / (double)scale->n;
+        }
+    }
+    error[0] = largest;
+    error[1] = area > 0 ? sqrt(squares / area) : 0;
+}
+
+static double
+difference(size_t a, size_t b)
+{
+    return a > b ? (double)(a - b) : (double)(b - a);
+}
+
+static double
+feature(const portrait *p, size_t i)
+{
+    return ((const ss_value *)(const void *)((const char *)p->features + compared[i].offset))->value;
+}
+
+static void
+compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_scene *scene,
+        const ss_models_opts *how)
+{
+    double *error = row->error;
+    size_t n = ref->signal->n;
+    for (size_t c = 0; c < COLUMNS; c++) {
+        curve_error e = curve_compare(p->signal->values + c * n, ref->signal->values + c * n, n);
+        error[2 * c] = e.largest;
+        error[2 * c + 1] = e.rms;
+    }
+    error[MAP] = error[MAP + 1] = NAN;
+    if (p->map != NULL && ref->map != NULL && p->largest > 0 && ref->largest > 0)
+        compare_maps(error + MAP, p, ref, how->span);
+    int both = ss_model_has_events(scene->model) && ss_model_has_events(row->scene.model);
+    error[SS_COMPARED_EVENTS] = both ? difference(p->events, ref->events) : NAN;
+    error[SS_COMPARED_MICROSLIPS] = both ? difference(p->microslips, ref->microslips) : NAN;
+    for (size_t i = FEATURES; i < SS_COMPARED; i++) {
+        double was = feature(ref, i), is = feature(p, i);
+        error[i] = is == was ? 0 : fabs(is - was) / fabs(was);
+    }
+    row->events = p->events;
+    row->microslips = p->microslips;
+}
+
+/* --- the rows ------------------------------------------------------------------------------ */
+
+/* The same record of the periodic state that the scene settles to, which may take so many times the
+ * steps of the scene itself. */
+#define PATIENCE 30
+
+static ss_status
+settle(ss_scene *settled, const ss_scene *scene, const ss_sim_stats *stats, ss_error *err)
+{
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady found;
+    opts.measures = 1u << SS_PERIOD | 1u << SS_CYCLES;
+    opts.max_steps = PATIENCE * (stats->steps + stats->rhs / 20 + 1000);
+    ss_status st = ss_steady_find(&found, scene, &opts, err);
+    if (st != SS_OK)
+        return st;
+    double period = found.value[SS_PERIOD] / scene->base_frequency;
+    double lacks = found.value[SS_CYCLES] / scene->base_frequency - scene->settle;
+    *settled = *scene;
+    settled->settle += fmax(0, ceil(lacks / period)) * period;
+    return SS_OK;
+}
+
+static ss_status
+make_rows(ss_models *models, const ss_scene *scene, const portrait *ref)
+{
+    ss_scene simpler;
+    size_t n = 0;
+    while (ss_scene_simpler(&simpler, scene, n) != NULL)
+        n++;
+    models->row = calloc(n + SS_MODELS_SIMPLER, sizeof *models->row);
+    if (models->row == NULL)
+        return SS_ENOMEM;
+    models->n = n + SS_MODELS_SIMPLER;
+    ss_models_row *settled = &models->row[SS_MODELS_SETTLED], *row = models->row + SS_MODELS_SIMPLER;
+    models->row[SS_MODELS_SCENE] = (ss_models_row){ .name = ss_model_name(scene->model), .scene = *scene };
+    settled->name = "settled";
+    settled->status = settle(&settled->scene, scene, &ref->stats, &settled->reason);
+    for (size_t i = 0; i < n; i++)
+        row[i].name = ss_scene_simpler(&row[i].scene, scene, i);
+    return settled->status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
+}
+
+static ss_status
+measure_row(ss_models_row *row, const portrait *ref, const ss_scene *scene, const ss_models_opts *how)
+{
+    portrait p;
+    if (row->status != SS_OK)
+        return SS_OK;
+    row->status = portray(&p, &row->scene, how, &row->seconds, &row->reason);
+    if (row->status == SS_OK)
+        compare(row, &p, ref, scene, how);
+    portrait_free(&p);
+    return row->status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
+}
+
+typedef struct timing {
+    const ss_models *models;
+    ss_trade_row *first;
+    const ss_models_opts *how;
+} timing;
+
+static ss_status
+run_again(void *user, const ss_trade_row *row, double done, double *seconds)
+{
+    const timing *t = user;
+    ss_status st = ss_progress_at(&t->how->progress, done);
+    return st == SS_OK ? simulate(&t->models->row[row - t->first].scene, NULL, seconds, NULL) : st;
+}
+
+/* Short runs once more, as those of methods are. */
+static ss_status
+repeat(ss_models *models, const ss_models_opts *how)
+{
+    ss_trade trade = { .n = models->n, .row = calloc(models->n, sizeof *trade.row) };
+    timing t = { models, trade.row, how };
+    ss_status st = trade.row != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < models->n; i++) {
+        trade.row[i].status = models->row[i].status;
+        trade.row[i].seconds = models->row[i].seconds;
+    }
+    if (st == SS_OK)
+        st = ss_trade_repeat(&trade, run_again, &t);
+    for (size_t i = 0; st == SS_OK && i < models->n; i++)
+        models->row[i].seconds = trade.row[i].seconds;
+    free(trade.row);
+    return st;
+}
+
+static ss_status
+measure_rows(ss_models *models, const ss_scene *scene, const ss_models_opts *how, ss_error *err)
+{
+    portrait ref = { .seen = 0 };
+    double seconds;
+    ss_status st = portray(&ref, scene, how, &seconds, err);
+    models->samples = ss_scene_samples(scene);
+    if (st == SS_OK)
+        st = make_rows(models, scene, &ref);
+    if (st == SS_OK) {
+        compare(models->row, &ref, &ref, scene, how);
+        models->row->seconds = seconds;
+    }
+    for (size_t i = 1; st == SS_OK && i < models->n; i++) {
+        st = ss_progress_at(&how->progress, 0.7 * (double)i / (double)models->n);
+        if (st == SS_OK)
+            st = measure_row(&models->row[i], &ref, scene, how);
+    }
+    portrait_free(&ref);
+    return st == SS_OK ? repeat(models, how) : st;
+}
+
+ss_status
+ss_models_measure(ss_models **out, const ss_scene *scene, const ss_models_opts *opts, ss_error *err)
+{
+    if (out == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
+    if (opts == NULL)
+        opts = &ss_models_defaults;
+    if (!(opts->span > 0))
+        return ss_fail(err, SS_EINVAL, "a span is more than 0 dB");
+    ss_status st = ss_record_check(scene, err);
+    if (st == SS_OK && ss_scene_samples(scene) == 0)
+        return ss_fail(err, SS_EINVAL, "the record has no samples to compare");
+    if (st != SS_OK)
+        return st;
+    ss_models *models = calloc(1, sizeof *models);
+    st = models != NULL ? measure_rows(models, scene, opts, err) : SS_ENOMEM;
+    if (st == SS_OK) {
+        *out = models;
+        return SS_OK;
+    }
+    ss_models_free(models);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}
+
+void
+ss_models_free(ss_models *models)
+{
+    if (models == NULL)
+        return;
+    free(models->row);
+    free(models);
+}
