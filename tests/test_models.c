@@ -244,6 +244,9 @@ lists_what_a_scene_may_lose(void **state)
         assert_int_equal(ss_scene_check(&simpler, NULL), SS_OK);
     }
     assert_null(ss_scene_simpler(&simpler, &scene, 5));
+    scene.model = SS_STRIBECK;
+    assert_string_equal(ss_scene_simpler(&simpler, &scene, 2), "coulomb");
+    assert_true(simpler.static_friction == 1.5);    /* which holds the mass until it slips */
     scene = read_shipped_named("coulomb");
     assert_string_equal(ss_scene_simpler(&simpler, &scene, 0), "friction=0");
     assert_true(simpler.friction == 0 && simpler.model == scene.model);
