@@ -23,9 +23,9 @@ static const char usage[] =
 "  -t, --target=TOL      write the fastest options of ss-sim, or of ss-morlet,\n"
 "                        that keep x, or W, within TOL\n"
 TOOL_READING_USAGE
-"  -m, --models          the scene beside each simpler one that it contains: errors\n"
-"                        of x, v, a, f, of the contours and of the features\n"
-"  -n, --need=LIST       the cheapest of these that keeps a list of NAME=ERROR, as\n"
+"  -m, --models          the scene beside each simpler one that it contains:\n"
+"                        errors of x, v, a, f, of the contours, of the features\n"
+"  -n, --need=LIST       the cheapest that keeps a list of NAME=ERROR, such as\n"
 "                        x=1e-2,a=0.1,map=3dB,microslips, in one sentence\n"
 "  -o, --output=FILE     .tsv or .csv, or a picture of error against time as .gp,\n"
 "                        .png, .svg or .pdf; --format=tsv|csv of standard output\n"
