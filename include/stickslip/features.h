@@ -60,14 +60,18 @@ typedef struct ss_loading {
     double t;                   /* of the maximum, from the first sample */
     ss_value slope;             /* of the loading before it [unit/s] */
     ss_value stiffness;         /* the same against the displacement [unit/m], where there is a column */
-    double drop;                /* from the maximum to the minimum behind it [unit] */
-    double duration;            /* of its middle, from 10 to 90 % */
-    double recurrence;          /* since the maximum before; NaN of the first */
-    double stick;               /* that the force follows the line of the slope */
+    /* of the motion of a pulled slider, fitted to the fall; NaN where that does not explain it */
+    ss_value drop;              /* from the end of the stick to the next one's begin [unit] */
+    ss_value duration;          /* of its middle, from 10 to 90 % */
+    ss_value recurrence;        /* since the slip before began; NaN of the first */
+    ss_value stick;             /* before the fall, that the force follows the line of the slope */
+    ss_value static_friction, friction;     /* force at the end of the stick; friction in slip [unit] */
+    ss_value k_over_m;          /* stiffness over mass [1/s^2] */
 } ss_loading;
 
 /* The median of many, its standard error, and the standard deviation of the many by their median
- * deviation from it. */
+ * deviation from it.  The error is that of the scatter, or of the errors of the many if these are
+ * larger. */
 typedef struct ss_median {
     double value, error, scatter;
 } ss_median;
@@ -76,7 +80,8 @@ typedef struct ss_features {
     size_t n;
     ss_transition *transition;  /* in time order */
     ss_loading *loading;        /* as many, where transitions are falls of a force; else NULL */
-    ss_median slope, stiffness, drop, duration, recurrence, stick;      /* of these */
+    ss_median slope, stiffness, drop, duration, recurrence, stick;
+    ss_median static_friction, friction, k_over_m;      /* of these */
     size_t n_maxima;
     ss_maximum *maximum;        /* all local maxima above the threshold, in time order */
     ss_spikes *spikes;          /* of the whole record; none of it is claimed unless conclusive */

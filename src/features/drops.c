@@ -29,6 +29,8 @@
 
 #define TYPICAL 4.0             /* M / h, see above */
 #define NARROWEST 5             /* samples: two wrong ones side by side do no harm */
+#define STANDS_OUT 5.0          /* standard deviations of the noise, and */
+#define GLITCH 0.05             /* of the median drop: a wrong sample is off its neighbours by both */
 #define MAD 0.6744897501960817  /* of a Gaussian, re its standard deviation */
 
 typedef struct drop_list {
@@ -230,6 +232,23 @@ ss_drops_typical(const double *x, size_t n, ss_typical *out)
         }
     }
     free(y);
+    return SS_OK;
+}
+
+ss_status
+ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *drop, size_t n_drops)
+{
+    double *scratch = malloc((n + n_drops + NARROWEST + 1) * sizeof *scratch);
+    if (scratch == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n_drops; i++)
+        scratch[i] = drop[i].height;
+    double height = n_drops > 0 ? gsl_stats_median(scratch, 1, n_drops) : 0;
+    double most = STANDS_OUT * noise_rms(x, n, scratch) + GLITCH * height;
+    running_median(y, x, n, NARROWEST / 2, scratch);
+    for (size_t i = 0; i < n; i++)
+        y[i] = fabs(x[i] - y[i]) > most ? y[i] : x[i];
+    free(scratch);
     return SS_OK;
 }
 

@@ -15,4 +15,9 @@ typedef struct ss_typical {
 /* Of the n samples of x. */
 ss_status ss_drops_typical(const double *x, size_t n, ss_typical *out);
 
+/* The n samples of x into y, but for single wrong ones, which stand out of their neighbours by more than
+ * the noise and a part of the median drop: in their place is the median of these. */
+ss_status ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *drop,
+                                    size_t n_drops);
+
 #endif

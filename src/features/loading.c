@@ -1,9 +1,11 @@
-/* loading.c -- how each stick loads a force before it falls.
+/* loading.c -- how each stick loads a force, and how each slip lets it fall.
  *
  * While the slider sticks, the drive loads the force along a line.  The line is laid through the
  * middle half of the rise from one fall to the next, and reaches as far as the samples stay within
- * NEAR of its standard deviations; then it is laid through all of that, and its length is the stick.
- * Samples of a measured force are not independent, so the standard error of the slope counts only
+ * NEAR of its standard deviations; but not into the slips that are fitted to the falls (slip.c), with the
+ * median slope of these lines.  Then it is laid through all of that, and its length is the stick.
+ * A fall that is no slip of a pulled slider has no drop, duration and friction, and a stick beside it
+ * has no length.  Samples of a measured force are not independent, so the standard error of the slope counts only
  * (1 - rho) / (1 + rho) of them, rho the correlation of neighbours about the line.
  *
  * A slope of a force over time is the stiffness that loads it, times the speed of the drive.  Where
@@ -12,7 +14,11 @@
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
+#include "features/drops.h"
+#include "features/slip.h"
 #include "features/window.h"
 
 #define NEAR 3.0                /* standard deviations about the line */
@@ -68,107 +74,220 @@ follow(const double *y, const line *l, size_t i, size_t end)
     return last;
 }
 
-/* Where between two turning points y passes so much of the way, in samples. */
-static double
-crossing(const double *y, size_t from, size_t to, double part)
+/* A fall, and the rise before it, in samples. */
+typedef struct fall {
+    size_t high, low;           /* the maximum, and the minimum behind */
+    ss_window rise;             /* before the fall, without what is known to be slip */
+    line line;                  /* through its middle half; slope NaN: it is too short */
+    ss_slip slip;
+    int is_slip;
+} fall;
+
+static ss_window
+middle_half(ss_window w)
 {
-    double level = y[from] + part * (y[to] - y[from]);
-    for (size_t i = from; i < to; i++)
-        if ((y[i] > level) != (y[i + 1] > level))
-            return (double)i + (level - y[i]) / (y[i + 1] - y[i]);
-    return NAN;
+    size_t quarter = ss_window_length(w) / 4;
+    return (ss_window){ w.first + quarter, w.end - quarter };
 }
 
-static ss_loading
-read_loading(const search *s, const double *x, size_t low, size_t high, size_t end)
+static line
+fit_rise(const double *x, ss_window rise)
 {
     enum { FEWEST = 8 };
-    size_t rise = high - low;
-    ss_loading out = { .slope = unknown, .stiffness = unknown, .stick = NAN, .recurrence = NAN };
-    out.duration = (crossing(x, high, end, 0.9) - crossing(x, high, end, 0.1)) / s->rate;
-    if (rise < FEWEST)
-        return out;
-    ss_window stick = { low + rise / 4, high - rise / 4 };
-    line l = fit(x, NULL, stick);
-    stick.first = follow(x, &l, stick.first, low);
-    stick.end = follow(x, &l, stick.end - 1, high) + 1;
-    l = fit(x, NULL, stick);
-    if (!(l.slope > 0))
-        return out;
-    out.slope = (ss_value){ l.slope * s->rate * s->largest, l.error * s->rate * s->largest };
-    out.stick = (double)ss_window_length(stick) / s->rate;
-    if (s->opts->displacement < 0)
-        return out;
-    l = fit(x, s->signal->values + (size_t)s->opts->displacement * s->n, stick);
-    out.stiffness = (ss_value){ fabs(l.slope) * s->largest, l.error * s->largest };
-    return out;
+    if (rise.end < rise.first + FEWEST)
+        return (line){ NAN, NAN, 0, 0, 0 };
+    return fit(x, NULL, middle_half(rise));
 }
 
-/* Of those that are numbers; v holds n. */
-static ss_median
-median_of(double *v, size_t n)
+static ss_value
+times(ss_value v, double factor)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(v[i]))
-            v[used++] = v[i];
-    if (used < 2)
-        return (ss_median){ used > 0 ? v[0] : NAN, NAN, NAN };
-    double median = gsl_stats_median(v, 1, used);
-    for (size_t i = 0; i < used; i++)
-        v[i] = fabs(v[i] - median);
-    double scatter = gsl_stats_median(v, 1, used) / MAD;
-    return (ss_median){ median, sqrt(M_PI / 2 / (double)used) * scatter, scatter };
+    return (ss_value){ v.value * factor, v.error * factor };
+}
+
+static ss_value
+difference(ss_value a, ss_value b)
+{
+    return (ss_value){ a.value - b.value, hypot(a.error, b.error) };
 }
 
 static void
-summarise(ss_features *out, double *v)
+read_slip(ss_loading *l, const search *s, const ss_slip *slip)
 {
-    const size_t n = out->n;
+    l->drop = times(slip->drop, s->largest);
+    l->duration = times(slip->duration, 1 / s->rate);
+    l->static_friction = times(slip->top, s->largest);
+    l->friction = times(slip->middle, s->largest);
+    l->k_over_m = times(slip->k_over_m, s->rate * s->rate);
+}
+
+/* The samples of the rise, as far as they stay near the line. */
+static ss_window
+find_stick(const double *x, const fall *f, const fall *before, ss_value *length)
+{
+    ss_window half = middle_half(f->rise);
+    ss_window stick = { follow(x, &f->line, half.first, f->rise.first),
+                        follow(x, &f->line, half.end - 1, f->rise.end - 1) + 1 };
+    *length = unknown;
+    if (before == NULL || !before->is_slip || !f->is_slip)
+        return stick;
+    ss_value begin = before->slip.end, end = f->slip.onset;
+    begin.value = stick.first > f->rise.first + AWAY ? (double)stick.first : begin.value;
+    end.value = stick.end + AWAY < f->rise.end ? (double)stick.end : end.value;
+    *length = difference(end, begin);
+    return stick;
+}
+
+static void
+read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const fall *before)
+{
+    ss_value length;
+    ss_window stick = find_stick(x, f, before, &length);
+    line found = fit(x, NULL, stick);
+    if (!(found.slope > 0))
+        return;
+    l->slope = times((ss_value){ found.slope, found.error }, s->rate * s->largest);
+    l->stick = times(length, 1 / s->rate);
+    if (s->opts->displacement < 0)
+        return;
+    found = fit(x, s->signal->values + (size_t)s->opts->displacement * s->n, stick);
+    l->stiffness = times((ss_value){ fabs(found.slope), found.error }, s->largest);
+}
+
+/* Of those of n that are numbers; scratch holds n. */
+static ss_median
+median_of(const ss_value *v, size_t n, double *scratch)
+{
+    size_t used = 0, known = 0;
     for (size_t i = 0; i < n; i++)
-        v[i] = out->loading[i].slope.value;
-    out->slope = median_of(v, n);
+        if (isfinite(v[i].value))
+            scratch[used++] = v[i].value;
+    if (used < 2)
+        return (ss_median){ used > 0 ? scratch[0] : NAN, NAN, NAN };
+    double median = gsl_stats_median(scratch, 1, used);
+    for (size_t i = 0; i < used; i++)
+        scratch[i] = fabs(scratch[i] - median);
+    double scatter = gsl_stats_median(scratch, 1, used) / MAD;
     for (size_t i = 0; i < n; i++)
-        v[i] = out->loading[i].stiffness.value;
-    out->stiffness = median_of(v, n);
-    for (size_t i = 0; i < n; i++)
-        v[i] = out->loading[i].drop;
-    out->drop = median_of(v, n);
-    for (size_t i = 0; i < n; i++)
-        v[i] = out->loading[i].duration;
-    out->duration = median_of(v, n);
-    for (size_t i = 0; i < n; i++)
-        v[i] = out->loading[i].recurrence;
-    out->recurrence = median_of(v, n);
-    for (size_t i = 0; i < n; i++)
-        v[i] = out->loading[i].stick;
-    out->stick = median_of(v, n);
+        if (isfinite(v[i].value) && isfinite(v[i].error))
+            scratch[known++] = v[i].error;
+    double error = known > 0 ? gsl_stats_median(scratch, 1, known) : 0;
+    return (ss_median){ median, sqrt(M_PI / 2 / (double)used) * fmax(scatter, error), scatter };
+}
+
+/* Of one number of each loading, offset bytes from its start. */
+static ss_median
+median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
+{
+    for (size_t i = 0; i < out->n; i++)
+        memcpy(&v[i], (const char *)&out->loading[i] + offset, sizeof *v);
+    return median_of(v, out->n, scratch);
+}
+
+static void
+summarise(ss_features *out, ss_value *v, double *scratch)
+{
+    out->slope = median_over(out, offsetof(ss_loading, slope), v, scratch);
+    out->stiffness = median_over(out, offsetof(ss_loading, stiffness), v, scratch);
+    out->drop = median_over(out, offsetof(ss_loading, drop), v, scratch);
+    out->duration = median_over(out, offsetof(ss_loading, duration), v, scratch);
+    out->recurrence = median_over(out, offsetof(ss_loading, recurrence), v, scratch);
+    out->stick = median_over(out, offsetof(ss_loading, stick), v, scratch);
+    out->static_friction = median_over(out, offsetof(ss_loading, static_friction), v, scratch);
+    out->friction = median_over(out, offsetof(ss_loading, friction), v, scratch);
+    out->k_over_m = median_over(out, offsetof(ss_loading, k_over_m), v, scratch);
+}
+
+/* Lines through the rises, and slips between them, by the median slope of these. */
+static ss_status
+fit_falls(fall *f, const search *s, const double *x, size_t n, ss_value *v, double *scratch)
+{
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < n; i++) {
+        f[i].line = fit_rise(x, f[i].rise);
+        v[i] = (ss_value){ f[i].line.slope > 0 ? f[i].line.slope : NAN, NAN };
+    }
+    double loading = median_of(v, n, scratch).value;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        const ss_window room = { f[i].rise.first, i + 1 < n ? f[i + 1].rise.end : s->n };
+        st = ss_slip_fit(&f[i].slip, &f[i].is_slip, x, room, f[i].high, f[i].low, loading);
+    }
+    return st;
+}
+
+/* A rise begins and ends where the slips do. */
+static void
+leave_out_slips(fall *f, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && f[i - 1].is_slip)
+            f[i].rise.first = (size_t)ceil(f[i - 1].slip.end.value);
+        if (f[i].is_slip)
+            f[i].rise.end = (size_t)f[i].slip.onset.value + 1;
+    }
+}
+
+/* The falls of x that the drops are.  Lines that still have parts of slips in them are too steep or too
+ * flat, and so are the slips wrong that are fitted with them, but less:
+ * three passes are enough. */
+static ss_status
+find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_t n, ss_value *v,
+           double *scratch)
+{
+    enum { PASSES = 3 };
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < n; i++) {
+        f[i].high = (size_t)(drop[i].t * s->rate + 0.5);
+        f[i].low = (size_t)(drop[i].end * s->rate + 0.5);
+        f[i].rise = (ss_window){ i > 0 ? f[i - 1].low : 0, f[i].high + 1 };
+        for (size_t k = 0; i == 0 && k < f[i].high; k++)    /* nothing falls before the first */
+            f[i].rise.first = x[k] < x[f[i].rise.first] ? k : f[i].rise.first;
+    }
+    for (int pass = 0; st == SS_OK && pass < PASSES; pass++) {
+        if (pass > 0)
+            leave_out_slips(f, n);
+        st = fit_falls(f, s, x, n, v, scratch);
+    }
+    return st;
+}
+
+static ss_loading
+read_loading(const search *s, const double *x, const ss_drop *drop, const fall *f, int is_first)
+{
+    const fall *before = is_first ? NULL : f - 1;
+    ss_loading l = { drop->t, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
+                     unknown };
+    if (f->is_slip)
+        read_slip(&l, s, &f->slip);
+    if (before != NULL && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t),
+                                       0.5 * (drop->t - drop[-1].t)))
+        return l;
+    if (f->line.slope > 0)
+        read_stick(&l, s, x, f, before);
+    if (before != NULL && before->is_slip && f->is_slip)
+        l.recurrence = times(difference(f->slip.onset, before->slip.onset), 1 / s->rate);
+    return l;
 }
 
 ss_status
 ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
 {
     ss_features *out = s->out;
-    double *v = malloc((n + 1) * sizeof *v);
+    double *y = malloc((s->n + n + 1) * sizeof *y), *scratch = y + s->n;
+    ss_value *v = calloc(n + 1, sizeof *v);
+    fall *f = calloc(n + 1, sizeof *f);
     out->loading = calloc(n + 1, sizeof *out->loading);
-    if (out->loading == NULL || v == NULL) {
-        free(v);
-        return SS_ENOMEM;
-    }
-    for (size_t i = 0, low = 0; i < n; i++) {
-        size_t high = (size_t)(drop[i].t * s->rate + 0.5), end = (size_t)(drop[i].end * s->rate + 0.5);
-        for (size_t k = low; i == 0 && k < high; k++)   /* nothing falls before the first */
-            low = x[k] < x[low] ? k : low;
-        ss_loading *l = &out->loading[i];
-        *l = read_loading(s, x, low, high, end);
-        l->t = drop[i].t;
-        l->drop = drop[i].height * s->largest;
-        if (i > 0 && !ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop[i].t + drop[i - 1].t),
-                                   0.5 * (drop[i].t - drop[i - 1].t)))
-            l->recurrence = drop[i].t - drop[i - 1].t;
-        low = end;
-    }
-    summarise(out, v);
+    ss_status st = out->loading != NULL && y != NULL && v != NULL && f != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_drops_without_glitches(y, x, s->n, drop, n);
+    if (st == SS_OK)
+        st = find_falls(f, s, y, drop, n, v, scratch);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0);
+    if (st == SS_OK)
+        summarise(out, v, scratch);
+    free(f);
     free(v);
-    return SS_OK;
+    free(y);
+    return st;
 }

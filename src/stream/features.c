@@ -141,10 +141,12 @@ write_transition(struct rows *rows, const ss_transition *tr, double start, int c
 static void
 write_loading(struct rows *rows, const ss_loading *l)
 {
-    const double cells[] = { l->slope.value, l->slope.error, l->stiffness.value, l->stiffness.error,
-                             l->drop, l->duration, l->recurrence, l->stick };
-    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
-        ss_rows_number(rows, cells[i]);
+    const ss_value cells[] = { l->slope, l->stiffness, l->drop, l->duration, l->recurrence, l->stick,
+                               l->static_friction, l->friction, l->k_over_m };
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
+        ss_rows_number(rows, cells[i].value);
+        ss_rows_number(rows, cells[i].error);
+    }
 }
 
 static void
@@ -186,6 +188,9 @@ write_medians(struct rows *rows, const ss_features *f, const ss_features_opts *o
     write_median(rows, "drop_duration", f->duration);
     write_median(rows, "recurrence_time", f->recurrence);
     write_median(rows, "stick_time", f->stick);
+    write_median(rows, "static_friction", f->static_friction);
+    write_median(rows, "friction", f->friction);
+    write_median(rows, "k_over_m", f->k_over_m);
 }
 
 static void
@@ -232,8 +237,11 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         { "damping_ratio_error", "" },
         /* of falls of a force only */
         { "slope", "" }, { "slope_error", "" }, { "stiffness", "" }, { "stiffness_error", "" },
-        { "drop", "" }, { "duration", "s" }, { "recurrence", "s" }, { "stick", "s" } };
-    enum { ALL = sizeof columns / sizeof *columns, OF_LOADING = 8 };
+        { "drop", "" }, { "drop_error", "" }, { "duration", "s" }, { "duration_error", "s" },
+        { "recurrence", "s" }, { "recurrence_error", "s" }, { "stick", "s" }, { "stick_error", "s" },
+        { "static_friction", "" }, { "static_friction_error", "" }, { "friction", "" },
+        { "friction_error", "" }, { "k_over_m", "1/s^2" }, { "k_over_m_error", "1/s^2" } };
+    enum { ALL = sizeof columns / sizeof *columns, OF_LOADING = 18 };
     struct rows rows;
     char threshold[SS_NUMBER_MAX];
     if (f == NULL || signal == NULL || column >= signal->head->n_columns || opts == NULL || out == NULL

@@ -1,0 +1,236 @@
+/* slip.c -- the slip of a pulled slider, seen in the force of its spring.
+ *
+ * A slider of mass m on a spring of stiffness k whose end moves at U, held by friction up to f_s and
+ * braked by f_k when it slips, turns the loading s' = k U of the spring into
+ *
+ *     s = f_k + D cos(w u) + (k U / w) sin(w u),    D = f_s - f_k, w = sqrt(k/m), q = D w / (k U),
+ *
+ * u after the onset, until s' is k U again, at u = 2 (pi - atan q) / w, where s = f_k - D.  This and
+ * the loadings on either side are fitted to the samples by least squares: onset, f_s, f_k and w.  The
+ * maximum of the samples is above f_s by noise and by the momentum of the drive, and what follows a line
+ * to within the noise goes on into the slip; the fit has neither error.
+ *
+ * What it leaves of measured slips is not white, so errors count only (1 - rho) / (1 + rho) of the
+ * samples, rho the correlation of neighbours in what is left. */
+#include "features/slip.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <string.h>
+
+enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* SPEED: of the phase, w */
+enum { FEWEST = 8, STEPS = 60 };                /* samples in the fall; iterations */
+#define EXPLAINED 0.98          /* of the sum of squares about the mean: less is another shape */
+#define VAGUE (1 / 3.)          /* of the drop and of k/m, that an error may be */
+#define DEEP 0.8                /* of D: 10 and 90 % of the fall lie at f_k +- so much */
+
+typedef struct problem {
+    const double *x;
+    ss_window used;
+    double loading, unit[FITTED];       /* the unit of each parameter, for steps of like size */
+} problem;
+
+static double
+length_of(const double p[FITTED], double loading)
+{
+    double w = p[SPEED], q = (p[TOP] - p[MIDDLE]) * w / loading;
+    return 2 * (M_PI - atan(q)) / w;
+}
+
+/* The force at sample i, and its derivatives by the parameters. */
+static double
+force_at(const double p[FITTED], double loading, double i, double d[FITTED])
+{
+    double w = p[SPEED], D = p[TOP] - p[MIDDLE], q = D * w / loading, length = length_of(p, loading);
+    double u = i - p[ONSET];
+    if (u < 0) {
+        memcpy(d, (double[FITTED]){ -loading, 1, 0, 0 }, FITTED * sizeof *d);
+        return p[TOP] + loading * u;
+    }
+    if (u < length) {
+        double c = cos(w * u), s = sin(w * u), r = loading / w;
+        d[ONSET] = D * w * s - loading * c;
+        d[TOP] = c;
+        d[MIDDLE] = 1 - c;
+        d[SPEED] = -D * u * s - r * s / w + r * u * c;
+        return p[MIDDLE] + D * c + r * s;
+    }
+    double by_D = -2 / (1 + q * q) / loading, by_w = -length / w - 2 / (1 + q * q) * D / (loading * w);
+    d[ONSET] = -loading;
+    d[TOP] = -1 - loading * by_D;
+    d[MIDDLE] = 2 + loading * by_D;
+    d[SPEED] = -loading * by_w;
+    return p[MIDDLE] - D + loading * (u - length);
+}
+
+static void
+parameters_of(const problem *f, const gsl_vector *at, double p[FITTED])
+{
+    for (size_t k = 0; k < FITTED; k++)
+        p[k] = gsl_vector_get(at, k) * f->unit[k];
+}
+
+static int
+residuals(const gsl_vector *at, void *user, gsl_vector *out)
+{
+    const problem *f = user;
+    double p[FITTED], d[FITTED];
+    parameters_of(f, at, p);
+    for (size_t i = f->used.first; i < f->used.end; i++)
+        gsl_vector_set(out, i - f->used.first, force_at(p, f->loading, (double)i, d) - f->x[i]);
+    return GSL_SUCCESS;
+}
+
+static int
+jacobian(const gsl_vector *at, void *user, gsl_matrix *out)
+{
+    const problem *f = user;
+    double p[FITTED], d[FITTED];
+    parameters_of(f, at, p);
+    for (size_t i = f->used.first; i < f->used.end; i++) {
+        force_at(p, f->loading, (double)i, d);
+        for (size_t k = 0; k < FITTED; k++)
+            gsl_matrix_set(out, i - f->used.first, k, d[k] * f->unit[k]);
+    }
+    return GSL_SUCCESS;
+}
+
+/* From the sample where x passes the middle of the fall, forwards or backwards, to where it has come
+ * past a level near its end; end if it does not. */
+static size_t
+walk(const double *x, size_t i, size_t end, double level)
+{
+    int above = x[i] > level, step = end > i ? 1 : -1;
+    while (i != end && (x[i] > level) == above)
+        i = step > 0 ? i + 1 : i - 1;
+    return i;
+}
+
+/* Parameters to start from, by the times at which x passes 10, 50 and 90 % of the fall; and the samples
+ * to use, of half a slip or so on either side. */
+static int
+start(problem *f, double p[FITTED], ss_window room, size_t high, size_t low)
+{
+    const double *x = f->x;
+    double middle = 0.5 * (x[high] + x[low]), half = 0.5 * (x[high] - x[low]);
+    size_t at = walk(x, high, low, middle);
+    double from = (double)walk(x, at, high, middle + DEEP * half);
+    double to = (double)walk(x, at, low, middle - DEEP * half);
+    if (!(half > 0 && to > from))
+        return 0;
+    p[SPEED] = (acos(-DEEP) - acos(DEEP)) / (to - from);
+    p[ONSET] = 0.5 * (from + to) - M_PI / 2 / p[SPEED];
+    p[TOP] = middle + half;
+    p[MIDDLE] = middle;
+    memcpy(f->unit, (double[FITTED]){ 1 / p[SPEED], half, half, p[SPEED] }, sizeof f->unit);
+    double reach = 1.5 * M_PI / p[SPEED], first = 0.5 * (from + to) - reach;
+    f->used.first = first > (double)room.first ? (size_t)first : room.first;
+    f->used.end = (size_t)fmin((double)room.end, 0.5 * (from + to) + reach + 1);
+    return f->used.end >= f->used.first + FEWEST;
+}
+
+/* Is what is left, of so many squares, small enough?  *inflation: of variances, by its correlation. */
+static int
+explains(const problem *f, const gsl_vector *left, double *inflation)
+{
+    size_t n = ss_window_length(f->used);
+    double squares = 0, neighbours = 0, last = 0;
+    double power = gsl_stats_tss(f->x + f->used.first, 1, n);
+    for (size_t i = 0; i < n; i++) {
+        double r = gsl_vector_get(left, i);
+        squares += r * r;
+        neighbours += r * last;
+        last = r;
+    }
+    double rho = squares > 0 ? fmax(0, fmin(0.99, neighbours / squares)) : 0;
+    *inflation = squares / (double)(n - FITTED) * (1 + rho) / (1 - rho);
+    return squares <= (1 - EXPLAINED) * power;
+}
+
+enum { OF_SLIP = 7 };
+
+/* The numbers of a slip, in their order. */
+static void
+describe(const double p[FITTED], double loading, double number[OF_SLIP])
+{
+    double D = p[TOP] - p[MIDDLE], w = p[SPEED], length = length_of(p, loading);
+    double peak = hypot(D, loading / w);        /* of the oscillation, where its phase is 0 */
+    double duration = (acos(-DEEP * D / peak) - acos(DEEP * D / peak)) / w;
+    memcpy(number, (double[OF_SLIP]){ p[ONSET], p[ONSET] + length, 2 * D, duration, p[TOP], p[MIDDLE],
+                                      w * w }, OF_SLIP * sizeof *number);
+}
+
+/* With the errors that the covariance of the parameters gives them. */
+static ss_slip
+slip_of(const problem *f, const double p[FITTED], const gsl_matrix *covariance, double inflation)
+{
+    const double step = 1e-4;                   /* of a unit */
+    double value[OF_SLIP], slope[FITTED][OF_SLIP], below[OF_SLIP], moved[FITTED];
+    ss_value v[OF_SLIP];
+    describe(p, f->loading, value);
+    memcpy(moved, p, sizeof moved);
+    for (size_t k = 0; k < FITTED; k++) {
+        moved[k] = p[k] + step * f->unit[k];
+        describe(moved, f->loading, slope[k]);
+        moved[k] = p[k] - step * f->unit[k];
+        describe(moved, f->loading, below);
+        moved[k] = p[k];
+        for (size_t i = 0; i < OF_SLIP; i++)
+            slope[k][i] = (slope[k][i] - below[i]) / (2 * step);
+    }
+    for (size_t i = 0; i < OF_SLIP; i++) {
+        double variance = 0;
+        for (size_t k = 0; k < FITTED; k++)
+            for (size_t l = 0; l < FITTED; l++)
+                variance += slope[k][i] * slope[l][i] * gsl_matrix_get(covariance, k, l);
+        v[i] = (ss_value){ value[i], sqrt(inflation * fmax(variance, 0)) };
+    }
+    return (ss_slip){ v[0], v[1], v[2], v[3], v[4], v[5], v[6] };
+}
+
+static int
+is_sound(const ss_slip *s, ss_window used)
+{
+    return s->onset.value >= (double)used.first && s->end.value <= (double)used.end
+        && s->drop.error <= VAGUE * s->drop.value && s->k_over_m.error <= VAGUE * s->k_over_m.value;
+}
+
+ss_status
+ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t high, size_t low,
+            double loading)
+{
+    problem f = { .x = x, .loading = loading };
+    double p[FITTED], first[FITTED], inflation;
+    const ss_value none = { NAN, NAN };
+    *out = (ss_slip){ none, none, none, none, none, none, none };
+    *is_found = 0;
+    if (!(loading > 0) || low < high + FEWEST || !start(&f, p, room, high, low))
+        return SS_OK;
+    for (size_t k = 0; k < FITTED; k++)
+        first[k] = p[k] / f.unit[k];
+    gsl_vector_view at = gsl_vector_view_array(first, FITTED);
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf least = { .f = residuals, .df = jacobian, .n = ss_window_length(f.used),
+                                       .p = FITTED, .params = &f };
+    gsl_multifit_nlinear_workspace *space =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, least.n, FITTED);
+    gsl_matrix *covariance = gsl_matrix_alloc(FITTED, FITTED);
+    int info, ended = space != NULL && covariance != NULL ? GSL_SUCCESS : GSL_ENOMEM;
+    if (ended == GSL_SUCCESS)
+        ended = gsl_multifit_nlinear_init(&at.vector, &least, space);
+    if (ended == GSL_SUCCESS)
+        ended = gsl_multifit_nlinear_driver(STEPS, 1e-8, 0, 0, NULL, NULL, &info, space);
+    if ((ended == GSL_SUCCESS || ended == GSL_ENOPROG)
+        && explains(&f, gsl_multifit_nlinear_residual(space), &inflation)
+        && gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(space), 0, covariance) == GSL_SUCCESS) {
+        parameters_of(&f, gsl_multifit_nlinear_position(space), p);
+        ss_slip found = slip_of(&f, p, covariance, inflation);
+        *is_found = is_sound(&found, f.used);
+        *out = *is_found ? found : *out;
+    }
+    gsl_multifit_nlinear_free(space);
+    gsl_matrix_free(covariance);
+    return ended == GSL_ENOMEM ? SS_ENOMEM : SS_OK;
+}

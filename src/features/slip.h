@@ -1,0 +1,21 @@
+/* slip.h -- the slip of a pulled slider, seen in the force of its spring. */
+#ifndef SLIP_H
+#define SLIP_H
+
+#include <stickslip/features.h>
+#include "features/window.h"
+
+/* Times in samples, forces in the unit of the samples. */
+typedef struct ss_slip {
+    ss_value onset, end;        /* the stick before it ends, and the next one begins */
+    ss_value drop, duration;    /* between these; of its middle, from 10 to 90 % */
+    ss_value top, middle;       /* the force at the onset; the friction in slip */
+    ss_value k_over_m;          /* [rad^2/sample^2] */
+} ss_slip;
+
+/* Fit a slip to the fall of x from sample high to sample low, between loadings of so much a sample > 0;
+ * only samples in room are used.  *is_found: it explains the fall, else all of *out is NaN. */
+ss_status ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t high,
+                      size_t low, double loading);
+
+#endif

@@ -1,0 +1,273 @@
+/* test_pulls.c -- events of sliders that a spring pulls, read from the spring's force, against the closed
+ * form of their motion: with D = f_s - f_k, w = sqrt(k/m), q = D w / (k U) a slip lasts
+ * 2 (pi - atan q) / w and a stick 2 D / (k U), and the force falls by 2 D. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stickslip.h>
+
+enum { RATE = 2000 };
+#define FRICTION .0452
+
+typedef struct rig {
+    double mass, stiffness, speed, drop;        /* drop: D [N] */
+    double periods;             /* of the record, about */
+} rig;
+
+/* As the measured ones, q from 1 to 210; one is heavier and in other units of size. */
+static const rig rigs[] = {
+    { .0307, 168, 42e-6, .0025, 12 }, { .0307, 168, 42e-6, .0075, 8 }, { .0307, 168, 42e-6, .02, 6 },
+    { .0307, 168, .0011, .0025, 60 }, { .0307, 168, .0011, .0075, 30 }, { .0307, 168, .0011, .02, 20 },
+    { .0307, 168, .0043, .02, 60 }, { .0307, 1002, .0003, .0025, 60 }, { .0307, 1002, .0003, .02, 20 },
+    { .0307, 1002, .0011, .0075, 60 }, { .0307, 1002, .0011, .02, 40 }, { 70, 20000, .002, 30, 30 } };
+enum { RIGS = sizeof rigs / sizeof *rigs };
+
+static double
+length_of_slip(const rig *r)
+{
+    double w = sqrt(r->stiffness / r->mass), q = r->drop * w / (r->stiffness * r->speed);
+    return 2 * (M_PI - atan(q)) / w;
+}
+
+static double
+length_of_stick(const rig *r)
+{
+    return 2 * r->drop / (r->stiffness * r->speed);
+}
+
+/* Recorded from the middle of a stick on. */
+static ss_scene
+scene_of(const rig *r)
+{
+    ss_scene s = ss_scene_defaults;
+    double period = length_of_slip(r) + length_of_stick(r), loading = r->stiffness * r->speed;
+    s.mass = r->mass;
+    s.stiffness = r->stiffness;
+    s.friction = r->drop < 1 ? FRICTION : 1000 * FRICTION;
+    s.static_friction = s.friction + r->drop;
+    s.base_velocity = r->speed;
+    s.settle = s.static_friction / loading + 2 * period - length_of_stick(r) / 2;
+    s.duration = r->periods * period;
+    s.rate = RATE;
+    return s;
+}
+
+/* --- the record, and the slips in it -------------------------------------------------------- */
+
+typedef struct record {
+    ss_signal *signal;
+    size_t n, n_slips;
+    double slip[200];
+} record;
+
+static int
+append_samples(const ss_sample *sample, size_t n, void *user)
+{
+    record *t = user;
+    for (size_t i = 0; i < n; i++)
+        t->signal->values[t->n++] = sample[i].s;
+    return 0;
+}
+
+static int
+append_event(const ss_event *e, void *user)
+{
+    record *t = user;
+    assert_true(t->n_slips < sizeof t->slip / sizeof *t->slip);
+    if (e->kind == SS_SLIP)
+        t->slip[t->n_slips++] = e->t;
+    return 0;
+}
+
+/* sign: of the force. */
+static record
+record_of(const ss_scene *scene, double snr, unsigned long seed, double sign)
+{
+    record t = { .n = 0 };
+    ss_header *head = ss_header_new(scene->rate, 0);
+    const ss_sim_opts opts = { .method = "exact", .tol = 1e-12, .samples = append_samples,
+                               .events = append_event, .user = &t };
+    assert_int_equal(ss_header_add_column(head, "s", "N"), SS_OK);
+    assert_int_equal(ss_signal_new(&t.signal, head, ss_scene_samples(scene)), SS_OK);
+    ss_header_free(head);
+    assert_int_equal(ss_sim_run(scene, &opts, NULL, NULL), SS_OK);
+    double *x = t.signal->values;
+    ss_noise_add_once(x, t.n, ss_noise_rms(x, t.n, snr), seed);
+    for (size_t i = 0; i < t.n; i++)
+        x[i] *= sign;
+    return t;
+}
+
+static ss_features *
+features_of(const ss_signal *signal)
+{
+    ss_features *f = NULL;
+    ss_error err = { 0 };
+    if (ss_features_find(&f, signal, 0, NULL, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    assert_non_null(f->loading);
+    return f;
+}
+
+/* --- the events ----------------------------------------------------------------------------- */
+
+enum { SLOPE, DROP, DURATION, RECURRENCE, STICK, STATIC, KINETIC, K_OVER_M, NUMBERS };
+static const char *const names[NUMBERS] = { "slope", "drop", "duration", "recurrence", "stick",
+                                            "static_friction", "friction", "k_over_m" };
+
+typedef struct coverage {
+    double n, within_2, beyond_5;
+} coverage;
+
+static void
+count(coverage *c, ss_value v, double truth)
+{
+    if (isnan(v.value))
+        return;
+    c->n++;
+    c->within_2 += fabs(v.value - truth) <= 2 * v.error;
+    c->beyond_5 += fabs(v.value - truth) > 5 * v.error;
+}
+
+/* From 10 to 90 % of the fall of 2 D: f_k + A cos(phase), A = D sqrt(1 + 1 / q^2), passes f_k +- .8 D. */
+static double
+length_of_middle(const rig *r)
+{
+    double w = sqrt(r->stiffness / r->mass), q = r->drop * w / (r->stiffness * r->speed);
+    double part = .8 / sqrt(1 + 1 / (q * q));
+    return (M_PI - 2 * acos(part)) / w;
+}
+
+static void
+compare(coverage all[NUMBERS], const rig *r, const ss_scene *s, const ss_features *f)
+{
+    const double period = length_of_slip(r) + length_of_stick(r);
+    const double truth[NUMBERS] = { r->stiffness * r->speed, 2 * r->drop, length_of_middle(r), period,
+                                    length_of_stick(r), s->static_friction, s->friction,
+                                    r->stiffness / r->mass };
+    for (size_t i = 0; i < f->n; i++) {
+        const ss_loading *l = &f->loading[i];
+        const ss_value v[NUMBERS] = { l->slope, l->drop, l->duration, l->recurrence, l->stick,
+                                      l->static_friction, l->friction, l->k_over_m };
+        for (size_t k = 0; k < NUMBERS; k++)
+            count(&all[k], v[k], truth[k]);
+    }
+    if (!(fabs(f->slope.value / truth[SLOPE] - 1) <= .005))
+        fail_msg("slope %g, not %g", f->slope.value, truth[SLOPE]);
+    if (!(fabs(f->drop.value / truth[DROP] - 1) <= .005))
+        fail_msg("drop %g, not %g", f->drop.value, truth[DROP]);
+}
+
+/* Slips that end in the record and have a maximum found less than a slip from their onset; and how many
+ * maxima are of none.  One that is cut by the end of the record may be seen or not. */
+static void
+match(const record *t, const ss_features *f, double slip, double *slips, double *found, double *wrong)
+{
+    double end = (double)t->n / RATE;
+    size_t i = 0;
+    for (size_t k = 0; k < t->n_slips; k++) {
+        for (; i < f->n && f->loading[i].t < t->slip[k] - slip; i++)
+            ++*wrong;
+        int is_there = i < f->n && f->loading[i].t < t->slip[k] + slip;
+        int is_whole = t->slip[k] + slip < end;
+        *slips += is_whole;
+        *found += is_there && is_whole;
+        i += (size_t)is_there;
+    }
+    *wrong += (double)(f->n - i);
+}
+
+static void
+events_of_pulls_are_found_and_their_errors_cover(void **state)
+{
+    static const double snr[] = { 40, 20 };
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        coverage all[NUMBERS] = { { 0, 0, 0 } };
+        double slips = 0, found = 0, wrong = 0;
+        for (size_t i = 0; i < RIGS; i++) {
+            ss_scene scene = scene_of(&rigs[i]);
+            record t = record_of(&scene, snr[k], 10 * i + k + 1, i % 2 ? -1 : 1);
+            ss_features *f = features_of(t.signal);
+            match(&t, f, length_of_slip(&rigs[i]), &slips, &found, &wrong);
+            if (snr[k] == 40)
+                compare(all, &rigs[i], &scene, f);
+            ss_features_free(f);
+            ss_signal_free(t.signal);
+        }
+        print_message("%g dB: %g of %g slips found, and %g that are none\n", snr[k], found, slips, wrong);
+        assert_true(found >= .99 * slips && wrong <= .01 * slips && slips > 350);
+        for (size_t i = 0; snr[k] == 40 && i < NUMBERS; i++) {
+            const coverage *c = &all[i];
+            print_message("%s: %g, within 2 errors %.3g, beyond 5 %.3g\n", names[i], c->n,
+                          c->within_2 / c->n, c->beyond_5 / c->n);
+            assert_true(c->n >= .9 * slips);
+            assert_true(c->within_2 >= .88 * c->n && c->beyond_5 <= .01 * c->n);
+        }
+    }
+}
+
+/* Without noise: to what the straight parts between samples leave. */
+static void
+a_clean_pull_keeps_the_closed_form(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < RIGS; i++) {
+        ss_scene scene = scene_of(&rigs[i]);
+        record t = record_of(&scene, 300, 1, 1);
+        ss_features *f = features_of(t.signal);
+        const double got[] = { f->slope.value, f->drop.value, f->duration.value, f->recurrence.value,
+                               f->stick.value, f->static_friction.value, f->friction.value,
+                               f->k_over_m.value };
+        const double period = length_of_slip(&rigs[i]) + length_of_stick(&rigs[i]);
+        const double truth[] = { rigs[i].stiffness * rigs[i].speed, 2 * rigs[i].drop,
+                                 length_of_middle(&rigs[i]), period, length_of_stick(&rigs[i]),
+                                 scene.static_friction, scene.friction,
+                                 rigs[i].stiffness / rigs[i].mass };
+        for (size_t k = 0; k < NUMBERS; k++)
+            if (!(fabs(got[k] / truth[k] - 1) <= 1e-4))
+                fail_msg("rig %zu: %s %.9g, not %.9g", i, names[k], got[k], truth[k]);
+        ss_features_free(f);
+        ss_signal_free(t.signal);
+    }
+}
+
+/* What relaxes, in 20 ms after each rise of half a second, is no slip of a slider. */
+static void
+what_is_no_slip_has_no_friction(void **state)
+{
+    enum { RISE = 1000, CYCLE = 1200, N = 20 * CYCLE };
+    ss_header *head = ss_header_new(RATE, 0);
+    ss_signal *signal = NULL;
+    (void)state;
+    assert_int_equal(ss_header_add_column(head, "s", "N"), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+    ss_header_free(head);
+    for (size_t i = 0; i < N; i++) {
+        double u = (double)(i % CYCLE);
+        signal->values[i] = 1 + (u < RISE ? u / RISE : exp(-(u - RISE) / 40));
+    }
+    ss_noise_add_once(signal->values, N, .003, 1);
+    ss_features *f = features_of(signal);
+    assert_int_equal(f->n, 20);
+    assert_true(fabs(f->slope.value / ((double)RATE / RISE) - 1) <= .005);
+    for (size_t i = 0; i < f->n; i++)
+        assert_true(isnan(f->loading[i].friction.value) && isnan(f->loading[i].k_over_m.value));
+    ss_features_free(f);
+    ss_signal_free(signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
+        cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
+        cmocka_unit_test(what_is_no_slip_has_no_friction),
+    };
+    return cmocka_run_group_tests_name("pulls", tests, NULL, NULL);
+}
