@@ -335,6 +335,7 @@ conclusions_refuse_null(void **state)
     static const ss_ranking unranked;
     static const ss_rank_row row;
     ss_fit fit;
+    ss_pull *pull;
     size_t n;
     const double x[2] = { 0 };
     (void)state;
@@ -366,6 +367,11 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_scene_fit(NULL, signal, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, NULL, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, signal, 0, NULL, NULL, &e), &e);
+    assert_refused(ss_pull_fit(NULL, signal, 0, &scene, NULL, &e), &e);
+    assert_refused(ss_pull_fit(&pull, NULL, 0, &scene, NULL, &e), &e);
+    assert_refused(ss_pull_fit(&pull, signal, 0, NULL, NULL, &e), &e);
+    assert_int_equal(ss_scene_is_pulled(NULL), 0);
+    ss_pull_free(NULL);
     ss_signal_free(signal);
     ss_header_free(head);
 }

@@ -120,7 +120,7 @@ static const char *const names[NUMBERS] = { "slope", "drop", "duration", "recurr
                                             "static_friction", "friction", "k_over_m" };
 
 typedef struct coverage {
-    double n, within_2, beyond_5;
+    double n, within_1, within_2, beyond_5;
 } coverage;
 
 static void
@@ -167,7 +167,7 @@ compare(coverage all[NUMBERS], const rig *r, const ss_scene *s, const ss_feature
 static void
 match(const record *t, const ss_features *f, double slip, double *slips, double *found, double *wrong)
 {
-    double end = (double)t->n / RATE;
+    double end = (double)t->n / t->signal->head->rate;
     size_t i = 0;
     for (size_t k = 0; k < t->n_slips; k++) {
         for (; i < f->n && f->loading[i].t < t->slip[k] - slip; i++)
@@ -187,7 +187,7 @@ events_of_pulls_are_found_and_their_errors_cover(void **state)
     static const double snr[] = { 40, 20 };
     (void)state;
     for (size_t k = 0; k < 2; k++) {
-        coverage all[NUMBERS] = { { 0, 0, 0 } };
+        coverage all[NUMBERS] = { { 0, 0, 0, 0 } };
         double slips = 0, found = 0, wrong = 0;
         for (size_t i = 0; i < RIGS; i++) {
             ss_scene scene = scene_of(&rigs[i]);
@@ -261,6 +261,105 @@ what_is_no_slip_has_no_friction(void **state)
     ss_signal_free(signal);
 }
 
+/* --- fits ----------------------------------------------------------------------------------- */
+
+/* From one seed on, uniform in 0 ... 1: Park and Miller's. */
+static double
+draw(unsigned long long *seed)
+{
+    *seed = *seed * 48271 % 2147483647;
+    return (double)*seed / 2147483647;
+}
+
+static double
+between(unsigned long long *seed, double lo, double hi)
+{
+    return lo * pow(hi / lo, draw(seed));
+}
+
+/* q from 1.5 to 30, f_k / D from 1 to 20, 40 to 120 samples in pi / w. */
+static ss_scene
+draw_scene(unsigned long long *seed)
+{
+    ss_scene s = ss_scene_defaults;
+    s.mass = between(seed, .01, 100);
+    double w = 2 * M_PI * between(seed, 2, 200), q = between(seed, 1.5, 30);
+    s.stiffness = s.mass * w * w;
+    s.base_velocity = between(seed, 1e-5, 1e-2);
+    double D = q * s.stiffness * s.base_velocity / w, loading = s.stiffness * s.base_velocity;
+    s.friction = D * between(seed, 1, 20);
+    s.static_friction = s.friction + D;
+    double period = 2 * (M_PI - atan(q)) / w + 2 * D / loading;
+    s.settle = s.static_friction / loading + (1.5 + draw(seed)) * period;
+    s.duration = 10 * period;
+    s.rate = between(seed, 40, 120) * w / M_PI;
+    return s;
+}
+
+static void
+count_fit(coverage *c, ss_median m, double truth)
+{
+    double errors = fabs(m.value - truth) / m.error;
+    c->n++;
+    c->within_1 += errors <= 1;
+    c->within_2 += errors <= 2;
+    c->beyond_5 += errors > 5;
+}
+
+/* The rig that is given is 10 to 20 % off, but for its stiffness. */
+static ss_pull *
+fit(const ss_signal *signal, const ss_scene *scene)
+{
+    ss_rank_opts opts = ss_rank_defaults;
+    ss_scene start = *scene;
+    ss_pull *p = NULL;
+    ss_error err = { 0 };
+    opts.quantity = SS_SPRING;
+    start.mass *= 1.2;
+    start.base_velocity *= .9;
+    start.friction = start.static_friction = 0;
+    if (ss_pull_fit(&p, signal, 0, &start, &opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return p;
+}
+
+static void
+fits_of_pulls_cover(void **state)
+{
+    enum { DRAWS = 100 };
+    static const double snr[] = { 40, 20 };
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        static const char *const of[] = { "f_s", "f_k", "k/m" };
+        coverage c[3] = { { 0, 0, 0, 0 } };
+        unsigned long long seed = 1001;
+        size_t named = 0;
+        for (unsigned long i = 0; i < DRAWS; i++) {
+            ss_scene s = draw_scene(&seed);
+            record t = record_of(&s, snr[k], i + 1, 1);
+            ss_pull *p = fit(t.signal, &s);
+            if (p->verdict == SS_NAMED) {
+                named++;
+                count_fit(&c[0], p->features->static_friction, s.static_friction);
+                count_fit(&c[1], p->features->friction, s.friction);
+                count_fit(&c[2], p->features->k_over_m, s.stiffness / s.mass);
+                assert_true(p->scene.stiffness == s.stiffness && ss_scene_check(&p->scene, NULL) == SS_OK);
+                assert_true(fabs(p->scene.mass / s.mass - 1) <= .2);
+                assert_true(fabs(p->scene.base_velocity / s.base_velocity - 1) <= .05);
+            }
+            ss_pull_free(p);
+            ss_signal_free(t.signal);
+        }
+        print_message("%g dB: %zu of %d are fitted\n", snr[k], named, DRAWS);
+        assert_true(named >= .9 * DRAWS);
+        for (size_t i = 0; i < 3; i++) {
+            print_message("%s: within 1 error %.3g, within 2 %.3g, beyond 5 %.3g\n", of[i],
+                          c[i].within_1 / c[i].n, c[i].within_2 / c[i].n, c[i].beyond_5 / c[i].n);
+            assert_true(c[i].within_2 >= .88 * c[i].n && c[i].beyond_5 <= .01 * c[i].n);
+        }
+    }
+}
+
 int
 main(void)
 {
@@ -268,6 +367,7 @@ main(void)
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
         cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
         cmocka_unit_test(what_is_no_slip_has_no_friction),
+        cmocka_unit_test(fits_of_pulls_cover),
     };
     return cmocka_run_group_tests_name("pulls", tests, NULL, NULL);
 }

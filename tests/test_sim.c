@@ -330,14 +330,15 @@ simulates_into_a_signal(void **state)
     assert_int_equal(ss_sim_signal(&signal, &s, NULL), SS_OK);
     run r = run_of(&s);
     assert_int_equal(signal->n, 1000);
-    assert_int_equal(signal->head->n_columns, 4);
+    assert_int_equal(signal->head->n_columns, 5);
     assert_string_equal(signal->head->column[2].unit, "m/s^2");
     assert_string_equal(ss_header_find_note(signal->head, "contact_damping"), "25");
     assert_null(ss_header_find_note(signal->head, "rate"));
     for (size_t i = 0; i < 1000; i++)
         assert_true(signal->values[i] == r.sample[i].x
                     && signal->values[2 * 1000 + i] == r.sample[i].a
-                    && signal->values[3 * 1000 + i] == r.sample[i].f);
+                    && signal->values[3 * 1000 + i] == r.sample[i].f
+                    && signal->values[4 * 1000 + i] == r.sample[i].s);
     run_free(&r);
     ss_signal_free(signal);
     s.mass = -1;

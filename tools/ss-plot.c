@@ -12,6 +12,8 @@ static const char usage[] =
 "Draw a signal: one panel a column over time, or one column over another; or a\n"
 "map of a sweep.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
+"      --over=FILE      draw its first column over the first panel, from the\n"
+"                       beginning of the signal on\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --map=X,Y,Z[,Z]  rows of ss-sweep over two keys: a column of few\n"
 "                       values as regions, another as lines of equal value\n"
@@ -26,7 +28,7 @@ TOOL_READING_USAGE
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { OPT_XY = TOOL_OPT_FIRST, OPT_MAP, OPT_LINE, OPT_TITLE };
+enum { OPT_XY = TOOL_OPT_FIRST, OPT_OVER, OPT_MAP, OPT_LINE, OPT_TITLE };
 
 typedef struct drawing {
     const ss_signal *signal;
@@ -171,12 +173,12 @@ main(int argc, char *argv[])
     static const struct option longopts[] = {
         { "column", required_argument, NULL, 'c' }, { "xy", required_argument, NULL, OPT_XY },
         { "map", required_argument, NULL, OPT_MAP }, { "line", required_argument, NULL, OPT_LINE },
-        { "title", required_argument, NULL, OPT_TITLE },
+        { "over", required_argument, NULL, OPT_OVER }, { "title", required_argument, NULL, OPT_TITLE },
         { "style", required_argument, NULL, TOOL_OPT_STYLE },
         TOOL_READING_LONGOPTS, TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
     tool_reading reading;
-    const char *output = NULL, *map = NULL, *line = NULL;
+    const char *output = NULL, *over = NULL, *map = NULL, *line = NULL;
     const char **name = malloc(((size_t)argc + 2) * sizeof *name);
     drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
 
@@ -192,6 +194,7 @@ main(int argc, char *argv[])
         switch (c) {
         case 'c': name[d.n++] = optarg; break;
         case OPT_XY: cut_pair(optarg, name); d.n = 2; break;
+        case OPT_OVER: over = optarg; break;
         case OPT_MAP: map = optarg; break;
         case OPT_LINE: line = optarg; break;
         case OPT_TITLE: opts.title = optarg; break;
@@ -211,6 +214,8 @@ main(int argc, char *argv[])
     reading.opts.from = reading.opts.to = 0;
     if (map != NULL && (d.xy || d.n > 0 || reading.given))
         tool_usage("--map excludes --xy, --column and the options of reading");
+    if (over != NULL && (map != NULL || d.xy))
+        tool_usage("--over excludes --map and --xy");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {
@@ -228,7 +233,10 @@ main(int argc, char *argv[])
         d.column[i] = find_signal_column(&d, path, name[i]);
     tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
               signal->head->n_columns);
+    ss_signal *other = over != NULL ? tool_read_signal(over, NULL) : NULL;
+    opts.over = other;
     tool_draw(output, &opts, write_script, &d);
+    ss_signal_free(other);
     ss_signal_free(signal);
     free(d.column);
     free(name);

@@ -14,14 +14,16 @@ static const char usage[] =
 "can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
 "four shipped ones).\n"
 "  -c, --column=NAME|N   of the signal (default: a, else the only one)\n"
-"  -a, --as=QUANTITY     what it is of: x, v, a or f (default: by unit or name)\n"
+"  -a, --as=QUANTITY     what it is of: x, v, a, f or s, the spring's force\n"
+"                        (default: by unit or name)\n"
 "  -s, --set=KEY=VALUE   put VALUE in place of every scene's own (repeatable)\n"
 "  -p, --spread=PERCENT  how far the rig's parameters may be from a scene's\n"
 "                        (default 30)\n"
 "  -F, --forcing=HZ      frequency of the base (default: found)\n"
 "      --fit             write instead the compliant scene that moves as the\n"
 "                        signal does, from SCENE's mass, stiffness and release\n"
-"                        rule (default compliant-light)\n"
+"                        rule (default compliant-light); or of a pulled SCENE\n"
+"                        the one whose slips are those of the spring's force\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE     .tsv or .csv; --format=tsv|csv of standard output; with\n"
 "                        --fit any name\n"
@@ -194,12 +196,11 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
 }
 
 static void
-fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
+fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene *start)
 {
-    ss_scene start = tool_read_scene(j->scenes[0], j->settings, j->n_settings);
     ss_fit f;
     ss_error err = { 0 };
-    tool_check(ss_scene_fit(&f, signal, column, &start, opts, &err), &err);
+    tool_check(ss_scene_fit(&f, signal, column, start, &j->opts, &err), &err);
     if (!f.conclusive)
         tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);
     const struct { const char *key; ss_value v; } found[] = {
@@ -216,6 +217,78 @@ fit(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *op
             "# is %.3g %%.\n", 100 * f.residual, 100 * f.residual_started, 100 * f.noise);
     if (ss_scene_write(&f.scene, out) != SS_OK)
         tool_die("write failed");
+}
+
+/* --- a pull -------------------------------------------------------------------------------- */
+
+/* Beside what the given scene says; NaN: nothing. */
+static void
+write_median(FILE *out, const char *what, ss_median m, const char *unit, double given)
+{
+    char nominal[64] = "";
+    double off = 100 * (m.value / given - 1);
+    if (given > 0)
+        snprintf(nominal, sizeof nominal, "; given: %.4g, %+.0f %%", given, off);
+    fprintf(out, "#   %-17s %.4g +- %.2g %s, scatter %.2g%s\n", what, m.value, m.error, unit, m.scatter,
+            nominal);
+}
+
+static void
+warn_of_rig(const char *what, ss_median m, double given, double spread)
+{
+    if (fabs(m.value / given - 1) > spread)
+        tool_warn("%s of the slips is %.2g times that of the given scene", what, m.value / given);
+}
+
+static void
+write_events(FILE *out, const ss_features *f, double start)
+{
+    fprintf(out, "# Each slip: onset [s], static_friction [N] and error, friction [N] and error, k/m [1/s^2]\n"
+            "# and error:\n");
+    for (size_t i = 0; i < f->n; i++) {
+        const ss_loading *l = &f->loading[i];
+        if (!isnan(l->friction.value))
+            fprintf(out, "#   %.4f %.4g %.1g %.4g %.1g %.4g %.1g\n", start + f->transition[i].onset,
+                    l->static_friction.value, l->static_friction.error, l->friction.value,
+                    l->friction.error, l->k_over_m.value, l->k_over_m.error);
+    }
+}
+
+static void
+fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *start)
+{
+    const double k_over_m = start->stiffness / start->mass;
+    const double loading = fabs(start->stiffness * start->base_velocity);
+    ss_pull *p = NULL;
+    ss_error err = { 0 };
+    tool_check(ss_pull_fit(&p, signal, column, start, &j->opts, &err), &err);
+    if (p->verdict != SS_NAMED)
+        tool_die("%s: %s: %s", tool_input_name(j->signal_path),
+                 p->verdict == SS_NONE_FITS ? "none of these" : "cannot tell", p->why);
+    const ss_features *f = p->features;
+    warn_of_rig("k/m", f->k_over_m, k_over_m, j->opts.spread);
+    warn_of_rig("loading", f->slope, loading, j->opts.spread);
+    FILE *out = tool_output(j->output);
+    fprintf(out, "# Pulled slider with Coulomb friction, fitted to %s, column %s.\n"
+            "# %zu of %zu falls of the force are its slips.  Medians, standard errors, and the standard\n"
+            "# deviation of the slips; the stiffness is that given, mass and base_velocity follow:\n",
+            signal_name(j->signal_path), signal->head->column[column].name, p->n_slips, f->n);
+    write_median(out, "static_friction", f->static_friction, "N", NAN);
+    write_median(out, "friction", f->friction, "N", NAN);
+    write_median(out, "drop", f->drop, "N", NAN);
+    write_median(out, "k/m", f->k_over_m, "1/s^2", k_over_m);
+    write_median(out, "loading", f->slope, "N/s", loading);
+    write_events(out, f, signal->head->start);
+    if (ss_scene_write(&p->scene, out) != SS_OK)
+        tool_die("write failed");
+    ss_pull_free(p);
+}
+
+static void
+fit(const job *j, const ss_signal *signal, size_t column)
+{
+    ss_scene start = tool_read_scene(j->scenes[0], j->settings, j->n_settings);
+    (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
 }
 
 int
@@ -273,7 +346,10 @@ main(int argc, char *argv[])
               j.known_by);
     find_others(j.opts.also, signal->head, column);
     j.opts.progress = (ss_progress){ tool_progress, &j };
-    (fits ? fit : rank)(&j, signal, column, &j.opts);
+    if (fits)
+        fit(&j, signal, column);
+    else
+        rank(&j, signal, column, &j.opts);
     ss_signal_free(signal);
     tool_reading_free(&j.reading);
     free(j.settings);

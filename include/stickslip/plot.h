@@ -26,10 +26,12 @@ typedef struct ss_plot_opts {
     const char *title;          /* NULL: from the notes (scene, model); "": none */
     double from, to;            /* [s] on the source's clock, the span drawn; NaN: all of it */
     ss_plot_style style;
+    const ss_signal *over;      /* of ss_plot_signal; NULL: none */
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;
 
-/* One panel a column over time (figure 1), of the n columns given by index; n = 0 for all. */
+/* One panel a column over time (figure 1), of the n columns given by index; n = 0 for all.  The first
+ * column of opts->over, if that is not NULL, is drawn over the first panel; it begins with the signal. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
 /* One column over another: a phase plane or a friction loop. */

@@ -11,8 +11,10 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* The quantity of a signal, in the order of the columns of ss_sim_signal. */
-typedef enum ss_quantity { SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE } ss_quantity;
+/* The quantity of a signal, in the order of the columns of ss_sim_row; the last is the spring's force. */
+typedef enum ss_quantity {
+    SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE, SS_SPRING
+} ss_quantity;
 
 /* Models are judged by a number of the signal, the same of each scene, and their distance. */
 typedef enum ss_criterion {
@@ -38,8 +40,8 @@ typedef struct ss_criterion_rule {
 extern const ss_criterion_rule ss_criterion_rules[SS_CRITERIA];
 #define SS_SCORE_MOST 3
 
-enum { SS_QUANTITIES = SS_FORCE + 1 };
-extern const char *const ss_quantity_names[SS_QUANTITIES + 1];     /* "x", "v", "a", "f", NULL */
+enum { SS_QUANTITIES = SS_SPRING + 1 };
+extern const char *const ss_quantity_names[SS_QUANTITIES + 1];     /* "x", "v", "a", "f", "s", NULL */
 
 typedef struct ss_rank_opts {
     ss_quantity quantity;       /* that the column is of */
@@ -134,6 +136,27 @@ typedef struct ss_fit {
  * of which four samples count as one. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
+
+/* --- a slider pulled at constant speed ------------------------------------------------------ */
+
+typedef struct ss_pull {
+    ss_verdict verdict;         /* SS_NAMED: the scene explains three of four falls, and at least five */
+    char why[256];              /* empty if it does */
+    ss_scene scene;             /* begins to slip with the record, then goes its own way */
+    size_t n_slips;             /* falls of the force that are slips of a Coulomb slider */
+    ss_features *features;      /* its loadings are the events [N], their medians the scene's */
+} ss_pull;
+
+/* Is it pulled and not forced? */
+int ss_scene_is_pulled(const ss_scene *scene);
+
+/* Fit a Coulomb scene that is pulled to the force of its spring [N], event by event: f_s and f_k, the mass
+ * by k/m and the speed by the slope of loading are medians; the stiffness is that given.  That it
+ * does not explain the record is an answer: SS_OK.  opts may be NULL; its quantity must be SS_SPRING.
+ * SS_EINVAL for another scene or column.  To be freed with ss_pull_free. */
+ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
+                      const ss_rank_opts *opts, ss_error *err);
+void ss_pull_free(ss_pull *pull);               /* NULL is allowed */
 
 SS_END_DECLARATIONS
 #endif

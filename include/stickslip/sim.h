@@ -61,7 +61,7 @@ ss_header *ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns);
 /* The values of one sample in that order, columns->n of them. */
 void ss_sim_row(const ss_sim_columns *columns, const ss_sample *sample, double *row);
 
-/* The simple case: the whole record as a signal with the columns x, v, a, f, to be freed with
+/* The simple case: the whole record as a signal with the columns x, v, a, f, s, to be freed with
  * ss_signal_free. */
 ss_status ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err);
 

@@ -284,6 +284,11 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
         st = find_falls(f, s, y, drop, n, v, scratch);
     for (size_t i = 0; st == SS_OK && i < n; i++)
         out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        if (f[i].is_slip) {
+            out->transition[i].onset = f[i].slip.onset.value / s->rate;
+            out->transition[i].end = f[i].slip.end.value / s->rate;
+        }
     if (st == SS_OK)
         summarise(out, v, scratch);
     free(f);

@@ -123,7 +123,7 @@ ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err)
 {
     if (out == NULL)
         return SS_FAIL_NULL(err);
-    const ss_sim_columns columns = { 1, 4, { 0, 1, 2, 3 } };
+    const ss_sim_columns columns = { 1, 5, { 0, 1, 2, 3, 4 } };
     ss_status st = ss_scene_check(scene, err);
     if (st != SS_OK)
         return st;

@@ -28,6 +28,21 @@ typedef struct trace_scale {
     int exponent;
 } trace_scale;
 
+/* The first column of opts->over, as if it were sampled from the start of the signal on.  Its values count
+ * in the range, but not in the exponent. */
+static ss_status
+check_over(ss_header *head, script_span *span, const ss_header *of_signal, const ss_plot_opts *opts,
+           ss_error *err)
+{
+    if (opts->over == NULL)
+        return SS_OK;
+    *head = *opts->over->head;
+    head->start = of_signal->start;
+    ss_status st = ss_script_find_span(span, head, opts->over->n, opts, err);
+    return st == SS_OK ? ss_script_check(head->column[0].name, opts->over->values + span->first, span->n,
+                                         err) : st;
+}
+
 ss_status
 ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                const ss_plot_opts *opts, ss_error *err)
@@ -35,7 +50,8 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     if (out == NULL || signal == NULL || opts == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
-    script_span span;
+    ss_header over_head;
+    script_span span, over_span;
     size_t panels = n > 0 ? n : head->n_columns;
     double height = TITLE + TIME + PANEL * (double)panels;
     for (size_t i = 0; i < n; i++)
@@ -51,6 +67,8 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
                                  span.n, err);
     }
     if (status == SS_OK)
+        status = check_over(&over_head, &over_span, head, opts, err);
+    if (status == SS_OK)
         status = ss_script_begin(out, opts, height, err);
     if (status != SS_OK)
         return status;
@@ -60,6 +78,8 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     ss_script_write_title(out, opts, head, NULL);
     ss_script_write_span(out, &span);
     fputs("colour = '#0072b2'\n", out);
+    if (opts->over != NULL)
+        fputs("over = '#d55e00'\n", out);
     for (size_t i = 0; i < panels; i++) {
         size_t c = n > 0 ? column[i] : i;
         const double *x = signal->values + c * signal->n;
@@ -68,6 +88,9 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         scale_of[i].exponent = ss_script_exponent(x + span.first, span.n);
         scale_of[i].range = ss_script_write_trace(out, name, x, head, &span, scale_of[i].exponent);
     }
+    if (opts->over != NULL)
+        ss_script_write_trace(out, "$over", opts->over->values, &over_head, &over_span,
+                              scale_of[0].exponent);
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
             1 - TITLE / height, panels);
     fputs(layout, out);
@@ -82,7 +105,8 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         fputs("unset label 1; ", out);
         ss_script_write_side_label(out, 1, &label);
         ss_script_write_tics(out, "ytics", scale_of[i - 1].range, 5);
-        fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
+        fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour%s\n", i,
+                i == 1 && opts->over != NULL ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
         if (i == 1)
             fputs("unset title\n", out);
     }

@@ -16,7 +16,7 @@
 #define SCREEN 1.5              /* how much wider and higher on a screen */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
-const ss_plot_opts ss_plot_defaults = { NULL, NULL, NULL, NAN, NAN, SS_PAPER };
+const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
 
 /* --- numbers and text ---------------------------------------------------------------------- */
 

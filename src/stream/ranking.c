@@ -151,7 +151,7 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
         opts = &ss_rank_defaults;
     if (ranking == NULL || ranking->n == 0 || about == NULL || about->signal == NULL
         || about->column == NULL || about->known_by == NULL || about->scene == NULL
-        || (unsigned)opts->quantity > SS_FORCE || out == NULL)
+        || (unsigned)opts->quantity >= SS_QUANTITIES || out == NULL)
         return SS_EINVAL;
     size_t *order = calloc(ranking->n, sizeof *order);
     if (order == NULL)

@@ -24,7 +24,7 @@ ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts
 {
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
-    if ((unsigned)opts->quantity > SS_FORCE)
+    if ((unsigned)opts->quantity >= SS_QUANTITIES)
         return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
     if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
         return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",

@@ -1,0 +1,10 @@
+# A second signal over the first panel, from its beginning on, whatever its own clock and rate are.
+printf '# stickslip signal 1\n# rate: 10\n# start: 5\n# columns: t/s x/mm y/mm\n5\t1\t7\n5.1\t2\t8\n5.2\t3\t9\n' > one.tsv
+printf '# stickslip signal 1\n# rate: 5\n# start: 0\n# columns: t/s z/mm\n0\t4\n0.2\t5\n' > two.tsv
+ss-plot --over two.tsv one.tsv > both.gp
+sed -n '/^\$over/,/^EOD/p; /^plot /p' both.gp
+# without it nothing changes, but for the curve and its colour
+ss-plot one.tsv > one.gp
+sed '/^\$over/,/^EOD/d; /^over = /d; s/, \$over using.*//' both.gp | cmp - one.gp
+ss-plot --over two.tsv --xy x,y one.tsv || echo $?
+ss-plot --over absent.tsv one.tsv > /dev/null || echo $?

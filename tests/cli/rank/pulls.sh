@@ -1,0 +1,33 @@
+# A pull of a slider, of which mass and speed are not well known: its scene is found by its spring's force.
+cat > pull.scene <<'EOF'
+model = coulomb
+mass = 0.0307
+stiffness = 168
+static_friction = 0.0602
+friction = 0.0452
+base_velocity = 42e-6
+settle = 3
+duration = 60
+EOF
+ss-sim -c t,s pull.scene | ss-noise --snr 40 > pull.tsv
+# within 3 of the errors that stand in its comments
+near() {
+    awk -v key="$1" -v truth="$2" '$1 == "#" && $2 == key { off = ($3 - truth) / $5; print key, off^2 < 9 }'
+}
+ss-rank --fit -s mass=0.04 -s base_velocity=5e-5 -s friction=0 -s static_friction=0 pull.tsv pull.scene > fitted 2> err
+near static_friction 0.0602 < fitted
+near friction 0.0452 < fitted
+near k/m 5472.3127 < fitted
+near loading 0.007056 < fitted
+near drop 0.03 < fitted
+sed 's/is [0-9.]* times/is ... times/' err
+# it slips when the record does
+ss-sim -e pull.scene | awk '$2 == "slip" { print $1; exit }' > truth
+ss-sim -e fitted | awk '$2 == "slip" { print $1; exit }' | paste truth - | awk '{ print ($1 - $2)^2 < 1e-6 }'
+# only the force of the spring, only Coulomb friction, no noise
+ss-rank --fit -a f pull.tsv pull.scene || echo $?
+ss-rank --fit pull.tsv pull.scene -s model=stribeck -s stribeck_velocity=1 || echo $?
+ss-rank --fit -s damping=1 pull.tsv pull.scene || echo $?
+ss-rank pull.tsv pull.scene || echo $?
+ss-noise --rms 1 pull.tsv | ss-rank --fit - pull.scene || echo $?
+awk '!/^#/ { $2 = -$2 } { print }' OFS='\t' pull.tsv | ss-rank --fit - pull.scene || echo $?
