@@ -60,7 +60,7 @@ typedef struct group {
 } group;
 
 /* The work of one thread. */
-typedef struct lane {
+typedef struct stream_worker {
     double *w, *scratch;        /* scratch: of the group at work, NULL if it needs none */
     double *of_blocks;          /* scratch */
     size_t scale, scales;       /* scales: how many, in blocks */
@@ -69,7 +69,7 @@ typedef struct lane {
     ss_status status;
     ss_error error;
     struct window *window;
-} lane;
+} stream_worker;
 
 struct ss_stream {
     ss_morlet_opts opts;
@@ -83,11 +83,11 @@ struct ss_stream {
     ss_scale *scale;
     scale_state *state;
     group *group;
-    lane *lane;                 /* as many as threads */
+    stream_worker *worker;      /* as many as threads */
     double *x, x_max;           /* the last samples, and max|x| of all */
     ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
     size_t room;
-    size_t lane_room;           /* coefficients in w of a lane */
+    size_t worker_room;         /* coefficients in w of a worker */
     ptrdiff_t limit;            /* samples that blocks may need now; PTRDIFF_MAX: their window's */
     ss_error *why;              /* of what fails in blocks, or NULL */
     int ended;
@@ -217,73 +217,73 @@ release(window *win)
         free(win->rec.x);
     ss_spectra_free(&win->spectra);
     for (int t = 0; t < s->opts.threads; t++) {
-        if (s->lane[t].scratch != NULL)
-            ss_fft_scratch_free(s->lane[t].scratch);
-        s->lane[t].scratch = NULL;
+        if (s->worker[t].scratch != NULL)
+            ss_fft_scratch_free(s->worker[t].scratch);
+        s->worker[t].scratch = NULL;
     }
 }
 
-/* One part of one scale: user points at the lane. */
+/* Compute the worker's part of its scale; user points at a pointer to the worker. */
 static void
 compute(void *user)
 {
-    lane *l = *(lane **)user;
-    window *win = l->window;
-    scale_state *r = &win->stream->state[l->scale];
+    stream_worker *wk = *(stream_worker **)user;
+    window *win = wk->window;
+    scale_state *r = &win->stream->state[wk->scale];
     int exponent = win->rec.exponent;
     double most = ldexp(r->most, r->exponent - exponent);
-    l->status = ss_morlet_part(win->group->plan, l->scale - win->group->first, &win->rec,
-                               win->by_sum ? NULL : &win->spectra, l->scratch, r->wave, l->part,
-                               &most, l->w, &l->error);
+    wk->status = ss_morlet_part(win->group->plan, wk->scale - win->group->first, &win->rec,
+                                win->by_sum ? NULL : &win->spectra, wk->scratch, r->wave, wk->part,
+                                &most, wk->w, &wk->error);
     r->most = most;
     r->exponent = exponent;
 }
 
-/* The next part of its scale for a lane; 0 if nothing is left. */
+/* Give the worker the next part of its scale; 0 if nothing is left. */
 static int
-next_part(lane *l, ptrdiff_t limit)
+next_part(stream_worker *wk, ptrdiff_t limit)
 {
-    const window *win = l->window;
+    const window *win = wk->window;
     const ss_stream *s = win->stream;
-    size_t first = s->state[l->scale].next, n = ready(s, l->scale, limit);
-    size_t places = (size_t)places_of(win->group, l->scale);
+    size_t first = s->state[wk->scale].next, n = ready(s, wk->scale, limit);
+    size_t places = (size_t)places_of(win->group, wk->scale);
     n = n < GIVEN ? n : GIVEN;
-    l->skip = win->by_sum ? 0 : (size_t)((ptrdiff_t)first - win->start) % places;
-    l->part = (span){ first - l->skip, n + l->skip };
+    wk->skip = win->by_sum ? 0 : (size_t)((ptrdiff_t)first - win->start) % places;
+    wk->part = (span){ first - wk->skip, n + wk->skip };
     return n > 0;
 }
 
 static ss_status
-send_part(ss_stream *s, lane *l, ss_error *err)
+send_part(ss_stream *s, stream_worker *wk, ss_error *err)
 {
-    size_t n = l->part.n - l->skip;
-    if (l->status != SS_OK) {
+    size_t n = wk->part.n - wk->skip;
+    if (wk->status != SS_OK) {
         if (err != NULL)
-            *err = l->error;
-        return l->status;
+            *err = wk->error;
+        return wk->status;
     }
-    go_on(s, l->scale, s->state[l->scale].next + n);
-    int stop = s->sink(&s->scale[l->scale], l->part.first + l->skip, n, l->w + 2 * l->skip,
+    go_on(s, wk->scale, s->state[wk->scale].next + n);
+    int stop = s->sink(&s->scale[wk->scale], wk->part.first + wk->skip, n, wk->w + 2 * wk->skip,
                        s->samples, s->user);
     return stop ? SS_STOP : SS_OK;
 }
 
-/* The next part of as many scales as there are lanes, from first on; *busy counts those that had one. */
+/* Each worker computes the next part of a scale, from scale first on; *busy counts those that had one. */
 static ss_status
 compute_parts(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limit, size_t *busy,
               ss_error *err)
 {
-    lane *work[SS_THREADS_MAX];
+    stream_worker *work[SS_THREADS_MAX];
     size_t parts = 0, coefficients = 0;
     ss_status st = SS_OK;
     for (size_t t = 0; t < n; t++) {
-        lane *l = &s->lane[t];
-        l->scale = first + t;
-        l->window = win;
-        if (!next_part(l, limit))
+        stream_worker *wk = &s->worker[t];
+        wk->scale = first + t;
+        wk->window = win;
+        if (!next_part(wk, limit))
             continue;
-        work[parts++] = l;
-        coefficients += l->part.n;
+        work[parts++] = wk;
+        coefficients += wk->part.n;
     }
     if (coefficients < WORTH_THREADS)
         for (size_t t = 0; t < parts; t++)
@@ -297,18 +297,19 @@ compute_parts(ss_stream *s, window *win, size_t first, size_t n, ptrdiff_t limit
 }
 
 /* All coefficients of the scales of a window: a part of each, then the next of each, so that their
- * order does not depend on the number of lanes. */
+ * order does not depend on the number of workers. */
 static ss_status
 compute_scales(ss_stream *s, window *win, ptrdiff_t limit, ss_error *err)
 {
     const group *g = win->group;
-    size_t lanes = (size_t)s->opts.threads, busy = 1;
+    size_t workers = (size_t)s->opts.threads, busy = 1;
     ss_status st = SS_OK;
     while (st == SS_OK && busy > 0) {
         busy = 0;
-        for (size_t i = 0; st == SS_OK && i < g->plan->n_scales; i += lanes) {
+        for (size_t i = 0; st == SS_OK && i < g->plan->n_scales; i += workers) {
             size_t left = g->plan->n_scales - i;
-            st = compute_parts(s, win, g->first + i, left < lanes ? left : lanes, limit, &busy, err);
+            st = compute_parts(s, win, g->first + i, left < workers ? left : workers, limit, &busy,
+                               err);
         }
     }
     return st;
@@ -339,12 +340,12 @@ transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
     ptrdiff_t limit = limit_of(s, g, start);
     window win = { .stream = s, .group = g, .start = start,
                    .by_sum = cheaper_by_sum(s, g, limit) };
-    size_t lanes = (size_t)s->opts.threads;
+    size_t workers = (size_t)s->opts.threads;
     ss_status st = fill_record(&win);
     if (st == SS_OK && !win.by_sum)
         st = ss_fft_forward(g->plan->fft, &win.rec, &win.spectra);
-    for (size_t t = 0; st == SS_OK && !win.by_sum && t < lanes; t++)
-        if ((s->lane[t].scratch = ss_fft_scratch(g->plan->fft)) == NULL)
+    for (size_t t = 0; st == SS_OK && !win.by_sum && t < workers; t++)
+        if ((s->worker[t].scratch = ss_fft_scratch(g->plan->fft)) == NULL)
             st = SS_ENOMEM;
     if (st == SS_OK)
         st = compute_scales(s, &win, limit, err);
@@ -368,32 +369,32 @@ block_part(const window *win, size_t i)
     return (span){ r->next, n < complete ? n : complete };
 }
 
-/* Some scales: user points at the lane. */
+/* Compute the worker's scales; user points at the worker. */
 static void
 compute_blocks(void *user)
 {
-    lane *l = user;
-    double *w = l->w, most = 0;
-    l->status = SS_OK;
-    for (size_t i = l->scale; l->status == SS_OK && i < l->scale + l->scales; i++) {
-        span part = block_part(l->window, i);
+    stream_worker *wk = user;
+    double *w = wk->w, most = 0;
+    wk->status = SS_OK;
+    for (size_t i = wk->scale; wk->status == SS_OK && i < wk->scale + wk->scales; i++) {
+        span part = block_part(wk->window, i);
         if (part.n > 0)
-            l->status = ss_morlet_part(l->window->group->plan, i, &l->window->rec,
-                                       &l->window->spectra, l->of_blocks, NULL, part, &most, w,
-                                       &l->error);
+            wk->status = ss_morlet_part(wk->window->group->plan, i, &wk->window->rec,
+                                        &wk->window->spectra, wk->of_blocks, NULL, part, &most, w,
+                                        &wk->error);
         w += 2 * part.n;
     }
 }
 
 static ss_status
-send_blocks(ss_stream *s, lane *l, ss_error *err)
+send_blocks(ss_stream *s, stream_worker *wk, ss_error *err)
 {
-    const double *w = l->w;
-    ss_status st = l->status;
+    const double *w = wk->w;
+    ss_status st = wk->status;
     if (st != SS_OK && err != NULL)
-        *err = l->error;
-    for (size_t i = l->scale; st == SS_OK && i < l->scale + l->scales; i++) {
-        span part = block_part(l->window, i);
+        *err = wk->error;
+    for (size_t i = wk->scale; st == SS_OK && i < wk->scale + wk->scales; i++) {
+        span part = block_part(wk->window, i);
         if (part.n == 0)
             continue;
         go_on(s, i, part.first + part.n);
@@ -403,21 +404,21 @@ send_blocks(ss_stream *s, lane *l, ss_error *err)
     return st;
 }
 
-/* Scales from first on, each lane the same number of them. */
+/* Compute the scales from first on, the same number in each worker. */
 static ss_status
-share_blocks(ss_stream *s, window *win, size_t first, size_t end, size_t lanes, size_t each)
+share_blocks(ss_stream *s, window *win, size_t first, size_t end, size_t workers, size_t each)
 {
     ss_status st = SS_OK;
     size_t n = 0;
-    for (; n < lanes && first < end; n++, first += each) {
-        lane *l = &s->lane[n];
-        l->scale = first;
-        l->scales = end - first < each ? end - first : each;
-        l->window = win;
+    for (; n < workers && first < end; n++, first += each) {
+        stream_worker *wk = &s->worker[n];
+        wk->scale = first;
+        wk->scales = end - first < each ? end - first : each;
+        wk->window = win;
     }
-    ss_pool_run(compute_blocks, s->lane, sizeof *s->lane, n);
+    ss_pool_run(compute_blocks, s->worker, sizeof *s->worker, n);
     for (size_t t = 0; st == SS_OK && t < n; t++)
-        st = send_blocks(s, &s->lane[t], s->why);
+        st = send_blocks(s, &s->worker[t], s->why);
     return st;
 }
 
@@ -427,7 +428,7 @@ window_of_blocks(size_t level, size_t number, double *spectrum, void *user)
 {
     ss_stream *s = user;
     const struct blocks *b = s->blocks.plan->blocks;
-    size_t first = 0, end, lanes = (size_t)s->opts.threads, most = 0, n = 0;
+    size_t first = 0, end, workers = (size_t)s->opts.threads, most = 0, n = 0;
     window win = { .stream = s, .group = &s->blocks, .number = number, .limit = s->limit,
                    .rec = { .exponent = exponent_of(s->x_max) } };
     win.spectra.blocks = (block_spectra){ .first = number };
@@ -441,12 +442,13 @@ window_of_blocks(size_t level, size_t number, double *spectrum, void *user)
     }
     if (n == 0)
         return SS_OK;
-    lanes = n < BLOCK_WORTH_THREADS ? 1 : lanes;
-    size_t each = lanes == 1 ? 1 : (end - first + lanes - 1) / lanes, fit = s->lane_room / most;
+    workers = n < BLOCK_WORTH_THREADS ? 1 : workers;
+    size_t each = workers == 1 ? 1 : (end - first + workers - 1) / workers;
+    size_t fit = s->worker_room / most;
     each = each < fit ? each : fit;
     ss_status st = SS_OK;
-    for (; st == SS_OK && first < end; first += lanes * each)
-        st = share_blocks(s, &win, first, end, lanes, each);
+    for (; st == SS_OK && first < end; first += workers * each)
+        st = share_blocks(s, &win, first, end, workers, each);
     return st;
 }
 
@@ -764,19 +766,19 @@ make_buffers(ss_stream *s)
         }
     }
     s->room = longest + PIECE;
-    s->lane_room = GIVEN + places;
+    s->worker_room = GIVEN + places;
     for (size_t i = 0; i < s->blocks.plan->n_scales; i++) {
         size_t hop = ss_blocks_hop(s->blocks.plan->blocks, i);
-        s->lane_room = hop > s->lane_room ? hop : s->lane_room;
+        s->worker_room = hop > s->worker_room ? hop : s->worker_room;
     }
     s->x = calloc(s->room, sizeof *s->x);
-    s->lane = calloc((size_t)s->opts.threads, sizeof *s->lane);
-    if (s->x == NULL || s->lane == NULL)
+    s->worker = calloc((size_t)s->opts.threads, sizeof *s->worker);
+    if (s->x == NULL || s->worker == NULL)
         return SS_ENOMEM;
     ss_status st = SS_OK;
     for (int t = 0; st == SS_OK && t < s->opts.threads; t++) {
-        st = ss_morlet_scratch(s->blocks.plan, &s->lane[t].of_blocks);
-        if ((s->lane[t].w = malloc(2 * s->lane_room * sizeof(double))) == NULL)
+        st = ss_morlet_scratch(s->blocks.plan, &s->worker[t].of_blocks);
+        if ((s->worker[t].w = malloc(2 * s->worker_room * sizeof(double))) == NULL)
             st = SS_ENOMEM;
     }
     return st;
@@ -876,14 +878,14 @@ ss_stream_free(ss_stream *s)
     ss_morlet_free(s->blocks.plan);
     for (size_t i = 0; s->state != NULL && i < s->n_scales; i++)
         ss_wavelet_free(s->state[i].wave);
-    for (int t = 0; s->lane != NULL && t < s->opts.threads; t++) {
-        ss_fft_scratch_free(s->lane[t].of_blocks);
-        free(s->lane[t].w);
+    for (int t = 0; s->worker != NULL && t < s->opts.threads; t++) {
+        ss_fft_scratch_free(s->worker[t].of_blocks);
+        free(s->worker[t].w);
     }
     free(s->group);
     free(s->state);
     free(s->scale);
-    free(s->lane);
+    free(s->worker);
     free(s->x);
     free(s);
 }

@@ -78,13 +78,13 @@ range_text(const scene_key *k)
 }
 
 /* The origin of a key, for messages: a line of the file, or a setting. */
-struct place {
+struct key_origin {
     const char *name;           /* of the file */
     long line;                  /* 0: not given, > 0: line of the file, < 0: setting */
 };
 
 static ss_status
-fail_at(struct place at, ss_error *err, const char *text)
+fail_at(struct key_origin at, ss_error *err, const char *text)
 {
     if (at.line < 0)
         return ss_fail(err, SS_EINVAL, "%s", text);
@@ -101,7 +101,8 @@ leaves_folder(const char *path)
 }
 
 static ss_status
-set_text(ss_scene *scene, const scene_key *k, const char *value, struct place at, ss_error *err)
+set_text(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at,
+         ss_error *err)
 {
     char message[128];
     const char *wrong = *value == '\0' ? "is empty" : strlen(value) >= k->room ? "is too long"
@@ -116,7 +117,8 @@ set_text(ss_scene *scene, const scene_key *k, const char *value, struct place at
 }
 
 static ss_status
-set_value(ss_scene *scene, const scene_key *k, const char *value, struct place at, ss_error *err)
+set_value(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at,
+          ss_error *err)
 {
     char text[256], *end;
     if (k->word != NULL) {
@@ -203,7 +205,7 @@ nearest_key(const char *name)
 
 /* The key nearest to a name, if few letters differ: the name may be mistyped. */
 static ss_status
-fail_unknown(const char *name, struct place at, ss_error *err)
+fail_unknown(const char *name, struct key_origin at, ss_error *err)
 {
     const char *best = nearest_key(name);
     size_t length = strlen(name), off = distance(name, best);
@@ -225,7 +227,7 @@ ss_scene_number(ss_scene *scene, const char *name, const char **unit, ss_error *
     }
     const scene_key *k = ss_key_named(model, name);
     if (k == NULL && find_key(name) == NULL) {
-        fail_unknown(name, (struct place){ "", -1 }, err);
+        fail_unknown(name, (struct key_origin){ "", -1 }, err);
     } else if (k == NULL) {
         ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model->name, name);
     } else if (!is_number(k)) {
@@ -263,7 +265,7 @@ line_of(given *g, const scene_key *k)
 
 /* One "key = value", which is split in place. */
 static ss_status
-read_setting(ss_scene *scene, char *text, struct place at, given *g, ss_error *err)
+read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_error *err)
 {
     char message[256], *equals = strchr(text, '=');
     if (equals == NULL) {
@@ -289,13 +291,13 @@ read_setting(ss_scene *scene, char *text, struct place at, given *g, ss_error *e
 
 /* A key in the scene that belongs to another model. */
 static ss_status
-check_foreign(const struct model *model, given *g, struct place last, ss_error *err)
+check_foreign(const struct model *model, given *g, struct key_origin last, ss_error *err)
 {
     const struct model *other;
     for (size_t i = 0; (other = ss_model_at(i)) != NULL; i++)
         for (size_t j = 0; j < other->n_keys; j++) {
             const scene_key *k = &other->keys[j];
-            struct place at = { last.name, *line_of(g, k) };
+            struct key_origin at = { last.name, *line_of(g, k) };
             if (at.line == 0 || ss_key_of_field(model, k->offset) != NULL)
                 continue;
             char text[256];
@@ -330,7 +332,7 @@ missing_key(const struct model *model, given *g)
 
 /* After the last line: every key belongs to the model, and none is missing. */
 static ss_status
-check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
+check_keys(const ss_scene *scene, given *g, struct key_origin last, ss_error *err)
 {
     const struct model *model = ss_model_of(scene);
     const scene_key *k;
@@ -350,13 +352,14 @@ check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
     }
     long file = *line_of(g, find_key("base_file"));
     if (file != 0 && scene->base_amplitude != 0)
-        return fail_at((struct place){ last.name, file }, err, BASES);
+        return fail_at((struct key_origin){ last.name, file }, err, BASES);
     long s = *line_of(g, find_key("static_friction")), f = *line_of(g, find_key("friction"));
     if (s != 0 && scene->static_friction < scene->friction)
-        return fail_at((struct place){ last.name, s < 0 || f < 0 ? -1 : s }, err, STATIC_IS_LESS);
+        return fail_at((struct key_origin){ last.name, s < 0 || f < 0 ? -1 : s }, err,
+                       STATIC_IS_LESS);
     if (ss_scene_samples(scene) == SIZE_MAX) {
         long where = *line_of(g, find_key("rate"));
-        struct place at = { last.name, where != 0 ? where : *line_of(g, find_key("duration")) };
+        struct key_origin at = { last.name, where != 0 ? where : *line_of(g, find_key("duration")) };
         return fail_at(at, err, "duration x rate is more than 2^53 samples");
     }
     return SS_OK;
@@ -366,7 +369,7 @@ check_keys(const ss_scene *scene, given *g, struct place last, ss_error *err)
 
 /* Read one line without its newline and comment; *end is 1 after the last. */
 static ss_status
-read_line(FILE *in, char *line, size_t size, struct place at, int *end, ss_error *err)
+read_line(FILE *in, char *line, size_t size, struct key_origin at, int *end, ss_error *err)
 {
     size_t n = 0;
     int c;
@@ -392,7 +395,7 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
 {
     ss_scene scene = ss_scene_defaults;
     given g = { 0 };
-    struct place at = { name, 0 };
+    struct key_origin at = { name, 0 };
     char line[1024];
     ss_status st = SS_OK;
 
@@ -404,7 +407,7 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
         if (st == SS_OK && *trim(line) != '\0')
             st = read_setting(&scene, line, at, &g, err);
     }
-    struct place setting = { name, -1 };
+    struct key_origin setting = { name, -1 };
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         if (snprintf(line, sizeof line, "%s", settings[i]) >= (int)sizeof line)
             return fail_at(setting, err, "setting too long");

@@ -40,7 +40,7 @@ typedef struct wavelet_writer {
     double tolerance;           /* of rounding, re the largest |W| of a scale; 0: all bits stay */
     int dense;
     hid_t group;
-    struct rows *rows;          /* of each scale; if dense, the first has the datasets of all */
+    struct scale_datasets *datasets;    /* of each scale; if dense, the first holds those of all */
 } wavelet_writer;
 
 ss_status ss_wavelet_writer_open(wavelet_writer *w, h5_pieces *pieces, const ss_coefficients *grid);

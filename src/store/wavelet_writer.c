@@ -8,7 +8,7 @@
 #include "morlet/wavelet.h"
 #include "store/groups.h"
 
-struct rows {
+struct scale_datasets {
     hid_t time, re, im, edge;
     size_t done;
     double most;                /* the largest |W| so far */
@@ -41,7 +41,7 @@ name_unit(const ss_header *head)
 
 /* The datasets of scale i, which are lines, or those of all scales, which are rectangles. */
 static ss_status
-open_rows(wavelet_writer *w, hid_t group, size_t i)
+open_datasets(wavelet_writer *w, hid_t group, size_t i)
 {
     static const char *const scales[] = { "scale", "time" };
     int growing = w->pieces->growing, rank = w->dense ? 2 : 1;
@@ -58,11 +58,11 @@ open_rows(wavelet_writer *w, hid_t group, size_t i)
         { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
           .file_type = H5T_STD_U8LE, .chunk = chunk },
     };
-    struct rows *rows = &w->rows[i];
-    rows->time = ss_h5_new_dataset(group, &v[0], 1, &length, NULL);
-    if (rows->time < 0)
+    struct scale_datasets *d = &w->datasets[i];
+    d->time = ss_h5_new_dataset(group, &v[0], 1, &length, NULL);
+    if (d->time < 0)
         return ss_h5_fail_write(w->pieces->file, group, v[0].name);
-    hid_t *const id[] = { NULL, &rows->re, &rows->im, &rows->edge };
+    hid_t *const id[] = { NULL, &d->re, &d->im, &d->edge };
     for (size_t k = 1; k < sizeof v / sizeof *v; k++) {
         *id[k] = ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
         /* CF: the label of a row that is not its index */
@@ -102,7 +102,7 @@ open_dense(wavelet_writer *w)
     free(row);
     if (st == SS_OK && !write_lattice(w->group, &w->scale[0]))
         st = ss_h5_fail_write(w->pieces->file, 0, "/wavelet");
-    return st == SS_OK ? open_rows(w, w->group, 0) : st;
+    return st == SS_OK ? open_datasets(w, w->group, 0) : st;
 }
 
 static ss_status
@@ -117,7 +117,7 @@ open_scale(wavelet_writer *w, size_t i)
         || !ss_h5_write_number(group, "frequency", H5T_IEEE_F64LE, scale->f)
         || !ss_h5_write_number(group, "j", H5T_STD_I32LE, scale->j) || !write_lattice(group, scale))
         return ss_h5_fail_write(w->pieces->file, w->group, name);
-    ss_status st = open_rows(w, group, i);
+    ss_status st = open_datasets(w, group, i);
     H5Gclose(group);
     return st;
 }
@@ -128,13 +128,13 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
     w->n = grid->n;
     w->n_scales = grid->n_scales;
     w->scale = malloc((grid->n_scales + 1) * sizeof *w->scale);
-    w->rows = malloc((grid->n_scales + 1) * sizeof *w->rows);
+    w->datasets = malloc((grid->n_scales + 1) * sizeof *w->datasets);
     w->unit = name_unit(grid->head);
-    if (w->scale == NULL || w->rows == NULL || w->unit == NULL)
+    if (w->scale == NULL || w->datasets == NULL || w->unit == NULL)
         return SS_ENOMEM;
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->rows[i] = (struct rows){ -1, -1, -1, -1, 0, 0 };
+        w->datasets[i] = (struct scale_datasets){ -1, -1, -1, -1, 0, 0 };
     w->dense = is_dense(w);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
 }
@@ -169,14 +169,14 @@ ss_wavelet_writer_find(const wavelet_writer *w, const ss_scale *scale, size_t fi
     size_t i = 0;
     while (i < w->n_scales && w->scale[i].j != scale->j)
         i++;
-    if (i < w->n_scales && (w->rows[i].done != first
+    if (i < w->n_scales && (w->datasets[i].done != first
                             || (!w->pieces->growing && n > w->scale[i].n - first)))
         return w->n_scales;
     return i;
 }
 
 static int
-close_rows(struct rows *r)
+close_datasets(struct scale_datasets *r)
 {
     hid_t *const id[] = { &r->time, &r->re, &r->im, &r->edge };
     int good = 1;
@@ -210,36 +210,36 @@ static int
 write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
     const ss_scale *scale = &w->scale[i];
-    struct rows *rows = &w->rows[w->dense ? 0 : i];
+    struct scale_datasets *d = &w->datasets[w->dense ? 0 : i];
     h5_pieces *p = w->pieces;
-    size_t first = w->rows[i].done;
+    size_t first = w->datasets[i].done;
     int rank = w->dense ? 2 : 1;
     const hsize_t where[2] = { i, first }, *at = where + 2 - rank;
-    double shift = rounding_of(w->tolerance, w->rows[i].most);
+    double shift = rounding_of(w->tolerance, w->datasets[i].most);
     for (size_t k = 0; k < n; k++) {
         p->value[0][k] = x[2 * k] + shift - shift;
         p->value[1][k] = x[2 * k + 1] + shift - shift;
         p->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, p->rate, p->start, w->gap,
                                                  w->n_gaps);
     }
-    return ss_h5_write_piece(rows->re, rank, at, n, H5T_NATIVE_DOUBLE, p->value[0])
-        && ss_h5_write_piece(rows->im, rank, at, n, H5T_NATIVE_DOUBLE, p->value[1])
-        && ss_h5_write_piece(rows->edge, rank, at, n, H5T_NATIVE_UCHAR, p->edge)
-        && (w->dense || ss_h5_write_times(p, rows->time, scale, first, n));
+    return ss_h5_write_piece(d->re, rank, at, n, H5T_NATIVE_DOUBLE, p->value[0])
+        && ss_h5_write_piece(d->im, rank, at, n, H5T_NATIVE_DOUBLE, p->value[1])
+        && ss_h5_write_piece(d->edge, rank, at, n, H5T_NATIVE_UCHAR, p->edge)
+        && (w->dense || ss_h5_write_times(p, d->time, scale, first, n));
 }
 
 ss_status
 ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
-    struct rows *rows = &w->rows[i];
-    rows->most = w->tolerance > 0 ? largest_of(x, n, rows->most) : 0;
+    struct scale_datasets *d = &w->datasets[i];
+    d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
     for (size_t m; n > 0; n -= m, x += 2 * m) {
         m = n < H5_PIECE ? n : H5_PIECE;
         if (!write_rows(w, i, m, x, samples))
             return ss_h5_fail_write(w->pieces->file, w->group, "re");
-        rows->done += m;
+        d->done += m;
     }
-    if (!w->dense && !w->pieces->growing && rows->done == w->scale[i].n && !close_rows(rows))
+    if (!w->dense && !w->pieces->growing && d->done == w->scale[i].n && !close_datasets(d))
         return ss_h5_fail_write(w->pieces->file, w->group, "re");
     return SS_OK;
 }
@@ -249,7 +249,7 @@ static int
 is_full(const wavelet_writer *w, size_t i, size_t samples)
 {
     double last = (double)(samples - 1) / w->pieces->rate;
-    size_t done = w->rows[i].done;
+    size_t done = w->datasets[i].done;
     if (!w->pieces->growing)
         return done == w->scale[i].n;
     return done > 0 && ss_scale_b(&w->scale[i], done - 1) <= last
@@ -265,7 +265,7 @@ ss_wavelet_writer_end(wavelet_writer *w, size_t samples)
             return ss_fail(file->err, SS_EINVAL, "coefficients of scale %g are missing", w->scale[i].m);
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
-    if ((w->dense && !ss_h5_write_times(w->pieces, w->rows->time, &w->scale[0], 0, samples))
+    if ((w->dense && !ss_h5_write_times(w->pieces, w->datasets->time, &w->scale[0], 0, samples))
         || (H5Aexists(file->id, "samples") <= 0 && !ss_h5_write_text(file->id, "samples", text))
         || !ss_h5_write_number(w->group, "samples", H5T_STD_I64LE, (double)samples))
         return ss_h5_fail_write(file, 0, "/wavelet");
@@ -277,6 +277,6 @@ ss_wavelet_writer_free(wavelet_writer *w)
 {
     free(w->unit);
     free(w->scale);
-    free(w->rows);
+    free(w->datasets);
     free(w->gap);
 }

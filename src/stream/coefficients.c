@@ -23,7 +23,7 @@ typedef struct part {
     double *w;
 } part;
 
-typedef struct reader {
+typedef struct coefficient_reader {
     ss_reader in;               /* comes first */
     ss_error *err;
     ss_coefficients *coef;      /* its n is 0 until the length is known */
@@ -31,7 +31,7 @@ typedef struct reader {
     part *part;
     size_t n_parts, room, last; /* last: the part of the row before */
     size_t *part_of;            /* of every j that there can be, its part from 1; 0: none yet */
-} reader;
+} coefficient_reader;
 
 enum { LARGEST_M = 500 };       /* |log2 a| */
 
@@ -40,7 +40,7 @@ enum { LARGEST_M = 500 };       /* |log2 a| */
 __attribute__((format(printf, 2, 3)))
 #endif
 static ss_status
-refuse(const reader *r, const char *format, ...)
+refuse(const coefficient_reader *r, const char *format, ...)
 {
     char why[256];
     unsigned long line = r->in.in.line;
@@ -56,7 +56,7 @@ refuse(const reader *r, const char *format, ...)
 
 /* All but the columns of the stream's header, if these are those of coefficients. */
 static ss_status
-take_header(reader *r)
+take_header(coefficient_reader *r)
 {
     const ss_header *head = r->in.head;
     int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
@@ -74,7 +74,7 @@ take_header(reader *r)
 }
 
 static ss_status
-required(const reader *r, const char *key, const char **value)
+required(const coefficient_reader *r, const char *key, const char **value)
 {
     *value = ss_header_find_note(r->coef->head, key);
     if (*value == NULL)
@@ -83,7 +83,7 @@ required(const reader *r, const char *key, const char **value)
 }
 
 static ss_status
-required_number(const reader *r, const char *key, double hi, double *x)
+required_number(const coefficient_reader *r, const char *key, double hi, double *x)
 {
     const char *value;
     char *end;
@@ -98,7 +98,7 @@ required_number(const reader *r, const char *key, double hi, double *x)
 }
 
 static int
-says_yes(const reader *r, const char *key)
+says_yes(const coefficient_reader *r, const char *key)
 {
     const char *value = ss_header_find_note(r->coef->head, key);
     return value != NULL && strcmp(value, "yes") == 0;
@@ -106,7 +106,7 @@ says_yes(const reader *r, const char *key)
 
 /* The options that the grid follows from. */
 static ss_status
-read_options(reader *r)
+read_options(coefficient_reader *r)
 {
     ss_coefficients *coef = r->coef;
     const char *column, *unit, *name = r->in.in.name;
@@ -138,7 +138,7 @@ read_options(reader *r)
 /* --- rows */
 
 static ss_status
-new_part(reader *r, int j, const double number[])
+new_part(coefficient_reader *r, int j, const double number[])
 {
     ss_error why = { 0 };
     part *parts = ss_list_room(r->part, &r->room, r->n_parts, sizeof *parts);
@@ -158,7 +158,7 @@ new_part(reader *r, int j, const double number[])
 
 /* Make the part of this row the last one. */
 static ss_status
-find_part(reader *r, const double number[])
+find_part(coefficient_reader *r, const double number[])
 {
     double m = number[0], a = number[1], f = number[3], j = rint(m * r->opts.voices);
     if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
@@ -191,7 +191,7 @@ append(part *p, double re, double im)
 
 /* The edge as far as it is known of a record of n samples. */
 static int
-known_edge(const reader *r, const part *p, size_t k, size_t n)
+known_edge(const coefficient_reader *r, const part *p, size_t k, size_t n)
 {
     const ss_coefficients *c = r->coef;
     return wavelet_edge(&p->scale, k, n, c->head->rate, c->head->start, c->gap, c->n_gaps);
@@ -199,7 +199,7 @@ known_edge(const reader *r, const part *p, size_t k, size_t n)
 
 /* Is that the edge?  Where the end is not known, this is looked at again by check_tail. */
 static int
-edge_fits(const reader *r, part *p, double edge)
+edge_fits(const coefficient_reader *r, part *p, double edge)
 {
     int fits = edge == known_edge(r, p, p->n, r->coef->n > 0 ? r->coef->n : SIZE_MAX);
     int of_end = !fits && edge == 1 && r->coef->n == 0;
@@ -209,7 +209,7 @@ edge_fits(const reader *r, part *p, double edge)
 }
 
 static ss_status
-append_row(reader *r, const double number[COEFFICIENT_COLUMNS])
+append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
 {
     ss_status st = find_part(r, number);
     if (st != SS_OK)
@@ -228,7 +228,7 @@ append_row(reader *r, const double number[COEFFICIENT_COLUMNS])
 /* Check all that depends on the length of the record: the translations of each scale, and where the
  * cone of influence of its end begins. */
 static ss_status
-check_tail(reader *r, part *p)
+check_tail(coefficient_reader *r, part *p)
 {
     ss_scale *sc = &p->scale;
     double rate = r->coef->head->rate;
@@ -248,7 +248,7 @@ check_tail(reader *r, part *p)
 
 /* The length of the record, which ends a stream. */
 static ss_status
-set_length(reader *r, double samples)
+set_length(coefficient_reader *r, double samples)
 {
     ss_status st = SS_OK;
     if (r->coef->n > 0)
@@ -269,12 +269,12 @@ read_late_note(ss_reader *in, char *line, ss_error *err)
     (void)err;
     if (strncmp(line, length, sizeof length - 1) != 0)
         return SS_OK;
-    return set_length((reader *)in, ss_number_parse(line + sizeof length - 1, NULL));
+    return set_length((coefficient_reader *)in, ss_number_parse(line + sizeof length - 1, NULL));
 }
 
 /* In AU, a row at scale 0 does: its b is the last sample's. */
 static ss_status
-read_rows_of_scales(reader *r)
+read_rows_of_scales(coefficient_reader *r)
 {
     double row[COEFFICIENT_COLUMNS];
     size_t n;
@@ -297,7 +297,7 @@ longer_first(const void *a, const void *b)
 }
 
 static ss_status
-assemble(reader *r)
+assemble(coefficient_reader *r)
 {
     ss_coefficients *coef = r->coef;
     size_t total = 0;
@@ -328,7 +328,7 @@ assemble(reader *r)
 }
 
 static ss_status
-read_all(reader *r, FILE *in, const char *name)
+read_all(coefficient_reader *r, FILE *in, const char *name)
 {
     ss_status st = ss_reader_open(&r->in, in, name, SS_KIND_COEFFICIENTS, NULL, r->err);
     if (st != SS_OK)
@@ -349,7 +349,7 @@ read_all(reader *r, FILE *in, const char *name)
 ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
-    reader r = { .in = { .late_note = read_late_note }, .err = err };
+    coefficient_reader r = { .in = { .late_note = read_late_note }, .err = err };
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = read_all(&r, in, name);

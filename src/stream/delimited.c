@@ -89,24 +89,16 @@ keep_header(struct table *t, char **row, ss_error *err)
 
 /* --- rows ---------------------------------------------------------------------------------- */
 
-int
-ss_delimited_make_room(struct table *t)
+/* Room for one more row, and its line. */
+static int
+make_room(struct table *t)
 {
-    if (t->n_rows < t->room)
-        return 1;
-    size_t room = t->room == 0 ? 1 + 65536 / t->n_columns : 2 * t->room;
-    if (room > SIZE_MAX / sizeof *t->value / t->n_columns / 2)
-        return 0;
-    double *value = realloc(t->value, room * t->n_columns * sizeof *value);
-    if (value != NULL)
-        t->value = value;
-    unsigned long *line = realloc(t->line, room * sizeof *line);
-    if (line != NULL)
-        t->line = line;
-    if (value == NULL || line == NULL)
-        return 0;
-    t->room = room;
-    return 1;
+    size_t room = t->room;
+    double *value = ss_list_room(t->value, &room, t->n_rows, t->n_columns * sizeof *value);
+    t->value = value != NULL ? value : t->value;
+    unsigned long *line = ss_list_room(t->line, &t->room, t->n_rows, sizeof *line);
+    t->line = line != NULL ? line : t->line;
+    return value != NULL && line != NULL;
 }
 
 /* Numbers of one file have one decimal mark: 1,234 beside 0.5 may be either of two numbers. */
@@ -170,7 +162,7 @@ static ss_status
 append_row(struct table *t, char *text, ss_error *err)
 {
     size_t n = ss_delimited_split(t, text, t->separator);
-    if (n == NONE || !ss_delimited_make_room(t))
+    if (n == NONE || !make_room(t))
         return ss_delimited_no_memory(t, err);
     if (n != t->n_columns && !(n == t->n_columns + 1 && (t->comments || t->labview)))
         return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", t->in->name,

@@ -74,8 +74,6 @@ void ss_delimited_warn(const struct table *t, ss_status about, const char *forma
 /* The rows of a whole table, whose names and values are there, for the reader to give: with a clock,
  * without its columns of time and text, with its gaps filled. */
 ss_status ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err);
-/* Room for one more row. */
-int ss_delimited_make_room(struct table *t);
 void ss_delimited_free(struct table *t);
 
 /* Cells (delimited_cells.c). */

@@ -11,15 +11,16 @@
 #include "stream/output.h"
 #include "stream/rows.h"
 
-typedef struct reader {
+typedef struct feature_reader {
     struct input in;
     ss_overlay *overlay;
     size_t spans, maxima, spikes;       /* that the lists have room for */
-} reader;
+} feature_reader;
 
 /* Append the pair to a list, unless a part of it is not known. */
 static ss_status
-append(reader *r, double (**list)[2], size_t *n, size_t *room, const double pair[2], ss_error *err)
+append(feature_reader *r, double (**list)[2], size_t *n, size_t *room, const double pair[2],
+       ss_error *err)
 {
     if (isnan(pair[0]) || isnan(pair[1]))
         return SS_OK;
@@ -33,7 +34,7 @@ append(reader *r, double (**list)[2], size_t *n, size_t *room, const double pair
 
 /* A number, or a hyphen for an unknown value, which is NaN. */
 static ss_status
-read_field(const reader *r, const char **text, double *x, ss_error *err)
+read_field(const feature_reader *r, const char **text, double *x, ss_error *err)
 {
     const char *p = *text;
     if (*p != '-' || strchr(" \t", p[1]) == NULL)      /* or the NUL at its end */
@@ -45,7 +46,7 @@ read_field(const reader *r, const char **text, double *x, ss_error *err)
 
 /* A transition: onset, end, spikes, and time and frequency of its maximum. */
 static ss_status
-read_transition(reader *r, const char *text, ss_error *err)
+read_transition(feature_reader *r, const char *text, ss_error *err)
 {
     ss_overlay *o = r->overlay;
     double field[5];
@@ -59,7 +60,7 @@ read_transition(reader *r, const char *text, ss_error *err)
 
 /* Time and kind of a spike: jumps and kinks are drawn. */
 static ss_status
-read_spike(reader *r, const char *text, ss_error *err)
+read_spike(feature_reader *r, const char *text, ss_error *err)
 {
     ss_overlay *o = r->overlay;
     double t;
@@ -76,7 +77,7 @@ read_spike(reader *r, const char *text, ss_error *err)
 
 /* Rows are transitions, and notes "spike" are spikes. */
 static ss_status
-read_lines(reader *r, ss_error *err)
+read_lines(feature_reader *r, ss_error *err)
 {
     static const char note[] = "# spike: ";
     char *line;
@@ -94,7 +95,7 @@ ss_overlay_read(ss_overlay **out, FILE *in, const char *name, ss_error *err)
 {
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
-    reader r = { .overlay = calloc(1, sizeof *r.overlay) };
+    feature_reader r = { .overlay = calloc(1, sizeof *r.overlay) };
     *out = NULL;
     ss_status st = ss_input_open(&r.in, in, name, err);
     if (st == SS_OK && r.overlay == NULL)

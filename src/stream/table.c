@@ -10,15 +10,15 @@
 #include "signal/header.h"
 #include "stream/input.h"
 
-typedef struct reader {
+typedef struct table_reader {
     struct input in;
     ss_table *table;
     char *columns_text;                 /* what the first header says of them */
     size_t notes, columns, cells;       /* that the lists have room for */
-} reader;
+} table_reader;
 
 static ss_status
-add_note(reader *r, const char *text, ss_error *err)
+add_note(table_reader *r, const char *text, ss_error *err)
 {
     ss_table *t = r->table;
     char **more = ss_list_room(t->note, &r->notes, t->n_notes, sizeof *more);
@@ -30,7 +30,7 @@ add_note(reader *r, const char *text, ss_error *err)
 }
 
 static ss_status
-add_column(reader *r, char *label, ss_error *err)
+add_column(table_reader *r, char *label, ss_error *err)
 {
     ss_table *t = r->table;
     char *name, *unit;
@@ -50,7 +50,7 @@ add_column(reader *r, char *label, ss_error *err)
 
 /* Labels with blanks between; blanks in brackets are a unit's. */
 static ss_status
-read_columns(reader *r, char *text, ss_error *err)
+read_columns(table_reader *r, char *text, ss_error *err)
 {
     ss_status st = SS_OK;
     if (r->columns_text != NULL)
@@ -71,7 +71,7 @@ read_columns(reader *r, char *text, ss_error *err)
 
 /* The cells of a row lie in a copy of its line, which the first of them begins. */
 static ss_status
-read_row(reader *r, const char *line, ss_error *err)
+read_row(table_reader *r, const char *line, ss_error *err)
 {
     ss_table *t = r->table;
     size_t found = 1;
@@ -100,7 +100,7 @@ read_row(reader *r, const char *line, ss_error *err)
 }
 
 static ss_status
-read_lines(reader *r, ss_kind kind, ss_error *err)
+read_lines(table_reader *r, ss_kind kind, ss_error *err)
 {
     static const char columns[] = "# columns: ";
     char *line;
@@ -124,7 +124,7 @@ ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error
         return SS_FAIL_NULL(err);
     if (kind < SS_KIND_FEATURES || kind > SS_KIND_TRADE)
         return ss_fail(err, SS_EINVAL, "text of this kind is no table");
-    reader r = { .table = calloc(1, sizeof *r.table) };
+    table_reader r = { .table = calloc(1, sizeof *r.table) };
     *out = NULL;
     ss_status st = ss_input_open(&r.in, in, name, err);
     if (st == SS_OK && r.table == NULL)

@@ -100,21 +100,21 @@ stream_windows(stage *st, int l, size_t reach, size_t margin)
     st->hop = st->length - st->overlap;
 }
 
-/* The row of the scale an octave shorter than row i, if its weights are the same, else NULL. */
-static const row *
+/* The scale an octave shorter than scale i, if its weights are the same, else NULL. */
+static const block_scale *
 same_weights(const struct blocks *b, const ss_morlet *plan, size_t i)
 {
     size_t j = i + (size_t)plan->opts.voices;
-    if (j >= b->n_rows || b->row[j].level < 0)
+    if (j >= b->n_scales || b->scale[j].level < 0)
         return NULL;
-    int l = b->row[i].level, of = b->row[j].level;
+    int l = b->scale[i].level, of = b->scale[j].level;
     int same = b->stage[l].length == b->stage[of].length
         && ldexp(plan->scale[i].a, -l) == ldexp(plan->scale[j].a, -of);
-    return same ? &b->row[j] : NULL;
+    return same ? &b->scale[j] : NULL;
 }
 
 static ss_status
-make_weights(const ss_morlet *plan, row *r, const ss_scale *scale, size_t length)
+make_weights(const ss_morlet *plan, block_scale *r, const ss_scale *scale, size_t length)
 {
     const ss_morlet_opts *opts = &plan->opts;
     band b = band_around(opts->center, half_band(opts), ldexp(scale->a, -r->level), plan->rate,
@@ -169,8 +169,8 @@ choose_rows(struct blocks *b, const ss_morlet *plan)
 {
     int automatic = plan->opts.engine == SS_ENGINE_AUTO && !plan->window, others = 0;
     double gain = 0;
-    for (size_t i = 0; i < b->n_rows; i++) {
-        row *r = &b->row[i];
+    for (size_t i = 0; i < b->n_scales; i++) {
+        block_scale *r = &b->scale[i];
         const ss_scale *scale = &plan->scale[i];
         r->level = level_of(plan, scale);
         const stage *st = &b->stage[r->level < 0 ? 0 : r->level];
@@ -216,11 +216,11 @@ static ss_status
 all_weights(struct blocks *b, const ss_morlet *plan)
 {
     ss_status st = SS_OK;
-    for (size_t i = b->n_rows; st == SS_OK && i-- > 0;) {       /* short to long */
-        row *r = &b->row[i];
+    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {       /* short to long */
+        block_scale *r = &b->scale[i];
         if (r->level < 0)
             continue;
-        const row *of = same_weights(b, plan, i);
+        const block_scale *of = same_weights(b, plan, i);
         if (of != NULL) {
             r->lo = of->lo;
             r->terms = of->terms;
@@ -264,10 +264,10 @@ plan_stage(struct blocks *b, size_t l, double *v, unsigned how)
 static fftw_plan
 inverse_of(const struct blocks *b, size_t i, double *v, unsigned how)
 {
-    const row *r = &b->row[i];
-    for (size_t j = i + 1; j < b->n_rows; j++)
-        if (b->row[j].level >= 0 && b->row[j].points == r->points)
-            return b->row[j].inverse;
+    const block_scale *r = &b->scale[i];
+    for (size_t j = i + 1; j < b->n_scales; j++)
+        if (b->scale[j].level >= 0 && b->scale[j].points == r->points)
+            return b->scale[j].inverse;
     return fftw_plan_dft_1d((int)r->points, (fftw_complex *)v,
                             (fftw_complex *)(v + 2 * b->longest), FFTW_BACKWARD, how);
 }
@@ -279,8 +279,8 @@ plan_all(struct blocks *b, double *v, unsigned how)
     ss_status st = SS_OK;
     for (size_t l = 0; st == SS_OK && l < b->levels; l++)
         st = plan_stage(b, l, v, how);
-    for (size_t i = b->n_rows; st == SS_OK && i-- > 0;) {
-        row *r = &b->row[i];
+    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {
+        block_scale *r = &b->scale[i];
         if (r->level < 0)
             continue;
         r->inverse = inverse_of(b, i, v, how);
@@ -321,9 +321,9 @@ ss_blocks_new(ss_morlet *plan)
         || 16 * reach > LONGEST_WINDOW || plan->n > INT_MAX / 2)
         return SS_OK;
     struct blocks *b = plan->blocks = calloc(1, sizeof *b);
-    if (b == NULL || (b->row = calloc(plan->n_scales, sizeof *b->row)) == NULL)
+    if (b == NULL || (b->scale = calloc(plan->n_scales, sizeof *b->scale)) == NULL)
         return SS_ENOMEM;
-    b->n_rows = plan->n_scales;
+    b->n_scales = plan->n_scales;
     b->margin = margin;
     choose_stages(b, plan);
     choose_rows(b, plan);
@@ -344,11 +344,11 @@ ss_blocks_free(struct blocks *b)
     if (b == NULL)
         return;
     pthread_mutex_lock(&ss_fftw_planner);
-    for (size_t i = 0; i < b->n_rows; i++) {
-        fftw_plan p = b->row[i].inverse;
-        for (size_t j = i + 1; p != NULL && j < b->n_rows; j++)
-            if (b->row[j].inverse == p)
-                b->row[j].inverse = NULL;
+    for (size_t i = 0; i < b->n_scales; i++) {
+        fftw_plan p = b->scale[i].inverse;
+        for (size_t j = i + 1; p != NULL && j < b->n_scales; j++)
+            if (b->scale[j].inverse == p)
+                b->scale[j].inverse = NULL;
         if (p != NULL)
             fftw_destroy_plan(p);
     }
@@ -361,17 +361,17 @@ ss_blocks_free(struct blocks *b)
             fftw_destroy_plan(b->stage[l].back);
     }
     pthread_mutex_unlock(&ss_fftw_planner);
-    for (size_t i = 0; i < b->n_rows; i++)
-        if (b->row[i].owner)
-            free(b->row[i].weight);
+    for (size_t i = 0; i < b->n_scales; i++)
+        if (b->scale[i].owner)
+            free(b->scale[i].weight);
     for (size_t l = 0; l < b->levels; l++)
         free(b->stage[l].filter);
-    free(b->row);
+    free(b->scale);
     free(b);
 }
 
 int
 ss_blocks_covers(const struct blocks *b, size_t i)
 {
-    return b != NULL && b->row[i].level >= 0;
+    return b != NULL && b->scale[i].level >= 0;
 }

@@ -316,22 +316,22 @@ phases_of(const level *lev, const route *r)
 }
 
 static const weights *
-table_of(struct fft *f, const kaiser *kernel, size_t phases, int single)
+weights_of(struct fft *f, const kaiser *kernel, size_t phases, int single)
 {
-    table *t = f->table;
-    for (; t < f->table + f->tables; t++)
+    shared_weights *t = f->shared;
+    for (; t < f->shared + f->n_shared; t++)
         if (t->kernel == kernel && t->phases == phases && t->single == single)
             return t->weights;
-    *t = (table){ kernel, phases, single, ss_dense_new(kernel, phases, single) };
-    f->tables += t->weights != NULL;
+    *t = (shared_weights){ kernel, phases, single, ss_dense_new(kernel, phases, single) };
+    f->n_shared += t->weights != NULL;
     return t->weights;
 }
 
 static ss_status
-make_tables(struct fft *f, const ss_morlet *plan)
+share_weights(struct fft *f, const ss_morlet *plan)
 {
-    f->table = calloc(WAYS * plan->n_scales, sizeof *f->table);
-    if (f->table == NULL)
+    f->shared = calloc(WAYS * plan->n_scales, sizeof *f->shared);
+    if (f->shared == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < WAYS * plan->n_scales; i++) {
         route *r = &f->route[i / WAYS];
@@ -345,7 +345,7 @@ make_tables(struct fft *f, const ss_morlet *plan)
             ss_kaiser_prepare(kernel);
         if (r->kind != DENSE)
             continue;
-        r->weights[how] = table_of(f, kernel, phases_of(lev, r), how == SINGLE);
+        r->weights[how] = weights_of(f, kernel, phases_of(lev, r), how == SINGLE);
         if (r->weights[how] == NULL)
             return SS_ENOMEM;
     }
@@ -459,7 +459,7 @@ plan_all(struct fft *f, const ss_morlet *plan)
     fftw_free(v);
     for (int i = 0; i < f->levels; i++)
         f->level[i].block = f->level[i].points / 2 / BLOCKS + 1;
-    return st == SS_OK ? make_tables(f, plan) : st;
+    return st == SS_OK ? share_weights(f, plan) : st;
 }
 
 static int
@@ -519,9 +519,9 @@ ss_fft_free(struct fft *fft)
         free(fft->kernel[0][i]);
         free(fft->kernel[1][i]);
     }
-    for (size_t i = 0; i < fft->tables; i++)
-        ss_dense_free(fft->table[i].weights);
-    free(fft->table);
+    for (size_t i = 0; i < fft->n_shared; i++)
+        ss_dense_free(fft->shared[i].weights);
+    free(fft->shared);
     free(fft->inverse);
     free(fft->route);
     free(fft);

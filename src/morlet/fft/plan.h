@@ -49,12 +49,12 @@ typedef struct route {
 } route;
 
 /* Weights that dense scales of one kernel and as many phases share. */
-typedef struct table {
+typedef struct shared_weights {
     const kaiser *kernel;
     size_t phases;
     int single;
     weights *weights;
-} table;
+} shared_weights;
 
 /* FFTW's plans of one length, which scales share. */
 typedef struct inverse {
@@ -79,8 +79,8 @@ struct fft {
     double cost;                    /* of all that is done here, about [s] */
     int no_memory;                  /* for one of them */
     atomic_size_t singles;          /* scales computed in single precision so far */
-    table *table;
-    size_t tables;
+    shared_weights *shared;
+    size_t n_shared;
 };
 
 /* The terms of the spectrum that a scale consists of. */

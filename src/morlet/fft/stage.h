@@ -17,8 +17,8 @@ typedef struct stage {
     fftw_plan forward, back;
 } stage;
 
-/* The weights of a scale's terms, which those of other octaves share. */
-typedef struct row {
+/* A scale and the weights of its terms, which scales of other octaves share. */
+typedef struct block_scale {
     int level;                              /* -1: not here */
     size_t points, hop;                     /* M, and translations from a window to the next */
     ptrdiff_t lo;                           /* the first term */
@@ -26,12 +26,12 @@ typedef struct row {
     double *weight;
     int owner;                              /* of weight */
     fftw_plan inverse;
-} row;
+} block_scale;
 
 struct blocks {
-    size_t n_rows, levels, longest;         /* longest: M */
+    size_t n_scales, levels, longest;         /* longest: M */
     double margin;                          /* samples */
-    row *row;
+    block_scale *scale;
     stage stage[LEVELS];
 };
 

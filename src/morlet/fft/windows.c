@@ -351,7 +351,7 @@ ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
 
 /* All translations of a window, the first counted one at v[0]. */
 static void
-transform_window(const stage *st, const row *r, const double *x, double *c, double *v)
+transform_window(const stage *st, const block_scale *r, const double *x, double *c, double *v)
 {
     ptrdiff_t rest = r->lo % (ptrdiff_t)r->points;
     size_t at = (size_t)(rest < 0 ? rest + (ptrdiff_t)r->points : rest);
@@ -364,7 +364,7 @@ void
 ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double *scratch,
                 span part, double factor, double *w)
 {
-    const row *r = &b->row[i];
+    const block_scale *r = &b->scale[i];
     const stage *st = &b->stage[r->level];
     size_t end = part.first + part.n, k = part.first;
     double *v = scratch + 2 * b->longest;
@@ -380,20 +380,20 @@ ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double
 size_t
 ss_blocks_hop(const struct blocks *b, size_t i)
 {
-    return b->row[i].hop;
+    return b->scale[i].hop;
 }
 
 size_t
 ss_blocks_level(const struct blocks *b, size_t i)
 {
-    return (size_t)b->row[i].level;
+    return (size_t)b->scale[i].level;
 }
 
 double
 ss_blocks_delay(const struct blocks *b, size_t i)
 {
     double delay = 0;
-    for (int l = 0; l <= b->row[i].level; l++)
+    for (int l = 0; l <= b->scale[i].level; l++)
         delay += ldexp((double)(b->stage[l].length - b->stage[l].overlap / 2), l);
     return delay;
 }
