@@ -73,7 +73,9 @@ COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@
 # Sorted: GNU make 3.82 to 4.2 give names as they lie in the directory.
 LIB_SRC := $(sort $(wildcard src/*.c src/*/*.c src/*/*/*.c))
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/scenes.o
-SCENES  := $(sort $(wildcard data/scenes/*.scene))
+PAPER   := $(sort $(wildcard data/scenes/*.scene))
+PUBLISHED := $(sort $(wildcard data/catalogue/*.scene))
+SCENES  := $(PAPER) $(PUBLISHED)
 HEADERS := $(sort $(wildcard include/stickslip/*.h))
 MANUAL  := $(sort $(wildcard man/*.[1-9]))
 TOOLS   := $(patsubst tools/%.c,%,$(sort $(wildcard tools/ss-*.c)))
@@ -112,7 +114,7 @@ $(BUILD)/scenes.o: $(BUILD)/scenes.c
 
 $(BUILD)/scenes.c: data/embed.sh $(SCENES)
 	@mkdir -p $(@D)
-	sh data/embed.sh $(SCENES) > $@.new && mv $@.new $@
+	sh data/embed.sh ss_shipped_scenes $(PAPER) -- ss_catalogue_scenes $(PUBLISHED) > $@.new && mv $@.new $@
 
 $(BUILD)/src/base/number.o: ALL_CFLAGS += -I$(BUILD)
 $(BUILD)/src/base/number.o: $(BUILD)/number_pow10.h
@@ -266,7 +268,7 @@ install: all
 uninstall:
 	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
 		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
-		$(SCENES:data/scenes/%=$(DESTDIR)$(SCENEDIR)/%) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
+		$(addprefix $(DESTDIR)$(SCENEDIR)/,$(notdir $(SCENES))) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
 		$(TOOLS:%=$(DESTDIR)$(BASHDIR)/%) $(DESTDIR)$(ZSHDIR)/_stickslip \
 		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
 	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \

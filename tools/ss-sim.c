@@ -125,11 +125,18 @@ keep_event(const ss_event *e, void *user)
     return 0;
 }
 
+static void
+list_scenes(const ss_shipped_scene *s)
+{
+    for (; s->name != NULL; s++)
+        printf("%-16s %s\n", s->name, s->summary);
+}
+
 static void TOOL_NORETURN
 list(void)
 {
-    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++)
-        printf("%-16s %s\n", s->name, s->summary);
+    list_scenes(ss_shipped_scenes);
+    list_scenes(ss_catalogue_scenes);
     printf("\nmethods:");
     for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
         printf(" %s", ss_sim_method_name(i));

@@ -149,14 +149,15 @@ int ss_model_has_events(ss_model model);            /* stick, slip and reverse *
 int ss_model_is_linear(ss_model model);             /* between events: it has a closed form */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
 
-/* The scenes of the paper's figures, built in.  ss_scene_load reads one by its name; text is what
- * ss_scene_read takes. */
+/* Scenes that are built in.  ss_scene_load reads one by its name; text is what ss_scene_read takes. */
 typedef struct ss_shipped_scene {
     const char *name;           /* "compliant-light" */
     const char *summary;        /* its first comment line: one line of plain text */
     const char *text;
 } ss_shipped_scene;
-extern const ss_shipped_scene ss_shipped_scenes[];  /* ends with a NULL name */
+/* Those of the paper's figures, and those of other published results.  Both end with a NULL name. */
+extern const ss_shipped_scene ss_shipped_scenes[];
+extern const ss_shipped_scene ss_catalogue_scenes[];
 
 SS_END_DECLARATIONS
 #endif

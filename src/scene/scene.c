@@ -426,20 +426,40 @@ ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err)
     return ss_scene_read_set(scene, in, name, NULL, 0, err);
 }
 
+static const ss_shipped_scene *const shipped_lists[] = { ss_shipped_scenes, ss_catalogue_scenes };
+enum { SHIPPED_LISTS = sizeof shipped_lists / sizeof *shipped_lists };
+
+static const ss_shipped_scene *
+find_shipped(const char *name)
+{
+    for (int i = 0; i < SHIPPED_LISTS; i++)
+        for (const ss_shipped_scene *s = shipped_lists[i]; s->name != NULL; s++)
+            if (strcmp(s->name, name) == 0)
+                return s;
+    return NULL;
+}
+
+static void
+fail_absent(const char *path, ss_error *err)
+{
+    char names[256] = "";
+    for (int i = 0; i < SHIPPED_LISTS; i++)
+        for (const ss_shipped_scene *s = shipped_lists[i]; s->name != NULL; s++)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
+                     *names == '\0' ? "" : ", ", s->name);
+    ss_fail(err, SS_EIO, "%s: no such file, and the shipped scenes are %s", path, names);
+}
+
 /* The text of a shipped scene, a file, or NULL with the reason in err. */
 static FILE *
 open_scene(const char *path, ss_error *err)
 {
-    char names[256] = "";
-    for (const ss_shipped_scene *s = ss_shipped_scenes; s->name != NULL; s++) {
-        if (strcmp(s->name, path) == 0) {
-            FILE *text = fmemopen((void *)s->text, strlen(s->text), "r");
-            if (text == NULL)
-                ss_fail_errno(err, path, errno);
-            return text;
-        }
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
-                 s == ss_shipped_scenes ? "" : ", ", s->name);
+    const ss_shipped_scene *shipped = find_shipped(path);
+    if (shipped != NULL) {
+        FILE *text = fmemopen((void *)shipped->text, strlen(shipped->text), "r");
+        if (text == NULL)
+            ss_fail_errno(err, path, errno);
+        return text;
     }
     FILE *in = fopen(path, "rb");
     int why = errno;
@@ -451,7 +471,7 @@ open_scene(const char *path, ss_error *err)
     if (in != NULL || why != ENOENT)
         ss_fail_errno(err, path, in != NULL ? EISDIR : why);
     else
-        ss_fail(err, SS_EIO, "%s: no such file, and the shipped scenes are %s", path, names);
+        fail_absent(path, err);
     return NULL;
 }
 
