@@ -147,6 +147,8 @@ __wrap_free(void *p)
 /* Made before, with all the memory that it takes. */
 static ss_scene scene[3];               /* one a model */
 static ss_signal *signal, *cycles;      /* a tenth of a second; some slips in noise */
+static ss_signal *pulled;               /* a few slips of a pulled mass */
+static ss_scene pull;
 static ss_table *sweep;
 static ss_coefficients *coefficients;
 static ss_trade *trade;
@@ -488,6 +490,18 @@ transitions(int variant)
 }
 
 static ss_status
+pulls(int variant)
+{
+    ss_pull *made = NULL;
+    ss_rank_opts opts = ss_rank_defaults;
+    (void)variant;
+    opts.quantity = SS_SPRING;
+    ss_status st = ss_pull_fit(&made, pulled, SS_SPRING, &pull, &opts, &err);
+    ss_pull_free(made);
+    return st;
+}
+
+static ss_status
 rankings(int variant)
 {
     ss_ranking *made = NULL;
@@ -665,7 +679,7 @@ static const struct row {
     { "reading coefficients", read_coefficients, 1, 30 },
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
-    { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "sweeps", sweeps, 6, 20 },
+    { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 1, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 },
     { "reading tables", read_tables, 1, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 5, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
@@ -687,6 +701,12 @@ set_up(void **state)
     }
     ss_scene slips = scene[SS_COMPLIANT];
     ss_trade_opts brief = { .budget = 1e-3 };
+    pull = scene[SS_COULOMB];
+    pull.base_amplitude = 0;
+    pull.base_velocity = 1e-3;
+    pull.static_friction = 1.5;
+    pull.settle = 1;
+    pull.duration = 2;
     slips.settle = 2;
     slips.duration = 2;
     strcpy(path, "/tmp/test_memory.XXXXXX");
@@ -696,6 +716,7 @@ set_up(void **state)
     if (fd < 0 || close(fd) != 0 || (scrap = tmpfile()) == NULL
         || ss_sim_signal(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
         || ss_sim_signal(&cycles, &slips, NULL) != SS_OK
+        || ss_sim_signal(&pulled, &pull, NULL) != SS_OK
         || ss_noise_add_once(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1) != SS_OK
         || ss_header_note(signal->head, "key", "value") != SS_OK
         || ss_morlet_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
@@ -734,6 +755,7 @@ tear_down(void **state)
     fclose(scrap);
     ss_signal_free(signal);
     ss_signal_free(cycles);
+    ss_signal_free(pulled);
     ss_table_free(sweep);
     ss_coefficients_free(coefficients);
     ss_trade_free(trade);

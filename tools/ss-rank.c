@@ -261,6 +261,9 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
     const double loading = fabs(start->stiffness * start->base_velocity);
     ss_pull *p = NULL;
     ss_error err = { 0 };
+    if (j->opts.quantity != SS_SPRING)
+        tool_die("column %s is taken as %s; a pull is fitted to the spring's force, --as s",
+                 signal->head->column[column].name, ss_quantity_names[j->opts.quantity]);
     tool_check(ss_pull_fit(&p, signal, column, start, &j->opts, &err), &err);
     if (p->verdict != SS_NAMED)
         tool_die("%s: %s: %s", tool_input_name(j->signal_path),

@@ -147,9 +147,6 @@ typedef struct ss_pull {
     ss_features *features;      /* its loadings are the events [N], their medians the scene's */
 } ss_pull;
 
-/* Is it pulled and not forced? */
-int ss_scene_is_pulled(const ss_scene *scene);
-
 /* Fit a Coulomb scene that is pulled to the force of its spring [N], event by event: f_s and f_k, the mass
  * by k/m and the speed by the slope of loading are medians; the stiffness is that given.  That it
  * does not explain the record is an answer: SS_OK.  opts may be NULL; its quantity must be SS_SPRING.

@@ -193,7 +193,8 @@ slip_of(const problem *f, const double p[FITTED], const gsl_matrix *covariance, 
 static int
 is_sound(const ss_slip *s, ss_window used)
 {
-    return s->onset.value >= (double)used.first && s->end.value <= (double)used.end
+    return s->onset.value >= (double)used.first && s->end.value > s->onset.value
+        && s->end.value <= (double)used.end
         && s->drop.error <= VAGUE * s->drop.value && s->k_over_m.error <= VAGUE * s->k_over_m.value;
 }
 

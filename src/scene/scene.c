@@ -26,6 +26,13 @@ ss_scene_samples(const ss_scene *scene)
     return n < 0x1p53 ? (size_t)n : SIZE_MAX;
 }
 
+int
+ss_scene_is_pulled(const ss_scene *scene)
+{
+    return scene != NULL && scene->base_velocity != 0 && scene->base_amplitude == 0
+        && scene->base_file[0] == '\0' && scene->base == NULL;
+}
+
 /* --- values -------------------------------------------------------------------------------- */
 
 /* All enumerations of a scene are read and written through int. */

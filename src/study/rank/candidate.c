@@ -39,6 +39,9 @@ ss_status
 ss_candidate_check(const ss_scene *scene, ss_error *err)
 {
     ss_status st = ss_scene_check(scene, err);
+    if (st == SS_OK && ss_scene_is_pulled(scene))
+        return ss_fail(err, SS_EINVAL, "a scene that is pulled has no cycle of its base to compare; it can "
+                       "only be fitted");
     if (st == SS_OK && !(drive_of(scene) > 0))
         return ss_fail(err, SS_EINVAL, "base_amplitude = 0: such a scene has no cycle to compare");
     const char *term = st == SS_OK ? ss_scene_term(scene) : NULL;

@@ -39,12 +39,6 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_ra
     return SS_OK;
 }
 
-int
-ss_scene_is_pulled(const ss_scene *scene)
-{
-    return scene != NULL && scene->base_velocity != 0 && scene->base_amplitude == 0;
-}
-
 static double
 sum_of(const ss_signal *signal, size_t column)
 {
