@@ -406,6 +406,185 @@ says_what_has_no_period(void **state)
     assert_true(at.value[SS_PERIOD] == 1 && at.value[SS_CYCLES] == 200);
 }
 
+/* --- without forcing ------------------------------------------------------------------------- */
+
+/* Pulled at U over a surface that moves at S. */
+static ss_scene
+pulled_slider(double U, double S)
+{
+    ss_scene s = ss_scene_defaults;
+    s.mass = .0307;
+    s.stiffness = 168;
+    s.static_friction = .0602;
+    s.friction = .0452;
+    s.base_velocity = U;
+    s.surface_velocity = S;
+    return s;
+}
+
+/* From rest at f_s the spring's force swings about f_k by D sqrt(1 + 1/q^2) = k |U - S| sqrt(1 + q^2) / w,
+ * while the surface goes |U - S| T on. */
+static void
+a_pulled_slider_has_its_closed_form(void **state)
+{
+    static const double row[][2] = { { 42e-6, 0 }, { -42e-6, 0 }, { 0, -42e-6 }, { 0, 42e-6 }, { 1e-3, 1e-3 - 42e-6 } };
+    const double slip = .042640172992, stick = 4.251700680272, T = slip + stick, speed = 42e-6;
+    (void)state;
+    for (size_t i = 0; i < 5; i++)
+        for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
+            double U = row[i][0], S = row[i][1];
+            ss_scene s = pulled_slider(U, S);
+            double w = sqrt(s.stiffness / s.mass), q = .015 * w / (s.stiffness * speed), root = sqrt(1 + q * q);
+            ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_STICK_FRACTION) | BIT(SS_V_MAX)
+                                     | BIT(SS_ENERGY) | BIT(SS_PERIOD) | BIT(SS_STOPS) | BIT(SS_X_PHASE)
+                                     | BIT(SS_V_PHASE) | BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2), way);
+            is_near(at.value[SS_CYCLE_TIME], T, 2e-12, "cycle_time");
+            is_near(at.value[SS_STICK_FRACTION], stick / T, 1e-12, "stick");
+            is_near(at.value[SS_V_MAX], fabs(U + copysign(speed * root, U - S)), 1e-9 * speed * root, "v_max");
+            is_near(at.value[SS_ENERGY], s.friction * speed * T, 1e-11 * s.friction * speed * T, "energy");
+            is_near(at.value[SS_X_PHASE], -copysign(.0302 / s.stiffness, U - S), 1e-14, "x_phase");
+            is_near(at.value[SS_V_PHASE], S, 0, "v_phase");
+            /* all slips begin alike: what is left is rounding of terms of size q = 160 */
+            is_near(at.value[SS_FLOQUET], 0, 1e-12, "floquet");
+            assert_true(at.value[SS_PERIOD] == 1 && at.value[SS_STOPS] == 1);
+            at = steady_of(&s, BIT(SS_AMPLITUDE), way);
+            is_near(at.value[SS_AMPLITUDE], speed * root / w, 1e-9 * speed * root / w, "amplitude");
+        }
+}
+
+/* See a_falling_friction_cycles_as_published in test_rigs.c. */
+static void
+a_falling_friction_has_its_published_period(void **state)
+{
+    (void)state;
+    for (int pull = 0; pull < 2; pull++) {
+        ss_scene s = ss_scene_defaults;
+        s.model = SS_STRIBECK;
+        s.mass = s.stiffness = s.static_friction = 1;
+        s.friction = 0;
+        s.stribeck_velocity = 1. / 3;
+        s.surface_velocity = pull ? 0 : .2;
+        s.base_velocity = pull ? -.2 : 0;
+        ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_STICK_FRACTION) | BIT(SS_PERIOD), 0);
+        is_near(at.value[SS_CYCLE_TIME], 12.001031294831, 1e-11, "cycle_time");
+        is_near(at.value[SS_STICK_FRACTION] * at.value[SS_CYCLE_TIME], 7.705031769350, 1e-11, "stick");
+        assert_true(at.value[SS_PERIOD] == 1);
+    }
+}
+
+typedef struct onsets {
+    double U, t[256], x[256];           /* x - U t */
+    size_t n;
+} onsets;
+
+static int
+keep_onsets(const ss_event *event, void *user)
+{
+    onsets *o = user;
+    if (event->kind == SS_STICK && o->n < 256) {
+        o->t[o->n] = event->t;
+        o->x[o->n++] = event->x - o->U * event->t;
+    }
+    return 0;
+}
+
+static onsets
+onsets_of(ss_scene s, double duration)
+{
+    onsets o = { .U = s.base_velocity };
+    ss_sim_opts opts = ss_sim_defaults;
+    opts.method = "taylor";
+    opts.tol = 1e-14;
+    opts.events = keep_onsets;
+    opts.user = &o;
+    s.settle = 0;
+    s.duration = duration;
+    s.rate = 1;
+    assert_int_equal(ss_sim_run(&s, &opts, NULL, NULL), SS_OK);
+    assert_true(o.n > 4);
+    return o;
+}
+
+static void
+a_damped_slider_sticks_as_its_record_does(void **state)
+{
+    (void)state;
+    for (double d = .05; d < .5; d += .1)
+        for (int belt = 0; belt < 2; belt++) {
+            ss_scene s = pulled_slider(belt ? 0 : 1e-3, belt ? -1e-3 : 0);
+            s.damping = d;
+            onsets o = onsets_of(s, 4);
+            ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_X_PHASE) | BIT(SS_PERIOD), 0);
+            /* what the record's tolerance leaves of f_s / k, 1e-12 of it, is 4e-13 s of the pull */
+            is_near(at.value[SS_CYCLE_TIME], o.t[o.n - 1] - o.t[o.n - 2], 1e-11, "cycle_time");
+            is_near(at.value[SS_X_PHASE], o.x[o.n - 1], 1e-11 * .0602 / 168, "x_phase");
+            assert_true(at.value[SS_PERIOD] == 1);
+        }
+}
+
+/* An elastic contact still rings when it slips again, so slips begin unlike: the distance of an onset from
+ * its limit shrinks by the multiplier, here on either side of it in turn. */
+static void
+a_slider_on_a_contact_comes_nearer_by_its_multiplier(void **state)
+{
+    static const struct { double U, damping; size_t from; } row[] = { { 42e-6, .1, 9 }, { 1e-4, .2, 20 } };
+    (void)state;
+    for (size_t i = 0; i < 2; i++)
+        for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
+            ss_scene s = pulled_slider(row[i].U, 0);
+            s.model = SS_COMPLIANT;
+            s.contact_stiffness = 20000;
+            s.contact_damping = row[i].damping;
+            ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2)
+                                     | BIT(SS_FLOQUET_ANGLE) | BIT(SS_X_PHASE) | BIT(SS_PERIOD), way);
+            onsets o = onsets_of(s, 60 * at.value[SS_CYCLE_TIME]);
+            size_t k = row[i].from, last = o.n - 1;
+            double allow = (way == SS_SEARCH_SIMULATE ? 1e-9 : 1e-11) * .0602 / 168;
+            is_near(at.value[SS_X_PHASE], o.x[last], allow, "x_phase");
+            is_near(at.value[SS_CYCLE_TIME], o.t[last] - o.t[last - 1], 2 * allow / row[i].U, "cycle_time");
+            /* x is known to 1e-16 m, and differs there by 1e-11 */
+            is_near(at.value[SS_FLOQUET], -(o.x[k + 1] - o.x[k]) / (o.x[k] - o.x[k - 1]), 2e-5, "floquet");
+            is_near(at.value[SS_FLOQUET_ANGLE], M_PI, 0, "floquet_angle");
+            assert_true(at.value[SS_PERIOD] == 1 && at.value[SS_FLOQUET_2] == 0);
+        }
+}
+
+static void
+says_what_has_no_cycle(void **state)
+{
+    static const struct { double U, frequency, d; ss_status status; const char *why; } row[] = {
+        { 0, 0, 0, SS_EINVAL, "base_frequency is 0 and base_velocity is surface_velocity: nothing keeps it "
+          "moving" },
+        { 0.1, 0, .2, SS_EDATA, "it slides on: no stick within" } };
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady at;
+    ss_error err = { 0 };
+    (void)state;
+    opts.measures = BIT(SS_PERIOD) | BIT(SS_CYCLE_TIME);
+    for (size_t i = 0; i < 2; i++) {
+        ss_scene s = pulled_slider(row[i].U, 0);
+        s.damping = row[i].d;
+        assert_int_equal(ss_steady_find(&at, &s, &opts, &err), row[i].status);
+        assert_ptr_equal(strstr(err.text, row[i].why), err.text);
+        assert_true(isnan(at.value[SS_PERIOD]) && isnan(at.value[SS_CYCLE_TIME]));
+    }
+    ss_scene s = read_shipped_named("state-variable");
+    is_near(steady_of(&s, BIT(SS_CYCLE_TIME), 0).value[SS_CYCLE_TIME], 1 / s.base_frequency,
+            1e-14, "cycle_time");
+    opts.method = "rk8pd";
+    opts.search = SS_SEARCH_SHOOT;
+    ss_scene slider = pulled_slider(.1, 0);
+    assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
+    assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting and multipliers need method "
+                        "exact");
+    opts = ss_steady_defaults;
+    s.base_frequency = s.base_amplitude = 0;
+    s.base_velocity = .1;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
+    assert_string_equal(err.text, "base_frequency is 0: there is no forcing cycle, and no stick with which "
+                        "one could begin");
+}
+
 /* Every method comes to the same motion. */
 static void
 methods_agree(void **state)
@@ -715,6 +894,11 @@ main(void)
         cmocka_unit_test(free_decay_ends_where_it_must),
         cmocka_unit_test(finds_sub_harmonics),
         cmocka_unit_test(says_what_has_no_period),
+        cmocka_unit_test(a_pulled_slider_has_its_closed_form),
+        cmocka_unit_test(a_falling_friction_has_its_published_period),
+        cmocka_unit_test(a_damped_slider_sticks_as_its_record_does),
+        cmocka_unit_test(a_slider_on_a_contact_comes_nearer_by_its_multiplier),
+        cmocka_unit_test(says_what_has_no_cycle),
         cmocka_unit_test(methods_agree),
         cmocka_unit_test(hears_the_transition_frequency),
         cmocka_unit_test(every_value_is_there_or_the_status_says_why),

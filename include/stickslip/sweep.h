@@ -10,8 +10,9 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* Measures are those of one period of the motion; a cycle is a forcing cycle.  A model without
- * sticks has no stops, stick and microslips; only compliant contact has a transition, or the state
+/* Measures are those of one period of the motion.  A cycle is a forcing cycle; where base_frequency is 0
+ * but a base or a surface pulls, it goes from one onset of stick (compliant: of microstick after a slip) to
+ * the next.  A model without sticks has no stops, stick and microslips; only compliant contact has a transition, or the state
  * variable. */
 typedef enum ss_measure {
     SS_STOPS,           /* sticks (compliant: microsticks) that begin, a cycle */
@@ -21,16 +22,18 @@ typedef enum ss_measure {
     SS_V_MAX,           /* max|v| [m/s] */
     SS_A_MAX,           /* max|a| [m/s^2] */
     SS_ENERGY,          /* work against friction a cycle [J] */
-    SS_PERIOD,          /* in forcing cycles; 0: aperiodic */
-    SS_CYCLES,          /* from the scene's initial state until it is periodic */
+    SS_PERIOD,          /* in cycles; 0: aperiodic */
+    SS_CYCLES,          /* from the scene's initial state, or without forcing from the first onset of
+                           stick, until it is periodic */
     SS_MICROSLIPS,      /* slips followed by one in the same direction, a half-cycle */
     SS_TRANSITION,      /* from the times between extrema of a in transitions that have three or
                            more of them: microsticks, or where |alpha v| < 1 [Hz] */
-    SS_X_PHASE,         /* x and v at the start of a forcing cycle, which distinguish basins [m] */
+    SS_X_PHASE,         /* x - U t and v at the start of a cycle, which distinguish basins [m] */
     SS_V_PHASE,         /* [m/s] */
     SS_FLOQUET,         /* modulus of the largest Floquet multiplier of the period */
     SS_FLOQUET_2,       /* of the next */
     SS_FLOQUET_ANGLE,   /* argument of the largest, 0 ... pi [rad] */
+    SS_CYCLE_TIME,      /* duration of a cycle, which times the period is that of the motion [s] */
     SS_MEASURES
 } ss_measure;
 
@@ -50,13 +53,14 @@ typedef struct ss_steady_opts {
     unsigned measures;          /* wanted: a set of 1u << ss_measure */
     double tol;                 /* see ss_steady_find */
     int max_period;             /* the longest period that is searched, 1 ... SS_PERIOD_MAX cycles */
-    unsigned long max_cycles;   /* > 0: a motion without a period by then is aperiodic */
+    unsigned long max_cycles;   /* > 0: a motion without a period by then is aperiodic; without forcing,
+                                   one without a stick for so many own periods slides on */
     unsigned long settle;       /* > 0: simulate so many cycles instead of searching for the limit */
     ss_search search;
     const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
                                    else as ss_sim_run chooses */
     unsigned long max_steps;    /* > 0: stop after so many, or after 20 right-hand sides for
-                                   each of them; and in a forcing cycle after a tenth of them,
+                                   each of them; and in a cycle after a tenth of them,
                                    10^6 at least, where the tolerance forces short steps */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64 };
@@ -69,7 +73,7 @@ typedef struct ss_steady {
 
 /* Find the periodic state that the scene settles to, from its initial state on, and measure it.
  *
- * The state (x, v, and y or theta) at the start of each forcing cycle is compared with that of 1,
+ * The state (x - U t, v, and y or theta) at the start of each cycle is compared with that of 1,
  * 2, ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k,
  * v in those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when the difference is
  * at most tol and the state, by the rate at which the differences shrink, lies within tol of its
@@ -77,9 +81,12 @@ typedef struct ss_steady {
  * Newton's last step and residual are at most tol.  Settle, duration and rate of the scene do not
  * matter.
  *
+ * Without forcing, x is what differs at an onset; shooting and multipliers need the closed form then.
+ *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
  * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the
- * number of events that are not resolved (ss_sim_stats).  Else as ss_sim_run, nothing is
+ * number of events that are not resolved (ss_sim_stats); without forcing, a motion that never sticks has
+ * no value.  SS_EINVAL: there are no cycles, since nothing drives them.  Else as ss_sim_run, nothing is
  * there. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);

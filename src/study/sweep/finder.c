@@ -51,7 +51,7 @@ ss_finder_begin(finder *f, const char *method)
                               .max_steps = f->opts->max_steps };
     ss_status st = ss_walk_begin(&f->w, f->scene, &sim, f->err);
     f->unit = section_units(&f->w.m.now);
-    return st;
+    return st == SS_OK && f->autonomous ? ss_finder_go(f, 1, NULL, NULL) : st;
 }
 
 ss_status
@@ -74,7 +74,7 @@ static double
 cycle_work(const finder *f)
 {
     double tenth = (double)f->opts->max_steps / 10;
-    double needed = 1 / f->scene->base_frequency / ss_step_cap(&f->w.m.now);
+    double needed = f->autonomous ? 0 : 1 / f->scene->base_frequency / ss_step_cap(&f->w.m.now);
     return RHS_PER_STEP * fmax(fmax(CYCLE_STEPS, tenth), 3 * needed);
 }
 
@@ -84,41 +84,80 @@ check_work(const finder *f, double since, int cycles)
     double most = cycles * cycle_work(f);
     if (f->opts->max_steps == 0 || (double)f->w.e->rhs - since <= most)
         return SS_OK;
-    return ss_fail(f->err, SS_EBUDGET, "more than %.2g right-hand sides in a forcing cycle at t = %.9g s: "
-                   "the tolerance forces short steps", most / cycles,
+    return ss_fail(f->err, SS_EBUDGET, "more than %.2g right-hand sides in a %scycle at t = %.9g s: "
+                   "the tolerance forces short steps", most / cycles, f->autonomous ? "" : "forcing ",
                    f->w.m.origin.hi + f->w.m.now.u);
+}
+
+/* One leg; *sticks: a stick begins at its end. */
+static ss_status
+go_leg(finder *f, double longest, meter *r, tangent *t, int *sticks)
+{
+    walk *w = &f->w;
+    ss_event event;
+    double q[MAX_DIM], rates[MAX_DIM];
+    int is_event, mode = w->m.now.mode;
+    ss_status st = ss_walk_leg(w, longest, f->err);
+    if (st != SS_OK)
+        return st;
+    if (r != NULL)
+        ss_meter_leg(r, w);
+    if (t != NULL) {
+        ss_tangent_leg(t, w);
+        ss_walk_at(w, w->h, q, rates);
+    }
+    int ends = w->ends;
+    st = ss_walk_on(w, &is_event, &event, f->err);
+    if (st != SS_OK)
+        return st;
+    if (t != NULL && ends && is_event)
+        ss_tangent_event(t, w, mode, q, rates);
+    if (r != NULL && is_event)
+        ss_meter_event(r, &event);
+    *sticks = is_event && event.kind == SS_STICK;
+    return SS_OK;
+}
+
+/* So many onsets of stick on.  A true stick is one leg; all else is walked by own periods, so that a slip
+ * without end is noticed. */
+static ss_status
+go_to_onset(finder *f, int cycles, meter *r, tangent *t)
+{
+    const state *m = &f->w.m.now;
+    double own = 2 * M_PI / own_frequency(f->scene), slipped = 0, since = (double)f->w.e->rhs;
+    for (int n = 0, sticks; n < cycles; n += sticks) {
+        int slips = m->mode != 0, is_still = !slips && m->model->still != NULL;
+        ss_status st = check_work(f, since, cycles);
+        if (st == SS_OK)
+            st = go_leg(f, is_still ? INFINITY : own, r, t, &sticks);
+        if (st != SS_OK)
+            return st;
+        slipped = slips && !sticks ? slipped + f->w.h : 0;
+        if (slipped > (double)f->opts->max_cycles * own)
+            return ss_fail(f->err, SS_EDATA, "it slides on: no stick within %.9g s, %lu own periods",
+                           slipped, f->opts->max_cycles);
+    }
+    if (t != NULL)
+        ss_tangent_on_onset(t, m);
+    return SS_OK;
 }
 
 ss_status
 ss_finder_go(finder *f, int cycles, meter *r, tangent *t)
 {
     walk *w = &f->w;
+    if (f->autonomous)
+        return go_to_onset(f, cycles, r, t);
     double period = 1 / f->scene->base_frequency, none = 4 * DBL_EPSILON * period;
     instant end = instant_sample(f->n + cycles, f->scene->base_frequency);
     double since = (double)w->e->rhs;
     for (double left; (left = instant_diff(end, w->m.origin) - w->m.now.u) > none;) {
-        ss_event event;
-        double q[MAX_DIM], rates[MAX_DIM];
-        int is_event, mode = w->m.now.mode;
+        int sticks;
         ss_status st = check_work(f, since, cycles);
         if (st == SS_OK)
-            st = ss_walk_leg(w, fmin(left, period), f->err);
+            st = go_leg(f, fmin(left, period), r, t, &sticks);
         if (st != SS_OK)
             return st;
-        if (r != NULL)
-            ss_meter_leg(r, w);
-        if (t != NULL) {
-            ss_tangent_leg(t, w);
-            ss_walk_at(w, w->h, q, rates);
-        }
-        int ends = w->ends;
-        st = ss_walk_on(w, &is_event, &event, f->err);
-        if (st != SS_OK)
-            return st;
-        if (t != NULL && ends && is_event)
-            ss_tangent_event(t, w, mode, q, rates);
-        if (r != NULL && is_event)
-            ss_meter_event(r, &event);
     }
     f->n += cycles;
     return SS_OK;

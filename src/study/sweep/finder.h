@@ -1,10 +1,13 @@
-/* finder.h -- a search for the periodic state of a scene, forcing cycle by forcing cycle. */
+/* finder.h -- a search for the periodic state of a scene, cycle by cycle.
+ *
+ * A cycle is one of the forcing; where there is none, in an autonomous scene, it goes from one onset of
+ * stick to the next, and takes its time. */
 #ifndef FINDER_H
 #define FINDER_H
 
 #include "study/sweep/meter.h"
 
-/* The state at the start of a forcing cycle: x - U t, v over the surface, and y of the model (memory), 0
+/* The state at the start of a cycle: x - U t, v over the surface, and y of the model (memory), 0
  * if it has none. */
 typedef struct section {
     double x, v, y;
@@ -17,8 +20,9 @@ typedef struct finder {
     const ss_steady_opts *opts;
     ss_error *err;
     int in_closed_form;                 /* the walk and its tangent are */
+    int autonomous;
     walk w;
-    double n;                           /* forcing cycles walked, from the walk's t = 0 */
+    double n;                           /* cycles walked, from the walk's t = 0 */
     section unit;                       /* of a difference */
     section last[SECTIONS];             /* the latest, cycle after cycle, in a ring */
     unsigned long recorded;             /* of them */
@@ -31,11 +35,12 @@ double ss_section_distance(const finder *f, section a, section b);
 /* A difference within rounding says nothing of a rate. */
 #define ROUNDING (64 * DBL_EPSILON)
 
-/* At the scene's initial state, by this method. */
+/* At the scene's initial state, or where it is autonomous at its first onset of stick, by this method. */
 ss_status ss_finder_begin(finder *f, const char *method);
 /* At a state, where a cycle begins. */
 ss_status ss_finder_begin_at(finder *f, const motion *from);
-/* Walk so many forcing cycles, with a meter and a tangent unless they are NULL. */
+/* Walk so many cycles, with a meter and a tangent unless they are NULL.  SS_EDATA: an
+ * autonomous scene slides on without a stick. */
 ss_status ss_finder_go(finder *f, int cycles, meter *r, tangent *t);
 
 /* --- period.c ---------------------------------------------------------------------------------- */

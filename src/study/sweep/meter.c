@@ -14,7 +14,7 @@ void
 ss_meter_begin(meter *r, unsigned wanted, const state *m)
 {
     unsigned inside = 1u << SS_V_MAX | 1u << SS_A_MAX | 1u << SS_TRANSITION;
-    if (m->model->force_varies)         /* else x has its extrema where modes end */
+    if (m->model->force_varies || pull_of(m->scene) != 0)   /* else x has its extrema where modes end */
         inside |= RANGE | 1u << SS_ENERGY;
     *r = (meter){ .wanted = wanted, .needs_course = (wanted & inside) != 0,
                   .x_lo = INFINITY, .x_hi = -INFINITY, .slip = m->mode, .in_first = 1 };
@@ -254,5 +254,6 @@ ss_meter_end(meter *r, int cycles, int closes, double value[])
     value[SS_A_MAX] = r->a_max;
     value[SS_ENERGY] = r->energy / cycles;
     value[SS_MICROSLIPS] = (double)r->microslips / (2 * cycles);
+    value[SS_CYCLE_TIME] = r->time / cycles;
     value[SS_TRANSITION] = r->spacings > 0 ? (double)r->spacings / (2 * r->spacing) : NAN;
 }

@@ -26,13 +26,14 @@ typedef struct meter {
 void ss_meter_begin(meter *r, unsigned wanted, const state *m);
 void ss_meter_leg(meter *r, walk *w);
 void ss_meter_event(meter *r, const ss_event *event);
-/* The measures of so many forcing cycles, which close to a period or do not; those that are not wanted
+/* The measures of so many cycles, which close to a period or do not; those that are not wanted
  * may be wrong. */
 void ss_meter_end(meter *r, int cycles, int closes, double value[]);
 
 /* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an exact engine. */
 typedef struct tangent {
     double d[D_MOST][D_MOST];
+    double later[D_MOST];           /* by which the last event, where v has become 0, comes later [s] */
 } tangent;
 
 void ss_tangent_begin(tangent *t, const state *m);
@@ -40,6 +41,9 @@ void ss_tangent_begin(tangent *t, const state *m);
  * and mode, whether that was an event. */
 void ss_tangent_leg(tangent *t, const walk *w);
 void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[]);
+/* At an onset of stick: from neighbouring states at one time to those at their own onsets, where only
+ * x - U t differs. */
+void ss_tangent_on_onset(tangent *t, const state *m);
 /* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
  * is. */
 void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);

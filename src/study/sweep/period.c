@@ -95,6 +95,8 @@ ss_finder_derive(finder *f, int cycles, derivative_use use, tangent *t)
     if (!f->in_closed_form)
         return differences(f, cycles, use, t);
     ss_tangent_begin(t, &f->w.m.now);
+    if (f->autonomous)
+        ss_tangent_on_onset(t, &f->w.m.now);
     return ss_finder_go(f, cycles, NULL, t);
 }
 

@@ -1,6 +1,6 @@
 /* settle.c -- the periodic state that a scene settles to, by simulation.
  *
- * The state at the start of each forcing cycle is an iterated map.  It has period p when it repeats
+ * The state at the start of each cycle is an iterated map.  It has period p when it repeats
  * after p cycles.  It approaches its limit geometrically, so the rate at which the last differences
  * shrink gives the distance that remains, and a slow approach is not mistaken for the limit.  The last
  * part of an approach may be left to shooting. */

@@ -1,4 +1,4 @@
-/* shoot.c -- a periodic state by Newton's method on the map from one forcing cycle to the next. */
+/* shoot.c -- a periodic state by Newton's method on the map from one cycle to the next. */
 #include "study/sweep/finder.h"
 
 #include <float.h>
@@ -116,8 +116,8 @@ first_return(finder *f, int most, int *period)
     return st;
 }
 
-ss_status
-ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
+static ss_status
+look(finder *f, int approached, int *period, ss_steady *out)
 {
     tangent t;
     double off = INFINITY, first = INFINITY, second, angle;
@@ -142,4 +142,14 @@ ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
         return st;
     st = ss_finder_begin_at(f, &at);
     return st == SS_OK ? ss_finder_measure(f, *period, *period, out) : st;
+}
+
+ss_status
+ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
+{
+    ss_status st = look(f, approached, period, out);
+    if (st != SS_EDATA)
+        return st;
+    *period = 0;                        /* a step has led to where there are no cycles */
+    return SS_OK;
 }

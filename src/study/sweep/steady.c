@@ -50,6 +50,7 @@ static const struct {
     [SS_FLOQUET] = { "floquet", "", differs },
     [SS_FLOQUET_2] = { "floquet2", "", differs },
     [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", differs },
+    [SS_CYCLE_TIME] = { "cycle_time", "s", NULL },
 };
 
 const char *
@@ -106,6 +107,15 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
     return SS_OK;
 }
 
+/* Without forcing, differences that are small beside x change the time of the next onset too much for a
+ * derivative: it has to be in closed form. */
+static int
+can_shoot(const ss_scene *scene, const ss_steady_opts *opts)
+{
+    const struct model *model = ss_model_of(scene);
+    return differs(model) && (scene->base_frequency > 0 || strcmp(method_of(opts, model), EXACT) == 0);
+}
+
 /* --- the search ------------------------------------------------------------------------------ */
 
 /* Cycles simulated before Newton's first step where shooting is asked for. */
@@ -140,7 +150,7 @@ search(finder *f, ss_steady *out)
 {
     const ss_steady_opts *o = f->opts;
     int period = 0, may_shoot = o->search == SS_SEARCH_AUTO && !(o->measures & 1u << SS_CYCLES)
-        && differs(ss_model_of(f->scene));
+        && can_shoot(f->scene, o);
     ss_status st = begin(f);
     if (st == SS_OK && o->search == SS_SEARCH_SHOOT)
         st = shoot(f, out, &period);
@@ -170,12 +180,33 @@ complete(const finder *f, const ss_steady *out)
     return SS_OK;
 }
 
+/* Without forcing a cycle begins with a stick, again and again only if something pulls. */
+static ss_status
+check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
+{
+    int asks = opts->search == SS_SEARCH_SHOOT || (opts->measures & FLOQUET);
+    if (scene->base_frequency > 0)
+        return SS_OK;
+    if (scene->base != NULL)
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
+    if (!sticks(ss_model_of(scene)))
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle, and no stick with "
+                       "which one could begin");
+    if (scene->base_velocity == scene->surface_velocity)
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0 and base_velocity is surface_velocity: nothing "
+                       "keeps it moving");
+    if (asks && !can_shoot(scene, opts))
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting and multipliers need "
+                       "method %s", EXACT);
+    return SS_OK;
+}
+
 ss_status
 ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
 {
     if (out == NULL || scene == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    finder f = { .scene = scene, .opts = opts, .err = err };
+    finder f = { .scene = scene, .opts = opts, .err = err, .autonomous = scene->base_frequency == 0 };
     for (int i = 0; i < SS_MEASURES; i++)
         out->value[i] = NAN;
     ss_status st = ss_scene_check(scene, err);
@@ -183,8 +214,9 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
         st = ss_steady_check(opts, scene->model, err);
     if (st != SS_OK)
         return st;
-    if (scene->base_frequency == 0)
-        return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
+    st = check_cycle(scene, opts, err);
+    if (st != SS_OK)
+        return st;
     st = search(&f, out);
     ss_walk_end(&f.w);
     for (int i = 0; i < SS_MEASURES; i++)

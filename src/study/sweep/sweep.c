@@ -140,8 +140,9 @@ work_out(const ss_scene *scene, const ss_sweep_opts *opts, const double vary[], 
     ss_scene here = *scene;
     for (size_t i = 0; i < opts->n_axes; i++)
         *ss_scene_number(&here, opts->axis[i].key, NULL, NULL) = vary[i];
-    strcpy(out->reason.text, "ok");
     out->status = ss_steady_find(&out->steady, &here, &opts->steady, &out->reason);
+    if (out->status == SS_OK)
+        strcpy(out->reason.text, "ok");
 }
 
 /* --- all of them --------------------------------------------------------------------------- */

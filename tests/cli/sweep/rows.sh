@@ -7,3 +7,5 @@ ss-sweep -m period,cycles,v_max --max-cycles 7 --vary friction=0.1:0.1:1 coulomb
 ss-sweep -m period,cycles --settle-cycles 46 --vary x0=0:1e-3:2 coulomb | grep -v '^#'
 ss-sweep -m period,amplitude --vary alpha=1000:3000:2 state-variable | grep -v '^#' | rows
 ss-sweep --vary base_frequency=0:2.5:2 -m stops --shoot coulomb | grep -v '^#'
+ss-sweep --set base_frequency=0 --set static_friction=1.4 -m cycle_time,stick,period --vary surface_velocity=0:1e-2:3 \
+    coulomb | grep -v '^#' | rows
