@@ -1,10 +1,13 @@
 #!/bin/sh
-# maps.sh: two maps of periodic states into $OUT, and how well the first keeps to Den Hartog's limit.
+# maps.sh: three maps of periodic states into $OUT, and how well the first keeps to Den Hartog's limit.
 #
 # den-hartog: stops a cycle and amplitude of the forced Coulomb oscillator over r = Omega / omega_n and
 # beta = f_k / (k Z_e), with the limit of motion without stops (Den Hartog 1931) over it.
 # microslips: micro-slips a half-cycle of the paper's compliant scene, and its transition frequency,
 # over friction and the damping of the contact.
+#
+# symmetry: where the shipped scene shaw, with static above kinetic friction, moves farther to one side than
+# to the other, by max|x| less the amplitude; from r = 1/2 on, where subharmonic has its line of motions.
 set -eu
 : "${OUT:=build/maps}" "${THREADS:=$(getconf _NPROCESSORS_ONLN)}"
 mkdir -p "$OUT"
@@ -61,6 +64,11 @@ ss-sweep --threads "$THREADS" --shoot --measure microslips,transition,period \
     --vary contact_damping=5:200:121:log --vary friction=0.41:1.37:97 \
     -o "$OUT/microslips.tsv" compliant-light
 
+ss-sweep --threads "$THREADS" --max-cycles 3000 --measure period,x_max,amplitude \
+    --vary base_frequency=0.4:0.66:131 --vary static_friction=0.3:0.8:101 shaw |
+    awk -F '\t' -v OFS='\t' '/^# columns/ { sub("x_max", "offset") }
+        !/^#/ && $5 != "-" { $5 = $5 - $6 > 1e-6 ? $5 - $6 : 0 } { print }' > "$OUT/symmetry.tsv"
+
 for form in png pdf; do
     ss-plot --map base_frequency,friction,stops,amplitude --line "$OUT/den-hartog-limit.tsv" \
         --title 'Stops a cycle, amplitude; the limit of Den Hartog' "$OUT/den-hartog.tsv" \
@@ -68,5 +76,7 @@ for form in png pdf; do
     ss-plot --map contact_damping,friction,microslips,transition \
         --title 'Micro-slips a half-cycle, transition frequency' "$OUT/microslips.tsv" \
         -o "$OUT/microslips.$form"
+    ss-plot --map base_frequency,static_friction,period,offset \
+        --title 'Period, and how far from symmetric' "$OUT/symmetry.tsv" -o "$OUT/symmetry.$form"
 done
 echo "The maps: $OUT/*.png, *.pdf; their numbers: $OUT/*.tsv"
