@@ -58,7 +58,7 @@ refused ss-cat --rate 10 cut.npy
 refused ss-cat --rate 10 more.npy
 sed 's/(3, 2)/(99999999999, 2)/' f8le.npy > huge.npy
 # shellcheck disable=SC3045  # a limit where the shell has one
-(ulimit -v 500000 2> /dev/null || true; refused ss-cat --rate 10 huge.npy)
+([ -n "$SAN" ] || ulimit -v 500000 2> /dev/null || true; refused ss-cat --rate 10 huge.npy)
 head -c 40 f8le.npy > header.npy
 refused ss-cat --rate 10 header.npy
 printf '\223NUMPY\002\000\377\377\377\177{' | refused ss-cat --rate 10
