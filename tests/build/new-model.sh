@@ -5,7 +5,7 @@
 sed -e 's/ss_state_variable_model/ss_copied_model/' -e 's/"state-variable"/"copied"/' \
     "$SRC/src/scene/state_variable.c" > copied.c
 # shellcheck disable=SC1003  # a backslash at the end of a line
-sed -e 's/ss_coulomb_model/ss_stepped_model/' -e 's/"coulomb"/"stepped"/' -e 's/ \.linear = 1,//' \
+sed -e 's/ss_coulomb_model/ss_stepped_model/' -e 's/ss_to_coulomb/ss_to_stepped/' -e 's/"coulomb"/"stepped"/' -e 's/ \.linear = 1,//' \
     -e 's/ \.derivatives = ss_linear_derivatives,//' -e 's/ *\.variation = .*//' \
     "$SRC/src/scene/coulomb.c" > stepped.c
 sed 's/model(ss_compliant_model)/& model(ss_copied_model) model(ss_stepped_model)/' \

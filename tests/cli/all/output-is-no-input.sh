@@ -5,6 +5,7 @@ ss-sim --set settle=2 --set duration=1 compliant-light > signal
 ss-sim --events --set settle=2 --set duration=1 compliant-light > events
 ss-cat signal -o signal.h5
 ss-cat -c a signal > one
+ss-sim --columns t,z --set settle=0 --set duration=1 coulomb > base
 ss-morlet --dyadic signal > coefficients
 ss-morlet --dyadic signal -o coefficients.h5
 ss-features signal > features
@@ -50,10 +51,12 @@ for end in .tsv .au .h5; do
     refused coefficients    $end 'ss-morlet --inverse $in -o $out'
     refused coefficients.h5 $end 'ss-morlet --inverse $in -o $out'
     refused scene     $end 'ss-sim --set duration=0.1 $in -o $out'
+    refused base      $end 'ss-sim --set duration=0.1 --set settle=0 --base $in:z coulomb -o $out'
 done
 for end in .gp .svg; do
     refused signal    $end 'ss-plot $in -o $out'
     refused signal.h5 $end 'ss-plot $in:/signal/a -o $out'
+    refused signal    $end 'ss-plot --over $in signal -o $out'
     refused sweep     $end 'ss-plot --map mass,friction,amplitude $in -o $out'
     refused line      $end 'ss-plot --map mass,friction,amplitude --line $in sweep -o $out'
     refused coefficients    $end 'ss-contour $in -o $out'

@@ -8,7 +8,7 @@ awk '/^#/ { next } { c = sqrt(2) * $2; want = $3 < c || 1.998 - $3 < c || ($3 > 
     if (want != $7) wrong++; edge += $7; n++ } END { print wrong + 0, (edge > 0 && edge < n) }' w.tsv
 ss-contour w.tsv | awk '/cone << EOD/ { inside = 1; next } inside && /^EOD/ { print curves + 1; exit }
     inside && /^$/ { curves += 0.5 }'
-ss-morlet --fmin 5 --dense run.tsv -o w.h5
+ss-morlet --fmin 5 --dense --exact-bits run.tsv -o w.h5
 ss-contour --title x --signal run.tsv w.tsv > one.gp
 ss-contour --title x --signal run.tsv w.h5 > two.gp
 cmp one.gp two.gp
