@@ -443,6 +443,27 @@ rankings_refuse_null(FILE *out)
     assert_int_equal(ss_ranking_write(&ranking, &about, NULL, out, SS_AU), SS_EINVAL);
 }
 
+static void
+summaries_refuse_null(FILE *out)
+{
+    static const char *const names[] = { "mine" };
+    ss_summary summary;
+    ss_summary_fill(NULL, NULL, NULL, 0, "why");
+    ss_summary_fill(&summary, NULL, NULL, 0, NULL);
+    assert_string_equal(summary.reason, "");
+    ss_summary_fill(&summary, NULL, NULL, 0, "why");
+    assert_string_equal(summary.reason, "why");
+    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++) {
+        assert_non_null(ss_summary_name(i));
+        assert_true(isnan(summary.number[i].value) && isnan(summary.number[i].error));
+    }
+    assert_null(ss_summary_name(SS_SUMMARY_NUMBERS));
+    assert_int_equal(ss_summaries_write(NULL, &summary, 1, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_summaries_write(names, NULL, 1, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_summaries_write(names, &summary, 1, NULL, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_summaries_write(names, &summary, 1, out, SS_AU), SS_EINVAL);
+}
+
 /* Of what tools write as text: NULL, a column that is not there, a format that has no words. */
 static void
 writers_of_rows_refuse_null(void **state)
@@ -474,6 +495,7 @@ writers_of_rows_refuse_null(void **state)
     assert_int_equal(ss_features_write(NULL, &signal, 0, opts, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_features_write(&features, NULL, 0, opts, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_features_write(&features, &signal, 0, opts, out, SS_TSV), SS_EINVAL);
+    summaries_refuse_null(out);
     assert_int_equal(ss_trade_write(NULL, "x", out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV), SS_EINVAL);

@@ -1,16 +1,21 @@
-/* ss-features.c -- the transitions of a signal, one a row, and what they have in common. */
+/* ss-features.c -- the transitions of a signal, one a row, and what they have in common, which is a
+ * row of several signals. */
 #include "common.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 static const char usage[] =
-"usage: ss-features [options] [FILE]\n"
+"usage: ss-features [options] [FILE ...]\n"
 "Find the transitions between stick and slip in one column of a signal.  Write\n"
 "one row each: onset, end, spikes, local maximum of |W|, fitted oscillation; then\n"
-"a summary.  A number that is absent or not known is -.\n"
+"a summary.  Of several files, write one summary a row, then their scatter.  A\n"
+"number that is absent or not known is -.\n"
 "  -c, --column=NAME|N     column to analyse (a, or the only one)\n"
 "      --threshold=DB      prominence that makes a local maximum (80/18)\n"
 "      --norm=l2|l1        norm of the prominence, a^-1/2 or 1/a (l2)\n"
@@ -21,16 +26,15 @@ static const char usage[] =
 "                          columns for the slope df/dx in the stick (x and f)\n"
 "      --drop=HEIGHT       transitions are falls by more than this, in a force\n"
 "      --threads=N         for the transform (1)\n"
+"  -j, --jobs=N            work on N files at a time (1)\n"
+"      --summary           one summary a row, of one file too\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE       .tsv or .csv; --format=tsv|csv of standard output\n"
-"  -q, --quiet             no warnings\n"
-"  -v, --verbose           report intermediate results\n"
-"  -h, --help              show this text and exit\n"
-"      --version           show the version and exit\n";
+"  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 enum {
     OPT_THRESHOLD = TOOL_OPT_FIRST, OPT_NORM, OPT_FMIN, OPT_MASS, OPT_STIFFNESS,
-    OPT_DISPLACEMENT, OPT_FORCE, OPT_DROP, OPT_THREADS
+    OPT_DISPLACEMENT, OPT_FORCE, OPT_DROP, OPT_THREADS, OPT_SUMMARY
 };
 
 static const struct option longopts[] = {
@@ -45,14 +49,20 @@ static const struct option longopts[] = {
     { "force", required_argument, NULL, OPT_FORCE },
     { "drop", required_argument, NULL, OPT_DROP },
     { "threads", required_argument, NULL, OPT_THREADS },
+    { "jobs", required_argument, NULL, 'j' },
+    { "summary", no_argument, NULL, OPT_SUMMARY },
     TOOL_LONGOPTS
 };
+
+enum { JOBS_MAX = 100 };    /* each has two files open, and as many may wait for one before them */
 
 typedef struct request {
     ss_features_opts opts;
     tool_reading reading;
     const char *column, *displacement, *force, *output;
     tool_kind kind;
+    size_t jobs;
+    int summary;
 } request;
 
 static void
@@ -72,6 +82,8 @@ set_option(request *req, int c)
     case OPT_DROP:         opts->drop = tool_number("--drop", optarg, 1e-300, 1e300); break;
     case OPT_THREADS:      opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
                            break;
+    case 'j':              req->jobs = (size_t)tool_integer("--jobs", optarg, 1, JOBS_MAX); break;
+    case OPT_SUMMARY:      req->summary = 1; break;
     case 'o':              req->output = optarg; break;
     case TOOL_OPT_FORMAT:  req->kind = tool_format_of_words(optarg); break;
     default:
@@ -87,41 +99,173 @@ find_column(const ss_header *head, const char *path, const char *asked, const ch
     return asked != NULL ? (int)tool_column(head, path, asked) : ss_header_column(head, name);
 }
 
+/* The features of one file, and what they were found in. */
+typedef struct found {
+    ss_signal *signal;
+    size_t column;
+    ss_features_opts opts;
+    ss_features *features;
+} found;
+
+static found
+find_features(const request *req, const char *path)
+{
+    found f = { .opts = req->opts, .signal = tool_read_signal(path, &req->reading.opts) };
+    ss_error err = { 0 };
+    const ss_header *head = f.signal->head;
+    f.column = tool_column(head, path, req->column);
+    f.opts.displacement = find_column(head, path, req->displacement, "x");
+    f.opts.force = find_column(head, path, req->force, "f");
+    ss_status st = ss_features_find(&f.features, f.signal, f.column, &f.opts, &err);
+    if (st != SS_OK)
+        tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
+    tool_note("noise of rms %.3g, %zu local maxima, %zu spikes, %s", f.features->noise,
+              f.features->n_maxima, f.features->spikes->n, ss_spikes_verdict(f.features->spikes));
+    if (f.opts.stiffness > f.features->total_stiffness.value)
+        tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "
+                  "leaves none to the contact", f.features->total_stiffness.value);
+    return f;
+}
+
+static void
+free_features(found *f)
+{
+    ss_features_free(f->features);
+    ss_signal_free(f->signal);
+}
+
+static void
+write_one(const request *req, const char *path, tool_kind kind)
+{
+    found f = find_features(req, path);
+    tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req->output),
+                                 tool_stream(kind)), NULL);
+    free_features(&f);
+}
+
+/* --- several files ------------------------------------------------------------------------- */
+
+/* A process of its own for each file: one that cannot be read ends no other.  Its summary and what it
+ * says come back through files without a name. */
+typedef struct job {
+    pid_t pid;
+    FILE *summary, *words;
+    int done, status;
+} job;
+
+static void
+start_job(job *j, const request *req, const char *path)
+{
+    j->summary = tmpfile();
+    j->words = tmpfile();
+    if (j->summary == NULL || j->words == NULL || (j->pid = fork()) < 0)
+        tool_die("%s", strerror(errno));
+    if (j->pid > 0)
+        return;
+    dup2(fileno(j->words), STDERR_FILENO);
+    found f = find_features(req, path);
+    ss_summary summary;
+    ss_summary_fill(&summary, f.features, f.signal, f.column, NULL);
+    fwrite(&summary, sizeof summary, 1, j->summary);
+    _exit(fflush(j->summary) != 0);
+}
+
+/* Wait for any of the jobs begun. */
+static void
+wait_for_job(job *jobs, size_t begun)
+{
+    int status;
+    pid_t pid = wait(&status);
+    if (pid < 0)
+        tool_die("%s", strerror(errno));
+    for (size_t i = 0; i < begun; i++)
+        if (jobs[i].pid == pid && !jobs[i].done) {
+            jobs[i].done = 1;
+            jobs[i].status = status;
+        }
+}
+
+/* Pass on what a job said; line gets the last of it, without the tool's name. */
+static void
+pass_words(job *j, char *line, int size)
+{
+    static const char name[] = "ss-features: ";
+    rewind(j->words);
+    for (int c = 0, first = 1; fgets(line, size, j->words) != NULL; first = c == '\n') {
+        size_t n = strlen(line);
+        c = n > 0 ? line[n - 1] : 0;
+        fputs(line, stderr);
+        line[strcspn(line, "\n")] = '\0';
+        if (first && strncmp(line, name, strlen(name)) == 0)
+            memmove(line, line + strlen(name), strlen(line + strlen(name)) + 1);
+    }
+    fclose(j->words);
+}
+
+/* The summary of a job that is done, or why there is none; 1 if there is one. */
+static int
+collect_job(job *j, ss_summary *summary)
+{
+    char line[sizeof summary->reason] = "";
+    pass_words(j, line, sizeof line);
+    rewind(j->summary);
+    int whole = j->status == 0 && fread(summary, sizeof *summary, 1, j->summary) == 1;
+    fclose(j->summary);
+    if (!whole && WIFSIGNALED(j->status))
+        snprintf(line, sizeof line, "its process was killed by signal %d", WTERMSIG(j->status));
+    if (!whole)
+        ss_summary_fill(summary, NULL, NULL, 0, line);
+    return whole;
+}
+
+/* A row for each of n files, in their order whichever is done first.  Gives the number of files that
+ * have features. */
+static size_t
+write_table(const request *req, char *const path[], size_t n, tool_kind kind)
+{
+    job *jobs = calloc(n, sizeof *jobs);
+    ss_summary *summary = calloc(n, sizeof *summary);
+    size_t begun = 0, ended = 0, good = 0;
+    if (jobs == NULL || summary == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (size_t i = 0; i < n; i++)
+        tool_reads(path[i]);
+    for (size_t first = 0; first < n;) {
+        while (begun < n && begun - ended < req->jobs && begun - first < 2 * req->jobs)
+            start_job(&jobs[begun], req, path[begun]), begun++;
+        wait_for_job(jobs, begun);
+        for (ended++; first < begun && jobs[first].done; first++)
+            good += (size_t)collect_job(&jobs[first], &summary[first]);
+        tool_progress((double)ended / (double)n, NULL);
+    }
+    tool_check(ss_summaries_write((const char *const *)path, summary, n, tool_output(req->output),
+                                  tool_stream(kind)), NULL);
+    free(summary);
+    free(jobs);
+    return good;
+}
+
 int
 main(int argc, char *argv[])
 {
-    request req = { .opts = ss_features_defaults, .kind = TOOL_TSV };
-    ss_features *features = NULL;
-    ss_error err = { 0 };
+    request req = { .opts = ss_features_defaults, .kind = TOOL_TSV, .jobs = 1 };
 
     tool_begin(argv, "ss-features", usage);
     tool_reading_begin(&req.reading, argc);
-    for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
+    for (int c; (c = getopt_long(argc, argv, "c:j:o:qvh", longopts, NULL)) != -1;)
         set_option(&req, c);
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
     tool_reading_end(&req.reading, req.column);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, req.kind);
-    const char *path = tool_input(argc, argv, optind);
-
-    ss_signal *signal = tool_read_signal(path, &req.reading.opts);
-    size_t column = tool_column(signal->head, path, req.column);
-    req.opts.displacement = find_column(signal->head, path, req.displacement, "x");
-    req.opts.force = find_column(signal->head, path, req.force, "f");
     req.opts.progress = (ss_progress){ tool_progress, &req };
-    ss_status st = ss_features_find(&features, signal, column, &req.opts, &err);
-    if (st != SS_OK)
-        tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
-    tool_note("noise of rms %.3g, %zu local maxima, %zu spikes, %s", features->noise,
-              features->n_maxima, features->spikes->n, ss_spikes_verdict(features->spikes));
-    if (req.opts.stiffness > features->total_stiffness.value)
-        tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "
-                  "leaves none to the contact", features->total_stiffness.value);
-    tool_check(ss_features_write(features, signal, column, &req.opts, tool_output(req.output),
-                                 tool_stream(kind)), NULL);
-    ss_features_free(features);
-    ss_signal_free(signal);
+    char *standard[] = { "-" }, **file = argc > optind ? argv + optind : standard;
+    size_t n = argc > optind ? (size_t)(argc - optind) : 1, good = 1;
+    if (n > 1 || req.summary)
+        good = write_table(&req, file, n, kind);
+    else
+        write_one(&req, tool_input(argc, argv, optind), kind);
     tool_reading_free(&req.reading);
     tool_end();
-    return 0;
+    return good == 0;
 }

@@ -136,5 +136,28 @@ void ss_features_free(ss_features *features);           /* NULL is allowed */
 ss_status ss_features_write(const ss_features *features, const ss_signal *signal, size_t column,
                             const ss_features_opts *opts, FILE *out, ss_format format);
 
+/* --- many recordings ----------------------------------------------------------------------- */
+
+/* What is common to all transitions of one recording, without pointers, so that a process may hand it
+ * on as it is. */
+enum { SS_SUMMARY_NUMBERS = 21 };
+typedef struct ss_summary {
+    ss_value number[SS_SUMMARY_NUMBERS];    /* named by ss_summary_name; NaN where not known */
+    char unit[64];              /* of the column, "" if it has none; a longer one is cut */
+    char reason[1024];          /* why numbers are not known, or how they were found; or "" */
+} ss_summary;
+
+/* The name of a number, as in the notes of ss_features_write; NULL beyond the last. */
+const char *ss_summary_name(size_t i);
+/* The summary of features, of this column of the signal.  Without features (NULL), no number is known,
+ * and the reason is this text (or ""). */
+void ss_summary_fill(ss_summary *out, const ss_features *features, const ss_signal *signal,
+                     size_t column, const char *reason);
+/* Write a table: a row for each of n files, whose names have control characters replaced; then notes
+ * with mean, scatter between files, scatter within a file, and number of files, of each number, as
+ * ss-features(1) says.  SS_EINVAL: the format holds numbers only; SS_EIO, SS_ENOMEM. */
+ss_status ss_summaries_write(const char *const file[], const ss_summary summary[], size_t n, FILE *out,
+                             ss_format format);
+
 SS_END_DECLARATIONS
 #endif

@@ -10,6 +10,7 @@
 #include "stream/input.h"
 #include "stream/output.h"
 #include "stream/rows.h"
+#include "stream/summary.h"
 
 typedef struct feature_reader {
     struct input in;
@@ -163,38 +164,6 @@ write_spikes(struct rows *rows, const ss_spikes *found, double start)
 }
 
 static void
-write_value(struct rows *rows, const char *key, ss_value v)
-{
-    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
-    ss_rows_note(rows, "%s: %s %s", key, ss_number_text(value, v.value),
-                 ss_number_text(error, v.error));
-}
-
-/* Median, its standard error, and the standard deviation of the many. */
-static void
-write_median(struct rows *rows, const char *key, ss_median m)
-{
-    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX], scatter[SS_NUMBER_MAX];
-    ss_rows_note(rows, "%s: %s %s %s", key, ss_number_text(value, m.value),
-                 ss_number_text(error, m.error), ss_number_text(scatter, m.scatter));
-}
-
-static void
-write_medians(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
-{
-    write_median(rows, "loading_slope", f->slope);
-    if (opts->displacement >= 0)
-        write_median(rows, "loading_stiffness", f->stiffness);
-    write_median(rows, "drop", f->drop);
-    write_median(rows, "drop_duration", f->duration);
-    write_median(rows, "recurrence_time", f->recurrence);
-    write_median(rows, "stick_time", f->stick);
-    write_median(rows, "static_friction", f->static_friction);
-    write_median(rows, "friction", f->friction);
-    write_median(rows, "k_over_m", f->k_over_m);
-}
-
-static void
 write_reason(struct rows *rows, const char *key, const char *why)
 {
     if (why != NULL)
@@ -209,22 +178,7 @@ write_summary(struct rows *rows, const ss_features *f, const ss_features_opts *o
     write_reason(rows, "about_repetition", f->why_repetition);
     write_reason(rows, "about_ringing", f->why_ringing);
     ss_rows_note(rows, "transitions: %zu -", f->n);
-    write_value(rows, "slips", f->slips);
-    write_value(rows, "slip_rate", f->slip_rate);
-    if (f->loading != NULL)
-        write_medians(rows, f, opts);
-    write_value(rows, "repetition_frequency", f->repetition_frequency);
-    write_value(rows, "transition_frequency_raw", f->frequency_raw);
-    write_value(rows, "transition_frequency", f->frequency);
-    write_value(rows, "damping_ratio", f->damping_ratio);
-    if (opts->mass > 0) {
-        write_value(rows, "total_stiffness_raw", f->total_stiffness_raw);
-        write_value(rows, "total_stiffness", f->total_stiffness);
-        write_value(rows, "contact_stiffness", f->contact_stiffness);
-        write_value(rows, "contact_damping", f->contact_damping);
-    }
-    if (opts->displacement >= 0 && opts->force >= 0)
-        write_value(rows, "contact_stiffness_slope", f->contact_slope);
+    ss_summary_write(rows, f, opts);
 }
 
 ss_status

@@ -122,7 +122,7 @@ ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error
 {
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
-    if (kind < SS_KIND_FEATURES || kind > SS_KIND_TRADE)
+    if (kind < SS_KIND_FEATURES || kind > SS_KIND_SUMMARIES)
         return ss_fail(err, SS_EINVAL, "text of this kind is no table");
     table_reader r = { .table = calloc(1, sizeof *r.table) };
     *out = NULL;

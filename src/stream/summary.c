@@ -1,0 +1,219 @@
+/* summary.c -- the numbers that the transitions of one recording have in common, and their table for
+ * many recordings. */
+#include "stream/summary.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "stream/output.h"
+
+/* The recordings that have a number. */
+typedef enum group { ALL, WITH_LOADING, WITH_LOADING_OVER_X, WITH_MASS, WITH_X_AND_F } group;
+
+/* Values and medians begin alike: the number and its standard error. */
+#define AT(member) offsetof(ss_features, member.value)
+
+static const struct number {
+    const char *key, *unit;     /* unit NULL: that of the column is in it */
+    size_t at;
+    int is_median;
+    group of;
+} number[SS_SUMMARY_NUMBERS] = {
+    { "transitions", "", 0, 0, ALL },           /* a count: ss_features.n */
+    { "slips", "", AT(slips), 0, ALL },
+    { "slip_rate", "1/s", AT(slip_rate), 0, ALL },
+    { "loading_slope", NULL, AT(slope), 1, WITH_LOADING },
+    { "loading_stiffness", NULL, AT(stiffness), 1, WITH_LOADING_OVER_X },
+    { "drop", NULL, AT(drop), 1, WITH_LOADING },
+    { "drop_duration", "s", AT(duration), 1, WITH_LOADING },
+    { "recurrence_time", "s", AT(recurrence), 1, WITH_LOADING },
+    { "stick_time", "s", AT(stick), 1, WITH_LOADING },
+    { "static_friction", NULL, AT(static_friction), 1, WITH_LOADING },
+    { "friction", NULL, AT(friction), 1, WITH_LOADING },
+    { "k_over_m", "1/s^2", AT(k_over_m), 1, WITH_LOADING },
+    { "repetition_frequency", "Hz", AT(repetition_frequency), 0, ALL },
+    { "transition_frequency_raw", "Hz", AT(frequency_raw), 0, ALL },
+    { "transition_frequency", "Hz", AT(frequency), 0, ALL },
+    { "damping_ratio", "", AT(damping_ratio), 0, ALL },
+    { "total_stiffness_raw", "N/m", AT(total_stiffness_raw), 0, WITH_MASS },
+    { "total_stiffness", "N/m", AT(total_stiffness), 0, WITH_MASS },
+    { "contact_stiffness", "N/m", AT(contact_stiffness), 0, WITH_MASS },
+    { "contact_damping", "N s/m", AT(contact_damping), 0, WITH_MASS },
+    { "contact_stiffness_slope", "N/m", AT(contact_slope), 0, WITH_X_AND_F },
+};
+
+static int
+belongs(group of, const ss_features *f, const ss_features_opts *opts)
+{
+    switch (of) {
+    case WITH_LOADING:        return f->loading != NULL;
+    case WITH_LOADING_OVER_X: return f->loading != NULL && opts->displacement >= 0;
+    case WITH_MASS:           return opts->mass > 0;
+    case WITH_X_AND_F:        return opts->displacement >= 0 && opts->force >= 0;
+    default:                  return 1;
+    }
+}
+
+void
+ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
+{
+    char text[3][SS_NUMBER_MAX];
+    for (const struct number *n = number + 1; n < number + SS_SUMMARY_NUMBERS; n++) {
+        ss_median m = { NAN, NAN, NAN };
+        if (!belongs(n->of, f, opts))
+            continue;
+        memcpy(&m, (const char *)f + n->at, n->is_median ? sizeof m : sizeof (ss_value));
+        ss_rows_note(rows, "%s: %s %s%s%s", n->key, ss_number_text(text[0], m.value),
+                     ss_number_text(text[1], m.error), n->is_median ? " " : "",
+                     n->is_median ? ss_number_text(text[2], m.scatter) : "");
+    }
+}
+
+/* --- a summary ----------------------------------------------------------------------------- */
+
+const char *
+ss_summary_name(size_t i)
+{
+    return i < SS_SUMMARY_NUMBERS ? number[i].key : NULL;
+}
+
+static void
+add_reason(ss_summary *s, const char *about, const char *why)
+{
+    size_t n = strlen(s->reason);
+    if (why != NULL)
+        snprintf(s->reason + n, sizeof s->reason - n, "%s%s: %s", n > 0 ? "; " : "", about, why);
+}
+
+void
+ss_summary_fill(ss_summary *out, const ss_features *f, const ss_signal *signal, size_t column,
+                const char *reason)
+{
+    if (out == NULL)
+        return;
+    memset(out, 0, sizeof *out);        /* all of it: it may be written to a file */
+    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++)
+        out->number[i] = (ss_value){ NAN, NAN };
+    if (f == NULL || signal == NULL || column >= signal->head->n_columns) {
+        snprintf(out->reason, sizeof out->reason, "%s", reason != NULL ? reason : "");
+        return;
+    }
+    out->number[0].value = (double)f->n;
+    for (size_t i = 1; i < SS_SUMMARY_NUMBERS; i++)
+        if (!number[i].is_median || f->loading != NULL)
+            memcpy(&out->number[i], (const char *)f + number[i].at, sizeof out->number[i]);
+    snprintf(out->unit, sizeof out->unit, "%s", signal->head->column[column].unit);
+    add_reason(out, "slips", f->why_slips);
+    add_reason(out, "repetition", f->why_repetition);
+    add_reason(out, "ringing", f->why_ringing);
+}
+
+/* --- the table ----------------------------------------------------------------------------- */
+
+static void
+write_columns(struct rows *rows)
+{
+    ss_rows_column(rows, "file", "");
+    ss_rows_column(rows, "unit", "");
+    for (const struct number *n = number; n < number + SS_SUMMARY_NUMBERS; n++) {
+        char error[64];
+        snprintf(error, sizeof error, "%s_error", n->key);
+        ss_rows_column(rows, n->key, n->unit != NULL ? n->unit : "");
+        ss_rows_column(rows, error, n->unit != NULL ? n->unit : "");
+    }
+    ss_rows_column(rows, "reason", "");
+    ss_rows_end(rows);
+}
+
+/* A word of one line; nothing is a hyphen. */
+static ss_status
+write_word(struct rows *rows, const char *word)
+{
+    char *text = strdup(word[0] != '\0' ? word : "-");
+    if (text == NULL)
+        return SS_ENOMEM;
+    ss_rows_word(rows, ss_printable(text));
+    free(text);
+    return SS_OK;
+}
+
+static ss_status
+write_row(struct rows *rows, const char *file, const ss_summary *s)
+{
+    ss_status st = write_word(rows, file);
+    if (st == SS_OK)
+        st = write_word(rows, s->unit);
+    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++) {
+        ss_rows_number(rows, s->number[i].value);
+        ss_rows_number(rows, s->number[i].error);
+    }
+    if (st == SS_OK)
+        st = write_word(rows, s->reason);
+    ss_rows_end(rows);
+    return st;
+}
+
+/* One number over all files that have it. */
+typedef struct scatter {
+    size_t n, n_errors;
+    double mean, squares;       /* sum of squares of differences from the mean (Welford 1962) */
+    double errors;              /* sum of squares of standard errors */
+    const char *unit;           /* of the first of them; NULL: not the same in all */
+} scatter;
+
+static void
+add_value(scatter *sum, const ss_summary *s, size_t i)
+{
+    ss_value v = s->number[i];
+    if (isnan(v.value))
+        return;
+    double off = v.value - sum->mean;
+    sum->mean += off / (double)++sum->n;
+    sum->squares += off * (v.value - sum->mean);
+    if (sum->n == 1)
+        sum->unit = s->unit;
+    else if (number[i].unit == NULL && sum->unit != NULL && strcmp(sum->unit, s->unit) != 0)
+        sum->unit = NULL;
+    if (isnan(v.error))
+        return;
+    sum->n_errors++;
+    sum->errors += v.error * v.error;
+}
+
+/* A number of forces in N and in lbf has no mean. */
+static void
+write_scatter(struct rows *rows, size_t i, const ss_summary summary[], size_t n)
+{
+    scatter sum = { .unit = NULL };
+    char mean[SS_NUMBER_MAX], between[SS_NUMBER_MAX], within[SS_NUMBER_MAX];
+    for (size_t k = 0; k < n; k++)
+        add_value(&sum, &summary[k], i);
+    int comparable = sum.unit != NULL;
+    ss_rows_note(rows, "%s: %s %s %s %zu", number[i].key,
+                 ss_number_text(mean, comparable ? sum.mean : NAN),
+                 ss_number_text(between, comparable && sum.n > 1
+                                ? sqrt(sum.squares / (double)(sum.n - 1)) : NAN),
+                 ss_number_text(within, comparable && sum.n_errors > 0
+                                ? sqrt(sum.errors / (double)sum.n_errors) : NAN), sum.n);
+}
+
+ss_status
+ss_summaries_write(const char *const file[], const ss_summary summary[], size_t n, FILE *out,
+                   ss_format format)
+{
+    struct rows rows;
+    ss_status st = SS_OK;
+    if (file == NULL || summary == NULL || out == NULL
+        || ss_rows_begin(&rows, out, format, SS_KIND_SUMMARIES) != SS_OK)
+        return SS_EINVAL;
+    write_columns(&rows);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        st = write_row(&rows, file[i], &summary[i]);
+    ss_rows_note(&rows, "scatter: mean, standard deviation between files, rms standard error within "
+                 "a file, files");
+    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++)
+        write_scatter(&rows, i, summary, n);
+    return st == SS_OK ? ss_output_flush(out) : st;
+}

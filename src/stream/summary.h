@@ -1,0 +1,12 @@
+/* summary.h -- the numbers that the transitions of one recording have in common, as notes. */
+#ifndef SUMMARY_H
+#define SUMMARY_H
+
+#include <stickslip/features.h>
+#include "stream/rows.h"
+
+/* A note "key: value error" for each number that belongs to these features and options, but for the
+ * count of transitions; medians have the scatter of the events, too. */
+void ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts);
+
+#endif
