@@ -79,6 +79,7 @@ SCENES  := $(PAPER) $(PUBLISHED)
 HEADERS := $(sort $(wildcard include/stickslip/*.h))
 MANUAL  := $(sort $(wildcard man/*.[1-9]))
 TOOLS   := $(patsubst tools/%.c,%,$(sort $(wildcard tools/ss-*.c)))
+SCRIPTS := $(patsubst tools/%.sh,%,$(sort $(wildcard tools/ss-*.sh)))
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
@@ -99,7 +100,7 @@ LINKS   := libstickslip.so.$(SOVERSION) libstickslip.so
 SOFLAGS  = -shared -Wl,-soname,libstickslip.so.$(SOVERSION)
 endif
 
-all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%)
+all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -133,6 +134,12 @@ $(BUILD)/$(SHARED): $(LIB_OBJ)
 $(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+
+# A script has the style of its pages within.
+$(BUILD)/bin/%: tools/%.sh data/report.css include/stickslip/status.h
+	@mkdir -p $(@D)
+	sed -e 's/@VERSION@/$(VERSION)/' -e '/^@CSS@$$/{' -e 'r data/report.css' -e d -e '}' $< > $@.new && \
+		chmod 755 $@.new && mv $@.new $@
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
@@ -256,11 +263,11 @@ install: all
 	sed -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' -e 's|@VERSION@|$(VERSION)|' \
 		-e 's|@LIBS@|$(LIBS)|' stickslip.pc.in > $(DESTDIR)$(LIBDIR)/pkgconfig/stickslip.pc
 	$(INSTALL) -m 644 $(SCENES) $(DESTDIR)$(SCENEDIR)
-	for t in $(TOOLS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(DESTDIR)$(BINDIR) || exit 1; done
+	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(DESTDIR)$(BINDIR) || exit 1; done
 	for m in $(MANUAL); do d=$(DESTDIR)$(MANDIR)/man$${m##*.}; \
 		$(INSTALL) -d $$d && $(INSTALL) -m 644 $$m $$d || exit 1; done
 	$(INSTALL) -d $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
-	for t in $(TOOLS); do $(INSTALL) -m 644 data/completion/stickslip.bash $(DESTDIR)$(BASHDIR)/$$t || \
+	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 644 data/completion/stickslip.bash $(DESTDIR)$(BASHDIR)/$$t || \
 		exit 1; done
 	$(INSTALL) -m 644 data/completion/_stickslip $(DESTDIR)$(ZSHDIR)
 
@@ -268,8 +275,8 @@ install: all
 uninstall:
 	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
 		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
-		$(addprefix $(DESTDIR)$(SCENEDIR)/,$(notdir $(SCENES))) $(TOOLS:%=$(DESTDIR)$(BINDIR)/%) \
-		$(TOOLS:%=$(DESTDIR)$(BASHDIR)/%) $(DESTDIR)$(ZSHDIR)/_stickslip \
+		$(addprefix $(DESTDIR)$(SCENEDIR)/,$(notdir $(SCENES))) $(patsubst %,$(DESTDIR)$(BINDIR)/%,$(TOOLS) $(SCRIPTS)) \
+		$(patsubst %,$(DESTDIR)$(BASHDIR)/%,$(TOOLS) $(SCRIPTS)) $(DESTDIR)$(ZSHDIR)/_stickslip \
 		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
 	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
 		rmdir $(DESTDIR)$$d 2> /dev/null || :; done

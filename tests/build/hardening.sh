@@ -17,6 +17,7 @@ case " $CCLD " in *" -O"[1-3s]*) : ;; *) echo "built without optimisation"; exit
 uses() { nm -D --undefined-only "$1" | grep -q "$2"; }
 for file in "$BUILD"/bin/ss-* "$BUILD/libstickslip.so"; do
     name=$(basename "$file")
+    [ "$(head -c 2 "$file")" != '#!' ] || continue
     readelf -lW "$file" | grep -q GNU_RELRO || echo "$name: no RELRO"
     readelf -dW "$file" | grep -q 'BIND_NOW\|NOW$\|Flags:.*NOW' || echo "$name: binds late"
     ! uses probe __stack_chk_fail || uses "$file" __stack_chk_fail || echo "$name: no stack protector"

@@ -8,8 +8,8 @@ for path in include/stickslip.h include/stickslip/sim.h lib/libstickslip.a lib/p
         share/stickslip/scenes/compliant-light.scene; do
     grep -qx "./$path" files || echo "not installed: $path"
 done
-for tool in "$SRC"/tools/ss-*.c; do
-    name=$(basename "$tool" .c)
+for tool in "$SRC"/tools/ss-*.*; do
+    name=$(basename "${tool%.*}")
     root/usr/bin/"$name" --version > installed
     "$BUILD/bin/$name" --version | diff - installed || echo "$name: not the one that was built"
     [ -f "root/usr/share/man/man1/$name.1" ] || echo "not installed: $name.1"
