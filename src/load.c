@@ -25,7 +25,7 @@ load_stream(ss_signal **out, const char *path, const ss_read_opts *opts, ss_erro
     return status;
 }
 
-/* What opts ask for of a signal that is there. */
+/* Apply opts to a whole signal: units, factors and rows. */
 static ss_status
 adjust(ss_signal **signal, const char *path, const ss_read_opts *opts, ss_error *err)
 {

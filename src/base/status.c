@@ -52,7 +52,7 @@ ss_printable(char *text)
     return text;
 }
 
-/* What is too long loses its middle: it begins with the name of a file and ends with what is wrong. */
+/* Text that is too long loses its middle: it begins with the name of a file and ends with the error. */
 static void
 format_text(char *text, size_t size, const char *format, va_list args)
 {

@@ -123,7 +123,7 @@ halve(const double b[], int degree, double left[], double right[])
     }
 }
 
-/* What the signs of the coefficients say. */
+/* The result of the signs of the coefficients. */
 typedef struct signs {
     int first;                      /* the first that is decided, 0 if none */
     int changes;

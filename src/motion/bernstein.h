@@ -6,22 +6,22 @@
 
 enum { MOST_DEGREE = MOST_SERIES };
 
-/* A guard within a step: level + p, or, if p is limited on either side, the smaller of that and
- * level - p. */
+/* A guard within a step: level + p, or, if either_side is 1, the smaller of level + p and level - p. */
 typedef struct step_guard {
     double level;
     int either_side;
     int degree;
     double p[MOST_DEGREE + 1];      /* p's coefficients in Bernstein's form */
-    double h;                       /* from end to end */
-    double rounding;                /* h p' is known to this, in units of 2^-50, besides p's own size */
+    double h;                       /* length of the step */
+    double rounding;                /* error of h p' in units of 2^-50, besides that of p's own size */
 } step_guard;
 
 /* Set degree and p from p and its ORDERS derivatives at the ends of a step h within the step caps. */
 void ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[]);
-/* From p's Taylor coefficients in s / h, degree + 1 of them; adds their rounding. */
+/* Set them from p's degree + 1 Taylor coefficients in s / h; adds their rounding. */
 void ss_guard_by_series(step_guard *g, int degree, const double c[]);
-/* *unresolved becomes 1 where rounding alone decides that there is none, or which it is. */
+/* 1 if the guard becomes negative, at *s_event; 0 if not; -1 if a number is not finite.  *unresolved
+ * becomes 1 where rounding alone decides whether, or where, it does. */
 int ss_first_zero(const step_guard *g, double *s_event, int *unresolved);
 
 #endif

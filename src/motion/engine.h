@@ -7,8 +7,8 @@
 
 typedef struct engine engine;
 
-/* What a state is read for.  A run of samples, each one interval after the last, may be carried on
- * from one to the next. */
+/* The purpose of reading a state.  In a run of samples, each one interval after the last, an engine may
+ * compute a sample from the one before. */
 typedef enum reading {
     ANYWHERE, FIRST_SAMPLE, NEXT_SAMPLE
 } reading;
@@ -16,19 +16,19 @@ typedef enum reading {
 struct engine_type {
     /* The motion has entered a mode: forget what belonged to the last one. */
     ss_status (*begin)(engine *e);
-    /* Take one step from now: fills h, q1, dq1.  It is at most h_max long, or longer where the guard
-     * cannot reach 0 within it. */
+    /* Take one step from now and fill h, q1, dq1.  The step is at most h_max long, but may be longer if
+     * the guard cannot reach 0 within it. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
-    /* Look for the end of the mode without steps, up to s_max from now: 1 and *s_event, or 0 if it
-     * is later; then h, q1 and dq1 are those of s_max.  -1: only steps can find it.  May be NULL. */
+    /* Look for the end of the mode without steps, up to s_max from now.  1: it is at *s_event.  0: it is
+     * later, and h, q1 and dq1 are those of s_max.  -1: only steps can find it.  May be NULL. */
     int (*ahead)(engine *e, double s_max, double *s_event);
     /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change, of which a
      * sample needs only the first two parts; base is the phase there. */
     void (*at)(engine *e, reading where, double s, turn base, double q[], double dqdt[]);
-    /* The Taylor coefficients in s / h of the state within that step, to be put into c: the degree, at
-     * most MOST_DEGREE.  NULL if it is no polynomial. */
+    /* Write the Taylor coefficients in s / h of the state within that step to c and return the degree,
+     * at most MOST_DEGREE.  NULL if the state is no polynomial. */
     int (*curve)(const engine *e, double c[][MAX_DIM]);
-    /* The motion has come to the end of the step: count u from a new origin if it is time to. */
+    /* The motion has reached the end of the step: count u from a new origin if the engine needs it. */
     void (*go_on)(engine *e);
     void (*free)(engine *e);
 };
@@ -43,8 +43,8 @@ struct engine {
     /* The state and its first ORDERS derivatives at both ends, once asked for. */
     int has_start, has_end;
     double start[ORDERS + 1][MAX_DIM], end[ORDERS + 1][MAX_DIM];
-    int lands_on_samples;                   /* at() answers at the nearer end */
-    int lost;                               /* a guard within a step was no number */
+    int lands_on_samples;                   /* at() gives the state at the nearer end */
+    int lost;                               /* a guard within a step was NaN */
     unsigned long steps, rhs, events;
 };
 
@@ -59,8 +59,8 @@ ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
 int ss_exact_applies(const ss_scene *scene);        /* has it a closed form? */
 ss_status ss_exact_check(const ss_scene *scene, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
-/* What s later is left of a displacement (C) and of a velocity (S), and what a unit of force over
- * mass has done (G), in the present mode of an exact engine; their rates of change are -(k/m) S,
+/* The displacement at time s from now, in the present mode of an exact engine, after a unit displacement
+ * (C), a unit velocity (S) or under a unit of force over mass (G); their rates of change are -(k/m) S,
  * C - (c/m) S and S. */
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
@@ -68,15 +68,18 @@ void ss_exact_response(const engine *e, double s, double *C, double *S, double *
 ss_status ss_engine_begin(engine *e);
 /* Fill start and end. */
 void ss_engine_derive(engine *e);
-/* Take a step, see struct engine_type; SS_ERANGE if it leads to what is not finite. */
+/* Take a step, see struct engine_type; SS_ERANGE if the state becomes infinite or NaN. */
 ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
-/* Whether the mode ends within the step just taken, and when; as above. */
+/* *ends becomes 1 if the mode ends within the step just taken, *s_event after its start. */
 ss_status ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err);
-int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);  /* it does, s from now */
-void ss_engine_accept(engine *e);                           /* it does not */
-void ss_engine_rest(engine *e, double h);       /* in place of a step: the mass stands still so long */
+/* The mode ends s from now: enter the next. */
+int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);
+/* The mode does not end: go to the end of the step. */
+void ss_engine_accept(engine *e);
+/* Instead of a step: the mass stands still for h. */
+void ss_engine_rest(engine *e, double h);
 
-/* run.c: SS_OK if the scene is one and its record can be counted. */
+/* run.c: SS_OK if the scene is valid and the samples of its record can be counted. */
 ss_status ss_record_check(const ss_scene *scene, ss_error *err);
 
 #endif

@@ -210,9 +210,9 @@ exact_step(engine *e, double h_max, ss_error *err)
     return SS_OK;
 }
 
-/* How far from a guard g at least, with its rates of change, it is to the next zero.  Its Taylor
- * polynomials of order 1 and 2, less the most that the next derivative can take off, are below it;
- * g itself is left out of the second, which serves where a mode has just begun. */
+/* A lower bound of the time to the next zero of a guard g with these rates of change.  The Taylor
+ * polynomials of order 1 and 2, less the most that the next derivative can take off, lie below the
+ * guard; the second leaves out g itself and serves where a mode has just begun. */
 static double
 safe_distance(const exact *x, double g, double slope, double bend)
 {

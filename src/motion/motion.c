@@ -54,7 +54,7 @@ ss_motion_rebase(motion *m)
     ss_state_meet_base(now, m->origin.hi + m->origin.lo);
 }
 
-/* What the closed form rounds off of x: an ulp for each of its four terms. */
+/* The rounding error of x in closed form: an ulp for each of its four terms. */
 #define EXACT_DOUBT (4 * DBL_EPSILON)
 
 motion

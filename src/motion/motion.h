@@ -21,23 +21,23 @@ enum { STEPS_PER_PERIOD = 40 };
 
 double ss_step_cap(const state *m);                 /* the longest step in the mode */
 
-/* The shortest step that can be one; more digits than double precision has would need shorter ones. */
+/* The shortest step that double precision can resolve. */
 double ss_step_floor(const state *m);
-/* What the parts of the state are measured by, so that absolute tolerances are tol times that:
- * SS_ERANGE if those are no numbers above 0. */
+/* The scales of the parts of the state: absolute tolerances are tol times these.  SS_ERANGE if such a
+ * tolerance is not above 0. */
 ss_status ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err);
 
-/* At t = 0, before its first mode.  exact: it is moved in closed form. */
+/* The motion at t = 0, before its first mode; exact is 1 if a closed form moves it. */
 motion ss_motion_of(const ss_scene *scene, int exact, double tol);
-int ss_motion_start(motion *m);                     /* enter that; 1 if it starts in slip */
+int ss_motion_start(motion *m);                     /* enter the first mode; 1 if that is slip */
 void ss_motion_rebase(motion *m);                   /* let u count from the present step */
 turn ss_motion_base(const motion *m, instant t);    /* the phase of the base */
 double ss_motion_x(const motion *m);                /* now, at u = 0 */
 unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
-/* A mode has lasted so long: SS_ECHATTER after too many short ones in a row. */
+/* A mode has lasted this long [s]: SS_ECHATTER after too many short ones in a row. */
 ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
 
-/* A sample, but for its time, from state, rate of change and phase of the base at u. */
+/* Fill in a sample, except its time, from state, rate of change and phase of the base at u. */
 static inline void
 motion_sample(const motion *m, turn base, double u, const double q[], const double dqdt[],
               ss_sample *s)

@@ -15,7 +15,7 @@
 #include <string.h>
 #include "base/error.h"
 
-/* How far a pull goes, in the scale of x, before a position takes digits from x - U t. */
+/* The way of the pull, in units of the scale of x, beyond which x - U t would lose digits. */
 #define FAR 1e3
 
 typedef struct ode {

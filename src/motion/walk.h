@@ -1,14 +1,14 @@
 /* walk.h -- a motion carried from event to event, for those who ask for no samples.
  *
- * A walk is a row of legs, none of which has an event inside; a leg is stood on until ss_walk_on
- * goes to its end.  Within it the state can be asked for. */
+ * A walk is a sequence of legs without an event inside.  ss_walk_leg finds a leg, ss_walk_at gives the
+ * state within it, and ss_walk_on goes to its end. */
 #ifndef WALK_H
 #define WALK_H
 
 #include "motion/engine.h"
 
-/* A step that takes more right-hand sides than this counts as more than one: it is what rk8pd takes
- * with its events, while a step of an implicit method may take hundreds. */
+/* A step that takes more right-hand sides than this counts as more than one: rk8pd with its events takes
+ * so many, while a step of an implicit method may take hundreds. */
 enum { RHS_PER_STEP = 20 };
 
 typedef struct walk {

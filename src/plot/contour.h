@@ -4,10 +4,10 @@
 
 #include "plot/script.h"
 
-#define CONTOUR_COLUMNS 700     /* pixels that panel (b) is wide, about */
-#define CONTOUR_LEVELS 100      /* at most */
+#define CONTOUR_COLUMNS 700     /* the width of panel (b), about [pixels] */
+#define CONTOUR_LEVELS 100      /* the most levels */
 
-/* |W| in decibels relative to the largest, CONTOUR_COLUMNS + 1 of them a scale, to be freed. */
+/* |W| in decibels relative to the largest, CONTOUR_COLUMNS + 1 values a scale, to be freed. */
 ss_status ss_contour_map(double **out, const ss_coefficients *c, const ss_contour_opts *contour,
                          const script_span *span, ss_error *err);
 /* A datablock of time, frequency and number of the level, a blank line after each line and two after

@@ -279,7 +279,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     return ss_script_end(out);
 }
 
-/* Which of the columns is drawn as regions, and which as lines. */
+/* Choose the column that is drawn as regions, and the one that is drawn as lines. */
 static ss_status
 choose_forms(regions *r, size_t *line, const drawn *d, const map_grid *g, ss_error *err)
 {

@@ -135,7 +135,7 @@ excess(const state *m)
     return fabs(m->q[0]) - deflection_limit(m) + rest;
 }
 
-/* Whether a contact at its limit only touches it: m->slack and m->graze beyond it at most.  An
+/* Does a contact at its limit only touch it, at most m->slack and m->graze beyond it?  An
  * undamped contact returns exactly to its limit each period, and rounding would decide whether it is
  * released then.  The excess is subtracted as a distance; stopping the contact at the limit would
  * turn an error of d into one of sqrt(d). */

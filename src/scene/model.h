@@ -1,8 +1,8 @@
 /* model.h -- a friction model as a table: what it is, and the functions that move its state.
  *
  * A new model is a file like state_variable.c and a line in models.c, besides the fields of ss_scene
- * that only it has.  Everything else asks the table: what may be NULL there says what the model does
- * not have.
+ * that only it has.  Everything else asks the table: a NULL there means that the model lacks the
+ * property.
  *
  * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); everything non-smooth
  * happens where the mode changes.  Coulomb and compliant contact are linear within a mode and
@@ -42,7 +42,7 @@ typedef struct state {
     int moves;                      /* there is a pull, a surface that moves or a measured base */
     double z[4];                    /* the measured base in powers of u - u_piece, until u_knot */
     double u_piece, u_knot;
-    double x_scale;                 /* x is measured by it: absolute tolerances are tol times it */
+    double x_scale;                 /* the scale of x: absolute tolerances are tol times it */
     double tol;                     /* of the integrator */
 
     int mode;
@@ -59,25 +59,26 @@ typedef struct state {
 
 /* state.c: before its first mode, at u = 0. */
 state ss_state_of(const ss_scene *scene, double tol);
-/* Let positions count from where the pull (below) has come to since u = 0. */
+/* Let positions count from the present place of the pull (below), which moves since u = 0. */
 void ss_state_follow(state *m);
-/* base.c: from u, which is the time t, the measured base is that of this interval, if there is one. */
+/* base.c: set the piece of the measured base, if there is one, for the interval that begins at u, which
+ * is the time t. */
 void ss_state_meet_base(state *m, double t);
-/* SS_EDATA if it is not known from 0 to end; name is that of its file. */
+/* SS_EDATA if the base is not known from 0 to end; name is that of its file. */
 ss_status ss_base_covers(const ss_base *base, double end, const char *name, ss_error *err);
 
-/* In which modes the friction force varies. */
+/* The modes in which the friction force varies. */
 enum { IN_STICK = 1, IN_SLIP = 2 };
 
-/* How a difference d of two neighbouring states changes, in the order x_ref (or the state's third number,
- * if it has one), q[0], v. */
+/* The change of a difference d of two neighbouring states, in the order x_ref (or the state's third
+ * number, if it has one), q[0], v. */
 enum { D_REF, D_Q, D_V, D_MOST };
 struct variation {
-    /* Which of the three can differ within the mode. */
+    /* Set is_free to 1 for each of the three that can differ within the mode. */
     void (*free)(const state *m, int is_free[D_MOST]);
-    /* Across the event that has led here from a mode, where q, at a rate of change that was before
-     * and is after: another state reaches the event at another time.  A column of d is the
-     * difference by one of those at the start.  NULL if the model is not linear. */
+    /* Carry d across the event at q that ended `mode`; the rate of change was before and is after it.
+     * A neighbouring state reaches the event at another time.  Each column of d is the difference
+     * caused by one of those at the start.  NULL if the model is not linear. */
     void (*cross)(const state *m, int mode, const double q[], const double before[],
                   const double after[], double d[D_MOST][D_MOST]);
     /* Move a state; 0 if its mode does not hold there. */
@@ -113,13 +114,13 @@ struct model {
     void (*normalise)(ss_scene *scene);
     /* Enter the first mode at the scene's initial state; 1 if it starts in slip. */
     int (*start)(state *m);
-    /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s], and
-     * what it is in the words of a diagnosis; what may be NULL. */
+    /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s]; *what
+     * becomes its name for a diagnosis, unless what is NULL. */
     double (*fastest)(const state *m, const char **what);
-    /* What the tolerance may shorten steps for beyond that [rad/s]; NULL if nothing. */
+    /* A faster rate, for which the tolerance may shorten steps further [rad/s]; NULL if none. */
     double (*quickest)(const ss_scene *scene);
     /* The longest step from the present state whose error an integrator can still judge; NULL if
-     * fastest says it all. */
+     * `fastest` is limit enough. */
     double (*sight)(const state *m, const double dqdt[]);
     /* 1 if an implicit method is the cheaper one; NULL if that cannot be. */
     int (*stiff)(const ss_scene *scene);
@@ -134,28 +135,28 @@ struct model {
     /* The Taylor coefficients of the present state in s / unit, up to an order of MOST_SERIES at most,
      * by step[n] = unit / (n + 1); NULL if the model has no recurrence for them. */
     void (*series)(const state *m, const double step[], int order, double c[][MAX_DIM]);
-    /* Shorten a step [unit] to what those can tell of: a pole beyond which the motion is another may
-     * not show in them.  NULL if they always can. */
+    /* Shorten a step [unit] to the range in which those coefficients describe the motion: they may not
+     * show a pole beyond which the motion is another.  NULL if they always describe it. */
     double (*reach)(const state *m, double c[][MAX_DIM], double step);
-    /* Not negative within the mode, and its rate of change; NULL if the model has no events.  Where
-     * the model has derivatives or a series it is level + p, p linear in q and v, or in a mode 0 that is not
-     * still level - |p|. */
+    /* A function that is not negative within the mode; *slope is its rate of change.  NULL if the model
+     * has no events.  If the model has derivatives or a series, the guard is level + p with p linear in q
+     * and v, or level - |p| in a mode 0 in which the mass moves. */
     double (*guard)(const state *m, const double q[], const double dqdt[], double *slope);
     /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever); NULL if in none. */
     int (*still)(const state *m, double *u_end);
-    /* The mode ends in this state: enter the next.  1 if that is an event, put into *e. */
+    /* The mode ends in this state: enter the next.  1 if that is an event, which is written to *e. */
     int (*next)(state *m, ss_event *e);
-    /* What state, rate of change and force of the base say, in the frame of the surface, except t, z
-     * and s. */
+    /* Fill in the sample, in the frame of the surface, from state, rate of change and force of the
+     * base; t, z and s are left to the caller. */
     void (*sample)(const state *m, double drive, const double q[], const double dqdt[],
                    ss_sample *s);
-    /* What the next motion depends on besides x and v, and what that is measured by; NULL if on
-     * nothing.  The state's third number if it has one. */
+    /* The quantity besides x and v on which the next motion depends, which is the state's third number
+     * if it has one; *unit is its scale.  NULL if there is none. */
     double (*memory)(const state *m, double *unit);
     /* 1 where the mass neither slips nor stands still, so that it may oscillate on its contact; NULL
      * if there is no such place. */
     int (*in_transition)(const state *m, double v);
-    /* NULL if neighbouring states are not to be had. */
+    /* NULL if the model does not follow neighbouring states. */
     const struct variation *variation;
 };
 
@@ -191,9 +192,9 @@ amplitude_of(const ss_scene *s)                     /* X of the supported ranges
     return pull_of(s) != 0 ? fmax(X, static_friction(s) / s->stiffness) : X;
 }
 
-/* A friction may switch over within |v| = front.  A step from well before to well after that sees
- * neither, and nor does its error estimate: so v may change by at most half its size and one such
- * width, as far as v' and v'' tell. */
+/* A friction force may reverse within |v| <= front.  A step across that range would not see the change,
+ * and neither would its error estimate: so v may change by at most half its size plus front, as
+ * estimated from v' and v''. */
 static inline double
 sight_of(double v, double front, double a, double jerk)
 {
@@ -254,7 +255,7 @@ measured_speed(const state *m, double u)
 }
 
 static inline double
-with_rest(const state *m, double swing, double u)   /* the base's force from that of its swing */
+with_rest(const state *m, double swing, double u)   /* the base's force, given that of its swing */
 {
     if (!m->moves)
         return swing;
@@ -281,7 +282,7 @@ base_force_rate(const state *m, double u)
     return m->scene->base == NULL ? rate : rate + m->scene->stiffness * measured_speed(m, u);
 }
 
-/* The Taylor coefficients of that at m->u in s / unit, step[n] = unit / (n + 1). */
+/* The Taylor coefficients of base_force at m->u in s / unit, step[n] = unit / (n + 1). */
 static inline void
 base_force_series(const state *m, const double step[], int order, double c[])
 {
@@ -305,7 +306,7 @@ base_force_series(const state *m, const double step[], int order, double c[])
 }
 
 /* The sum of a_i b_j over i + j = n, i and j > 0, from the middle outwards: the coefficients that have
- * just been computed come last, and do not hold up the others. */
+ * just been computed come last, so that the processor does not wait for them. */
 static inline double
 inner_products(const double a[], const double b[], int n)
 {
@@ -315,7 +316,7 @@ inner_products(const double a[], const double b[], int n)
     return sum;
 }
 
-/* --- linear.c: what Coulomb and compliant contact share ------------------------------------ */
+/* --- linear.c: functions that Coulomb and compliant contact share ------------------------------------ */
 
 void ss_linear_rates(const state *m, double drive, const double q[], double dqdt[]);
 void ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
@@ -328,7 +329,7 @@ double ss_linear_slip_guard(const state *m, const double q[], const double dqdt[
 
 /* --- stick.c: true stick, in which v is exactly 0 ------------------------------------------- */
 
-double ss_stick_force(const state *m, double drive, double x);     /* that friction has to hold */
+double ss_stick_force(const state *m, double drive, double x);     /* the load on the friction */
 int ss_stick_start(state *m);
 int ss_stick_still(const state *m, double *u_end);
 int ss_stick_next(state *m, ss_event *e);

@@ -87,7 +87,7 @@ fastest(const state *m, const char **what)
     return fmax(own, m->omega);
 }
 
-/* Where v creeps within the front the friction answers with the roots of s^2 + g s + g b,
+/* While v creeps within the front, the friction responds with the roots of s^2 + g s + g b,
  * b = goal alpha / m.  There a step of an explicit method is at most 5.2 / |s| (rk8pd, measured),
  * while bsimp follows the creep in some 100 steps a period of what is slow, each of which costs as
  * much as 40 of rk8pd: equal at |s| = 5.2 x 40 x 100 / (2 pi) times the slow frequency.  Roots that
@@ -244,7 +244,7 @@ memory(const state *m, double *unit)
     return m->q[2];
 }
 
-/* Where the friction law is steep. */
+/* 1 where the friction law is steep. */
 static int
 in_transition(const state *m, double v)
 {

@@ -39,8 +39,8 @@ next_turn(double angle, double from)
     return from + (ahead <= 0 ? ahead + round : ahead);
 }
 
-/* Where the force leaves [-f_s, f_s] without a pull: upwards where the cosine rises, downwards where
- * it falls.  Touching a limit is not leaving it. */
+/* The time at which the force leaves [-f_s, f_s] without a pull: upwards while the cosine rises, downwards
+ * while it falls.  Touching a limit is not leaving it. */
 static double
 end_of_swing(const state *m, double theta)
 {
@@ -77,9 +77,9 @@ rising_zero(const state *m, double angle, double R, double level, double lo, dou
     return s;
 }
 
-/* How long it takes until D cos(angle + omega s) + R s, which is level at most, exceeds that.  A pull
- * that is slower than the swing lets it rise and fall, by as much more each turn as the pull brings:
- * the first peak that is above the level is counted, not sought. */
+/* The time s at which D cos(angle + omega s) + R s, which begins at level or below, exceeds level.  If
+ * the pull is slower than the swing, the sum rises and falls, and each peak is higher than the last by
+ * the pull's way in a turn: so the number of the first peak above level is computed, not searched. */
 static double
 time_to_rise(const state *m, double angle, double R, double level)
 {
@@ -97,8 +97,8 @@ time_to_rise(const state *m, double angle, double R, double level)
     return peak + rising_zero(m, top, R, level - R * peak, -since, 0);
 }
 
-/* Where a measured base and the pull carry the force beyond its limit: within the interval of the base, or
- * INFINITY.  Between its extrema a cubic goes one way. */
+/* The time at which a measured base and the pull carry the force beyond its limit within the interval of
+ * the base, else INFINITY.  Between its extrema a cubic is monotonic. */
 static double
 end_in_piece(const state *m, double x, double limit)
 {

@@ -29,7 +29,7 @@ friction_at(const state *m, double v, double *slope)
     return m->mode * (s->friction + fall * part);
 }
 
-/* Where the friction falls the steps follow the tolerance. */
+/* While the friction falls with speed, the tolerance sets the steps. */
 static double
 quickest(const ss_scene *s)
 {

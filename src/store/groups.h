@@ -8,7 +8,7 @@
 /* /signal (signal_writer.c, signal_reader.c).  The samples come in pieces; the datasets stay open. */
 typedef struct signal_writer {
     h5_pieces *pieces;
-    size_t length, samples;     /* in all, unless the file grows; so far */
+    size_t length, samples;     /* length: in all, unless the file grows; samples: written so far */
     size_t n_columns;
     hid_t *column, times;       /* column: a dataset each; NULL: there is no /signal */
 } signal_writer;
@@ -20,8 +20,7 @@ ss_status ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_he
 ss_status ss_signal_writer_append(signal_writer *w, const double *x, size_t n, size_t row,
                                   size_t column);
 
-/* What ss_store_read_signal gives, of a file that is open.  On failure *out may hold a part of the
- * signal. */
+/* As ss_store_read_signal, for an open file.  On failure *out may hold a part of the signal. */
 ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
                             const ss_read_opts *opts);
 
@@ -68,7 +67,7 @@ ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file);
 ss_status ss_wavelet_reader_scale(wavelet_reader *r, size_t i, double *w);
 void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
 
-/* What ss_store_read_coefficients gives, of a file that is open. */
+/* As ss_store_read_coefficients, for an open file. */
 ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
 
 #endif

@@ -32,8 +32,8 @@ ss_status ss_h5_open(h5_file *file);
 /* Close it, if it is open. */
 void ss_h5_close(h5_file *file);
 
-/* The file on disk that HDF5 writes to, open there; error is the errno of what failed first, or 0
- * (disk.c).  A list of file access that leads there, to be closed, or < 0. */
+/* The open file on disk to which HDF5 writes; error is the errno of the first failure, or 0 (disk.c).
+ * ss_h5_disk_access gives a file access list for it, to be closed, or < 0. */
 typedef struct h5_disk {
     H5FD_t of_hdf5;             /* comes first */
     int fd, error;
@@ -44,8 +44,8 @@ hid_t ss_h5_disk_access(h5_disk *disk);
 /* Objects by their path, links out of the file not followed; < 0 if there is none. */
 hid_t ss_h5_open_dataset(hid_t group, const char *name);
 hid_t ss_h5_open_group(hid_t group, const char *name);
-/* Why the values of a dataset are not to be read, or NULL: not plain real numbers of this file, or
- * more of them than the file can hold. */
+/* The reason why the values of a dataset must not be read, or NULL: they are not plain real numbers of
+ * this file, or more than the file can hold. */
 const char *ss_h5_refuse_values(hid_t dataset);
 
 /* Load no plugin from here on, for any filter of a file; returns the value that restores it. */
@@ -65,8 +65,8 @@ ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double
 
 /* SS_EDATA with the place of the first value that is not finite. */
 ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
-/* The number of values of a dataset that is read after this, by one name only: they are counted as
- * claimed, and a second name of it is refused. */
+/* The number of values of a dataset, which the caller reads next: they are counted as claimed, and a
+ * second name for the same dataset is refused. */
 ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n);
 
 /* Rate, start and whether the text form has a column of time, from a group into a new header, with the

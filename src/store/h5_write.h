@@ -4,7 +4,7 @@
 
 #include "store/h5.h"
 
-#define H5_PIECE 65536          /* values in a chunk, or written at a time, at most */
+#define H5_PIECE 65536          /* the most values in a chunk, and in one write */
 
 /* One dataset to be written. */
 typedef struct h5_dataset {
@@ -17,7 +17,7 @@ typedef struct h5_dataset {
     int fast;                   /* 1: deflate fast; else well */
 } h5_dataset;
 
-/* What the writers of all groups share: the clock of the file, and room for a piece of values. */
+/* The writers of all groups share the clock of the file and room for a piece of values. */
 typedef struct h5_pieces {
     h5_file *file;
     double rate, start;
@@ -41,7 +41,7 @@ int ss_h5_write_clock(hid_t group, const ss_header *head);
  * write its values if it has any; < 0 if HDF5 fails. */
 hid_t ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
                         const char *const scales[]);
-/* n lists of one length that are there at once, of which the first is the scale of the others. */
+/* Write n lists of one length; the first is the scale of the others. */
 ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n,
                             size_t length);
 /* n values of a row, from its at-th on; at[0] is the row, if there are several.  A dataset that is too
@@ -49,8 +49,8 @@ ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], si
 int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
                       const void *values);
 
-/* How many values of each of so many rows that grow together, of bytes in all a column, go into one
- * chunk: a power of two. */
+/* The number of values of a row in one chunk, a power of two, for rows that grow together; bytes: the
+ * size of a column of all rows. */
 hsize_t ss_h5_growing_chunk(size_t bytes);
 /* Times first ..., first + n - 1 of a scale, or of the samples for NULL. */
 int ss_h5_write_times(h5_pieces *pieces, hid_t id, const ss_scale *scale, size_t first, size_t n);
