@@ -1,6 +1,6 @@
 /* au.c -- Sun AU: PCM of 8 to 32 bits and floating point, big-endian; 64-bit floating point is written.
  *
- * When we wrote it the annotation is the header of our text form, with what AU itself cannot say.
+ * In our files the annotation is the header of our text form, which holds facts that AU cannot store.
  * A program between (SoX) may have passed it on beside samples that it has changed, so the rate and
  * the columns are believed only where they agree with the file's own. */
 #include <math.h>

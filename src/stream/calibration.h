@@ -17,7 +17,7 @@ ss_status ss_calibrate_rows(double *rows, size_t n, size_t columns, size_t row, 
 /* The rows [*first, *end) that opts ask for of a signal with this header, whose start then is theirs; all
  * if they ask for none. */
 void ss_select_rows(ss_header *head, const ss_read_opts *opts, uint64_t *first, uint64_t *end);
-/* None were found. */
+/* Fail because no row lies between from and to. */
 ss_status ss_fail_no_rows(const char *name, double from, double to, ss_error *err);
 
 #endif

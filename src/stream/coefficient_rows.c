@@ -1,6 +1,6 @@
 /* coefficient_rows.c -- writing coefficients, as they come, a column a number, in any format.
  *
- * What is left to do for a row is its b, re, im and edge: the cells that all rows of a scale share are
+ * For each row only b, re, im and edge are formatted: the cells that all rows of a scale share are
  * made once. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* csv.h -- writing comma-separated values: what the table of that format calls. */
+/* csv.h -- writing comma-separated values: the functions in the table of that format. */
 #ifndef CSV_H
 #define CSV_H
 

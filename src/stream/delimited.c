@@ -62,7 +62,7 @@ next_line(struct table *t, char **line, int *comment, ss_error *err)
     return SS_OK;
 }
 
-/* Keep lines up to the first row of data, which *row then is; NULL: there is none. */
+/* Keep the lines above the first row of data, which becomes *row; NULL: there is none. */
 static ss_status
 keep_header(struct table *t, char **row, ss_error *err)
 {
@@ -177,7 +177,7 @@ append_row(struct table *t, char *text, ss_error *err)
     return SS_OK;
 }
 
-/* What the columns hold, as their cells in the first row show. */
+/* Find the kinds of the columns, as the cells of the first row show. */
 static ss_status
 find_kinds(struct table *t, const char *row, ss_error *err)
 {
@@ -245,8 +245,8 @@ begin_kept(struct table *t, size_t first, ss_error *err)
     return st;
 }
 
-/* Begin with the first row of numbers, or if there is none, or words and numbers stand above it, with the
- * first of those that are alike. */
+/* Begin with the first row of numbers.  If there is none, or a line of words and numbers stands above it,
+ * begin with the first of the lines that are alike. */
 static ss_status
 begin_first(struct table *t, const char *row, ss_error *err)
 {
@@ -294,8 +294,8 @@ is_heading(struct table *t, const char *line, int *yes, ss_error *err)
     return SS_OK;
 }
 
-/* Keep the lines from a heading on, up to the row of another table, which *row then is.  If none follows,
- * the heading is a row that is wrong. */
+/* Keep the lines from a heading on, up to the first row of another table, which becomes *row.  If none
+ * follows, the heading is a malformed row. */
 static ss_status
 look_below(struct table *t, const char *heading, char **row, ss_error *err)
 {
@@ -316,7 +316,7 @@ look_below(struct table *t, const char *heading, char **row, ss_error *err)
     return append_row(t, t->head[0].text, err);
 }
 
-/* Rows up to the end, or up to the first row of another table, which *row then is. */
+/* Read rows up to the end, or up to the first row of another table, which becomes *row. */
 static ss_status
 read_body(struct table *t, char **row, ss_error *err)
 {
@@ -358,7 +358,7 @@ clear_table(struct table *t, ss_error *err)
     return t->names != NULL ? SS_OK : ss_delimited_no_memory(t, err);
 }
 
-/* Append what a table is: "2 from line 17, 1200 rows of t Fx Fz". */
+/* Append a description of a table: "2 from line 17, 1200 rows of t Fx Fz". */
 static void
 list_table(const struct table *t, size_t number, char *list, size_t size)
 {

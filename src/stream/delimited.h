@@ -12,17 +12,17 @@
 
 enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE, CELL_STAMP };
 
-/* What a column holds, by its first row. */
+/* The kind of a column, by its cell in the first row. */
 enum column_kind {
     COLUMN_NUMBERS,
     COLUMN_STAMPS,              /* dates or times of day; its values are seconds */
     COLUMN_TEXT                 /* left out */
 };
 
-/* How the rows of a table are counted where it has no column of times. */
+/* The times of rows in a table without a column of times. */
 struct counted {
-    double origin, increment;   /* [s]; increment 0: they are not */
-    int numbered;               /* by the first column, else one after the other */
+    double origin, increment;   /* [s]; increment 0: not known */
+    int numbered;               /* the first column numbers the rows, else they follow each other */
 };
 
 struct table_column {
@@ -44,7 +44,7 @@ struct table {
     char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
     size_t n_columns;           /* of the file: those of time and of text among them */
-    size_t next_columns;        /* these two of the table below */
+    size_t next_columns;        /* columns and separator of the next table in the file */
     char next_separator;
     struct table_column *column;
     char **cell;                /* of the line that was split last */
@@ -65,14 +65,14 @@ struct table {
 };
 
 ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
-/* Tell who reads of something, unless nobody asks. */
+/* Pass a warning to the caller's function, if there is one. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 void ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...);
 
-/* The rows of a whole table, whose names and values are there, for the reader to give: with a clock,
- * without its columns of time and text, with its gaps filled. */
+/* Hand the rows of a table, whose names and values are complete, to the reader: with a clock, without
+ * the columns of time and text, with gaps filled. */
 ss_status ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err);
 void ss_delimited_free(struct table *t);
 
@@ -82,14 +82,14 @@ void ss_delimited_free(struct table *t);
 char *ss_cell_trim(char *p);
 /* The number in a cell, with a decimal comma unless commas separate cells. */
 enum cell_kind ss_cell_read(char *cell, char separator, double *x);
-/* Split a line, in place, into t->cell; empty cells too many at the end are dropped.  NONE: no
- * memory. */
+/* Split a line, in place, into t->cell and return the number of cells, without surplus empty cells at
+ * the end.  NONE: no memory. */
 size_t ss_delimited_split(struct table *t, char *p, char separator);
-/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing number, e
- * for nothing, t for text.  *numbers: how many are finite numbers.  NULL: no memory. */
+/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing number,
+ * e for an empty cell, t for text.  *numbers counts the finite numbers.  NULL: no memory. */
 char *ss_delimited_shape(struct table *t, const char *line, char separator, size_t *numbers);
 
-/* Where the data begin in the lines that were kept (delimited_start.c). */
+/* The start of the data among the lines that were kept (delimited_start.c). */
 
 /* Is this the first line of data?  Then t->separator and t->n_columns are set. */
 ss_status ss_delimited_is_data(struct table *t, const char *line, int *yes);
@@ -105,12 +105,12 @@ size_t ss_delimited_find_mixed(struct table *t);
  * a bad cell: the latter if it begins with a number or stands below a row of names. */
 ss_status ss_delimited_read_names(struct table *t, ss_error *err);
 
-/* Names, units and clock from lines that begin with what they are about: Interval, Delta_X, Unit
- * (delimited_labview.c).  Call behind ss_delimited_read_names. */
+/* Read names, units and clock from lines that begin with a key: Interval, Delta_X, Unit
+ * (delimited_labview.c).  Call after ss_delimited_read_names. */
 ss_status ss_delimited_read_labview(struct table *t, ss_error *err);
-/* Is this what such a line begins with? */
+/* Is this cell such a key? */
 int ss_delimited_is_key(const char *cell);
-/* What only all rows show: columns of times beside each other. */
+/* Check the columns of times, of each channel and against the header, which takes all rows. */
 ss_status ss_delimited_check_labview(struct table *t, ss_error *err);
 /* Does this line begin another segment of a LabVIEW file? */
 int ss_delimited_is_segment(const struct table *t, const char *line);

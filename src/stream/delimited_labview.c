@@ -200,7 +200,7 @@ equal_columns(const struct table *t, size_t a, size_t b)
 #define MOST_APART 0.1          /* sample periods that a time may be off, as on any clock */
 #define MOST_ROUNDING 5.1e-7    /* [s] of LabVIEW's six decimals */
 
-/* How far the first column is from rows of this step, at most. */
+/* The largest distance of the first column from rows of this step. */
 static double
 farthest(const struct table *t, double step)
 {
@@ -210,7 +210,7 @@ farthest(const struct table *t, double step)
     return most;
 }
 
-/* The times that the header gives to the rows may stand before them too, or the rows' numbers. */
+/* The first column may repeat the times that the header gives, or hold the rows' numbers. */
 ss_status
 ss_delimited_check_labview(struct table *t, ss_error *err)
 {

@@ -17,8 +17,8 @@ may_separate(const struct table *t, const char *line, char separator)
     return separator == ' ' ? !t->labview : strchr(line, separator) != NULL;
 }
 
-/* How many cells of a row are of columns, if there are numbers and nothing else in them; else 0.  LabVIEW
- * leaves the place of x empty and puts comments behind some rows. */
+/* The number of cells that are columns, if all of them hold numbers; else 0.  LabVIEW leaves the cell of x
+ * empty and writes comments behind some rows. */
 static size_t
 count_cells(const struct table *t, const char *line, const char *shape, size_t numbers)
 {

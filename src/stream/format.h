@@ -13,7 +13,7 @@ struct format {
 
     /* Reading a signal: the bytes with which it begins, "?" for any; NULL: tried last. */
     const char *magic;
-    int has_header;             /* ours, whose first line tells the kind: it may hold coefficients, too */
+    int has_header;             /* our own, whose first line names the kind: also of coefficients */
     ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
 
     /* Writing numbers under a header that begins with magic; NULL if none are. */
@@ -26,7 +26,7 @@ struct format {
     void (*word)(FILE *out, const char *word);  /* writes such a cell; NULL: as it is */
 };
 
-/* The list, in the order of ss_format: ss_format_tsv and so on.  That without first bytes is asked last. */
+/* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried last. */
 #define FORMAT_LIST(row) \
     row(tsv) \
     row(au) \

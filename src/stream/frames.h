@@ -6,12 +6,12 @@
 
 /* Columns ch1, ch2, ... for n channels without names. */
 ss_status ss_frames_columns(ss_header *head, size_t n);
-/* Let the reader give rows of all that comes now: frames of such samples, in so many bytes; UINT64_MAX:
- * up to the end.  Its columns are the channels.  With end > 0, where these bytes end in the file, nothing
- * may follow them; with reader->is_chunk, nothing but chunks. */
+/* Let the reader give the frames that follow as rows; its columns are the channels.  bytes: their length;
+ * UINT64_MAX: up to the end.  If end > 0, the frames end at this byte of the file and nothing may follow
+ * them, except chunks with reader->is_chunk. */
 void ss_frames_begin(ss_reader *reader, sample_type type, uint64_t bytes, uint64_t end);
 
-/* One such value as it is: an integer, or floating point. */
+/* One value without scaling: an integer, or floating point. */
 double ss_sample_raw(const unsigned char *p, sample_type type);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stickslip/status.h>
 
-/* More than any honest input has, so that hostile input finds an end of memory. */
+/* More than any honest input has: it bounds the memory of hostile input. */
 enum { MAX_LINE = 1 << 24 };
 
 /* Bytes of a stream, as they come: never waits for more than is asked for. */
@@ -15,29 +15,29 @@ struct input {
     FILE *file;
     const char *name;           /* in messages; owned */
     char *buffer;
-    size_t capacity, lo, hi;    /* what is there is buffer[lo ... hi) */
+    size_t capacity, lo, hi;    /* unread bytes: buffer[lo ... hi) */
     size_t scanned;             /* no newline before this */
     int ended;
     unsigned long line;         /* of the line read last, from 1 */
 };
 ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err);
 void ss_input_close(struct input *in);
-/* Have n bytes in the buffer, or all that there are until the end. */
+/* Fill the buffer to n unread bytes, or up to the end of the stream. */
 ss_status ss_input_need(struct input *in, size_t n, ss_error *err);
-/* Pass over *n bytes, which may be more than memory holds; *n becomes how many there were too few. */
+/* Skip *n bytes, which may be more than memory holds; *n becomes the number of missing bytes. */
 ss_status ss_input_skip(struct input *in, uint64_t *n, ss_error *err);
 /* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0
  * and *line = NULL at the end of the stream. */
 ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error *err);
-/* Read the first line, which must be that of the kind. */
+/* Read the first line, which must be the magic of the kind. */
 ss_status ss_input_begin(struct input *in, ss_kind kind, ss_error *err);
 /* The next line of text that is not blank, as ss_input_line gives it; *line = NULL at the end. */
 ss_status ss_input_row(struct input *in, char **line, ss_error *err);
-/* The finite number that *text begins with; *text moves behind it and the blanks or comma after it.
- * SS_EDATA, with the line: not what is expected there. */
+/* The finite number at the start of *text; *text moves behind it and the blanks or comma after it.
+ * SS_EDATA, with the line: `expected` is not there. */
 ss_status ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
                           ss_error *err);
 int ss_input_has_line(struct input *in);           /* is a whole line in the buffer? */
-int ss_input_waits(const struct input *in);        /* would more bytes have to be waited for? */
+int ss_input_waits(const struct input *in);        /* would reading more bytes block? */
 
 #endif

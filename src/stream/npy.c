@@ -32,7 +32,7 @@ struct npy {
 
 /* --- the header ---------------------------------------------------------------------------- */
 
-/* What follows blanks, if it is this character; NULL otherwise, or for NULL. */
+/* The text after blanks and this character; NULL if another follows, or for NULL. */
 static const char *
 expect(const char *p, char c)
 {

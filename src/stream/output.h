@@ -1,4 +1,4 @@
-/* output.h -- bytes on their way out, gathered. */
+/* output.h -- a buffer of bytes to be written. */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
@@ -13,9 +13,9 @@ struct output {
     char buffer[OUTPUT_ROOM];
 };
 
-/* Write the gathered bytes; SS_EIO if the file refuses it. */
+/* Write the bytes of the buffer; SS_EIO if that fails. */
 ss_status ss_output_drain(struct output *out);
-/* Have the file write all that it holds; SS_EIO if any of it failed. */
+/* Flush the file; SS_EIO if any write to it failed. */
 ss_status ss_output_flush(FILE *file);
 
 #endif

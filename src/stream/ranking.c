@@ -84,7 +84,7 @@ write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const 
     write_answer(out, r, about->scene);
 }
 
-/* Where a threshold 20 % lower or higher changes the order, the order that it gives. */
+/* Write each other order that a threshold 20 % lower or higher gives. */
 static void
 write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *order)
 {

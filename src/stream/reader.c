@@ -29,7 +29,7 @@ open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     return fits ? found->open(reader, opts, err) : ss_fail_magic(err, in->name, "", reader->kind);
 }
 
-/* What opts ask for beyond the format, once the header is there. */
+/* Apply the options that hold for every format, after the header has been read. */
 static ss_status
 adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {

@@ -18,17 +18,17 @@ struct ss_reader {
     struct input in;
     ss_header *head;
     read_rows *rows;
-    ss_kind kind;               /* that is read: a signal, or wavelet coefficients */
+    ss_kind kind;               /* a signal, or wavelet coefficients */
     ss_status (*late_note)(ss_reader *reader, char *line, ss_error *err);   /* among rows; NULL: passed over */
     uint64_t row;               /* rows of the source that were read so far */
     double start;               /* of the source, whose first rows may be left out */
     uint64_t first, end_row;    /* the rows to be given; end_row is not */
-    uint64_t passed;            /* those that were read, of the source's */
-    double from, to;            /* [s] what was asked for; from >= to: all */
+    uint64_t passed;            /* the source's rows that were read */
+    double from, to;            /* [s] the span asked for; from >= to: all */
     double *factor;             /* of each column, or NULL */
     sample_type type;           /* frames: of their values */
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
-    uint64_t end;               /* frames: where they end in the file, unless that is unknown */
+    uint64_t end;               /* frames: their end in the file, unless that is unknown */
     int is_chunk;               /* frames: behind them, another chunk of a WAV file is no error */
     double *values;             /* delimited text: all rows, one after the other */
     size_t n_rows;

@@ -1,5 +1,4 @@
-/* rows.h -- rows of words and numbers under a header of notes, as they are written in any format that
- * has words. */
+/* rows.h -- writing rows of words and numbers under a header of notes, in any format that has words. */
 #ifndef ROWS_H
 #define ROWS_H
 
@@ -11,7 +10,7 @@
 struct rows {
     FILE *out;
     const struct format *format;
-    size_t cells;               /* of the row begun, or of the line of columns */
+    size_t cells;               /* written so far, of the row or of the line of columns */
 };
 
 /* Write the first line of text of this kind.  SS_EINVAL: the format has no words. */
@@ -21,10 +20,10 @@ ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind 
 __attribute__((format(printf, 2, 3)))
 #endif
 void ss_rows_note(struct rows *rows, const char *text, ...);
-/* The notes of a header, all but those whose key begins with except, which may be NULL. */
+/* The notes of a header, without those whose key begins with except, which may be NULL. */
 void ss_rows_notes(struct rows *rows, const ss_header *head, const char *except);
 
-/* One column, after the last of which comes ss_rows_end, or all of them. */
+/* Write one column, and ss_rows_end after the last; or write all columns. */
 void ss_rows_column(struct rows *rows, const char *name, const char *unit);
 void ss_rows_columns(struct rows *rows, const char *const label[][2], size_t n);
 
@@ -34,11 +33,11 @@ void ss_rows_count(struct rows *rows, size_t n);
 void ss_rows_number(struct rows *rows, double x);      /* "-" for NaN */
 void ss_rows_end(struct rows *rows);
 
-/* A number as a cell or a note shows it: "-" for NaN.  Gives text. */
+/* A number as a cell or a note shows it: "-" for NaN.  Returns text. */
 const char *ss_number_text(char text[SS_NUMBER_MAX], double x);
-/* The same in so many digits. */
+/* The same with this number of digits. */
 const char *ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits);
-/* The same with so many decimals, which may be zeros; in nine digits where that is too long. */
+/* The same with this number of decimals, which may be zeros; nine digits if that is too long. */
 const char *ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals);
 
 #endif

@@ -1,4 +1,4 @@
-/* curve.h -- how far one curve is from another, in units of the other's largest value. */
+/* curve.h -- the distance of one curve from another, in units of the other's largest value. */
 #ifndef CURVE_H
 #define CURVE_H
 

@@ -1,22 +1,21 @@
-/* match.c -- adjust a scene to a record, sample by sample.
+/* match.c -- fit a scene to a record, sample by sample.
  *
  * The mean cycle finds the right motion (candidate.c), but a record is seldom settled to the last
  * digit, and the rest of the transient would shift the parameters or seem an error of the model.  So the
- * motion is fitted to the record itself, with a start of its own: position and velocity within a
- * slip half a cycle or more before the record, where they are all the state there is, or what else
- * there is has died out when the record begins.
+ * motion is fitted to the record itself, from a start of its own: position and velocity within a slip,
+ * half a cycle or more before the record.  There they are the whole state, or the rest of the state has
+ * died out when the record begins.
  *
  * Size and offset are linear and follow from the rest in closed form; the other unknowns are found
- * by least squares (Levenberg 1944, Marquardt 1963).  A sample that an event crosses as a parameter
- * moves jumps, so the sum of squares has steps.  But an event that is a little from its place changes
- * only the samples beside it: these weigh nothing, and others the more the farther they are from the
- * events of the motion.  The sum of the rest is smooth, with one minimum and the errors of a
- * linear problem.  The weights reach full size after many samples first, then after fewer and fewer,
- * and in the end two samples or so an event are lost, of hundreds a cycle, and what they say of the
- * event's time.
+ * by least squares (Levenberg 1944, Marquardt 1963).  When a parameter moves an event across a sample,
+ * the sample jumps, so the sum of squares has steps.  But an event slightly out of place changes only
+ * the samples beside it: these have weight 0, and the weight of others grows with their distance from
+ * the events of the motion.  The weighted sum is smooth, with one minimum and the errors of a linear
+ * problem.  The weights reach 1 after many samples first, then after fewer and fewer.  In the end some
+ * two samples an event are lost, of hundreds a cycle, with their information on the event's time.
  *
- * A fit that explains a record leaves white noise.  Half the mean square difference of what is left
- * over any lag is the variance of that noise if it is white, and less at some lag if it is not. */
+ * A fit that explains a record leaves white noise.  Half the mean square difference of the residual over
+ * any lag is the variance of that noise if it is white, and less at some lag if it is not. */
 #include "study/rank/match.h"
 
 #include <math.h>
@@ -27,17 +26,17 @@
 #include "study/rank/normal.h"
 #include "study/rank/samples.h"
 
-enum { PASSES = 48, TRIALS = 6 };       /* of a descent, and those in a row that may fail */
+enum { PASSES = 48, TRIALS = 6 };       /* steps of a descent, and how many may fail in a row */
 enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };               /* samples of half a cycle, to find the fastest slip */
 enum { UNKNOWNS = MATCH_UNKNOWNS, MOVED = MATCH_SIZE };     /* MOVED: those that move the motion */
-#define FARTHEST 0.2                    /* of one step, of a key, a radian, or a start */
-#define UNLIKELY 0.2                    /* of the power: if the search leaves that, it is the end */
-#define LOST 0.03                       /* of the power: no start makes up for that */
+#define FARTHEST 0.2                    /* the longest step of an unknown */
+#define UNLIKELY 0.2                    /* part of the power: no descent from a misfit above it */
+#define LOST 0.03                       /* part of the power: no other start mends more than it */
 
-/* A residual is noise if its mean square is at most this much above it, and above what the estimate
- * of the noise may be low by: it rests on medians of n numbers, two of which may share a sample, so
- * its standard deviation is some 2.3 / sqrt n. */
+/* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
+ * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
+ * which may share a sample. */
 #define ALLOWED 1.2
 #define UNCERTAIN (3 * 2.3)
 
@@ -47,13 +46,13 @@ typedef struct point {
     double left;                        /* mean square over the samples used; infinite: no motion */
 } point;
 
-/* The samples of a motion, and how far each is from an event: see ss_samples_run. */
+/* The samples of a motion, and the distance of each from an event: see ss_samples_run. */
 typedef struct course {
     double *motion, *clear;
 } course;
 
-/* Slopes are kept as long as steps by them gain what they promise: a step by old ones costs one run
- * of the motion, and new ones cost a run an unknown. */
+/* Slopes are kept as long as steps by them gain as much as they predict: a step by old slopes costs one
+ * run of the motion, and new slopes cost one run for each unknown. */
 enum { NO_SLOPES, OLD_SLOPES, FRESH_SLOPES };
 
 typedef struct matching {
@@ -63,13 +62,13 @@ typedef struct matching {
     double runs;                        /* of the motion so far */
     ss_status status;                   /* SS_ENOMEM or SS_STOP */
     match_origin o;                     /* but for p: of the present point */
-    double turn;                        /* of a relative change of the frequency, that which shifts
-                                           the ends of the record by a radian or so */
-    size_t n_moved, moved[MOVED];       /* those that are adjusted */
-    double wide;                        /* from one sample to so many more weights grow from 0 to 1 */
+    double turn;                        /* unit of the frequency: the relative change that shifts the
+                                           ends of the record by about a radian */
+    size_t n_moved, moved[MOVED];       /* the unknowns that are adjusted */
+    double wide;                        /* weights grow from 0 to 1 over so many samples */
     course here, tried;                 /* of the present point, and of one that was tried from it */
     double *slope[MOVED];               /* of the motion, by each of moved */
-    int slopes;                         /* where they are from */
+    int slopes;                         /* NO_SLOPES, OLD_SLOPES or FRESH_SLOPES */
     double *weight;                     /* of each sample, by the course compared last */
     double used;                        /* sum of the weights */
 } matching;
@@ -124,7 +123,7 @@ weigh(matching *w, const double *clear)
     }
 }
 
-/* Size and offset of the motion that leave least of the samples used, and that residual. */
+/* Size and offset of the motion that minimise the residual of the samples used, and that residual. */
 static void
 regress(const matching *w, const double *motion, point *at)
 {
@@ -167,8 +166,8 @@ stand_at(matching *w, const point *at)
 
 /* --- least squares ------------------------------------------------------------------------- */
 
-/* Slopes are differences over this: as small as a method of simulation resolves, but wider for the
- * start while the way is long, as the motion after it can change unevenly. */
+/* The step of an unknown for the differences that give slopes: as small as a method of simulation
+ * resolves, but wider for the start while weights are wide, as the motion can change unevenly with it. */
 static double
 step_of(const matching *w, size_t j)
 {
@@ -177,7 +176,7 @@ step_of(const matching *w, size_t j)
     return w->c->model->linear ? 1e-6 : 1e-4;
 }
 
-/* 0 if the motion has none. */
+/* 0 if a motion cannot be run. */
 static int
 find_slopes(matching *w, const point *at)
 {
@@ -220,8 +219,9 @@ find_normal(const matching *w, const point *at, normal *e)
             e->a[l][k] = e->a[k][l];
 }
 
-/* A damped step: within the ranges of the keys, and none so far that slopes mean nothing there.
- * (An unknown that the record hardly shows, as a start that has died out, else goes anywhere.) */
+/* A damped step within the ranges of the keys and not beyond FARTHEST, where slopes no longer hold.
+ * (Without this limit an unknown that hardly affects the record, as a start that has died out, could
+ * take any value.) */
 static void
 find_step(const matching *w, const point *at, const normal *e, double damping, double step[UNKNOWNS])
 {
@@ -238,7 +238,7 @@ find_step(const matching *w, const point *at, const normal *e, double damping, d
     ss_normal_step(e, damping, lo, hi, step);
 }
 
-/* Go there if less is left there: 1. */
+/* Take the step if it lowers the residual: 1, else 0. */
 static int
 try_step(matching *w, point *at, const double step[UNKNOWNS])
 {
@@ -260,7 +260,7 @@ try_step(matching *w, point *at, const double step[UNKNOWNS])
     return 1;
 }
 
-/* From at, where w stands, to where least is left. */
+/* Move *at, the present point of w, to the least residual. */
 static void
 descend(matching *w, point *at)
 {
@@ -292,7 +292,7 @@ descend(matching *w, point *at)
     }
 }
 
-/* --- where the motion begins --------------------------------------------------------------- */
+/* --- the start of the motion --------------------------------------------------------------- */
 
 static int
 find_fastest(const ss_sample *s, size_t n, void *user)
@@ -321,7 +321,7 @@ turn_of_record(const rank_record *r, double frequency)
     return 1 / (2 * M_PI * fmax((double)r->n / r->rate * frequency, 1));
 }
 
-/* Begin from rest, CANDIDATE_SETTLE cycles before the record, as the search did. */
+/* Start from rest, CANDIDATE_SETTLE cycles before the record, as the search did. */
 static void
 begin_at_rest(matching *w, const candidate_start *start, double period, point *at)
 {
@@ -334,8 +334,8 @@ begin_at_rest(matching *w, const candidate_start *start, double period, point *a
     at->p[MATCH_PHASE] = 2 * M_PI * (w->r->from / period - start->shift + cycles / 2);
 }
 
-/* Does the record change with the start?  A slope that moves it by less than MATCH_QUIET over all of a
- * start's unit is none. */
+/* Does the record depend on the start?  A change by less than MATCH_QUIET of the power for a whole unit of
+ * the start does not count. */
 static int
 remembers(matching *w, const point *at, double power)
 {
@@ -351,9 +351,9 @@ remembers(matching *w, const point *at, double power)
     return squares > MATCH_QUIET * power;
 }
 
-/* The same motion as one whose start is free, so many cycles before the record or up to half a cycle
- * later: where it slips fastest, if in a slip x and v are all the state there is.  0 if it does not
- * slip, or if nothing of its start is left. */
+/* Free the start of the motion, `cycles` cycles before the record or up to half a cycle later: it is moved
+ * to the fastest slip if x and v are the whole state there.  0 if the motion does not slip, or if the
+ * record does not depend on the start. */
 static int
 free_start(matching *w, double cycles, point *at, double power)
 {
@@ -447,7 +447,7 @@ report(matching *w, const point *at, match *m)
     memcpy(m->origin.p, at->p, sizeof at->p);
 }
 
-/* The start's slopes are coarse until the last width. */
+/* Descend with narrower and narrower weights; the slopes of the start are coarse until the last. */
 static void
 descend_all(matching *w, point *at)
 {
@@ -460,9 +460,9 @@ descend_all(matching *w, point *at)
     }
 }
 
-/* The settled motion first, then those of any start that leave less.  A start three cycles before the
- * record is nearly forgotten there, so that the residual changes slowly with it; from one cycle before
- * descents end on the way, unless they begin near. */
+/* Fit the settled motion first, then motions from any start if they leave less.  The record hardly depends
+ * on a start three cycles before it, so that the residual changes slowly with that start.  For a start one
+ * cycle before it, descents end too early unless they begin near the solution. */
 static void
 solve(matching *w, point *at, double misfit, match *m)
 {
@@ -489,7 +489,7 @@ solve(matching *w, point *at, double misfit, match *m)
     }
 }
 
-/* Room for all; NULL if there is none. */
+/* Allocate all arrays; NULL: no memory. */
 static double *
 prepare(matching *w)
 {
@@ -508,7 +508,7 @@ prepare(matching *w)
     return room;
 }
 
-/* All is left of the record. */
+/* A match that explains nothing: the residual is the record. */
 static match
 no_match(const rank_record *record)
 {

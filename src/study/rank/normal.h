@@ -12,13 +12,13 @@ typedef struct normal {
     double a[NORMAL_MOST][NORMAL_MOST], g[NORMAL_MOST];
 } normal;
 
-/* The step, the diagonal of a raised by the part damping, with lo <= step <= hi: unknowns that would
- * leave theirs go to its end, and the others are solved for again. */
+/* The step for the diagonal of a times 1 + damping, with lo <= step <= hi: an unknown that would leave
+ * its range goes to the end of the range, and the others are solved for again. */
 void ss_normal_step(const normal *e, double damping, const double lo[], const double hi[],
                     double step[]);
-/* How much a step lowers the sum of squares if slopes are all there is to it. */
+/* The amount by which a step lowers the sum of squares, if the problem were linear. */
 double ss_normal_gain(const normal *e, const double step[]);
-/* The inverse of a, 0 in directions of which it knows nothing. */
+/* The inverse of a, 0 in directions that a does not determine. */
 void ss_normal_invert(const normal *e, double inverse[NORMAL_MOST][NORMAL_MOST]);
 
 #endif

@@ -1,5 +1,5 @@
-/* observation.h -- what the features, the spikes and the contours of a signal show, and how far two
- * signals are apart by it. */
+/* observation.h -- numbers from the features, spikes and contours of a signal, and the distance of two
+ * signals by them. */
 #ifndef OBSERVATION_H
 #define OBSERVATION_H
 
@@ -13,11 +13,11 @@ typedef struct observation {
     ss_coefficients *map;
 } observation;
 
-/* Of a column whose motion repeats after period [s].  To be freed if that is SS_OK. */
+/* Observe a column whose motion repeats after period [s].  To be freed if that is SS_OK. */
 ss_status ss_observation_of(observation *l, const ss_signal *signal, size_t column, double period,
                             ss_error *err);
 void ss_observation_free(observation *l);
-/* The model's values into the row, and how far they are from the signal's. */
+/* Write the model's values to the row, and their distances from the signal's. */
 void ss_observation_compare(ss_rank_row *row, const observation *signal, const observation *model);
 
 #endif

@@ -8,10 +8,10 @@
 
 typedef struct rank_record {
     const double *x;            /* n samples */
-    const char *missing;        /* 1 for those left out; NULL: none */
+    const char *missing;        /* 1 for samples that are left out; NULL: none */
     size_t n;
     double rate;                /* [Hz] */
-    double from;                /* time of the first in the record whose cycle was searched [s] */
+    double from;                /* time of x[0] in the record whose cycle was searched [s] */
 } rank_record;
 
 /* SS_OK for a column that is there, has finite values and suits the options. */
@@ -22,7 +22,7 @@ double ss_record_power(const rank_record *r);
 /* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:
  * at most as much as there is. */
 ss_status ss_record_noise(double *variance, const rank_record *r, double samples);
-/* The mean square that a sinusoid of this frequency [Hz] and an offset leave. */
+/* The mean square residual of the best sinusoid of this frequency [Hz] with an offset. */
 double ss_record_sinusoid(const rank_record *r, double frequency);
 
 #endif
