@@ -89,6 +89,33 @@ coulomb_in_place_of_a_contact(void **state)
     }
 }
 
+/* A sweep says the same of the periodic state, at 2000 samples a cycle: truth at 5 kHz. */
+static void
+sweeps_measure_the_error_of_a_model(void **state)
+{
+    static const struct { double stiffer, x, v, a; } known[] = {
+        { 1, .409, .418, 1.0 }, { 10, .035, .0446, 1.0 }, { 100, .0035, .0139, .99 } };
+    const unsigned all = 1u << SS_MODEL_ERROR_X | 1u << SS_MODEL_ERROR_V | 1u << SS_MODEL_ERROR_A
+        | 1u << SS_MODEL_ERROR_X_RMS;
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady found;
+    (void)state;
+    opts.measures = all;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const ss_scene scene = settled_light(known[i].stiffer);
+        ss_models *models = models_of(&scene);
+        assert_int_equal(ss_steady_find(&found, &scene, &opts, NULL), SS_OK);
+        assert_true(fabs(found.value[SS_MODEL_ERROR_X] / known[i].x - 1) < 0.02);
+        assert_true(fabs(found.value[SS_MODEL_ERROR_V] / known[i].v - 1) < 0.01);
+        assert_true(fabs(found.value[SS_MODEL_ERROR_A] / known[i].a - 1) < 0.005);
+        double rms = error_of(row_of(models, "coulomb"), "x_rms");
+        assert_true(fabs(found.value[SS_MODEL_ERROR_X_RMS] / rms - 1) < 1e-3);
+        ss_models_free(models);
+    }
+    const ss_scene coulomb = read_shipped_named("coulomb");
+    assert_int_equal(ss_steady_find(&found, &coulomb, &opts, NULL), SS_EINVAL);
+}
+
 static void
 answers_in_a_sentence(void **state)
 {
@@ -258,6 +285,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coulomb_in_place_of_a_contact),
+        cmocka_unit_test(sweeps_measure_the_error_of_a_model),
         cmocka_unit_test(answers_in_a_sentence),
         cmocka_unit_test(refuses_what_the_scene_has_not),
         cmocka_unit_test(the_errors_are_those_of_the_records),

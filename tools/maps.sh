@@ -1,5 +1,5 @@
 #!/bin/sh
-# maps.sh: three maps of periodic states into $OUT, and how well the first keeps to Den Hartog's limit.
+# maps.sh: maps of periodic states into $OUT, and how well the first keeps to Den Hartog's limit.
 #
 # den-hartog: stops a cycle and amplitude of the forced Coulomb oscillator over r = Omega / omega_n and
 # beta = f_k / (k Z_e), with the limit of motion without stops (Den Hartog 1931) over it.
@@ -8,6 +8,9 @@
 #
 # symmetry: where the shipped scene shaw, with static above kinetic friction, moves farther to one side than
 # to the other, by max|x| less the amplitude; from r = 1/2 on, where subharmonic has its line of motions.
+#
+# coulomb: the rms error of a if Coulomb friction takes the place of that scene's contact, over stiffness
+# and damping of the contact.
 set -eu
 : "${OUT:=build/maps}" "${THREADS:=$(getconf _NPROCESSORS_ONLN)}"
 mkdir -p "$OUT"
@@ -69,6 +72,10 @@ ss-sweep --threads "$THREADS" --max-cycles 3000 --measure period,x_max,amplitude
     awk -F '\t' -v OFS='\t' '/^# columns/ { sub("x_max", "offset") }
         !/^#/ && $5 != "-" { $5 = $5 - $6 > 1e-6 ? $5 - $6 : 0 } { print }' > "$OUT/symmetry.tsv"
 
+ss-sweep --threads "$THREADS" --measure model_error_a_rms,model_error_a,model_error_x \
+    --vary contact_stiffness=3e4:3e7:49:log --vary contact_damping=3:3000:37:log \
+    -o "$OUT/coulomb.tsv" compliant-light
+
 for form in png pdf; do
     ss-plot --map base_frequency,friction,stops,amplitude --line "$OUT/den-hartog-limit.tsv" \
         --title 'Stops a cycle, amplitude; the limit of Den Hartog' "$OUT/den-hartog.tsv" \
@@ -78,5 +85,7 @@ for form in png pdf; do
         -o "$OUT/microslips.$form"
     ss-plot --map base_frequency,static_friction,period,offset \
         --title 'Period, and how far from symmetric' "$OUT/symmetry.tsv" -o "$OUT/symmetry.$form"
+    ss-plot --map contact_stiffness,contact_damping,model_error_a_rms \
+        --title 'Coulomb friction in place of a compliant contact' "$OUT/coulomb.tsv" -o "$OUT/coulomb.$form"
 done
 echo "The maps: $OUT/*.png, *.pdf; their numbers: $OUT/*.tsv"

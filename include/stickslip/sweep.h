@@ -34,6 +34,10 @@ typedef enum ss_measure {
     SS_FLOQUET_2,       /* of the next */
     SS_FLOQUET_ANGLE,   /* argument of the largest, 0 ... pi [rad] */
     SS_CYCLE_TIME,      /* duration of a cycle, which times the period is that of the motion [s] */
+    SS_MODEL_ERROR_X, SS_MODEL_ERROR_X_RMS,     /* of the model that the scene comes to in the limit */
+    SS_MODEL_ERROR_V, SS_MODEL_ERROR_V_RMS,     /* (ss_scene_simpler: Coulomb's) in its place: the */
+    SS_MODEL_ERROR_A, SS_MODEL_ERROR_A_RMS,     /* largest and the rms error of x - U t, v, a and f */
+    SS_MODEL_ERROR_F, SS_MODEL_ERROR_F_RMS,     /* over the scene's largest value */
     SS_MEASURES
 } ss_measure;
 

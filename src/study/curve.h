@@ -19,12 +19,14 @@ typedef struct curve_error {
     double largest, rms;
 } curve_error;
 
+/* Over the longer of the two, the shorter being repeated. */
 static inline curve_error
-curve_compare(const double *x, const double *ref, size_t n)
+curve_compare(const double *x, size_t n_x, const double *ref, size_t n_ref)
 {
-    double max = curve_largest(ref, n), largest = 0, squares = 0;
+    size_t n = n_x > n_ref ? n_x : n_ref;
+    double max = curve_largest(ref, n_ref), largest = 0, squares = 0;
     for (size_t i = 0; i < n; i++) {
-        double error = fabs(x[i] - ref[i]);
+        double error = fabs(x[i % n_x] - ref[i % n_ref]);
         largest = fmax(largest, error);
         squares += error / max * (error / max);
     }

@@ -26,6 +26,7 @@ typedef struct finder {
     section unit;                       /* of a difference */
     section last[SECTIONS];             /* the latest, cycle after cycle, in a ring */
     unsigned long recorded;             /* of them */
+    course course;                      /* of what was measured, where it is wanted */
     unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
 } finder;
 

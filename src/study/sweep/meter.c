@@ -7,6 +7,7 @@
 #include "study/sweep/meter.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { RANGE = 1u << SS_AMPLITUDE | 1u << SS_X_MAX };
 
@@ -199,6 +200,40 @@ force_varies(const state *m)
     return (m->model->force_varies & (m->mode == 0 ? IN_STICK : IN_SLIP)) != 0;
 }
 
+/* --- courses ------------------------------------------------------------------------------- */
+
+ss_status
+ss_course_begin(course *c, int cycles, double cycle)
+{
+    ss_course_free(c);
+    *c = (course){ .cycles = cycles, .n = (size_t)cycles * COURSE_A_CYCLE, .interval = cycle / COURSE_A_CYCLE };
+    for (int i = 0; i < COURSE_COLUMNS; i++)
+        if ((c->value[i] = malloc(c->n * sizeof **c->value)) == NULL)
+            return SS_ENOMEM;
+    return SS_OK;
+}
+
+void
+ss_course_free(course *c)
+{
+    for (int i = 0; i < COURSE_COLUMNS; i++) {
+        free(c->value[i]);
+        c->value[i] = NULL;
+    }
+}
+
+/* Along a leg that begins at this time. */
+static void
+record_course(course *c, walk *w, double time)
+{
+    for (double s; c->done < c->n && (s = (double)c->done * c->interval - time) < w->h; c->done++) {
+        point p = point_at(w, fmax(0, s));
+        const double row[COURSE_COLUMNS] = { p.x, p.v, p.a, p.f };
+        for (int i = 0; i < COURSE_COLUMNS; i++)
+            c->value[i][c->done] = row[i];
+    }
+}
+
 void
 ss_meter_leg(meter *r, walk *w)
 {
@@ -220,6 +255,8 @@ ss_meter_leg(meter *r, walk *w)
     }
     if (!force_varies(&w->m.now))
         r->energy += w->m.now.f0 * (lo.slid - first.slid);
+    if (r->course != NULL)
+        record_course(r->course, w, r->time);
     r->time += w->h;
     if (w->m.now.mode == 0)
         r->stick += w->h;

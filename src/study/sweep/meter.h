@@ -5,6 +5,21 @@
 #include <stickslip/sweep.h>
 #include "motion/walk.h"
 
+#define MODEL_ERRORS (0xffu << SS_MODEL_ERROR_X)
+
+/* x - U t, v, a and f at equal times over some cycles. */
+enum { COURSE_COLUMNS = 4, COURSE_A_CYCLE = 2000 };
+typedef struct course {
+    int cycles;
+    size_t n, done;                 /* of samples */
+    double interval;                /* [s] */
+    double *value[COURSE_COLUMNS];
+} course;
+
+/* Room for so many cycles, nothing done; to be freed with ss_course_free. */
+ss_status ss_course_begin(course *c, int cycles, double cycle);
+void ss_course_free(course *c);
+
 /* Extrema of a within one transition. */
 typedef struct ring {
     size_t n;
@@ -13,6 +28,7 @@ typedef struct ring {
 
 typedef struct meter {
     unsigned wanted;
+    course *course;                 /* NULL: not wanted */
     int needs_course;               /* the inside of the legs is needed, not only their ends */
     double time, stick, x_lo, x_hi, v_max, a_max, energy;
     size_t stops, microslips;

@@ -110,7 +110,13 @@ ss_finder_measure(finder *f, int cycles, int period, ss_steady *out)
     const motion start = f->w.m;
     section at = ss_section_of(&start.now);
     ss_meter_begin(&r, f->opts->measures, &start.now);
-    ss_status st = ss_finder_go(f, cycles, &r, NULL);
+    ss_status st = SS_OK;
+    if (f->opts->measures & MODEL_ERRORS) {
+        st = ss_course_begin(&f->course, cycles, 1 / f->scene->base_frequency);
+        r.course = &f->course;
+    }
+    if (st == SS_OK)
+        st = ss_finder_go(f, cycles, &r, NULL);
     if (st != SS_OK)
         return st;
     f->unresolved = ss_motion_unresolved(&f->w.m) - ss_motion_unresolved(&start);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/range.h"
+#include "study/curve.h"
 #include "study/sweep/finder.h"
 
 const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
@@ -30,6 +31,12 @@ differs(const struct model *model)
     return model->variation != NULL;
 }
 
+static int
+has_limit(const struct model *model)
+{
+    return model->limit != NULL;
+}
+
 static const struct {
     const char *name, *unit;
     int (*has)(const struct model *model);      /* NULL: every model has it */
@@ -51,6 +58,14 @@ static const struct {
     [SS_FLOQUET_2] = { "floquet2", "", differs },
     [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", differs },
     [SS_CYCLE_TIME] = { "cycle_time", "s", NULL },
+    [SS_MODEL_ERROR_X] = { "model_error_x", "", has_limit },
+    [SS_MODEL_ERROR_X_RMS] = { "model_error_x_rms", "", has_limit },
+    [SS_MODEL_ERROR_V] = { "model_error_v", "", has_limit },
+    [SS_MODEL_ERROR_V_RMS] = { "model_error_v_rms", "", has_limit },
+    [SS_MODEL_ERROR_A] = { "model_error_a", "", has_limit },
+    [SS_MODEL_ERROR_A_RMS] = { "model_error_a_rms", "", has_limit },
+    [SS_MODEL_ERROR_F] = { "model_error_f", "", has_limit },
+    [SS_MODEL_ERROR_F_RMS] = { "model_error_f_rms", "", has_limit },
 };
 
 const char *
@@ -157,6 +172,44 @@ search(finder *f, ss_steady *out)
     return st == SS_OK && period == 0 ? ss_finder_settle(f, may_shoot, out) : st;
 }
 
+/* --- the model in the limit ------------------------------------------------------------------ */
+
+/* A course of two cycles may stand against one of a cycle in one way only; two of several cycles each
+ * have no common phase. */
+static ss_status
+compare_courses(const course *limit, const course *ref, double value[], ss_error *err)
+{
+    if (limit->cycles > 1 && ref->cycles > 1)
+        return ss_fail(err, SS_EDATA, "periods of %d cycles, and of %d in the limit, have no common phase",
+                       ref->cycles, limit->cycles);
+    for (int c = 0; c < COURSE_COLUMNS; c++) {
+        curve_error e = curve_compare(limit->value[c], limit->n, ref->value[c], ref->n);
+        value[SS_MODEL_ERROR_X + 2 * c] = e.largest;
+        value[SS_MODEL_ERROR_X + 2 * c + 1] = e.rms;
+    }
+    return SS_OK;
+}
+
+static ss_status
+compare_with_limit(const finder *f, ss_steady *out)
+{
+    ss_scene scene = *f->scene;
+    ss_steady_opts opts = *f->opts;
+    ss_steady limit;
+    ss_model_of(&scene)->limit(&scene);
+    opts.measures = MODEL_ERRORS;
+    finder g = { .scene = &scene, .opts = &opts, .err = f->err };
+    ss_status st = search(&g, &limit);
+    if (st == SS_OK && limit.value[SS_PERIOD] == 0)
+        st = ss_fail(f->err, SS_EDATA, "model %s in its place has no period up to %d within %lu cycles",
+                     ss_model_name(scene.model), opts.max_period, opts.max_cycles);
+    if (st == SS_OK)
+        st = compare_courses(&g.course, &f->course, out->value, f->err);
+    ss_walk_end(&g.w);
+    ss_course_free(&g.course);
+    return st;
+}
+
 /* The reason for a missing measure, if one is missing. */
 static ss_status
 complete(const finder *f, const ss_steady *out)
@@ -195,6 +248,8 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
     if (scene->base_velocity == scene->surface_velocity)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0 and base_velocity is surface_velocity: nothing "
                        "keeps it moving");
+    if (opts->measures & MODEL_ERRORS)
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, two models have no common phase");
     if (asks && !can_shoot(scene, opts))
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting and multipliers need "
                        "method %s", EXACT);
@@ -209,7 +264,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
     finder f = { .scene = scene, .opts = opts, .err = err, .autonomous = scene->base_frequency == 0 };
     for (int i = 0; i < SS_MEASURES; i++)
         out->value[i] = NAN;
-    ss_status st = ss_scene_check(scene, err);
+    ss_status limit = SS_OK, st = ss_scene_check(scene, err);
     if (st == SS_OK)
         st = ss_steady_check(opts, scene->model, err);
     if (st != SS_OK)
@@ -219,8 +274,13 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
         return st;
     st = search(&f, out);
     ss_walk_end(&f.w);
+    if (st == SS_OK && (opts->measures & MODEL_ERRORS) && out->value[SS_PERIOD] > 0)
+        limit = compare_with_limit(&f, out);
+    ss_course_free(&f.course);
     for (int i = 0; i < SS_MEASURES; i++)
         if (st != SS_OK || !(opts->measures & 1u << i))
             out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
+    if (limit != SS_OK)
+        return limit == SS_ENOMEM ? ss_fail_memory(err, NULL) : SS_EDATA;
     return st == SS_OK ? complete(&f, out) : st;
 }

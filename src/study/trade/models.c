@@ -221,7 +221,7 @@ compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_sce
     double *error = row->error;
     size_t n = ref->signal->n;
     for (size_t c = 0; c < COLUMNS; c++) {
-        curve_error e = curve_compare(p->signal->values + c * n, ref->signal->values + c * n, n);
+        curve_error e = curve_compare(p->signal->values + c * n, n, ref->signal->values + c * n, n);
         error[2 * c] = e.largest;
         error[2 * c + 1] = e.rms;
     }
@@ -250,6 +250,8 @@ settle(ss_scene *settled, const ss_scene *scene, const ss_sim_stats *stats, ss_e
 {
     ss_steady_opts opts = ss_steady_defaults;
     ss_steady found;
+    if (scene->base_frequency == 0)
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
     opts.measures = 1u << SS_PERIOD | 1u << SS_CYCLES;
     opts.max_steps = PATIENCE * (stats->steps + stats->rhs / 20 + 1000);
     ss_status st = ss_steady_find(&found, scene, &opts, err);
