@@ -131,7 +131,7 @@ say(const char *format, va_list args)
         va_end(args); \
     } while (0)
 
-/* What the tool holds is left to the system: a leak checker has nothing to say of it. */
+/* Exit and leave the tool's memory to the system, so that a leak checker does not report it. */
 static void TOOL_NORETURN
 leave(int status)
 {
@@ -169,7 +169,7 @@ tool_note(const char *format, ...)
         SAY(format);
 }
 
-/* What reads a file of another kind, or else makes the kind that is wanted. */
+/* A hint: the tool that reads the kind found, or else the tool that makes the kind wanted. */
 static const char *
 kind_hint(ss_kind found, ss_kind wanted)
 {
@@ -472,7 +472,7 @@ tool_column(const ss_header *head, const char *path, const char *name)
 
 /* --- the end ------------------------------------------------------------------------------- */
 
-/* What it cost, gnuplot with it; memory at most, of whichever took more. */
+/* Note the CPU time, including gnuplot's, and the larger peak of memory of the two processes. */
 static void
 note_cost(void)
 {

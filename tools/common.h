@@ -26,7 +26,7 @@ void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
-/* What the user may do about a failure, "; text", or "". */
+/* A hint how to remedy a failure, "; text", or "". */
 const char *tool_hint(ss_status status, const ss_error *err);
 
 extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
@@ -51,7 +51,7 @@ enum {
     { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
     { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
     { "version", no_argument, NULL, TOOL_OPT_VERSION }, { NULL, 0, NULL, 0 }
-/* What getopt_long gave, if it is none of the tool's own: -q, -v, --help, --version, or wrong usage. */
+/* Handle an option that is not the tool's own: -q, -v, --help, --version, or wrong usage. */
 void tool_option(int c);
 
 /* The options of reading a signal, which all tools that do so share: in their long options, and in the text
@@ -88,7 +88,7 @@ void tool_reading_free(tool_reading *r);
 
 /* The one FILE argument: argv[optind], or "-" if there is none; more are wrong usage. */
 const char *tool_input(int argc, char *argv[], int optind);
-/* What messages call a path: "<stdin>" for "-". */
+/* The name of a path in messages: "<stdin>" for "-". */
 const char *tool_input_name(const char *path);
 /* Call with what any option or argument names as a file to read, before or after output is opened: dies
  * if the output would take its place, under whatever name.  Returns path.  The functions below do it. */
@@ -123,8 +123,8 @@ typedef enum tool_kind {        /* what the ending of -o or --format asks for */
     TOOL_TSV = TOOL_STREAM + SS_TSV
 } tool_kind;
 
-/* What a tool can write, to be put together with |: pictures, formats of streams that hold words, all of
- * them, signals. */
+/* Sets of output kinds, to be combined with |: pictures, formats of streams that hold words, all formats
+ * of streams, signals. */
 enum {
     TOOL_PICTURES = 1 << TOOL_GP | 1 << TOOL_PNG | 1 << TOOL_SVG | 1 << TOOL_PDF,
     TOOL_WORDS = 1 << TOOL_STREAM,
@@ -151,10 +151,10 @@ FILE *tool_output_kept(const char *path);
 /* Go on writing at this offset; what lies behind it is dropped. */
 void tool_cut(FILE *out, long offset);
 
-/* What --format names: a format of streams; with words, one that holds them. */
+/* The value of --format: a format of streams; _of_words: one that holds words. */
 tool_kind tool_format(const char *text);
 tool_kind tool_format_of_words(const char *text);
-/* What --method names: a method of simulation. */
+/* The value of --method: a method of simulation. */
 const char *tool_method(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
@@ -164,7 +164,7 @@ void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
 void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
 
-/* What --style names: paper or screen. */
+/* The value of --style: paper or screen. */
 ss_plot_style tool_style(const char *text);
 
 /* --- long work ----------------------------------------------------------------------------- */

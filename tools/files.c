@@ -99,7 +99,7 @@ add_known(const struct stat *st, int written, const char *name)
     known[n_known++] = (known_file){ st->st_dev, st->st_ino, written };
 }
 
-/* What path names, or the file before ":/", where a dataset in it is named. */
+/* The status of the file at path, or of the file before ":/" if path names a dataset in it. */
 static int
 find_file(const char *path, struct stat *st)
 {
@@ -134,8 +134,7 @@ tool_writes(const char *path)
 
 /* --- output ---------------------------------------------------------------------------------- */
 
-/* Where a file of this name is to be: a link keeps pointing where it does, and may point to a file
- * that is yet to be made. */
+/* The real path of a file to be written: a link keeps its target, which may not exist yet. */
 static char *
 resolve(const char *path)
 {

@@ -45,7 +45,7 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     tool_usage("--output: the ending of '%s' gives the form and must be one of%s", path, list);
 }
 
-/* What --format names, among those that hold words, or all. */
+/* The value of --format, among the formats that hold words, or all. */
 static tool_kind
 choose_format(const char *text, int words)
 {

@@ -182,7 +182,7 @@ now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* What is known of FFTs, if anything is. */
+/* Read FFTW's wisdom, if the file exists and is not empty. */
 static void
 read_wisdom(const char *path)
 {

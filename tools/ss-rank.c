@@ -41,7 +41,7 @@ typedef struct job {
     ss_rank_opts opts;
 } job;
 
-/* What outputs call the signal: the same wherever the file lies. */
+/* The name of the signal in outputs, which does not depend on the file's directory. */
 static const char *
 signal_name(const char *path)
 {
@@ -92,7 +92,7 @@ quantity_of_word(const char *name)
     return -1;
 }
 
-/* How a name may end: slip_mm, load_kN. */
+/* The quantity by a unit at the end of a name: slip_mm, load_kN. */
 static int
 quantity_of_ending(const char *name)
 {
@@ -148,7 +148,7 @@ find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
 
 /* --- work ---------------------------------------------------------------------------------- */
 
-/* What was found, also where it is no answer. */
+/* Note the result, also if it is not conclusive. */
 static void
 note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
 {

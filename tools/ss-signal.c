@@ -44,7 +44,7 @@ static const struct {
 };
 enum { N_ONLY = sizeof only / sizeof *only, AT = 3 };     /* AT: --at in it */
 
-/* What can be made, but is hardly meant.  used: set of indices in only[]. */
+/* Warn of, or refuse, values that are in range but hardly intended.  used: set of indices in only[]. */
 static void
 check_sense(ss_wave wave, const ss_wave_opts *o, unsigned used)
 {

@@ -45,8 +45,8 @@ typedef struct request {
     ss_sim_opts opts;
 } request;
 
-/* What the sinks need: a stream to write to, begun when the first of it is there, so that a run that
- * fails at once writes nothing; or a record to fill. */
+/* The output of the sinks: a stream, begun with the first sample or event, so that a run that fails at once
+ * writes nothing; or a record to fill. */
 typedef struct output {
     const request *req;
     ss_header *head;
@@ -180,7 +180,7 @@ set_base(ss_scene *scene, const char *given)
     free(path);
 }
 
-/* What was asked for, or what keeps the accuracy if that was. */
+/* Set the method asked for, or one that keeps the accuracy if that was asked for. */
 static void
 set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
 {

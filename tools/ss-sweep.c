@@ -86,7 +86,7 @@ pick_measures(request *req, const char *names)
     }
 }
 
-/* What the model has of the usual. */
+/* Pick the usual measures that the model has. */
 static void
 pick_usual(request *req, ss_model model)
 {

@@ -67,7 +67,7 @@ typedef struct request {
     char *name;
 } request;
 
-/* What cannot be read twice is copied to a file that can. */
+/* Copy standard input to a file if it cannot be read twice. */
 static void
 keep_input(void)
 {

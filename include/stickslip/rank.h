@@ -97,7 +97,7 @@ double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double fact
 int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
                      size_t *order);
 
-/* What the text of a ranking says that the ranking does not know. */
+/* Facts for the text of a ranking that the ranking itself does not hold. */
 typedef struct ss_ranking_text {
     const char *signal;         /* names of the signal and of the column that was ranked */
     const char *column;

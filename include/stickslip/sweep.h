@@ -44,7 +44,7 @@ typedef enum ss_measure {
 const char *ss_measure_name(ss_measure measure);    /* "stops"; NULL from SS_MEASURES on */
 const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a number */
 
-/* How the periodic state is looked for. */
+/* The way in which the periodic state is sought. */
 typedef enum ss_search {
     SS_SEARCH_AUTO,         /* simulate until the motion is near a period, then shoot; simulate on where
                                that fails, and always where SS_CYCLES is wanted */

@@ -126,7 +126,7 @@ prepare_part(kaiser *ker, int part)
     }
 }
 
-/* How many nodes a polynomial for log(response) takes.  As a function of x = 2 (nu/edge)^2 - 1 it is
+/* The number of nodes of a polynomial for log(response).  As a function of x = 2 (nu/edge)^2 - 1 it is
  * smooth but for logarithms where the response is 0, x = x_m > 1 with z = i pi m: of log(x_m - x) the
  * interpolation errs by less than 4 rho^-n/(n (1 - 1/rho)), rho = x_m + sqrt(x_m^2 - 1) (Trefethen
  * 2013, chapter 8).  Of those beyond the first there are never more than make twice that. */

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* What the series may hold at nu cycles a point: exp(-v^2/2) with v = reach nu / edge, but beyond
- * center not below second (the admissible wavelet's hump about v = -center). */
+/* A bound of the series at nu cycles a point: exp(-v^2/2) with v = reach nu / edge, but beyond center
+ * not below second (the admissible wavelet's hump about v = -center). */
 typedef struct kaiser_band {
     double edge;                /* |nu| <= edge < 1/2 */
     double reach, center, second;
@@ -17,8 +17,8 @@ enum { KAISER_TAPS_MAX = 32, KAISER_FIT = 32, KAISER_PARTS = 16, KAISER_NODES = 
 typedef struct kaiser {
     int taps;                   /* even */
     double beta, edge, bound;
-    int prepared;               /* what follows is filled in */
-    int fits;                                   /* used of what follows: */
+    int prepared;               /* the fields below are filled in */
+    int fits;                                   /* number of node and fit that are used */
     double node[KAISER_FIT], fit[KAISER_FIT];   /* of -log(response) over (nu/edge)^2 */
     double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];
 } kaiser;

@@ -42,7 +42,7 @@ typedef struct span {
     size_t first, n;
 } span;
 
-/* Where a coefficient stands: tau samples, |tau| <= 1/2, after sample c. */
+/* The place of a coefficient: tau samples, |tau| <= 1/2, after sample c. */
 typedef struct spot {
     double c, tau;
 } spot;
@@ -69,7 +69,7 @@ ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size
                             const ss_morlet *plan, const ss_morlet_opts *opts);
 /* m, if translation k of a scale lies at sample k b_num/m exactly, else 0. */
 double ss_scale_parts(const ss_scale *scale, double rate);
-/* Where translation k is taken, and time b [s] from the first sample. */
+/* The place of translation k, and of time b [s] from the first sample. */
 spot ss_scale_spot(const ss_scale *scale, size_t k, double rate);
 spot ss_spot_of(double b, double rate);
 /* Translations up to time t >= 0. */

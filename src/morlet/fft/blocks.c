@@ -51,7 +51,7 @@ enum {
 
 /* --- which scales, in what windows ------------------------------------------------------------ */
 
-/* How far above omega_c, or below, the band of the wavelet ends. */
+/* The distance from omega_c to either end of the wavelet's band. */
 static double
 half_band(const ss_morlet_opts *opts)
 {

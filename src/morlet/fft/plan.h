@@ -36,8 +36,8 @@ typedef struct level {
  * within the promise: in single precision, with the first cut, with the last. */
 typedef enum way { SINGLE, FIRST, LAST, WAYS } way;
 
-/* How a scale is computed: not by FFT; at points of its series; or between them, at positions that
- * repeat or anywhere. */
+/* The way in which a scale is computed: not by FFT; at points of its series; or between them, at
+ * positions that repeat or anywhere. */
 typedef struct route {
     enum { BY_SUM, LATTICE, DENSE, ANYWHERE } kind;
     int level;
@@ -133,7 +133,7 @@ step_of(const level *lev, const route *r)
     return (double)circle_of(lev) / (double)r->length;
 }
 
-/* Which of the kernels made in advance is for this band, and the edge that it is made for. */
+/* The index of the kernel made in advance for this band, and the edge for which it is made. */
 static inline int
 kernel_index(double edge, double *made_for)
 {
