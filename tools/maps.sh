@@ -9,7 +9,7 @@
 # symmetry: where the shipped scene shaw, with static above kinetic friction, moves farther to one side than
 # to the other, by max|x| less the amplitude; from r = 1/2 on, where subharmonic has its line of motions.
 #
-# coulomb: the rms error of a if Coulomb friction takes the place of that scene's contact, over stiffness
+# coulomb: the rms error of a if Coulomb friction takes the place of compliant-light's contact, over stiffness
 # and damping of the contact.
 set -eu
 : "${OUT:=build/maps}" "${THREADS:=$(getconf _NPROCESSORS_ONLN)}"
