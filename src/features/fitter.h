@@ -24,6 +24,7 @@ typedef struct fitter {
     double *limit;              /* see ss_sticks_belong; 0: not known yet */
     size_t n_gaps;
     const ss_window *gap;
+    int is_train;               /* what was fitted last: of micro-slips, see ss_slips_recur */
 } fitter;
 
 /* So many periods in samples. */
@@ -60,6 +61,9 @@ ss_window ss_sticks_trim(const fitter *k, ss_window win);
 
 /* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
 ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at);
+
+/* Does the gain change once a period, as in a train of micro-slips? */
+int ss_slips_recur(fitter *k, const ss_window *window, size_t n);
 
 /* Empty the window whose gain, taken by itself, changes most at a place. */
 void ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at);

@@ -114,6 +114,8 @@ count_crossings(const search *s, const ss_window *window, size_t n, double f, si
     return st;
 }
 
+static const char trains[] = "what recurs is a train of micro-slips, once a period of the oscillation";
+
 /* Why what was fitted to used of n transitions is no ringing at about omega radians a sample; NULL if
  * it is.  What fewer than half of them show is picked by the fit itself. */
 static const char *
@@ -121,6 +123,8 @@ judge_fit(const ss_value all[2], double omega, size_t n, size_t used, size_t cro
 {
     if (isnan(all[0].value) || used < FEW || fabs(log2(all[0].value / omega)) > NEAR)
         return "what recurs lasts under 2 periods or is no damped oscillation";
+    if (isinf(all[0].error))
+        return trains;
     if (2 * used < n)
         return "fewer than half of the transitions last 2 periods as one oscillation";
     if (2 * crossed > used)
@@ -176,7 +180,7 @@ move_to_sticks(const search *s, const size_t *anchor, size_t n, double f, size_t
 /* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
  * smaller one does little harm, so that windows are kept off jumps, and then off kinks, and then
  * moved behind trains of these, only where nothing can be fitted else that deserves it.  *why: it is
- * no ringing. */
+ * no ringing.  A train of micro-slips stays one, however it is barred: only what is behind may ring. */
 static ss_status
 fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
     ss_value *each, const char **why)
@@ -188,9 +192,11 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
         ss_window *bar = NULL;
         size_t n_bars = 0;
         st = find_bars(s, which, f, &bar, &n_bars);
-        if (st == SS_OK && (which == BAR_GAPS || n_bars > s->n_gaps))
+        int barred = n_bars > s->n_gaps;
+        if (st == SS_OK && (which == BAR_GAPS || (barred && *why != trains)))
             st = fit_once(s, anchor, n, f, bar, n_bars, window, all, each, why);
-        if (st == SS_OK && *why != NULL && which == BAR_EVENTS && n > 0) {
+        if (st == SS_OK && *why != NULL && which == BAR_EVENTS && n > 0
+            && (barred || *why != trains)) {
             move_to_sticks(s, anchor, n, f, moved);
             st = fit_once(s, moved, n, f, bar, n_bars, window, all, each, why);
         }

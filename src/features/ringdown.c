@@ -158,6 +158,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
     } while (longest < k->fit.room);
     int is_on;
     st = ss_slips_ring_on(k, window, n, &is_on);
+    k->is_train = ss_slips_recur(k, window, n);
     if (st == SS_OK && is_on) {
         for (size_t i = 0; i < n; i++)
             window[i].end = window[i].first;
@@ -188,6 +189,7 @@ fit_with(fitter *k, const size_t *anchor, size_t n, double white, ss_window *win
     if (core == NULL)
         return SS_ENOMEM;
     ss_ringdown_clear(anchor, n, window, value, each);
+    k->is_train = 0;
     ss_status st = fit_all(k, anchor, n, white, core, window, value, each);
     free(core);
     return st;
@@ -200,6 +202,7 @@ fit_both(fitter *k, const size_t *anchor, size_t n, double white, ss_window *win
 {
     double w = k->fit.w;
     ss_status st = fit_with(k, anchor, n, white, window, value, each);
+    int is_train = k->is_train;
     if (st != SS_OK || !(forcing > 0))
         return st;
     ss_window *other = malloc((n + 1) * sizeof *other);
@@ -213,7 +216,8 @@ fit_both(fitter *k, const size_t *anchor, size_t n, double white, ss_window *win
             memcpy(window, other, n * sizeof *window);
             memcpy(each, other_each, 2 * n * sizeof *each);
             memcpy(value, other_value, sizeof other_value);
-        }
+        } else
+            k->is_train = is_train;
     }
     free(other);
     free(other_each);
@@ -256,6 +260,8 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
         st = fit_both(&k, anchor, n_anchors, white, window, value, each, forcing);
+    if (k.is_train)
+        value[0].error = value[1].error = INFINITY;
     ss_varpro_free(&k.fit);
     free(k.limit);
     return st;

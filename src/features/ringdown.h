@@ -11,7 +11,8 @@
  * better, a constant and a sinusoid take the place of the line; 0: it is not. window[i] is that of
  * anchor i on return, empty (end = first) where less than two periods could be fitted. value gets w
  * and s, per sample, with standard errors; each[2 i], each[2 i + 1] those of window i alone. All are
- * NaN if no window is left. white is the rms of the white noise: what is left beyond it adds to the
+ * NaN if no window is left; errors are infinite where micro-slips recur once a period, which passes
+ * for damping. white is the rms of the white noise: what is left beyond it adds to the
  * errors.  No window has a sample of the gaps in it, which are in time order. */
 ss_status ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors,
                           double w, double forcing, double white, const ss_window *gap,

@@ -15,25 +15,27 @@
 /* A micro-slip changes the oscillation by a complex gain, and about equally in all sticks, at about
  * the same distance from their starts. So at each distance the gain is tried as a third parameter
  * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
- * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well. */
+ * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well.
+ * A train of micro-slips changes it by that once a period, at the same phase. */
 enum { PARAMETERS = VARPRO_DERIVATIVES };   /* w, s, real and imaginary part of the gain */
 typedef struct score {
     double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
 } score;
 
-/* Add a window's at the places first, first + step, ... */
+/* Add a window's at the places first, first + step, ..., at each once, or once a period from there. */
 static void
-add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, score *to)
+add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int again, score *to)
 {
     size_t n = ss_window_length(win);
-    double **j = k->fit.j;
+    double **j = k->fit.j, period = 2 * M_PI / k->fit.w;
     linear fitted = ss_varpro_derive(&k->fit, win);
     for (size_t l = 0; l < n_places; l++, to++) {
         size_t at = first + l * step;
         int used = at < n ? PARAMETERS : 2;
         if (at < n) {
             for (size_t i = 0; i < n; i++) {
-                double c = i < at ? 0 : k->fit.ring.cos[i], s = i < at ? 0 : k->fit.ring.sin[i];
+                double times = i < at ? 0 : again ? 1 + floor((double)(i - at) / period) : 1;
+                double c = times * k->fit.ring.cos[i], s = times * k->fit.ring.sin[i];
                 j[2][i] = fitted.a * c + fitted.b * s;
                 j[3][i] = fitted.b * c - fitted.a * s;
             }
@@ -77,7 +79,7 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++)
         if (ss_window_length(window[i]) > 0)
-            add_scores(k, window[i], step, step, n_places, place);
+            add_scores(k, window[i], step, step, n_places, 0, place);
     double most = 1;
     *at = k->fit.room;
     for (size_t l = 0; l < n_places; l++) {
@@ -93,6 +95,23 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
     return SS_OK;
 }
 
+/* A train of micro-slips passes for a damping that the contact does not have. */
+int
+ss_slips_recur(fitter *k, const ss_window *window, size_t n)
+{
+    enum { PHASES = 8 };        /* of a period at which micro-slips are tried */
+    score phase[PHASES] = { { { 0 }, { 0 } } };
+    size_t step = periods(k, 1. / PHASES);
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0)
+            add_scores(k, window[i], step, step, PHASES, 1, phase);
+    double limit = k->noise * gsl_cdf_chisq_Qinv(BREAK / PHASES, 2);
+    for (size_t l = 0; l < PHASES; l++)
+        if (statistic(&phase[l]) > limit)
+            return 1;
+    return 0;
+}
+
 /* Empty the window whose gain, taken by itself, changes most at a place. */
 void
 ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
@@ -103,7 +122,7 @@ ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
         score s = { { 0 }, { 0 } };
         if (ss_window_length(window[i]) <= at)
             continue;
-        add_scores(k, window[i], at, 1, 1, &s);
+        add_scores(k, window[i], at, 1, 1, 0, &s);
         double found = statistic(&s);
         if (found > most) {
             most = found;

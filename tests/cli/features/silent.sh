@@ -18,6 +18,14 @@ for seed in 1 2 3; do
     none contact_stiffness < found
     none damping_ratio < found
 done
+# micro-slips once a period of the contact, seen in noise by the steps in its decay alone
+ss-sim -s mass=35.2046 -s stiffness=1107.58 -s contact_stiffness=3.83901e+06 -s contact_damping=105.777 \
+    -s base_frequency=0.557594 -s base_amplitude=0.000465925 -s friction=0.433949 -s rate=1682.06 \
+    -s duration=16.1408 -s settle=53.8026 compliant-light | ss-noise --snr 20 |
+    ss-features --mass 35.2046 > found
+none total_stiffness < found
+none damping_ratio < found
+grep '^# about_ringing:' found
 # one stick of 16 periods behind a train of short ones: right by that stick
 ss-sim -s mass=0.0404804 -s stiffness=2430.98 -s friction=0.10326 -s base_amplitude=6.61617e-05 \
     -s base_frequency=6.00594 -s contact_stiffness=174128 -s contact_damping=0.809964 -s settle=0.868401 \
