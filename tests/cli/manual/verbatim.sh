@@ -30,8 +30,9 @@ try() {         # NAME: the commands on standard input, in a directory of their 
     mkdir "$1"
     cp recording "$1/run.csv"
     ss-cat recording -o "$1/run.tsv"
-    cp log.csv run.wav bass.wav "$1"
+    cp run.wav bass.wav "$1"
     cat > "$1.sh"
+    ! grep -q 'log\.csv' "$1.sh" || cp log.csv "$1"   # it has a gap, and *.csv would be it, too
     [ -s "$1.sh" ] || echo "$1: no examples"
     (cd "$1" && sh -eu "../$1.sh" > ../out 2> ../err < /dev/null) || echo "$1: exit status $?"
     # sox says that a pipe has no length, gnuplot that the C locale has no degree sign, ss-sim -v what
