@@ -71,11 +71,18 @@ count_samples(const double *t, size_t n, double rate, size_t columns)
     return samples < (double)(SIZE_MAX / sizeof *t / columns / 2) ? (size_t)samples : 0;
 }
 
+/* A short file may not claim much memory by two time stamps that lie far apart. */
+enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
+
 ss_status
 ss_resample(double **out, size_t *n_out, const double *t, const double *value, size_t n,
             size_t columns, double usual_step, double rate, const char *name, ss_error *err)
 {
     *n_out = count_samples(t, n, rate, columns);
+    *out = NULL;
+    if (*n_out > MOST_SAMPLES && *n_out / MOST_PER_STAMP > n)
+        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %zu samples at %g Hz", name, n, *n_out,
+                       rate);
     double *kept = malloc(2 * n * sizeof *kept);
     *out = *n_out > 0 ? malloc(*n_out * columns * sizeof **out) : NULL;
     ss_status st = kept != NULL && *out != NULL ? SS_OK : SS_ENOMEM;

@@ -77,7 +77,7 @@ static ss_status
 required(const coefficient_reader *r, const char *key, const char **value)
 {
     *value = ss_header_find_note(r->coef->head, key);
-    if (*value == NULL)
+    if (*value == NULL || **value == '\0')
         return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in.in.name, key);
     return SS_OK;
 }

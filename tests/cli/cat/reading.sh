@@ -37,3 +37,7 @@ ss-cat -o run.h5 ready.tsv
 ss-cat --from 0.2 --to 0.2005 --scale 0.5 run.h5
 refused ss-cat --from 7 run.h5
 refused ss-cat --scale nix=2 run.h5
+
+echo "-- two time stamps far apart claim no memory"
+printf 't,a\n0,1\n0.001,2\n0.0021,3\n9999999,4\n' > far.csv
+ss-cat --time-unit s --resample 100 far.csv 2>&1 || echo "exit $?"
