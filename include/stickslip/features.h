@@ -115,18 +115,18 @@ typedef struct ss_features_opts {
 } ss_features_opts;
 extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no columns, one thread */
 
-/* Find the transitions of one column, whose values must be finite, and what they have in common.
- * A column that is a force by its unit or name is read by its falls, if it keeps one sign, with a
+/* Find the transitions of one column, whose values must be finite, and what they have in common.  A
+ * column that is a force by its unit or name is read by its falls, if it keeps one sign, with a
  * loading for each; by its reversals, if it repeats in mirrored half-cycles; else its slips are not
- * known.  In other columns, where an oscillation recurs, there is a transition wherever |W| swells at its frequency, from the
- * onset of the oscillation to the last spike within a period of its end. Else, if the signal repeats
- * itself, strong spikes begin transitions, and weaker ones end them; else there are the single events
- * of ss_bursts_find, from the first to the last sample off lines through what is quiet beside.  What
- * gaps (ss_header_gaps of the signal) reach is left out: local maxima nearer than sqrt(2) a, spikes
- * and events as ss_spikes_find, ss_bursts_find and ss_drops_find say; what is fitted ends there.  A
- * record too short for any scale, or with nothing in it, has none: SS_OK.  A number that does not
- * deserve its error is NaN, for the reasons of ss-features(1). opts may be NULL. To be
- * freed with ss_features_free. */
+ * known.  In other columns, where an oscillation recurs, there is a transition wherever |W| swells
+ * at its frequency, from the onset of the oscillation to the last spike within a period of its
+ * end.  Else, if the signal repeats itself, strong spikes begin transitions, and weaker ones end
+ * them; else there are the single events of ss_bursts_find, from the first to the last sample off
+ * lines through what is quiet beside.  What gaps (ss_header_gaps of the signal) reach is left out:
+ * local maxima nearer than sqrt(2) a, spikes and events as ss_spikes_find, ss_bursts_find and
+ * ss_drops_find say; what is fitted ends there.  A record too short for any scale, or with nothing
+ * in it, has none: SS_OK.  A number that does not deserve its error is NaN, for the reasons of
+ * ss-features(1). opts may be NULL.  To be freed with ss_features_free. */
 ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
                            const ss_features_opts *opts, ss_error *err);
 void ss_features_free(ss_features *features);           /* NULL is allowed */

@@ -1,4 +1,4 @@
-/* overlay.h -- what was read from a signal, to be drawn over its contours. */
+/* stickslip/overlay.h -- transitions, maxima, spikes and events to be drawn over contours. */
 #ifndef STICKSLIP_OVERLAY_H
 #define STICKSLIP_OVERLAY_H
 

@@ -11,7 +11,7 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* The quantity of a signal, in the order of the columns of ss_sim_row; the last is the spring's force. */
+/* The quantity of a signal, in the order of the columns of ss_sim_row; SS_SPRING is k (z - x). */
 typedef enum ss_quantity {
     SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE, SS_SPRING
 } ss_quantity;
@@ -44,31 +44,31 @@ enum { SS_QUANTITIES = SS_SPRING + 1 };
 extern const char *const ss_quantity_names[SS_QUANTITIES + 1];     /* "x", "v", "a", "f", "s", NULL */
 
 typedef struct ss_rank_opts {
-    ss_quantity quantity;       /* that the column is of */
+    ss_quantity quantity;       /* of the column */
     double spread;              /* the parameters of the rig are within a factor 1 -+ spread
                                    of those of the scene  0 <= spread < 1 */
     double forcing_frequency;   /* [Hz]; 0: found from what repeats */
-    int also[SS_QUANTITIES];    /* other columns of the same recording, by what they are of, that the
-                                   answer must explain too, with the same parameters; -1: none */
+    int also[SS_QUANTITIES];    /* index of another column of this quantity in the same recording, or
+                                   -1: the answer must explain it, too, with the same parameters */
     ss_progress progress;
 } ss_rank_opts;
 extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found, no others */
 
 typedef struct ss_rank_row {
     size_t scene;               /* its index among those given */
-    ss_scene adjusted;          /* within the spread; it moves as the compared cycles of the signal do */
+    ss_scene adjusted;          /* parameters within the spread, phase of the signal's compared cycles */
     double explained;           /* part of the signal's power about its mean that it explains */
-    double excess;              /* mean square of what it leaves, over that of the noise */
+    double excess;              /* mean square of the residual over that of the noise */
     double value[SS_CRITERIA];      /* of the adjusted scene; NaN where it has none */
     double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one has a value */
     double total;
 } ss_rank_row;
 
 typedef enum ss_verdict {
-    SS_UNDECIDED,               /* why says why */
-    SS_NAMED,                   /* the first row's scene explains the signal: what it leaves is noise;
-                                   and no scene of another model does it as well */
-    SS_NONE_FITS                /* each scene leaves more than the noise; why says how much */
+    SS_UNDECIDED,               /* `why` gives the reason */
+    SS_NAMED,                   /* the first row's scene explains the signal: its residual is noise,
+                                   and no scene of another model has as small a residual */
+    SS_NONE_FITS                /* each scene leaves more than the noise; `why` tells how much */
 } ss_verdict;
 
 typedef struct ss_ranking {
@@ -76,7 +76,7 @@ typedef struct ss_ranking {
     char why[256];              /* empty if one is named */
     double value[SS_CRITERIA];  /* of the signal; NaN where it has none */
     double forcing_frequency;   /* [Hz]; NaN: nothing repeats, rows are as given without values */
-    double noise;               /* power of the noise over that of the signal, at most; NaN: see there */
+    double noise;               /* power of the noise over that of the signal, at most; NaN as above */
     size_t n;
     ss_rank_row *row;           /* best first */
 } ss_ranking;
@@ -85,15 +85,15 @@ typedef struct ss_ranking {
  * the spread to the signal's mean cycle and then to the samples of some cycles, run with white noise
  * of the signal's own level and its gaps, and compared; what lies within the reach of a gap is left
  * out of both, as ss_features_find does.  Noise is what is neither slow nor repeated, see ss-rank(1).
- * That none fits or nothing can be decided is an answer: SS_OK.  SS_EBUDGET for a scene that takes more
+ * "None fits" and "undecided" are answers, with SS_OK.  SS_EBUDGET for a scene that takes more
  * than 2e7 integration steps to be adjusted.  opts may be NULL. To be freed with ss_ranking_free. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
 /* Score of a row by one criterion with its threshold multiplied by factor. */
 double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor);
-/* The order in which the rows, by their index, would be with one threshold multiplied by factor,
- * into order[0 ... n-1]; 1 if it is another than theirs. */
+/* Write to order[0 ... n-1] the indices of the rows as they would be ordered with one threshold
+ * multiplied by factor.  1 if that order differs from the present one. */
 int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
                      size_t *order);
 
@@ -101,7 +101,7 @@ int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double f
 typedef struct ss_ranking_text {
     const char *signal;         /* names of the signal and of the column that was ranked */
     const char *column;
-    const char *known_by;       /* by what the column's quantity is known: "its unit" */
+    const char *known_by;       /* how the column's quantity was found: "its unit" */
     const char *const *scene;   /* names of the scenes, in the order in which they were given */
 } ss_ranking_text;
 
@@ -114,26 +114,25 @@ ss_status ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *abo
 /* --- the scene that fits ------------------------------------------------------------------- */
 
 typedef struct ss_fit {
-    int conclusive;             /* 0: the parameters are not determined, scene is that given */
-    char why[256];              /* why not */
+    int conclusive;             /* 0: the parameters are not determined, scene is the one given */
+    char why[256];              /* the reason, if it is not conclusive */
     ss_scene scene;             /* settled, in step with the record from its first sample */
     ss_value friction, base_amplitude;      /* with standard errors; NaN if not conclusive */
     ss_value contact_stiffness, contact_damping;
     ss_value base_frequency;
-    double residual;            /* rms of record less scene over the record about its mean */
-    double residual_started;    /* the same if the motion may start from any state: what is left
-                                   then is noise, or not this model */
+    double residual;            /* rms of record minus scene, over the rms of the record about its mean */
+    double residual_started;    /* the same if the motion may start from any state: this residual
+                                   is noise, or the model does not fit */
     double noise;               /* rms of the noise in the record over its own, at most */
 } ss_fit;
 
 /* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column
  * of SI units, whose values must be finite; m, k and the release rule are taken from the scene.
- * Samples in gaps are left out.
- * Errors are those of white noise of the residual's size.  It is conclusive if what is left is no more
- * than noise, no other scene leaves as little, and its sticks last long enough.  That it is not is an
- * answer: SS_OK.  opts may be NULL; its spread and other columns are not used.  SS_EINVAL for another
- * model, SS_EBUDGET where the scenes to be tried take more than 1e8 integration steps,
- * of which four samples count as one. */
+ * Samples in gaps are left out.  Errors are those of white noise of the residual's size.  The fit
+ * is conclusive if its residual is no more than noise, no other scene has as small a residual, and
+ * its sticks last long enough.  A fit that is not conclusive is an answer, with SS_OK.  opts may be
+ * NULL; its spread and other columns are not used.  SS_EINVAL for another model, SS_EBUDGET where
+ * the scenes to be tried take more than 1e8 integration steps, of which four samples count as one. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 
@@ -147,10 +146,10 @@ typedef struct ss_pull {
     ss_features *features;      /* its loadings are the events [N], their medians the scene's */
 } ss_pull;
 
-/* Fit a Coulomb scene that is pulled to the force of its spring [N], event by event: f_s and f_k, the mass
- * by k/m and the speed by the slope of loading are medians; the stiffness is that given.  That it
- * does not explain the record is an answer: SS_OK.  opts may be NULL; its quantity must be SS_SPRING.
- * SS_EINVAL for another scene or column.  To be freed with ss_pull_free. */
+/* Fit a Coulomb scene that is pulled to the force of its spring [N], event by event: f_s and f_k,
+ * the mass by k/m and the speed by the slope of loading are medians; the stiffness is that given.
+ * A scene that does not explain the record is an answer, with SS_OK.  opts may be NULL; its quantity
+ * must be SS_SPRING.  SS_EINVAL for another scene or column.  To be freed with ss_pull_free. */
 ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
                       const ss_rank_opts *opts, ss_error *err);
 void ss_pull_free(ss_pull *pull);               /* NULL is allowed */

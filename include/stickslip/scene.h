@@ -1,8 +1,8 @@
 /* stickslip/scene.h -- a scene: one friction model, its parameters, and its record.
  *
- * All models share  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  t = 0 at the start of
- * settling, or with z(t) as measured in place of the cosine; they differ in the friction force f, which depends on v = x' - S.  The text form is
- * described in stickslip-scene(5). */
+ * All models share  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  t = 0 at the
+ * start of settling, or with z(t) as measured in place of the cosine; they differ in the friction
+ * force f, which depends on v = x' - S.  The text form is described in stickslip-scene(5). */
 #ifndef STICKSLIP_SCENE_H
 #define STICKSLIP_SCENE_H
 
@@ -56,9 +56,9 @@ typedef struct ss_scene {
 
     double stribeck_velocity;   /* v_s    [m/s]    > 0         stribeck only */
 
-    char base_file[SS_BASE_FILE];       /* where z(t) is, "": nowhere; ss_scene_load_base reads it */
+    char base_file[SS_BASE_FILE];       /* the file of z(t), "": none; ss_scene_load_base reads it */
     char base_column[SS_BASE_COLUMN];   /* "": z, or the only one */
-    const ss_base *base;                /* NULL, or z(t), the caller's, in place of Z_e cos(...) */
+    const ss_base *base;                /* NULL, or z(t) in place of Z_e cos(...); the caller owns it */
 
     double settle;              /* [s] >= 0  simulated before the record starts, not written */
     double duration;            /* [s] >= 0  length of the record */
@@ -113,9 +113,9 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 /* Write every key that the model has, one a line, in the fewest digits that read back the same. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 
-/* z(t) [m] by the natural cubic spline through a column of a signal, whose clock is the scene's: t = 0 is
- * the start of settling.  To be freed with ss_base_free.  SS_EDATA: another unit than m, or fewer than 3
- * samples; SS_ENOMEM. */
+/* z(t) [m] by the natural cubic spline through a column of a signal, whose clock is the scene's: t
+ * = 0 is the start of settling.  To be freed with ss_base_free.  SS_EDATA: another unit than m, or
+ * fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
@@ -123,24 +123,25 @@ void ss_base_free(ss_base *base);                   /* NULL is allowed */
  * has no such number, and err says so. */
 double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
 
-/* A range over which scenes are supported: results are tested there.  Scenes outside are simulated, too,
- * without that promise. */
+/* A range over which scenes are supported: results are tested there.  Scenes outside are simulated,
+ * too, without that promise. */
 typedef struct ss_scene_range {
     const char *name, *unit;    /* "Omega/omega_n"; X is defined in stickslip-scene(5) */
     double from, to;
-    int zero;                   /* 1: or 0 */
+    int zero;                   /* 1: 0 is in the range, too */
     double (*value)(const ss_scene *scene);     /* NaN where it means nothing */
 } ss_scene_range;
 /* The i-th range of the scenes of a model; NULL after the last. */
 const ss_scene_range *ss_model_range(ss_model model, size_t i);
 
-/* SS_OK if a scene that has passed ss_scene_check lies within them, else SS_EINVAL. */
+/* SS_OK if a scene that has passed ss_scene_check lies within these ranges, else SS_EINVAL. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
 /* The i-th of the simpler scenes that a scene contains, the one that loses most the last: without
- * damping, with static friction as kinetic, without damping of the contact, as the model that it comes
- * to in the limit (a stiff contact, friction that follows v at once: Coulomb's), and without friction.
- * Gives its name, "damping=0" or that of its model, static; NULL after the last. */
+ * damping, with static friction equal to kinetic, without damping of the contact, with the model that
+ * is its limit (Coulomb's, for a stiff contact or a friction that follows v at once), and without
+ * friction.  Returns its name, "damping=0" or the name of its model, which is static; NULL after the
+ * last. */
 const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
 
 /* Properties of a model; "?" or 0 for a number that is not that of a model. */
@@ -156,7 +157,7 @@ typedef struct ss_shipped_scene {
     const char *summary;        /* its first comment line: one line of plain text */
     const char *text;
 } ss_shipped_scene;
-/* Those of the paper's figures, and those of other published results.  Both end with a NULL name. */
+/* The scenes of the paper's figures, and of other published results.  Both lists end with a NULL name. */
 extern const ss_shipped_scene ss_shipped_scenes[];
 extern const ss_shipped_scene ss_catalogue_scenes[];
 

@@ -40,9 +40,9 @@ ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
 
-/* The index of a column given by name, or by its number counted from 1; -1 if there is none.  Blanks
- * and slashes in the given name match "_".  If no name matches, the only one that differs in the case of
- * letters does, except for a single letter: a and A are two quantities. */
+/* The index of a column given by name, or by its number counted from 1; -1 if there is none.
+ * Blanks and slashes in the given name match "_".  If no name matches, the only one that differs in
+ * the case of letters does, except for a single letter: a and A are two quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
 /* The first row at time t or after it (by no more than 1e-6 sample periods before it), from 0. */
@@ -83,15 +83,15 @@ typedef struct ss_read_opts {
                                    gets a note, see ss_header_gaps */
     double resample;            /* [Hz] delimited text: stamps of any spacing to a clock of this rate,
                                    by cubic splines; 0: the stamps must be uniform */
-    const char *time_unit;      /* delimited text: what the column of time counts; NULL: its own unit,
+    const char *time_unit;      /* delimited text: the unit of the column of time; NULL: its own unit,
                                    without one seconds, or what makes them a date of this century */
     size_t table;               /* delimited text of several tables: which, from 1; 0: it has one */
     double from, to;            /* [s] only samples at from or later and before to, on the source's
                                    clock; from >= to: all */
     const ss_calibration *calibration;
     size_t n_calibrations;
-    /* Called with what is not as a user may think, one line; about: the status whose remedy helps, or
-     * SS_OK.  NULL: nobody asks. */
+    /* Called with one line of text about a decision that a user may not expect; about: the status whose
+     * remedy helps, or SS_OK.  NULL: no warnings. */
     void (*warn)(ss_status about, const char *text, void *user);
     void *user;                 /* passed to it */
 } ss_read_opts;
@@ -219,9 +219,10 @@ void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of a noise that is snr_db below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
 
-/* x after a converter of so many bits, whose input spans -range to range: multiples of the
- * step range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step
- * below range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
+/* x after a converter of so many bits, whose input spans -range to range: multiples of the step
+ * range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step below
+ * range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ...
+ * SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
 ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped,
                               ss_error *err);

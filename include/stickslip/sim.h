@@ -18,8 +18,8 @@ typedef int ss_event_sink(const ss_event *e, void *user);
 typedef struct ss_sim_opts {
     const char *method;         /* one of ss_sim_method_name; NULL: ss_sim_method_for the scene */
     double tol;                 /* relative local error a step, 1e-14 ... 1e-1 */
-    unsigned long max_steps;    /* 0: what 5e6 right-hand sides allow, and 1e4 more a sample and 1e6
-                                   more a second of settling and record, 1e11 in all at most */
+    unsigned long max_steps;    /* 0: as many as 5e6 right-hand sides, 1e4 more for each sample and
+                                   1e6 more for each second allow, at most 1e11 in all */
     ss_sample_sink *samples;
     ss_event_sink *events;
     void *user;                 /* passed to both, either of which may be NULL */
@@ -32,10 +32,10 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
     unsigned long steps;        /* accepted integration steps */
     unsigned long rhs;          /* evaluations of the right-hand side */
     unsigned long events;       /* before the record too */
-    unsigned long unresolved;   /* micro-events within what the tolerance, or the closed form's
-                                   rounding, leaves of x in a step: slips no longer than that, and
-                                   contacts that only touched their limit.  x is right, to its
-                                   accuracy; the number and times of such events are not */
+    unsigned long unresolved;   /* micro-events within the error of x in a step (the tolerance, or
+                                   the rounding of the closed form): slips no longer than that, and
+                                   contacts that only touched their limit.  x keeps its accuracy;
+                                   the number and times of such events do not */
 } ss_sim_stats;
 
 /* Simulate the scene from the start of settling to the end of the record, in constant memory.

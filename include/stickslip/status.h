@@ -40,7 +40,7 @@ typedef enum ss_status {
                        ss_morlet_opts.force computes them all the same */
     SS_ETOL,        /* the step size underflowed before the tolerance was met */
     SS_ECHATTER,    /* events follow each other faster than double precision can separate */
-    SS_EBUDGET,     /* the scene needs more work than it may: max_steps, or what it has without */
+    SS_EBUDGET,     /* the scene needs more work than max_steps, or its default, allows */
     SS_ERANGE       /* a value is not finite: the numbers lie beyond double precision */
 } ss_status;
 
@@ -55,7 +55,7 @@ typedef enum ss_kind {
  * Filled in on failure only.  Wherever a function takes an ss_error *, NULL is allowed. */
 typedef struct ss_error {
     char text[512];
-    ss_kind found, wanted;      /* of SS_EKIND: what the file is, or if it is of no known kind, should be */
+    ss_kind found, wanted;      /* of SS_EKIND: the kind of the file; if unknown, the kind expected */
 } ss_error;
 
 enum { SS_THREADS_MAX = 256 };  /* that one call may be given */
@@ -73,8 +73,9 @@ typedef struct ss_progress {
 } ss_progress;
 
 const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
-/* Make a text one line that no terminal obeys: control characters, those of ISO 8859 (0x80 to 0x9f, in
- * UTF-8 U+0080 to U+009F) among them, become question marks.  The texts of ss_error are so already. */
+/* Replace control characters by question marks, so that the text is one line and commands no terminal;
+ * those of ISO 8859 (0x80 to 0x9f, in UTF-8 U+0080 to U+009F) are among them.  The texts of ss_error
+ * have none. */
 char *ss_printable(char *text);
 const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */
 

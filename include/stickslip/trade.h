@@ -15,13 +15,13 @@ typedef struct ss_trade_row {
     double tol;                 /* relative local error a step; 0 for exact, which has none */
     ss_status status;           /* SS_OK: measured; SS_EBUDGET: too long, seconds is an estimate;
                                    SS_ETOL, SS_ECHATTER: the method gave up */
-    double error_x, error_a;    /* worst in the record over max|x| and max|a|; for a, without samples
-                                   nearer to an event than that event's own error */
+    double error_x, error_a;    /* worst in the record over max|x| and max|a|; error_a leaves out
+                                   samples nearer to an event than that event's own error */
     double error_t;             /* worst of an event's time [s] */
     size_t missed, invented;    /* events in the record */
     unsigned long steps, rhs;
     double seconds;             /* CPU time of one run */
-    int frontier;               /* no other row is faster and as accurate, or as fast and more so */
+    int frontier;               /* no other row is faster and as accurate, or as fast and more accurate */
 } ss_trade_row;
 
 typedef struct ss_trade {
@@ -70,8 +70,8 @@ ss_status ss_trade_write(const ss_trade *trade, const char *name, FILE *out, ss_
  * NULL if there is none. */
 const ss_trade_row *ss_trade_cheapest(const ss_trade *trade, double accuracy);
 
-/* Fill in opts->tol so that the worst error of x in the record is at most accuracy, within ss_trade_accuracies,
- * times max|x|, by opts->method or, if that is NULL, by the cheapest.
+/* Fill in opts->tol so that the worst error of x in the record is at most accuracy, within
+ * ss_trade_accuracies, times max|x|, by opts->method or, if that is NULL, by the cheapest.
  *
  * The scene is run against the reference of ss_trade, with at most 20000 samples in memory, from
  * loose to tight tolerances until twice the larger of error and known_x is within accuracy, and
@@ -85,12 +85,12 @@ ss_status ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accur
 
 /* --- simpler models ------------------------------------------------------------------------ */
 
-/* What is compared of a scene and of a simpler one in its place: the largest and the root mean square
- * error of x - U t, v, a and f in the record, over the largest value of the scene; the largest and the
- * rms difference of the contour maps of a, the rms over the drawn area [dB]; the difference of the
- * numbers of events and of micro-slips (slips that a slip in the same direction precedes) in the
- * record; and the relative error of each number of ss_features of a, found with the scene's mass and
- * stiffness and its x and f. */
+/* The compared numbers of a scene and of a simpler one in its place: the largest and the root mean
+ * square error of x - U t, v, a and f in the record, over the largest value of the scene; the
+ * largest and the rms difference of the contour maps of a, the rms over the drawn area [dB]; the
+ * difference of the numbers of events and of micro-slips (slips that a slip in the same direction
+ * precedes) in the record; and the relative error of each number of ss_features of a, found with
+ * the scene's mass and stiffness and its x and f. */
 enum { SS_COMPARED_EVENTS = 10, SS_COMPARED_MICROSLIPS, SS_COMPARED = 23 };
 const char *ss_compared_name(size_t i);             /* "x", "x_rms", ...; NULL from SS_COMPARED on */
 const char *ss_compared_unit(size_t i);             /* "dB"; "" if it is a number */
@@ -129,24 +129,25 @@ ss_status ss_models_measure(ss_models **out, const ss_scene *scene, const ss_mod
 void ss_models_free(ss_models *models);             /* NULL is allowed */
 
 typedef struct ss_need {
-    size_t what;                /* of ss_compared_name */
+    size_t what;                /* index of ss_compared_name */
     double within;              /* >= 0, in its unit */
 } ss_need;
-/* From a list such as "x=1e-2,a=0.1,map=3dB,microslips": name=error, or a name alone for a count that is
- * to stay as it is.  need has room for SS_COMPARED; *n: how many. */
+/* Read a list such as "x=1e-2,a=0.1,map=3dB,microslips": name=error, or the name alone of a count
+ * that must not change.  need has room for SS_COMPARED; *n is their number. */
 ss_status ss_needs_parse(ss_need need[SS_COMPARED], size_t *n, const char *list, ss_error *err);
 
 /* 1 if a row keeps all the needs. */
 int ss_models_keeps(const ss_models_row *row, const ss_need *need, size_t n);
-/* The cheapest row that keeps the needs; of those that cost as much, to a fifth, the one that lost most.
- * The settled state is none: it is the same model. */
+/* The cheapest row that keeps the needs; among rows whose costs differ by less than a fifth, the
+ * one that lost most.  The settled state does not count: it is the same model. */
 const ss_models_row *ss_models_cheapest(const ss_models *models, const ss_need *need, size_t n);
-/* "coulomb suffices for x within 1 %; a within 10 % needs compliant", to be freed with free().  SS_EDATA:
- * the scene itself has no such number, as a model without events has no micro-slips. */
+/* "coulomb suffices for x within 1 %; a within 10 % needs compliant", to be freed with free().
+ * SS_EDATA: the scene itself has no such number, a model without events has no micro-slips. */
 ss_status ss_models_answer(char **sentence, const ss_models *models, const ss_need *need, size_t n,
                            ss_error *err);
-/* Write a row a scene as ss-trade(1) describes, times as multiples of the first; with needs, n > 0, their
- * answer and which rows keep them.  SS_EINVAL: the format holds numbers only; SS_EIO; as above. */
+/* Write a row a scene as ss-trade(1) describes, times as multiples of the first; with needs, n > 0,
+ * their answer and which rows keep them.  SS_EINVAL: the format holds numbers only; SS_EIO; as
+ * above. */
 ss_status ss_models_write(const ss_models *models, const char *name, const ss_need *need, size_t n,
                           FILE *out, ss_format format, ss_error *err);
 

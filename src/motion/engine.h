@@ -59,9 +59,9 @@ ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
 int ss_exact_applies(const ss_scene *scene);        /* has it a closed form? */
 ss_status ss_exact_check(const ss_scene *scene, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
-/* The displacement at time s from now, in the present mode of an exact engine, after a unit displacement
- * (C), a unit velocity (S) or under a unit of force over mass (G); their rates of change are -(k/m) S,
- * C - (c/m) S and S. */
+/* The displacement at time s from now, in the present mode of an exact engine, after a unit
+ * displacement (C), a unit velocity (S) or under a unit of force over mass (G); their rates of
+ * change are -(k/m) S, C - (c/m) S and S. */
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
 /* The motion has entered a mode. */

@@ -169,9 +169,9 @@ change_mode(sampler *r, engine *e, int still, double s)
 /* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
 #define TOO_MANY_STEPS 1e12
 
-/* The limit of a run without max_steps, in right-hand sides, which unlike steps cost about the same in
- * every method: a constant, plus a number for each sample and each second of settling and record, and at
- * most an hour of a machine of today.  Ordinary scenes take 10 a sample. */
+/* The limit of a run without max_steps, in right-hand sides, which unlike steps cost about the same
+ * in every method: a constant, plus a number for each sample and each second of settling and
+ * record, and at most an hour of a machine of today.  Ordinary scenes take 10 a sample. */
 #define WORK_ALWAYS 5e6
 #define WORK_SAMPLE 1e4
 #define WORK_SECOND 1e6

@@ -7,8 +7,8 @@
 
 #include "motion/engine.h"
 
-/* A step that takes more right-hand sides than this counts as more than one: rk8pd with its events takes
- * so many, while a step of an implicit method may take hundreds. */
+/* A step that takes more right-hand sides than this counts as more than one: rk8pd with its events
+ * takes so many, while a step of an implicit method may take hundreds. */
 enum { RHS_PER_STEP = 20 };
 
 typedef struct walk {

@@ -316,7 +316,7 @@ inner_products(const double a[], const double b[], int n)
     return sum;
 }
 
-/* --- linear.c: functions that Coulomb and compliant contact share ------------------------------------ */
+/* --- linear.c: functions that Coulomb and compliant contact share ------------------------------- */
 
 void ss_linear_rates(const state *m, double drive, const double q[], double dqdt[]);
 void ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]);

@@ -39,8 +39,8 @@ next_turn(double angle, double from)
     return from + (ahead <= 0 ? ahead + round : ahead);
 }
 
-/* The time at which the force leaves [-f_s, f_s] without a pull: upwards while the cosine rises, downwards
- * while it falls.  Touching a limit is not leaving it. */
+/* The time at which the force leaves [-f_s, f_s] without a pull: upwards while the cosine rises,
+ * downwards while it falls.  Touching a limit is not leaving it. */
 static double
 end_of_swing(const state *m, double theta)
 {
@@ -97,8 +97,8 @@ time_to_rise(const state *m, double angle, double R, double level)
     return peak + rising_zero(m, top, R, level - R * peak, -since, 0);
 }
 
-/* The time at which a measured base and the pull carry the force beyond its limit within the interval of
- * the base, else INFINITY.  Between its extrema a cubic is monotonic. */
+/* The time at which a measured base and the pull carry the force beyond its limit within the
+ * interval of the base, else INFINITY.  Between its extrema a cubic is monotonic. */
 static double
 end_in_piece(const state *m, double x, double limit)
 {

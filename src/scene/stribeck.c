@@ -1,5 +1,5 @@
-/* stribeck.c -- friction that falls with speed, f = sgn(v) (f_k + (f_s - f_k) / (1 + |v| / v_s)) in slip;
- * true stick (stick.c). */
+/* stribeck.c -- friction that falls with speed, f = sgn(v) (f_k + (f_s - f_k) / (1 + |v| / v_s)) in
+ * slip; true stick (stick.c). */
 #include "scene/model.h"
 
 static const scene_key keys[] = {
