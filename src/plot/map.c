@@ -181,6 +181,20 @@ label_of(const ss_column *column)
     return label;
 }
 
+/* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten values. */
+static int
+letters_of(const map_axis *a)
+{
+    double lo = a->value[0], hi = a->value[a->n - 1], step = pow(10, floor(log10(hi - lo)));
+    double tic[2] = { step * ceil(10 * lo / step) / 10, step * floor(10 * hi / step) / 10 };
+    int most = 0;
+    for (int i = 0; i < 2; i++) {
+        double at = !a->log ? tic[i] : pow(10, i == 0 ? ceil(log10(lo)) : floor(log10(hi)));
+        most = (int)fmax(most, snprintf(NULL, 0, "%g", at));
+    }
+    return most;
+}
+
 static void
 write_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
 {
@@ -267,8 +281,8 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     st = write_data(out, d, g, r, line, map, err);
     if (st != SS_OK)
         return st;
-    fprintf(out, "set lmargin at screen 0.14; set tmargin at screen %s; "
-            "set bmargin at screen 0.14\n", line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
+    fprintf(out, "set lmargin at screen %g; set tmargin at screen %s; "
+            "set bmargin at screen 0.14\n", 0.14 + 0.02 * fmax(0, letters_of(&g->y) - 3), line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", r->n > 0 || r->missing ? "0.835" : "0.965");
     write_axis(out, "x", &g->x);
     write_axis(out, "y", &g->y);

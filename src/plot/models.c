@@ -63,24 +63,36 @@ write_scenes(FILE *out, const ss_models *models, size_t from, size_t to)
     putc('\n', out);
 }
 
-/* An entry of the key, in one of six columns. */
+/* Scenes in the key. */
+static size_t
+count_scenes(const ss_models *models)
+{
+    size_t n = 0;
+    for (size_t i = 1; i < models->n; i++)
+        n += models->row[i].status == SS_OK;
+    return n;
+}
+
+/* An entry of the key, in one of six columns; row 0 is the lowest. */
 static void
 write_entry(FILE *out, const char *name, size_t row, size_t column, int point, const char *rgb)
 {
     fputs("set label ", out);
     ss_script_quote(out, name);
-    fprintf(out, " at screen %.3f,%.3f left noenhanced offset 0.8,0 point pt %d ps 1.2 lc rgb '%s'\n",
-            0.17 + 0.125 * (double)column, 0.215 - 0.045 * (double)row, point, rgb);
+    fprintf(out, " at screen %.3f,row*%zu + 0.035 left noenhanced offset 0.8,-0.15 point pt %d ps 1.2 "
+            "lc rgb '%s'\n", 0.165 + 0.118 * (double)column, row, point, rgb);
 }
 
 static void
 write_key(FILE *out, const ss_models *models)
 {
+    size_t rows = (count_scenes(models) + 1) / 2;
     for (size_t k = 0; k < DRAWN; k++)
-        write_entry(out, drawn[k].name, 0, k, drawn[k].point, "#000000");
+        write_entry(out, drawn[k].name, rows, k, drawn[k].point, "#000000");
     for (size_t i = 1, n = 0; i < models->n; i++)
         if (models->row[i].status == SS_OK) {
-            write_entry(out, models->row[i].name, 1 + n / 2, 3 * (n % 2), 5, colour[(i - 1) % COLOURS]);
+            write_entry(out, models->row[i].name, rows - 1 - n / 2, 3 * (n % 2), 5,
+                        colour[(i - 1) % COLOURS]);
             n++;
         }
 }
@@ -88,10 +100,12 @@ write_key(FILE *out, const ss_models *models)
 static void
 write_upper(FILE *out, const ss_models *models)
 {
+    fprintf(out, "row = 0.045; bottom = row*%zu + 0.175; between = bottom + 0.18\n",
+            (count_scenes(models) + 1) / 2);
     fputs("set lmargin at screen 0.16; set rmargin at screen 0.95\n"
-          "set tmargin at screen 0.94; set bmargin at screen 0.55\n"
+          "set tmargin at screen 0.94; set bmargin at screen between + 0.03\n"
           "set logscale y; set format y '%g'; set format x ''\n"
-          "set ylabel 'largest error / max' noenhanced offset 0.5,0\n", out);
+          "set label 1 'largest error / max' at screen 0.04,graph 0.5 center rotate noenhanced\n", out);
     write_decades(out, models);
     write_scenes(out, models, 0, UPPER);
 }
@@ -100,8 +114,8 @@ static void
 write_lower(FILE *out, const ss_models *models)
 {
     fputs("unset title; unset logscale y; set yrange [0:85]; set ytics 0,20\n"
-          "set tmargin at screen 0.52; set bmargin at screen 0.34; set format x '%g'\n"
-          "set ylabel 'map / dB' noenhanced offset 0.5,0\n"
+          "set tmargin at screen between; set bmargin at screen bottom; set format x '%g'\n"
+          "set label 1 'map / dB'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms, that of ', 1000*scene).", out);
     ss_script_quote(out, models->row[0].name);
     fputs(" noenhanced offset 0,0.3\n", out);
