@@ -13,11 +13,12 @@
 #include "features/hum.h"
 
 #include <gsl/gsl_fft_complex.h>
-#include <gsl/gsl_fft_real.h>
 #include <gsl/gsl_min.h>
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include "morlet/fft/real.h"
 
 #define BAND 0.5                /* of the frequency, to either side */
 #define ABOVE 10.0              /* a line's power re all others' */
@@ -25,6 +26,7 @@
 #define CLEAR 0.1               /* of a line's power, in free bins: with less it is not measured well */
 #define SEEN 0.001              /* the same, for it to be looked for */
 enum { LINES = 3, FEWEST = 6, FREE = 16, STRONGEST = 16 };
+enum { LANES = 4 };
 enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
 
 typedef struct zoomed {         /* x = Re z exp(i center t) in the band, at t = 0, step, 2 step ... */
@@ -41,20 +43,28 @@ typedef struct line {
     double seen;                /* of its power, in free bins */
 } line;
 
-/* Fourier sum at an angular frequency: of a line there, its amplitude. */
+/* Fourier sum at an angular frequency: of a line there, its amplitude.  In lanes, which do not wait for
+ * each other; behind the window there are zeros. */
 static double complex
 sum_at(const zoomed *zoom, double w)
 {
-    double turn = (w - zoom->center) * zoom->step, c = cos(turn), s = sin(turn);
-    double re = 0, im = 0, at_c = 1, at_s = 0;
-    for (size_t i = 0; i < zoom->n; i++) {
-        double a = creal(zoom->z[i]), b = cimag(zoom->z[i]), next = at_c * c - at_s * s;
-        re += a * at_c + b * at_s;
-        im += b * at_c - a * at_s;
-        at_s = at_c * s + at_s * c;
-        at_c = next;
-    }
-    return 2 * zoom->step / zoom->length * (re + I * im);
+    double turn = (w - zoom->center) * zoom->step, c = cos(LANES * turn), s = sin(LANES * turn);
+    double re[LANES] = { 0 }, im[LANES] = { 0 }, at_c[LANES], at_s[LANES];
+    double complex sum = 0;
+    for (int l = 0; l < LANES; l++)
+        at_c[l] = cos(l * turn), at_s[l] = sin(l * turn);
+    for (size_t i = 0; i < zoom->n; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            double a = creal(zoom->z[i + l]), b = cimag(zoom->z[i + l]);
+            double next = at_c[l] * c - at_s[l] * s;
+            re[l] += a * at_c[l] + b * at_s[l];
+            im[l] += b * at_c[l] - a * at_s[l];
+            at_s[l] = at_c[l] * s + at_s[l] * c;
+            at_c[l] = next;
+        }
+    for (int l = 0; l < LANES; l++)
+        sum += re[l] + I * im[l];
+    return 2 * zoom->step / zoom->length * sum;
 }
 
 static double
@@ -86,18 +96,17 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
 {
     size_t size = power_of_two((double)n), middle = (size_t)(f * (double)size);
     size_t half = (size_t)(BAND * f * (double)size), few = power_of_two(2. * (double)half + 1);
-    double *r = calloc(size, sizeof *r);
-    zoom->z = calloc(few, sizeof *zoom->z);
-    if (r == NULL || zoom->z == NULL) {
+    double *r = calloc(size + 2, sizeof *r);
+    zoom->z = calloc(few + LANES, sizeof *zoom->z);
+    if (r != NULL)
+        memcpy(r, x, n * sizeof *r);
+    if (r == NULL || zoom->z == NULL || ss_real_fft(r, size, 0) != SS_OK) {
         free(r);
         return SS_ENOMEM;
     }
-    for (size_t i = 0; i < n; i++)
-        r[i] = x[i];
-    gsl_fft_real_radix2_transform(r, 1, size);
     for (size_t j = middle - half; j <= middle + half && j < size / 2; j++)
         if (j > 0)
-            zoom->z[(j + few - middle) % few] = 2 / (double)size * (r[j] + I * r[size - j]);
+            zoom->z[(j + few - middle) % few] = 2 / (double)size * (r[2 * j] + I * r[2 * j + 1]);
     free(r);
     gsl_fft_complex_radix2_backward((double *)zoom->z, 1, few);
     zoom->step = (double)size / (double)few;
@@ -109,8 +118,10 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
 static void
 apply_window(zoomed *zoom)
 {
-    zoom->n = (size_t)fmin((double)zoom->n, ceil(zoom->length / zoom->step));
-    for (size_t i = 0; i < zoom->n; i++)
+    size_t n = (size_t)fmin((double)zoom->n, ceil(zoom->length / zoom->step));
+    memset(zoom->z + n, 0, (zoom->n - n) * sizeof *zoom->z);
+    zoom->n = n;
+    for (size_t i = 0; i < n; i++)
         zoom->z[i] *= 0.5 - 0.5 * cos(2 * M_PI * (double)i * zoom->step / zoom->length);
 }
 

@@ -8,11 +8,11 @@
  * scatter is its error. */
 #include "features/period.h"
 
-#include <gsl/gsl_fft_halfcomplex.h>
-#include <gsl/gsl_fft_real.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include "features/levels.h"
+#include "morlet/fft/real.h"
 
 #define NEARLY 0.9              /* of the highest peak: the first peak as high as this is the period's */
 /* The least correlation that counts. That of white noise has the standard deviation n^-1/2: SIGMAS
@@ -21,15 +21,30 @@
 #define LEAST 0.15
 #define SIGMAS 5.5
 
-/* The autocorrelation of the compressed signal at lags 0 ... size/2, 1 at 0; NULL: no memory. */
+/* x to its autocorrelation, compressed, at lags 0 ... size/2, 1 at 0.  x has n samples less their mean,
+ * then zeros up to size, and room for two numbers more. */
+static ss_status
+autocorrelation(double *x, size_t n, size_t size)
+{
+    ss_status st = ss_real_fft(x, size, 0);
+    for (size_t k = 0; st == SS_OK && k <= size / 2; k++) {
+        x[2 * k] = magnitude_of(x + 2 * k);
+        x[2 * k + 1] = 0;
+    }
+    if (st == SS_OK)
+        st = ss_real_fft(x, size, 1);
+    double first = x[0];
+    for (size_t i = 0; st == SS_OK && i <= size / 2; i++)
+        x[i] = first > 0 ? x[i] / first * (double)n / (double)(n > i ? n - i : 1) : 0;
+    return st;
+}
+
+/* x less its mean, over its largest |value|, then zeros up to size, and room for two more. */
 static double *
-autocorrelation(const double *x, size_t n, size_t *size)
+centred(const double *x, size_t n, size_t size)
 {
     double mean = 0, largest = 0;
-    *size = 1;
-    while (*size < 2 * n)
-        *size *= 2;
-    double *r = calloc(*size, sizeof *r);
+    double *r = calloc(size + 2, sizeof *r);
     if (r == NULL)
         return NULL;
     for (size_t i = 0; i < n; i++) {
@@ -38,16 +53,6 @@ autocorrelation(const double *x, size_t n, size_t *size)
     }
     for (size_t i = 0; i < n; i++)
         r[i] = largest > 0 ? (x[i] - mean) / largest : 0;
-    gsl_fft_real_radix2_transform(r, 1, *size);
-    r[0] = fabs(r[0]);
-    r[*size / 2] = fabs(r[*size / 2]);
-    for (size_t i = 1; i < *size / 2; i++) {
-        r[i] = hypot(r[i], r[*size - i]);
-        r[*size - i] = 0;
-    }
-    gsl_fft_halfcomplex_radix2_inverse(r, 1, *size);
-    for (size_t i = *size; i-- > 0;)
-        r[i] = r[0] > 0 ? r[i] / r[0] * (double)n / (double)(n > i ? n - i : 1) : 0;
     return r;
 }
 
@@ -123,19 +128,20 @@ first_peak(const double *r, size_t last, double least)
 ss_status
 ss_period_find(const double *x, size_t n, ss_value *period)
 {
-    size_t size;
+    size_t size = 1;
     double height;
     *period = (ss_value){ NAN, NAN };
     if (n < 8)
         return SS_OK;
     if (n > SIZE_MAX / 4 / sizeof *x)
         return SS_ENOMEM;
-    double *r = autocorrelation(x, n, &size);
-    if (r == NULL)
-        return SS_ENOMEM;
-    size_t peak = first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
+    while (size < 2 * n)
+        size *= 2;
+    double *r = centred(x, n, size);
+    ss_status st = r != NULL ? autocorrelation(r, n, size) : SS_ENOMEM;
+    size_t peak = st != SS_OK ? 0 : first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
     if (peak > 0)
         period->value = follow(r, peak, 0.75 * (double)n, INFINITY, &height, &period->error);
     free(r);
-    return SS_OK;
+    return st;
 }
