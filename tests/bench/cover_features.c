@@ -2,12 +2,15 @@
  *
  * Random scenes of compliant contact: mass .01 to 1000 kg, contact 10 Hz to 5 kHz, its damping ratio
  * .002 to .2, forcing 3 to 300 times slower, friction .3 to .98 of what the base can push, four rates,
- * with sticks of three periods of the contact and more, or of .2 to 2 periods.  Each is read as it is
- * and under other conditions; a row a condition: how many have a number, and of these, the share with
- * the truth within 1 and 2 standard errors, and beyond 5, for total stiffness and damping ratio.
+ * with sticks of three periods of the contact and more, or of .2 to 2 periods, or of three and more with
+ * a second forcing of another frequency.  Each is read as it is and under other conditions; a row a
+ * condition: how many have a number, and of these, the share with the truth within 1 and 2 standard
+ * errors, and beyond 5, for total stiffness and damping ratio.
  * Exits 1 where a share misses what is aimed at (within 2: 88 %, beyond 5: 1 %, numbers: 90 % where
  * sticks are long and the signal is clean) by more than chance, 2 binomial standard deviations.
- * usage: cover_features [DRAWS [FIRST_SEED]] */
+ * usage: cover_features [DRAWS [FIRST [CONDITION]]]
+ * The draws FIRST ... FIRST + DRAWS - 1, each of a seed of its own; of one condition, with a line a draw
+ * on standard error. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -15,7 +18,10 @@
 
 enum { CYCLES = 9, MOST_SAMPLES = 250000 };
 
+typedef enum stick_kind { LONG, SHORT, TWICE, KINDS } stick_kind;    /* of sticks; LONG, but forced twice */
+
 typedef struct draw {
+    unsigned long number;
     ss_scene scene;
     ss_signal *signal;
     double f;                   /* of the contact, undamped [Hz] */
@@ -31,15 +37,14 @@ typedef struct condition {
     const char *column;
     void (*apply)(double *x, size_t n, const draw *d, double by);
     double by;
-    int is_short;               /* of sticks of .2 to 2 periods, which forbid an answer */
+    stick_kind kind;
     int must_answer;            /* in nine of ten */
 } condition;
 
 static void
 add_noise(double *x, size_t n, const draw *d, double snr)
 {
-    (void)d;
-    ss_noise_add_once(x, n, ss_noise_rms(x, n, snr), 1);
+    ss_noise_add_once(x, n, ss_noise_rms(x, n, snr), d->number);
 }
 
 static double
@@ -67,8 +72,7 @@ add_pink(double *x, size_t n, const draw *d, double snr)
     static const double pole[] = { 0.99886, 0.99332, 0.96900, 0.86650, 0.55000 };
     static const double gain[] = { 0.0555179, 0.0750759, 0.1538520, 0.3104856, 0.5329522 };
     double *w = bench_alloc(n), b[5] = { 0 };
-    (void)d;
-    ss_noise_add_once(w, n, 1, 2);
+    ss_noise_add_once(w, n, 1, d->number);
     for (size_t i = 0; i < n; i++) {
         double sum = 0.1848 * w[i];
         for (int k = 0; k < 5; k++)
@@ -138,22 +142,23 @@ drift(double *x, size_t n, const draw *d, double by)
 }
 
 static const condition conditions[] = {
-    { "clean", "a", NULL, 0, 0, 1 },
-    { "40 dB", "a", add_noise, 40, 0, 1 },
-    { "20 dB", "a", add_noise, 20, 0, 0 },
-    { "12 bit", "a", quantise, 12, 0, 1 },
-    { "pink noise, 30 dB", "a", add_pink, 30, 0, 0 },
-    { "low-pass, 5 f", "a", low_pass, 5, 0, 0 },
-    { "high-pass, f / 5", "a", high_pass, 0.2, 0, 0 },
-    { "hum, -30 dB", "a", add_hum, -30, 0, 0 },
-    { "hum, -20 dB", "a", add_hum, -20, 0, 0 },
-    { "drift of 0.1 %", "a", drift, 0.001, 0, 0 },
-    { "gaps", "a", add_noise, 40, 0, 0 },
-    { "velocity, 60 dB", "v", add_noise, 60, 0, 0 },
-    { "displacement, 80 dB", "x", add_noise, 80, 0, 0 },
-    { "short sticks, clean", "a", NULL, 0, 1, 0 },
-    { "short sticks, 40 dB", "a", add_noise, 40, 1, 0 },
-    { "short sticks, 20 dB", "a", add_noise, 20, 1, 0 },
+    { "clean", "a", NULL, 0, LONG, 1 },
+    { "40 dB", "a", add_noise, 40, LONG, 1 },
+    { "20 dB", "a", add_noise, 20, LONG, 0 },
+    { "12 bit", "a", quantise, 12, LONG, 1 },
+    { "pink noise, 30 dB", "a", add_pink, 30, LONG, 0 },
+    { "low-pass, 5 f", "a", low_pass, 5, LONG, 0 },
+    { "high-pass, f / 5", "a", high_pass, 0.2, LONG, 0 },
+    { "hum, -30 dB", "a", add_hum, -30, LONG, 0 },
+    { "hum, -20 dB", "a", add_hum, -20, LONG, 0 },
+    { "drift of 0.1 %", "a", drift, 0.001, LONG, 0 },
+    { "gaps", "a", add_noise, 40, LONG, 0 },
+    { "velocity, 60 dB", "v", add_noise, 60, LONG, 0 },
+    { "displacement, 80 dB", "x", add_noise, 80, LONG, 0 },
+    { "two forcings, 40 dB", "a", add_noise, 40, TWICE, 0 },
+    { "short sticks, clean", "a", NULL, 0, SHORT, 0 },
+    { "short sticks, 40 dB", "a", add_noise, 40, SHORT, 0 },
+    { "short sticks, 20 dB", "a", add_noise, 20, SHORT, 0 },
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
@@ -185,9 +190,54 @@ watch(const ss_event *e, void *user)
     return 0;
 }
 
+/* The base of the scene and a second sinusoid of .1 to .5 of its amplitude, 1.2 to 3 times as fast, as a
+ * file would have it. */
+static ss_base *
+force_twice(gsl_rng *rng, ss_scene *s)
+{
+    double ratio = between(rng, 1.2, 3), part = between(rng, 0.1, 0.5), w = 2 * M_PI * s->base_frequency;
+    ss_scene path = *s;                         /* of the base, from which the signal takes its clock */
+    ss_signal *z = NULL;
+    ss_base *base = NULL;
+    ss_error err = { 0 };
+    path.duration += path.settle + 1 / s->base_frequency;
+    path.settle = 0;
+    path.rate = 200 * ratio * s->base_frequency;
+    if (ss_sim_signal(&z, &path, &err) == SS_OK) {
+        size_t x = (size_t)ss_header_column(z->head, "x");
+        for (size_t i = 0; i < z->n; i++) {
+            double t = (double)i / path.rate;
+            z->values[x * z->n + i] = s->base_amplitude * (cos(w * t) + part * cos(ratio * w * t));
+        }
+        ss_base_new(&base, z, x, &err);
+    }
+    if (base == NULL) {
+        fprintf(stderr, "cover_features: %s\n", err.text);
+        exit(1);
+    }
+    ss_signal_free(z);
+    s->base = base;
+    s->base_amplitude = 0;
+    return base;
+}
+
+/* The median over half-cycles of the longest stick [s]; NaN: the scene fails. */
+static double
+longest_stick(const ss_scene *s)
+{
+    double of[2 * CYCLES + 1] = { 0 };
+    sticks st = { .began = NAN, .half = 0.5 / s->base_frequency, .of = of, .room = 2 * CYCLES };
+    ss_sim_opts opts = ss_sim_defaults;
+    if (s->base == NULL)
+        opts.method = "exact";
+    opts.events = watch;
+    opts.user = &st;
+    return ss_sim_run(s, &opts, NULL, NULL) == SS_OK ? bench_median(of, 2 * CYCLES) : NAN;
+}
+
 /* 0: that does not stick, or not as asked for. */
 static int
-take_draw(gsl_rng *rng, int is_short, draw *d)
+try_draw(gsl_rng *rng, stick_kind kind, draw *d)
 {
     static const double rates[] = { 8, 16, 32, 64 };    /* a period of the contact */
     ss_scene *s = &d->scene;
@@ -209,18 +259,28 @@ take_draw(gsl_rng *rng, int is_short, draw *d)
     s->settle = 30 / s->base_frequency;
     if (s->duration * s->rate > MOST_SAMPLES)
         return 0;
-    double of[2 * CYCLES + 1] = { 0 };
-    sticks st = { .began = NAN, .half = 0.5 / s->base_frequency, .of = of, .room = 2 * CYCLES };
-    ss_sim_opts opts = ss_sim_defaults;
-    opts.method = "exact";
-    opts.events = watch;
-    opts.user = &st;
-    if (ss_sim_run(s, &opts, NULL, NULL) != SS_OK)
-        return 0;
-    d->longest = bench_median(of, 2 * CYCLES) * d->f;
-    if (is_short ? d->longest < 0.2 || d->longest > 1.9 : d->longest < 3)
-        return 0;
-    return ss_sim_signal(&d->signal, s, NULL) == SS_OK;
+    ss_base *base = kind == TWICE ? force_twice(rng, s) : NULL;
+    d->longest = longest_stick(s) * d->f;
+    int is_right = kind == SHORT ? d->longest >= 0.2 && d->longest <= 1.9 : d->longest >= 3;
+    is_right = is_right && ss_sim_signal(&d->signal, s, NULL) == SS_OK;
+    ss_base_free(base);
+    s->base = NULL;
+    return is_right;
+}
+
+/* Of a seed of its own: the same whatever else is drawn. */
+static draw
+take_draw(unsigned long number, stick_kind kind)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    draw d = { .number = number };
+    if (rng == NULL)
+        exit(1);
+    gsl_rng_set(rng, KINDS * number + kind);
+    while (!try_draw(rng, kind, &d))
+        ;
+    gsl_rng_free(rng);
+    return d;
 }
 
 /* --- the count ------------------------------------------------------------------------------- */
@@ -271,8 +331,8 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
     compare(t, 1, f->damping_ratio, d->ratio);
     if (verbose) {
         double K = f->total_stiffness.value / total - 1, z = f->damping_ratio.value / d->ratio - 1;
-        fprintf(stderr, "%s\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tK %.3g (%.2f) z %.3g (%.2f)\t%s | %s\n",
-                c->name, d->f, d->ratio, d->f / d->scene.base_frequency, d->scene.rate / d->f, d->longest,
+        fprintf(stderr, "%lu\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tK %.3g (%.2f) z %.3g (%.2f)\t%s | %s\n",
+                d->number, d->f, d->ratio, d->f / d->scene.base_frequency, d->scene.rate / d->f, d->longest,
                 n, K, K * total / f->total_stiffness.error, z, z * d->ratio / f->damping_ratio.error,
                 f->why_ringing != NULL ? f->why_ringing : "", f->why_slips != NULL ? f->why_slips : "");
     }
@@ -294,33 +354,43 @@ misses(int part, int of, double bound, int above)
     return above ? part > of * bound + slack : part < of * bound - slack;
 }
 
+/* The conditions of the draw's kind, or the only one. */
+static void
+read_all(tally *all, const draw *d, stick_kind kind, const char *only)
+{
+    for (size_t c = 0; c < CONDITIONS; c++)
+        if (conditions[c].kind == kind && (only == NULL || strcmp(only, conditions[c].name) == 0))
+            read_one(&all[c], &conditions[c], d, only != NULL);
+}
+
 int
 main(int argc, char *argv[])
 {
-    int draws = argc > 1 ? atoi(argv[1]) : 31, errors = 0;
-    unsigned long seed = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    unsigned long draws = argc > 1 ? strtoul(argv[1], NULL, 10) : 31;
+    unsigned long first = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
+    const char *only = argc > 3 ? argv[3] : NULL;
     tally all[CONDITIONS] = { { 0 } };
+    int errors = 0, known = only == NULL, wanted[KINDS] = { 0 };
     gsl_set_error_handler_off();
-    if (rng == NULL)
-        return 1;
-    gsl_rng_set(rng, seed);
-    for (int is_short = 0; is_short < 2; is_short++)
-        for (int i = 0; i < draws;) {
-            draw d = { 0 };
-            if (!take_draw(rng, is_short, &d))
-                continue;
-            for (size_t c = 0; c < CONDITIONS; c++)
-                if (conditions[c].is_short == is_short)
-                    read_one(&all[c], &conditions[c], &d, argc > 3);
+    for (size_t c = 0; c < CONDITIONS; c++)
+        if (only == NULL || strcmp(only, conditions[c].name) == 0)
+            known = wanted[conditions[c].kind] = 1;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (unsigned long i = 0; wanted[kind] && i < draws; i++) {
+            draw d = take_draw(first + i, kind);
+            read_all(all, &d, kind, only);
             ss_signal_free(d.signal);
-            i++;
         }
-    gsl_rng_free(rng);
+    if (!known) {
+        fprintf(stderr, "cover_features: no condition \"%s\"\n", only);
+        return 2;
+    }
     printf("# condition draws numbers/%% K_within_1/%% K_within_2/%% K_beyond_5/%% zeta_within_1/%% "
            "zeta_within_2/%% zeta_beyond_5/%%\n");
     for (size_t c = 0; c < CONDITIONS; c++) {
         const tally *t = &all[c];
+        if (t->n == 0)
+            continue;
         printf("%s\t%d\t%.0f", conditions[c].name, t->n, share(t->answers, t->n));
         errors += conditions[c].must_answer && misses(t->answers, t->n, 0.9, 0);
         for (int k = 0; k < 2; k++) {
