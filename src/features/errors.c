@@ -17,21 +17,6 @@
 #define HIGHEST_LINE 1.4
 enum { LINES = 15 };
 
-/* Of one window: H = J'J and g = J'r, and the sum of squares. */
-typedef struct normal {
-    double ww, ws, ss, w, s, rss;
-} normal;
-
-static normal
-normal_of(fitter *k, ss_window win)
-{
-    size_t n = ss_window_length(win);
-    const double *j_w = k->fit.j[0], *j_s = k->fit.j[1], *r = k->fit.r;
-    linear fitted = ss_varpro_derive(&k->fit, win);
-    return (normal){ ss_dot(j_w, j_w, n), ss_dot(j_w, j_s, n), ss_dot(j_s, j_s, n),
-                     ss_dot(j_w, r, n), ss_dot(j_s, r, n), fitted.rss };
-}
-
 /* The variances from the curvature of the sum of squares. */
 static void
 errors_of_fit(const normal *h, double variance, ss_value value[2])
@@ -45,19 +30,16 @@ errors_of_fit(const normal *h, double variance, ss_value value[2])
 static ss_status
 jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
-    normal *each = malloc(n * sizeof *each), all = { 0 };
     double moved[2] = { 0, 0 }, mean[2] = { 0, 0 };
-    size_t used = 0, samples = ss_window_total(window, n);
+    size_t used, samples = ss_window_total(window, n);
+    linear total = ss_varpro_project_all(&k->fit, window, n, &used);
+    normal all = total.normal, *each = malloc((used + 1) * sizeof *each);
     if (each == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(window[i]) == 0)
-            continue;
-        normal h = each[used++] = normal_of(k, window[i]);
-        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
-        all.rss += h.rss;
-    }
-    errors_of_fit(&all, all.rss / (double)(samples - k->fit.columns * used - 2), value);
+    for (size_t i = 0, to = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0)
+            each[to++] = ss_varpro_project(&k->fit, window[i]).normal;
+    errors_of_fit(&all, total.rss / (double)(samples - k->fit.columns * used - 2), value);
     for (int pass = 0; pass < 2 && used >= FIT_FEW; pass++)
         for (size_t i = 0; i < used; i++) {
             normal h = each[i];
@@ -83,20 +65,12 @@ jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 static void
 variances(fitter *k, const ss_window *window, size_t n, double *variance, double of[2])
 {
-    normal all = { 0 };
     ss_value value[2];
-    size_t used = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(window[i]) == 0)
-            continue;
-        normal h = normal_of(k, window[i]);
-        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
-        all.rss += h.rss;
-        used++;
-    }
+    size_t used;
+    linear all = ss_varpro_project_all(&k->fit, window, n, &used);
     if (*variance < 0)
         *variance = all.rss / (double)(ss_window_total(window, n) - k->fit.columns * used - 2);
-    errors_of_fit(&all, *variance, value);
+    errors_of_fit(&all.normal, *variance, value);
     of[0] = value[0].error * value[0].error;
     of[1] = value[1].error * value[1].error;
 }
@@ -111,11 +85,10 @@ add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     double most[2] = { 0, 0 }, whole[2], less[2], variance = -1;
     size_t off = periods(k, FIT_TRIM_END);
     ss_window *cut_off = malloc(n * sizeof *cut_off);
-    ss_status st = cut_off != NULL ? SS_OK : SS_ENOMEM;
-    int ok;
-    if (st == SS_OK)
-        variances(k, window, n, &variance, whole);
-    for (int end = 0; end < 2 && st == SS_OK; end++) {
+    if (cut_off == NULL)
+        return SS_ENOMEM;
+    variances(k, window, n, &variance, whole);
+    for (int end = 0; end < 2; end++) {
         for (size_t i = 0; i < n; i++) {
             size_t part = off < ss_window_length(window[i]) ? off : ss_window_length(window[i]);
             cut_off[i] = window[i];
@@ -124,8 +97,7 @@ add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
             else
                 cut_off[i].first += part;
         }
-        st = ss_varpro_fit(&k->fit, cut_off, n, FIT_FINE, &ok);
-        if (st == SS_OK && ok) {
+        if (ss_varpro_fit(&k->fit, cut_off, n, FIT_FINE)) {
             variances(k, cut_off, n, &variance, less);
             const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
             for (int j = 0; j < 2; j++)
@@ -136,25 +108,23 @@ add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     for (int j = 0; j < 2; j++)
         value[j].error = sqrt(value[j].error * value[j].error + 0.25 * most[j]);
     free(cut_off);
-    return st;
+    return SS_OK;
 }
 
 /* What a filter leaves of a slip goes on into every stick, slowly and alike: neither the jackknife nor
  * shorter windows see all of it.  If the fit moves by more than SEEN standard deviations of what noise
  * moves it by (Hausman again) where the slow part may bend as a cubic, it is off by as much. */
-static ss_status
+static void
 add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     const double at[2] = { k->fit.w, k->fit.s };
     double whole[2], bent[2], variance = -1;
-    int ok;
     for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_COLUMNS + 2)
-            return SS_OK;
+        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
+            return;
     variances(k, window, n, &variance, whole);
     ss_varpro_bend(&k->fit, 1);
-    ss_status st = ss_varpro_fit(&k->fit, window, n, FIT_FINE, &ok);
-    if (st == SS_OK && ok) {
+    if (ss_varpro_fit(&k->fit, window, n, FIT_FINE)) {
         variances(k, window, n, &variance, bent);
         const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
         for (int j = 0; j < 2; j++)
@@ -163,38 +133,29 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     }
     ss_varpro_bend(&k->fit, 0);
     k->fit.w = at[0], k->fit.s = at[1];
-    return st;
 }
 
 /* The sum of squares that all windows leave, with a steady line of frequency line in each. */
 static double
 rss_with_line(fitter *k, const ss_window *window, size_t n, double line)
 {
-    double sum = 0;
+    size_t used;
     ss_varpro_add_line(&k->fit, line);
-    for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > 0)
-            sum += ss_varpro_project(&k->fit, window[i]).rss;
-    return sum;
+    return ss_varpro_project_all(&k->fit, window, n, &used).rss;
 }
 
 /* A line in every window that explains more than chance is no part of the model, of which the fit
  * may have taken it for one: it is off by what it moves by beside the line. */
-static ss_status
+static void
 add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     const double at[2] = { k->fit.w, k->fit.s };
-    double least = INFINITY, best = 0, ring = 0;
-    size_t used = 0, samples = ss_window_total(window, n);
-    for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(window[i]) == 0)
-            continue;
-        if (ss_window_length(window[i]) <= VARPRO_COLUMNS + 2)
-            return SS_OK;
-        ring += ss_varpro_project(&k->fit, window[i]).ring;
-        used++;
-    }
-    double plain = rss_with_line(k, window, n, 0);
+    double least = INFINITY, best = 0;
+    size_t used, samples = ss_window_total(window, n);
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
+            return;
+    linear plain = ss_varpro_project_all(&k->fit, window, n, &used);
     for (int l = 0; l < LINES; l++) {
         double line = at[0] * (LOWEST_LINE + l * (HIGHEST_LINE - LOWEST_LINE) / (LINES - 1));
         double rss = rss_with_line(k, window, n, line);
@@ -204,15 +165,12 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
         }
     }
     double more = 2 * (double)used, left = (double)(samples - (k->fit.columns + 2) * used);
-    double noise = fmax(least / left, FIT_MISFIT * FIT_MISFIT * ring / (double)samples);
-    double F = (plain - least) / more / noise;
-    ss_status st = SS_OK;
+    double noise = fmax(least / left, FIT_MISFIT * FIT_MISFIT * plain.ring / (double)samples);
+    double F = (plain.rss - least) / more / noise;
     if (F > gsl_cdf_fdist_Qinv(FIT_CHANCE / LINES, more, left)) {
-        int ok;
         double variance = -1, with[2];
         ss_varpro_add_line(&k->fit, best);
-        st = ss_varpro_fit(&k->fit, window, n, FIT_FINE, &ok);
-        if (st == SS_OK && ok) {
+        if (ss_varpro_fit(&k->fit, window, n, FIT_FINE)) {
             variances(k, window, n, &variance, with);
             const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
             for (int j = 0; j < 2; j++)
@@ -222,7 +180,6 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     }
     ss_varpro_add_line(&k->fit, 0);
     k->fit.w = at[0], k->fit.s = at[1];
-    return st;
 }
 
 /* A residual above the white noise is no part of the model.  It may lie in the band of the oscillation:
@@ -231,20 +188,12 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 static void
 add_colour(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2])
 {
-    double variance = -1, unused[2];
-    size_t used = 0, samples = ss_window_total(window, n);
     ss_value more[2];
-    normal all = { 0 };
-    variances(k, window, n, &variance, unused);
-    for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(window[i]) == 0)
-            continue;
-        normal h = normal_of(k, window[i]);
-        all.ww += h.ww, all.ws += h.ws, all.ss += h.ss;
-        used++;
-    }
+    size_t used, samples = ss_window_total(window, n);
+    linear all = ss_varpro_project_all(&k->fit, window, n, &used);
+    double variance = all.rss / (double)(samples - k->fit.columns * used - 2);
     double excess = fmax(0, variance - WHITE * white * white);
-    errors_of_fit(&all, excess * 0.5 * (double)samples / (double)used, more);
+    errors_of_fit(&all.normal, excess * 0.5 * (double)samples / (double)used, more);
     for (int j = 0; j < 2; j++)
         value[j].error = sqrt(value[j].error * value[j].error + more[j].error * more[j].error
                               + FIT_FINE * FIT_FINE * k->fit.w * k->fit.w);
@@ -253,10 +202,10 @@ add_colour(fitter *k, const ss_window *window, size_t n, double white, ss_value 
 /* --- all of it ----------------------------------------------------------------------------- */
 
 void
-ss_errors_of_one(fitter *k, ss_window win, ss_value value[2])
+ss_errors_of_one(const fitter *k, ss_window win, const linear *fitted, ss_value value[2])
 {
-    normal h = normal_of(k, win);
-    errors_of_fit(&h, h.rss / (double)(ss_window_length(win) - k->fit.columns - 2), value);
+    double freedom = (double)(ss_window_length(win) - k->fit.columns - 2);
+    errors_of_fit(&fitted->normal, fitted->rss / freedom, value);
 }
 
 ss_status
@@ -265,11 +214,10 @@ ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_va
     ss_status st = jackknife(k, window, n, value);
     if (st == SS_OK)
         st = add_misfit(k, window, n, value);
-    if (st == SS_OK)
-        st = add_slow_part(k, window, n, value);
-    if (st == SS_OK)
-        st = add_line(k, window, n, value);
-    if (st == SS_OK)
-        add_colour(k, window, n, white, value);
-    return st;
+    if (st != SS_OK)
+        return st;
+    add_slow_part(k, window, n, value);
+    add_line(k, window, n, value);
+    add_colour(k, window, n, white, value);
+    return SS_OK;
 }

@@ -77,6 +77,6 @@ ss_status ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is
 ss_status ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2]);
 
 /* Those of a fit to one window alone, from its curvature. */
-void ss_errors_of_one(fitter *k, ss_window win, ss_value value[2]);
+void ss_errors_of_one(const fitter *k, ss_window win, const linear *fitted, ss_value value[2]);
 
 #endif

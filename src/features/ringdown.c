@@ -29,53 +29,46 @@ static const ss_value nothing = { NAN, NAN };
 
 /* --- each transition by itself ------------------------------------------------------------- */
 
-static ss_status
-fit_one(fitter *k, ss_window win, ss_value each[2], linear *fitted)
+static linear
+fit_one(fitter *k, ss_window win, ss_value each[2])
 {
-    int ok;
+    linear fitted = { 0 };
     double w = k->fit.w, s = k->fit.s;
-    ss_status st = ss_varpro_fit(&k->fit, &win, 1, FIT_FINE, &ok);
-    if (st == SS_OK && ok) {
-        *fitted = ss_varpro_project(&k->fit, win);
+    if (ss_varpro_fit(&k->fit, &win, 1, FIT_FINE)) {
+        fitted = ss_varpro_project(&k->fit, win);
         each[0].value = k->fit.w;
         each[1].value = k->fit.s;
-        ss_errors_of_one(k, win, each);
+        ss_errors_of_one(k, win, &fitted, each);
     }
     k->fit.w = w, k->fit.s = s;
-    return st;
+    return fitted;
 }
 
-static ss_status
+static void
 fit_each(fitter *k, const ss_window *window, size_t n, ss_value *each)
 {
-    linear fitted;
-    ss_status st = SS_OK;
-    for (size_t i = 0; i < n && st == SS_OK; i++)
+    for (size_t i = 0; i < n; i++)
         if (ss_window_length(window[i]) > k->fit.columns + 2)
-            st = fit_one(k, window[i], each + 2 * i, &fitted);
-    return st;
+            fit_one(k, window[i], each + 2 * i);
 }
 
 /* Windows of the least length, each fitted by itself and kept if the oscillation explains it well. */
-static ss_status
+static void
 fit_rough(fitter *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
 {
-    ss_status st = SS_OK;
-    for (size_t i = 0; i < n && st == SS_OK; i++) {
+    for (size_t i = 0; i < n; i++) {
         ss_window win = ss_sticks_place(k, anchor[i], FIT_LEAST);
         ss_value own[2] = { nothing, nothing };
-        linear fitted;
         if (ss_window_length(win) <= k->fit.columns + 2)
             continue;
-        st = fit_one(k, win, own, &fitted);
-        if (st != SS_OK || !(fabs(log(own[0].value / k->fit.w)) < M_LN2 / 2)
+        linear fitted = fit_one(k, win, own);
+        if (!(fabs(log(own[0].value / k->fit.w)) < M_LN2 / 2)
             || !(fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss))
             || !(exp(-own[1].value * (double)ss_window_length(win)) > LASTS))
             continue;
         memcpy(each + 2 * i, own, sizeof own);
         window[i] = win;
     }
-    return st;
 }
 
 /* The median of the single fits, and its error from their scatter.  The residual of a window may lie in
@@ -114,6 +107,14 @@ median_of_fits(const ss_window *window, size_t n, const ss_value *each, ss_value
 
 /* --- all of it ----------------------------------------------------------------------------- */
 
+/* Fit w and s to all windows, and find the noise. *ok: they have converged. */
+static ss_status
+fit_shared(fitter *k, const ss_window *window, size_t n, double tol, int *ok)
+{
+    *ok = ss_varpro_fit(&k->fit, window, n, tol);
+    return *ok ? ss_sticks_noise(k, window, n) : SS_OK;
+}
+
 static ss_status
 fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
@@ -122,9 +123,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
     int ok = 0, more = 1;
     for (size_t i = 0; i < n; i++)
         core[i] = window[i] = ss_sticks_place(k, anchor[i], CORE);
-    ss_status st = ss_varpro_fit(&k->fit, core, n, COARSE, &ok);
-    if (st == SS_OK && ok)
-        st = ss_sticks_noise(k, core, n);
+    ss_status st = fit_shared(k, core, n, COARSE, &ok);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
         if (st != SS_OK || !ok || !(fabs(log(k->fit.w / start)) < M_LN2 / 2))
             return st;                  /* or it is something else */
@@ -133,9 +132,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
         more = 0;
         for (size_t i = 0; i < n; i++)
             more |= ss_window_length(window[i]) == longest;
-        st = ss_varpro_fit(&k->fit, window, n, COARSE, &ok);
-        if (st == SS_OK && ok)
-            st = ss_sticks_noise(k, window, n);
+        st = fit_shared(k, window, n, COARSE, &ok);
     }
     if (st != SS_OK || !ok)
         return st;
@@ -143,9 +140,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
         window[i] = ss_sticks_trim(k, window[i]);
     size_t longest;
     do {
-        st = ss_varpro_fit(&k->fit, window, n, FIT_FINE, &ok);
-        if (st == SS_OK && ok)
-            st = ss_sticks_noise(k, window, n);
+        st = fit_shared(k, window, n, FIT_FINE, &ok);
         if (st == SS_OK && ok)
             st = ss_slips_find(k, window, n, &longest);
         if (st != SS_OK || !ok)
@@ -168,7 +163,8 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
     value[1].value = k->fit.s;
     if (st == SS_OK)
         st = ss_errors_find(k, window, n, white, value);
-    return st == SS_OK ? fit_each(k, window, n, each) : st;
+    fit_each(k, window, n, each);
+    return st;
 }
 
 void
@@ -234,7 +230,7 @@ ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, size_t n_a
     ss_status st = ss_varpro_init(&k.fit, x, (size_t)ceil(4 * FIT_LEAST * M_PI / w) + 2 * VARPRO_COLUMNS);
     ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
-        st = fit_rough(&k, anchor, n_anchors, window, each);
+        fit_rough(&k, anchor, n_anchors, window, each);
     if (st == SS_OK)
         st = median_of_fits(window, n_anchors, each, value);
     ss_varpro_free(&k.fit);
@@ -253,7 +249,8 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
         : (double)(anchor[n_anchors - 1] - anchor[0]) / (double)(n_anchors - 1);
     if (!(apart >= APART * turn) || (forcing > 0 && M_PI / forcing < APART * turn))
         return SS_OK;
-    size_t room = (size_t)ceil(2 * MOST * turn) + 2 * VARPRO_COLUMNS;
+    size_t room = (size_t)ceil(4 * MOST * turn) + 2 * VARPRO_COLUMNS;
+    room = room < n + 1 ? room : n + 1;         /* longer than any window */
     ss_status st = ss_varpro_init(&k.fit, x, room);
     if (st == SS_OK && (k.limit = calloc(room, sizeof *k.limit)) == NULL)
         st = SS_ENOMEM;

@@ -17,36 +17,98 @@
  * beside w and s, in one linear step from the fit at hand (a score test): H and g gather J'J and J'r
  * over the windows; g' H^-1 g over the noise is chi-square of two degrees of freedom if all is well.
  * A train of micro-slips changes it by that once a period, at the same phase. */
-enum { PARAMETERS = VARPRO_DERIVATIVES };   /* w, s, real and imaginary part of the gain */
+enum { PARAMETERS = 4 };        /* w, s, real and imaginary part of the gain */
 typedef struct score {
     double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
 } score;
+
+/* Sums of products with a column that counts the changes of the gain so far, and with its square. */
+typedef struct steps {
+    varpro_sums once, twice;
+} steps;
+
+static void
+add_sums(varpro_sums *to, const varpro_sums *of, double times)
+{
+    for (int j = 0; j < VARPRO_COLUMNS; j++) {
+        to->x[j] += times * of->x[j];
+        for (int k = 0; k < VARPRO_COLUMNS; k++)
+            to->g[j][k] += times * of->g[j][k];
+    }
+}
+
+/* Of a window whose gain changes at a place, and, if again, once a period from there. */
+static steps
+steps_from(fitter *k, ss_window win, size_t at, int again)
+{
+    steps sum = { { 0 }, { 0 } };
+    varpro_sums behind;
+    size_t n = ss_window_length(win);
+    double period = 2 * M_PI / k->fit.w;
+    size_t count = again ? (size_t)((double)(n - 1 - at) / period) + 1 : 1;
+    ss_varpro_sums_start(&k->fit, win.first, &behind);
+    for (size_t end = n; count > 0; count--) {
+        size_t from = at + (size_t)ceil((double)(count - 1) * period);
+        ss_varpro_sums_add(&k->fit, (ss_window){ win.first + from, win.first + end }, &behind);
+        end = from;
+        add_sums(&sum.once, &behind, 1);
+        add_sums(&sum.twice, &behind, 2 * (double)count - 1);
+    }
+    return sum;
+}
+
+/* Column u, a cos + b sin, or v, b cos - a sin, of the steps: its products with all columns. */
+static void
+step_column(const varpro_sums *sums, double c, double s, double of[VARPRO_COLUMNS])
+{
+    for (int j = 0; j < VARPRO_COLUMNS; j++)
+        of[j] = c * sums->g[VARPRO_COS][j] + s * sums->g[VARPRO_SIN][j];
+}
+
+/* Add what a window's gain, changed as the steps say, has to do with w, s and the residual: y is what the
+ * steps' columns are along the orthonormal ones, the last two of which the derivatives lie in. */
+static void
+add_score(const varpro_factor *f, const linear *fitted, const steps *at, score *to)
+{
+    enum { LEFT = VARPRO_T_COS };
+    const double c[] = { fitted->a, fitted->b }, s[] = { fitted->b, -fitted->a };
+    double j[PARAMETERS][2], y[2][VARPRO_COLUMNS], of[VARPRO_COLUMNS];
+    ss_varpro_derivatives(f, fitted->a, fitted->b, j[0], j[1]);
+    for (int p = 0; p < 2; p++) {
+        step_column(&at->once, c[p], s[p], of);
+        ss_varpro_substitute(f, of, y[p]);
+        memcpy(j[2 + p], y[p] + LEFT, sizeof j[0]);
+        double g = c[p] * at->once.x[VARPRO_COS] + s[p] * at->once.x[VARPRO_SIN];
+        for (int i = 0; i < LEFT; i++)
+            g -= y[p][i] * f->y[i];
+        to->g[2 + p] += g;
+        step_column(&at->twice, c[p], s[p], of);
+        for (int q = 0; q <= p; q++) {
+            double h = c[q] * of[VARPRO_COS] + s[q] * of[VARPRO_SIN];
+            for (int i = 0; i < LEFT; i++)
+                h -= y[p][i] * y[q][i];
+            to->h[(2 + p) * PARAMETERS + 2 + q] += h;
+        }
+    }
+    for (int p = 2; p < PARAMETERS; p++)
+        for (int q = 0; q < 2; q++)
+            to->h[p * PARAMETERS + q] += j[p][0] * j[q][0] + j[p][1] * j[q][1];
+}
 
 /* Add a window's at the places first, first + step, ..., at each once, or once a period from there. */
 static void
 add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int again, score *to)
 {
-    size_t n = ss_window_length(win);
-    double **j = k->fit.j, period = 2 * M_PI / k->fit.w;
-    linear fitted = ss_varpro_derive(&k->fit, win);
+    linear fitted = ss_varpro_project(&k->fit, win);
+    const normal *n = &fitted.normal;
     for (size_t l = 0; l < n_places; l++, to++) {
         size_t at = first + l * step;
-        int used = at < n ? PARAMETERS : 2;
-        if (at < n) {
-            for (size_t i = 0; i < n; i++) {
-                double times = i < at ? 0 : again ? 1 + floor((double)(i - at) / period) : 1;
-                double c = times * k->fit.ring.cos[i], s = times * k->fit.ring.sin[i];
-                j[2][i] = fitted.a * c + fitted.b * s;
-                j[3][i] = fitted.b * c - fitted.a * s;
-            }
-            for (int p = 2; p < PARAMETERS; p++)
-                ss_varpro_project_out(&k->fit, j[p], n);
+        if (at < ss_window_length(win)) {
+            steps sums = steps_from(k, win, at, again);
+            add_score(&k->fit.factor, &fitted, &sums, to);
         }
-        for (int p = 0; p < used; p++) {
-            for (int q = 0; q < used; q++)
-                to->h[p * PARAMETERS + q] += ss_dot(j[p], j[q], n);
-            to->g[p] += ss_dot(j[p], k->fit.r, n);
-        }
+        to->h[0] += n->ww, to->h[PARAMETERS] += n->ws, to->h[PARAMETERS + 1] += n->ss;
+        to->g[0] += n->w, to->g[1] += n->s;
     }
 }
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
-enum { PLACES = 16 };           /* of the core, a period */
+enum { PLACES = 16, MOST_PLACES = 4 * PLACES };         /* of the core: a period; at all */
 
 /* What of the sum of squares the noise makes: its median over the windows, robust to those that
  * hold something else; not less than the misfit allowed for. */
@@ -67,22 +67,23 @@ ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 {
     size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1);
-    ss_window best = { 0, 0 };
     size = size > k->fit.columns + 2 ? size : k->fit.columns + 2;
+    linear fitted[MOST_PLACES];
+    ss_window place[MOST_PLACES], best = { 0, 0 };
     double most = 0, least = INFINITY;
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t first = anchor > before ? anchor - before : 0;
-             first <= anchor + after && first + size <= k->n; first += step) {
-            ss_window here = { first, first + size };
-            if (ss_sticks_has_gap(k, here))
-                continue;
-            linear fitted = ss_varpro_project(&k->fit, here);
-            if (pass == 0) {
-                most = fmax(most, fitted.ring);
-            } else if (fitted.ring >= 0.25 * most && fitted.rss < least) {
-                least = fitted.rss;
-                best = here;
-            }
+    size_t n = 0;
+    for (size_t first = anchor > before ? anchor - before : 0;
+         first <= anchor + after && first + size <= k->n && n < MOST_PLACES; first += step) {
+        place[n] = (ss_window){ first, first + size };
+        if (ss_sticks_has_gap(k, place[n]))
+            continue;
+        fitted[n] = ss_varpro_project(&k->fit, place[n]);
+        most = fmax(most, fitted[n++].ring);
+    }
+    for (size_t i = 0; i < n; i++)
+        if (fitted[i].ring >= 0.25 * most && fitted[i].rss < least) {
+            least = fitted[i].rss;
+            best = place[i];
         }
     return best;
 }
@@ -96,24 +97,29 @@ ss_sticks_belong(fitter *k, double rise, size_t q)
     return rise <= k->noise * k->limit[q];
 }
 
-/* Move one end of the window outwards, in steps down to one sample, at most room samples. */
+/* Move one end of the window, of which the sums are at hand, outwards, in steps down to one sample, at
+ * most room samples. */
 static ss_window
-grow(fitter *k, ss_window win, size_t room, int backwards)
+grow(fitter *k, ss_window win, varpro_sums *sums, size_t room, int backwards)
 {
-    double start = ss_varpro_project(&k->fit, win).rss, rss = start;
+    double start = ss_varpro_solve(sums, NULL).rss, rss = start;
     size_t added = 0;
     for (size_t step = periods(k, FIT_BLOCK); step > 0; step /= 2)
         while (added + step <= room) {
-            ss_window more = win;
+            varpro_sums more = *sums;
+            ss_window block = { win.end, win.end + step };
             if (backwards)
-                more.first -= step;
-            else
-                more.end += step;
-            double now = ss_varpro_project(&k->fit, more).rss;
+                block = (ss_window){ win.first - step, win.first };
+            ss_varpro_sums_add(&k->fit, block, &more);
+            double now = ss_varpro_solve(&more, NULL).rss;
             if (!ss_sticks_belong(k, now - rss, step)
                 || !ss_sticks_belong(k, now - start, added + step))
                 break;
-            win = more;
+            *sums = more;
+            if (backwards)
+                win.first -= step;
+            else
+                win.end += step;
             rss = now;
             added += step;
         }
@@ -126,14 +132,19 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     if (ss_window_length(core) >= longest)
         return core;
     size_t most = longest - ss_window_length(core), left = core.first - low;
-    if (ss_window_length(core) == 0
-        || !ss_sticks_belong(k, ss_varpro_project(&k->fit, core).rss,
-                             ss_window_length(core) - k->fit.columns))
+    varpro_sums sums;
+    if (ss_window_length(core) == 0)
         return (ss_window){ 0, 0 };
-    ss_window win = grow(k, core, left < most ? left : most, 1);
+    left = left < most ? left : most;
+    ss_varpro_sums_start(&k->fit, core.first - left, &sums);
+    ss_varpro_sums_add(&k->fit, core, &sums);
+    if (!ss_sticks_belong(k, ss_varpro_solve(&sums, NULL).rss,
+                          ss_window_length(core) - k->fit.columns))
+        return (ss_window){ 0, 0 };
+    ss_window win = grow(k, core, &sums, left, 1);
     size_t right = high - win.end;
     most = longest - ss_window_length(win);
-    return grow(k, win, right < most ? right : most, 0);
+    return grow(k, win, &sums, right < most ? right : most, 0);
 }
 
 /* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */

@@ -2,39 +2,51 @@
  * projected out.
  *
  * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t), a slow part of two to
- * four columns, and a steady line if asked for. The amplitudes are its own; w and s are those of all windows. So the amplitudes are
- * projected out of each window (variable projection, Golub and Pereyra 1973, with Kaufman's
- * Jacobian), and two numbers are left to fit to all windows at once, by GSL's Levenberg-Marquardt. */
+ * four columns, and a steady line if asked for.  The amplitudes are its own; w and s are those of all
+ * windows.  So the amplitudes are projected out of each window (variable projection, Golub and Pereyra
+ * 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows at once, by
+ * Levenberg-Marquardt.
+ *
+ * All that this needs of a window are the products of its samples with the columns: the products of the
+ * columns with each other are those of all windows of its length.  With g = l l' (Cholesky) and y = l^-1 x'
+ * columns, the last two being the derivatives t exp(-s t) cos(w t) and t exp(-s t) sin(w t), |y|^2 of the
+ * others is what they explain, and J and J'r lie along the last two.  The sum of squares that is left is
+ * known to some 1e-15 of the whole, so that its root is known to 3e-8 of the signal: misfits that pass for
+ * noise are far larger. */
 #include "features/varpro.h"
 
-#include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "morlet/versions.h"
+
+enum { COLUMNS = VARPRO_COLUMNS, OFTEN = 16, STEPS = 50 };
+#define DEPENDENT 1e-13         /* of a column's square: less than that is rounding */
+#define FIRST_DAMPING 1e-3
+#define ROUNDING 1e-14          /* of the sum of squares: it may rise so much at its minimum */
 
 ss_status
 ss_varpro_init(varpro *v, const double *x, size_t room)
 {
-    enum { PIECES = VARPRO_COLUMNS + VARPRO_DERIVATIVES + 7 };
-    double *at = malloc(PIECES * room * sizeof *at);
-    *v = (varpro){ .x = x, .room = room, .memory = at };
-    if (at == NULL)
-        return SS_ENOMEM;
-    for (int i = 0; i < VARPRO_COLUMNS; i++, at += room)
-        v->basis.q[i] = at;
-    for (int i = 0; i < VARPRO_DERIVATIVES; i++, at += room)
-        v->j[i] = at;
-    v->r = at;
-    v->slow.cos = at + room, v->slow.sin = at + 2 * room;
-    v->ring.cos = at + 3 * room, v->ring.sin = at + 4 * room;
-    v->steady.cos = at + 5 * room, v->steady.sin = at + 6 * room;
-    return SS_OK;
+    *v = (varpro){ .x = x, .room = room };
+    v->table.row = malloc(room * sizeof *v->table.row);
+    v->table.sum = malloc((room / OFTEN + 1) * sizeof *v->table.sum);
+    return v->table.row != NULL && v->table.sum != NULL ? SS_OK : SS_ENOMEM;
 }
 
 void
 ss_varpro_free(varpro *v)
 {
-    free(v->memory);
+    free(v->table.row);
+    free(v->table.sum);
+}
+
+static void
+count_columns(varpro *v)
+{
+    enum { RING = 2, LINE = 2 };
+    size_t slow = (v->forcing > 0 ? 3 : 2) + (v->is_bent ? v->forcing > 0 ? 1 : 2 : 0);
+    v->columns = slow + RING + (v->line > 0 ? LINE : 0);
 }
 
 void
@@ -46,18 +58,10 @@ ss_varpro_start(varpro *v, double w, double s, double forcing)
     ss_varpro_bend(v, 0);
 }
 
-static void
-count_columns(varpro *v)
-{
-    enum { RING = 2, LINE = 2 };
-    size_t slow = v->is_cubic ? 4 : v->forcing > 0 ? 3 : 2;
-    v->columns = slow + RING + (v->line > 0 ? LINE : 0);
-}
-
 void
-ss_varpro_bend(varpro *v, int is_cubic)
+ss_varpro_bend(varpro *v, int is_bent)
 {
-    v->is_cubic = is_cubic;
+    v->is_bent = is_bent;
     count_columns(v);
 }
 
@@ -68,215 +72,296 @@ ss_varpro_add_line(varpro *v, double line)
     count_columns(v);
 }
 
-/* In lanes, which do not wait for each other. */
-double
-ss_dot(const double *a, const double *b, size_t n)
+/* --- columns and their sums ------------------------------------------------------------------ */
+
+static wave
+wave_of(double w, double s)
 {
-    enum { LANES = 8 };
-    double sum[LANES] = { 0 };
+    return (wave){ 1, 0, exp(-s) * cos(w), exp(-s) * sin(w) };
+}
+
+static void
+turn(wave *z)
+{
+    double next = z->cos * z->turn_cos - z->sin * z->turn_sin;
+    z->sin = z->cos * z->turn_sin + z->sin * z->turn_cos;
+    z->cos = next;
+}
+
+/* As many differ from 0 as are in use.  The slow part, about the origin, is scaled so that it may be
+ * told from rounding where the forcing is slow: sin, 1 - cos and t - sin are t, t^2 and t^3 about. */
+static void
+make_row(const columns *tab, double t, double row[COLUMNS])
+{
+    double phase = tab->forcing * t;
+    memset(row, 0, COLUMNS * sizeof *row);
+    row[VARPRO_SLOW] = 1;
+    row[VARPRO_SLOW + 1] = tab->forcing > 0 ? tab->slow.sin : t;
+    if (tab->forcing > 0)
+        row[VARPRO_SLOW + 2] = 1 - tab->slow.cos;
+    else if (tab->is_bent)
+        row[VARPRO_SLOW + 2] = t * t;
+    if (tab->is_bent)
+        row[VARPRO_SLOW + 3] = tab->forcing > 0 ? phase - tab->slow.sin : t * t * t;
+    if (tab->line > 0)
+        row[VARPRO_LINE] = tab->steady.cos, row[VARPRO_LINE + 1] = tab->steady.sin;
+    row[VARPRO_COS] = tab->ring.cos, row[VARPRO_SIN] = tab->ring.sin;
+    row[VARPRO_T_COS] = t * tab->ring.cos, row[VARPRO_T_SIN] = t * tab->ring.sin;
+}
+
+/* Add the products of n rows' columns. */
+VERSIONS static void
+add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS])
+{
+    for (size_t i = 0; i < n; i++)
+        for (int j = 0; j < COLUMNS; j++)
+            for (int k = 0; k < COLUMNS; k++)
+                g[j][k] += row[i][j] * row[i][k];
+}
+
+/* Add those with x less level. */
+VERSIONS static void
+add_samples(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
+            double *restrict to, double *restrict xx)
+{
+    double even[COLUMNS] = { 0 }, odd[COLUMNS] = { 0 }, squares[2] = { 0 };
     size_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (size_t l = 0; l < LANES; l++)
-            sum[l] += a[i + l] * b[i + l];
-    for (; i < n; i++)
-        sum[0] += a[i] * b[i];
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-}
-
-/* Subtract from v its component along the unit vector q; returns the component. */
-static double
-project_out(double *v, const double *q, size_t n)
-{
-    double part = ss_dot(q, v, n);
-    for (size_t i = 0; i < n; i++)
-        v[i] -= part * q[i];
-    return part;
-}
-
-static double
-normalise(double *v, size_t n)
-{
-    double norm = sqrt(ss_dot(v, v, n));
-    for (size_t i = 0; i < n; i++)
-        v[i] /= norm;
-    return norm;
-}
-
-/* The first n samples, by rotation. */
-static void
-extend(wave *to, double w, double s, size_t n)
-{
-    double step = exp(-s), turn_c = step * cos(w), turn_s = step * sin(w);
-    if (to->w != w || to->s != s)
-        to->n = 0;
-    to->w = w, to->s = s;
-    for (; to->n < n; to->n++) {
-        size_t i = to->n;
-        to->cos[i] = i == 0 ? 1 : to->cos[i - 1] * turn_c - to->sin[i - 1] * turn_s;
-        to->sin[i] = i == 0 ? 0 : to->cos[i - 1] * turn_s + to->sin[i - 1] * turn_c;
+    for (; i + 2 <= n; i += 2) {
+        double a = x[i] - level, b = x[i + 1] - level;
+        for (int k = 0; k < COLUMNS; k++)
+            even[k] += a * row[i][k];
+        for (int k = 0; k < COLUMNS; k++)
+            odd[k] += b * row[i + 1][k];
+        squares[0] += a * a, squares[1] += b * b;
     }
-}
-
-/* The slow part, about the middle of the window: its columns are scaled to unit size. */
-static void
-slow_columns(varpro *v, double **q, size_t n)
-{
-    double middle = 0.5 * (double)(n - 1);
-    double c = cos(v->forcing * middle), s = sin(v->forcing * middle);
-    if (v->forcing > 0)
-        extend(&v->slow, v->forcing, 0, n);
-    for (size_t i = 0; i < n; i++) {
-        q[0][i] = 1;
-        double t = (double)i - middle;
-        if (v->forcing > 0) {
-            q[1][i] = v->slow.sin[i] * c - v->slow.cos[i] * s;
-            q[2][i] = v->slow.cos[i] * c + v->slow.sin[i] * s;
-        } else {
-            q[1][i] = t;
-            if (v->is_cubic)
-                q[2][i] = t * t;
-        }
-        if (v->is_cubic)
-            q[3][i] = t * t * t;
+    if (i < n) {
+        double a = x[i] - level;
+        for (int k = 0; k < COLUMNS; k++)
+            even[k] += a * row[i][k];
+        squares[0] += a * a;
     }
+    for (int k = 0; k < COLUMNS; k++)
+        to[k] += even[k] + odd[k];
+    *xx += squares[0] + squares[1];
 }
 
-/* By modified Gram-Schmidt, for more samples than columns. */
+/* The sums over the first n rows, of which the last may not have theirs yet. */
 static void
-make_basis(varpro *v, size_t n)
+sum_rows(const columns *tab, size_t n, double (*g)[COLUMNS])
 {
-    basis *b = &v->basis;
-    size_t c = v->columns - 2;
-    if (b->n == n && b->columns == v->columns && b->w == v->w && b->s == v->s
-        && b->forcing == v->forcing && b->line == v->line)
+    size_t known = n > 0 ? (n - 1) / OFTEN : 0;
+    if (known > 0)
+        memcpy(g, tab->sum[known - 1], sizeof tab->sum[0]);
+    else
+        memset(g, 0, sizeof tab->sum[0]);
+    add_products(tab->row + known * OFTEN, n - known * OFTEN, g);
+}
+
+/* The columns of w, s, forcing and line as they are now. */
+static void
+restart(varpro *v)
+{
+    columns *tab = &v->table;
+    if (tab->w == v->w && tab->s == v->s && tab->forcing == v->forcing && tab->line == v->line
+        && tab->is_bent == v->is_bent)
         return;
-    b->n = n, b->columns = v->columns, b->w = v->w, b->s = v->s;
-    b->forcing = v->forcing, b->line = v->line;
-    slow_columns(v, b->q, n);
-    if (v->line > 0) {
-        extend(&v->steady, v->line, 0, n);
-        memcpy(b->q[c - 2], v->steady.cos, n * sizeof(double));
-        memcpy(b->q[c - 1], v->steady.sin, n * sizeof(double));
+    tab->w = v->w, tab->s = v->s, tab->forcing = v->forcing, tab->line = v->line;
+    tab->is_bent = v->is_bent;
+    tab->ring = wave_of(v->w, v->s);
+    tab->slow = wave_of(v->forcing, 0);
+    tab->steady = wave_of(v->line, 0);
+    tab->n = 0;
+    v->factored = 0;
+}
+
+/* The first n rows. */
+static void
+extend(varpro *v, size_t n)
+{
+    columns *tab = &v->table;
+    restart(v);
+    for (; tab->n < n; tab->n++) {
+        make_row(tab, (double)tab->n, tab->row[tab->n]);
+        turn(&tab->ring), turn(&tab->slow), turn(&tab->steady);
+        if ((tab->n + 1) % OFTEN == 0)
+            sum_rows(tab, tab->n + 1, tab->sum[tab->n / OFTEN]);
     }
-    extend(&v->ring, v->w, v->s, n);
-    memcpy(b->q[c], v->ring.cos, n * sizeof(double));
-    memcpy(b->q[c + 1], v->ring.sin, n * sizeof(double));
-    for (size_t j = 0; j < v->columns; j++) {
-        for (size_t l = 0; l < j; l++)
-            b->cross = project_out(b->q[j], b->q[l], n);   /* the last one: of sin along cos */
-        b->norm[j] = normalise(b->q[j], n);
+}
+
+void
+ss_varpro_sums_start(const varpro *v, size_t origin, varpro_sums *sums)
+{
+    *sums = (varpro_sums){ .origin = origin, .level = v->x[origin] };
+}
+
+void
+ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums)
+{
+    size_t from = more.first - sums->origin, n = ss_window_length(more);
+    extend(v, from + n);
+    add_products(v->table.row + from, n, sums->g);
+    add_samples(v->x + more.first, sums->level, v->table.row + from, n, sums->x, &sums->xx);
+}
+
+/* --- projection ------------------------------------------------------------------------------ */
+
+/* A column that depends on those before is left out: its row of l and what is below it are 0. */
+static void
+factorise(double (*g)[COLUMNS], double (*l)[COLUMNS])
+{
+    for (int j = 0; j < COLUMNS; j++) {
+        double pivot = g[j][j];
+        for (int k = 0; k < j; k++)
+            pivot -= l[j][k] * l[j][k];
+        l[j][j] = pivot > DEPENDENT * g[j][j] ? sqrt(pivot) : 0;
+        for (int i = j + 1; i < COLUMNS; i++) {
+            double sum = g[i][j];
+            for (int k = 0; k < j; k++)
+                sum -= l[i][k] * l[j][k];
+            l[i][j] = l[j][j] > 0 ? sum / l[j][j] : 0;
+        }
     }
+}
+
+void
+ss_varpro_substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS])
+{
+    for (int j = 0; j < COLUMNS; j++) {
+        double sum = of[j];
+        for (int k = 0; k < j; k++)
+            sum -= f->l[j][k] * to[k];
+        to[j] = f->l[j][j] > 0 ? sum / f->l[j][j] : 0;
+    }
+}
+
+/* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
+void
+ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2], double by_s[2])
+{
+    const double *c = &f->l[VARPRO_T_COS][VARPRO_T_COS], *s = &f->l[VARPRO_T_SIN][VARPRO_T_COS];
+    by_w[0] = a * s[0] - b * c[0], by_w[1] = a * s[1];
+    by_s[0] = a * c[0] + b * s[0], by_s[1] = b * s[1];
+}
+
+static linear
+linear_of(const varpro_factor *f, double xx)
+{
+    const double *y = f->y, *left = y + VARPRO_T_COS;
+    linear fit = { .whole = xx, .rss = xx };
+    for (int j = 0; j < VARPRO_T_COS; j++)
+        fit.rss -= y[j] * y[j];
+    fit.rss = fmax(fit.rss, 0);
+    fit.ring = y[VARPRO_COS] * y[VARPRO_COS] + y[VARPRO_SIN] * y[VARPRO_SIN];
+    double c = f->l[VARPRO_COS][VARPRO_COS], s = f->l[VARPRO_SIN][VARPRO_SIN], w[2], d[2];
+    fit.b = s > 0 ? y[VARPRO_SIN] / s : 0;
+    fit.a = c > 0 ? (y[VARPRO_COS] - f->l[VARPRO_SIN][VARPRO_COS] * fit.b) / c : 0;
+    ss_varpro_derivatives(f, fit.a, fit.b, w, d);
+    fit.normal = (normal){ w[0] * w[0] + w[1] * w[1], w[0] * d[0] + w[1] * d[1],
+                           d[0] * d[0] + d[1] * d[1], w[0] * left[0] + w[1] * left[1],
+                           d[0] * left[0] + d[1] * left[1] };
+    return fit;
+}
+
+linear
+ss_varpro_solve(varpro_sums *sums, varpro_factor *factor)
+{
+    varpro_factor own, *f = factor != NULL ? factor : &own;
+    memset(f, 0, sizeof *f);
+    factorise(sums->g, f->l);
+    ss_varpro_substitute(f, sums->x, f->y);
+    return linear_of(f, sums->xx);
+}
+
+/* The factor of windows of n samples. */
+static void
+find_factor(varpro *v, size_t n)
+{
+    double g[COLUMNS][COLUMNS];
+    extend(v, n);
+    if (v->factored == n)
+        return;
+    sum_rows(&v->table, n, g);
+    memset(&v->factor, 0, sizeof v->factor);
+    factorise(g, v->factor.l);
+    v->factored = n;
 }
 
 linear
 ss_varpro_project(varpro *v, ss_window win)
 {
-    const basis *p = &v->basis;
-    size_t n = ss_window_length(win), c = v->columns - 2, s = c + 1;
-    double z[VARPRO_COLUMNS] = { 0 };
-    make_basis(v, n);
-    memcpy(v->r, v->x + win.first, n * sizeof *v->r);
-    for (size_t j = 0; j < v->columns; j++)
-        z[j] = project_out(v->r, p->q[j], n);
-    double b = z[s] / p->norm[s];
-    return (linear){ ss_dot(v->r, v->r, n), z[c] * z[c] + z[s] * z[s],
-                     (z[c] - p->cross * b) / p->norm[c], b };
+    size_t n = ss_window_length(win);
+    double x[COLUMNS] = { 0 }, xx = 0;
+    find_factor(v, n);
+    add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx);
+    ss_varpro_substitute(&v->factor, x, v->factor.y);
+    return linear_of(&v->factor, xx);
+}
+
+linear
+ss_varpro_project_all(varpro *v, const ss_window *window, size_t n, size_t *used)
+{
+    linear all = { 0 };
+    *used = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (ss_window_length(window[i]) == 0)
+            continue;
+        linear one = ss_varpro_project(v, window[i]);
+        all.whole += one.whole, all.rss += one.rss, all.ring += one.ring;
+        all.normal.ww += one.normal.ww, all.normal.ws += one.normal.ws;
+        all.normal.ss += one.normal.ss;
+        all.normal.w += one.normal.w, all.normal.s += one.normal.s;
+        ++*used;
+    }
+    return all;
 }
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
 
+/* What all windows leave at w and s. */
+static linear
+project_at(varpro *v, const ss_window *window, size_t n, const double at[2])
+{
+    size_t used;
+    v->w = at[0], v->s = at[1];
+    return ss_varpro_project_all(v, window, n, &used);
+}
+
+/* To where w and s may go next; 0: there is no such place. */
 static int
-residuals(const gsl_vector *at, void *user, gsl_vector *f)
+next_place(const normal *h, double damping, const double at[2], double next[2])
 {
-    varpro *v = user;
-    double *to = f->data;
-    v->w = gsl_vector_get(at, 0);
-    v->s = gsl_vector_get(at, 1);
-    for (size_t i = 0; i < v->n_windows; i++) {
-        size_t n = ss_window_length(v->window[i]);
-        if (n == 0)
-            continue;
-        ss_varpro_project(v, v->window[i]);
-        memcpy(to, v->r, n * sizeof *to);
-        to += n;
-    }
-    return GSL_SUCCESS;
-}
-
-void
-ss_varpro_project_out(const varpro *v, double *y, size_t n)
-{
-    for (size_t j = 0; j < v->columns; j++)
-        project_out(y, v->basis.q[j], n);
-}
-
-/* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
-linear
-ss_varpro_derive(varpro *v, ss_window win)
-{
-    double *j_w = v->j[0], *j_s = v->j[1];
-    size_t n = ss_window_length(win);
-    linear fit = ss_varpro_project(v, win);
-    for (size_t i = 0; i < n; i++) {
-        double c = (double)i * v->ring.cos[i], s = (double)i * v->ring.sin[i];
-        j_w[i] = fit.a * s - fit.b * c;
-        j_s[i] = fit.a * c + fit.b * s;
-    }
-    ss_varpro_project_out(v, j_w, n);
-    ss_varpro_project_out(v, j_s, n);
-    return fit;
+    double ww = h->ww * (1 + damping), ss = h->ss * (1 + damping), det = ww * ss - h->ws * h->ws;
+    next[0] = at[0] + (h->ws * h->s - ss * h->w) / det;
+    next[1] = at[1] + (h->ws * h->w - ww * h->s) / det;
+    return next[0] > 0 && next[0] < M_PI && isfinite(next[1]);
 }
 
 static int
-jacobian(const gsl_vector *at, void *user, gsl_matrix *to)
+is_near(const double a[2], const double b[2], double tol)
 {
-    varpro *v = user;
-    v->w = gsl_vector_get(at, 0);
-    v->s = gsl_vector_get(at, 1);
-    for (size_t i = 0, row = 0; i < v->n_windows; i++) {
-        size_t n = ss_window_length(v->window[i]);
-        if (n == 0)
-            continue;
-        ss_varpro_derive(v, v->window[i]);
-        for (size_t l = 0; l < n; l++, row++) {
-            gsl_matrix_set(to, row, 0, v->j[0][l]);
-            gsl_matrix_set(to, row, 1, v->j[1][l]);
-        }
-    }
-    return GSL_SUCCESS;
+    return fabs(b[0] - a[0]) <= tol * (fabs(a[0]) + tol)
+        && fabs(b[1] - a[1]) <= tol * (fabs(a[1]) + tol);
 }
 
-ss_status
-ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol, int *ok)
+/* A short step that leaves more ends the fit, too: it stands at the minimum already. */
+int
+ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol)
 {
-    enum { STEPS = 50, FITTED = 2 };
-    double w = v->w, s = v->s;
-    size_t samples = ss_window_total(window, n);
-    int info;
-    *ok = 0;
-    if (samples < FITTED)
-        return SS_OK;
-    v->window = window;
-    v->n_windows = n;
-    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf problem = { .f = residuals, .df = jacobian, .n = samples, .p = FITTED,
-                                         .params = v };
-    gsl_multifit_nlinear_workspace *space =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, samples, FITTED);
-    if (space == NULL)
-        return SS_ENOMEM;
-    double start[2] = { w, s };
-    gsl_vector_view at = gsl_vector_view_array(start, 2);
-    if (gsl_multifit_nlinear_init(&at.vector, &problem, space) == GSL_SUCCESS) {
-        int how_it_ended = gsl_multifit_nlinear_driver(STEPS, tol, 0, 0, NULL, NULL, &info, space);
-        w = gsl_vector_get(space->x, 0);
-        s = gsl_vector_get(space->x, 1);
-        /* no progress: it stands at the minimum already */
-        *ok = (how_it_ended == GSL_SUCCESS || info == GSL_ENOPROG) && w > 0 && w < M_PI
-            && isfinite(s);
+    double at[2] = { v->w, v->s }, next[2], damping = FIRST_DAMPING;
+    linear here = project_at(v, window, n, at), there;
+    int ended = 0;
+    for (int i = 0; i < STEPS && !ended; i++) {
+        int is_place = next_place(&here.normal, damping, at, next);
+        if (is_place)
+            there = project_at(v, window, n, next);
+        ended = is_place && is_near(at, next, tol);
+        if (is_place && there.rss <= here.rss + ROUNDING * here.whole) {
+            memcpy(at, next, sizeof at);
+            here = there;
+            damping /= 10;
+        } else
+            damping *= 10;
     }
-    v->w = w;
-    v->s = s;
-    gsl_multifit_nlinear_free(space);
-    return SS_OK;
+    v->w = at[0], v->s = at[1];
+    return ended;
 }

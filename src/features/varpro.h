@@ -7,45 +7,67 @@
 #include <stickslip/status.h>
 #include "features/window.h"
 
-enum { VARPRO_COLUMNS = 7, VARPRO_DERIVATIVES = 4 };
+/* What a window consists of, t samples behind an origin: a slow part (1, t, t^2, t^3, or the forcing), a
+ * steady line, exp(-s t) cos(w t) and exp(-s t) sin(w t); and t times these two, the derivatives.  Columns
+ * that are not in use are 0. */
+enum {
+    VARPRO_SLOW = 0, VARPRO_LINE = 4, VARPRO_COS = 6, VARPRO_SIN, VARPRO_T_COS, VARPRO_T_SIN,
+    VARPRO_COLUMNS,
+    VARPRO_MOST = VARPRO_LINE + 3       /* columns but the derivatives' that are ever in use */
+};
 
-/* exp(-s t) cos(w t) and exp(-s t) sin(w t), t in samples, as many samples as were asked for yet. */
-typedef struct wave {
-    double w, s;                /* per sample */
-    size_t n;
-    double *cos, *sin;
+/* Sums over samples of products: of columns with each other and with x, and of x with itself; x less
+ * level. */
+typedef struct varpro_sums {
+    size_t origin;
+    double level;
+    double g[VARPRO_COLUMNS][VARPRO_COLUMNS], x[VARPRO_COLUMNS], xx;
+} varpro_sums;
+
+/* g = l l', l lower triangular; y = l^-1 x. */
+typedef struct varpro_factor {
+    double l[VARPRO_COLUMNS][VARPRO_COLUMNS], y[VARPRO_COLUMNS];
+} varpro_factor;
+
+typedef struct wave {           /* now, and what a sample turns it by */
+    double cos, sin, turn_cos, turn_sin;
 } wave;
 
-/* The orthonormal columns that are projected out of windows of n samples; the last two are the
- * oscillation's.  Windows of one length share it. */
-typedef struct basis {
-    size_t n, columns;          /* n is 0: none yet */
+/* The columns, row by row, for as long as was asked for yet, and at every so many the sums over all rows
+ * before. */
+typedef struct columns {
     double w, s, forcing, line;
-    double *q[VARPRO_COLUMNS];
-    double norm[VARPRO_COLUMNS], cross;        /* of a column less those before; of sin along cos */
-} basis;
+    int is_bent;
+    size_t n;
+    wave ring, slow, steady;
+    double (*row)[VARPRO_COLUMNS];
+    double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS], now[VARPRO_COLUMNS][VARPRO_COLUMNS];
+} columns;
 
 typedef struct varpro {
     const double *x;
     size_t room;                /* samples of the longest window */
     double w, s;                /* of the oscillation, per sample */
     double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
-    int is_cubic;               /* t^2 (of the line only) and t^3 are in the slow part, too */
+    int is_bent;                /* t^2 and t^3, or t beside the forcing, are in the slow part, too */
     double line;                /* per sample: a steady line that each window has, too; 0: none */
     size_t columns;             /* of the slow part, the line and the oscillation */
-    wave slow, steady, ring;    /* cos and sin of the forcing and the line; the oscillation */
-    basis basis;
-    double *r;                  /* the residual */
-    double *j[VARPRO_DERIVATIVES];      /* its derivatives; two are by w and by s, two spare */
-    size_t n_windows;           /* that are being fitted */
-    const ss_window *window;
-    double *memory;
+    columns table;
+    size_t factored;            /* length of the window whose factor is known; 0: none */
+    varpro_factor factor;
 } varpro;
 
+/* J'J and J'r of a window, r the residual and J its derivatives by w and s. */
+typedef struct normal {
+    double ww, ws, ss, w, s;
+} normal;
+
 typedef struct linear {         /* what projecting a window gave */
-    double rss;                 /* sum of squares left */
-    double ring;                /* sum of squares that the oscillation explains */
+    double whole;               /* sum of squares of the samples, less the first */
+    double rss;                 /* of what is left */
+    double ring;                /* of what the oscillation explains */
     double a, b;                /* of cos and sin */
+    normal normal;
 } linear;
 
 /* For windows of up to room samples, out of x, which stays the caller's. */
@@ -55,25 +77,35 @@ void ss_varpro_free(varpro *v);
 /* Start from w and s; forcing: see above. */
 void ss_varpro_start(varpro *v, double w, double s, double forcing);
 
-/* Let the slow part bend as a cubic does, or no more. */
-void ss_varpro_bend(varpro *v, int is_cubic);
+/* Let the slow part bend, or no more. */
+void ss_varpro_bend(varpro *v, int is_bent);
 
 /* Let each window have a steady line of this frequency per sample, too; 0: no more. */
 void ss_varpro_add_line(varpro *v, double line);
 
-/* Fit the amplitudes to a window of more samples than columns: makes the basis, fills r. */
+/* Fit the amplitudes to a window of more samples than columns. */
 linear ss_varpro_project(varpro *v, ss_window win);
 
-/* The same, and the derivatives of r by w and by s into j[0] and j[1]. */
-linear ss_varpro_derive(varpro *v, ss_window win);
+/* The sums over all windows that are not empty; how many these are. a and b are 0. */
+linear ss_varpro_project_all(varpro *v, const ss_window *window, size_t n, size_t *used);
 
-/* Subtract from n samples of y the columns that were projected out last. */
-void ss_varpro_project_out(const varpro *v, double *y, size_t n);
+/* No sums yet, of windows that begin at origin or behind it. */
+void ss_varpro_sums_start(const varpro *v, size_t origin, varpro_sums *sums);
 
-/* Fit w and s to n windows, from where they stand, to a relative tolerance.  *ok: they have
- * converged. */
-ss_status ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol, int *ok);
+/* Add those of samples up to room behind the origin. */
+void ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums);
 
-double ss_dot(const double *a, const double *b, size_t n);
+/* The same fit by the sums; the factor, too, unless NULL. */
+linear ss_varpro_solve(varpro_sums *sums, varpro_factor *factor);
+
+/* to = l^-1 of. */
+void ss_varpro_substitute(const varpro_factor *f, const double of[VARPRO_COLUMNS],
+                          double to[VARPRO_COLUMNS]);
+
+/* What the derivatives by w and s are along the last two of the orthonormal columns that l^-1 makes. */
+void ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2], double by_s[2]);
+
+/* Fit w and s to n windows, from where they stand, to a relative tolerance.  1: they have converged. */
+int ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol);
 
 #endif
