@@ -44,8 +44,8 @@ pc        = $(shell $(PKG_CONFIG) --$1 $2 2>/dev/null)
 HDF5_PC  := $(firstword $(foreach p,hdf5-serial hdf5,$(if $(call pc,modversion,$p),$p)))
 HOMEBREW := $(if $(HDF5_PC),,$(shell brew --prefix 2>/dev/null))
 INCLUDES := $(call pc,cflags,gsl) $(call pc,cflags,fftw3f fftw3) $(call pc,cflags,$(HDF5_PC)) $(HOMEBREW:%=-I%/include)
-LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 \
-	$(call pc,libs,gsl) $(call pc,libs,fftw3f fftw3) -lpthread -lm
+NUMERICS := $(call pc,libs,gsl) $(call pc,libs,fftw3f fftw3) -lpthread -lm
+LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 $(NUMERICS)
 CMOCKA_INCLUDES := $(call pc,cflags,cmocka)
 CMOCKA_LIBS     := $(or $(call pc,libs,cmocka),-lcmocka)
 
@@ -85,20 +85,26 @@ BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
 TOOL_OBJ := $(BUILD)/tools/common.o $(BUILD)/tools/files.o $(BUILD)/tools/output.o $(BUILD)/tools/reading.o
-OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
-	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
 SHARED  := libstickslip.$(SOVERSION).dylib
 LINKS   := libstickslip.dylib
 SOFLAGS  = -dynamiclib -install_name $(LIBDIR)/$(SHARED) -current_version $(VERSION)
+TOOL_LIBS = $(LIBS)
 else
 SHARED  := libstickslip.so.$(VERSION)
 LINKS   := libstickslip.so.$(SOVERSION) libstickslip.so
 SOFLAGS  = -shared -Wl,-soname,libstickslip.so.$(SOVERSION)
+# HDF5 comes with the shared library, which tools open when a file needs it (tools/hdf5.c): in the
+# build tree, or where it is installed, before any other that is found.
+TOOL_OBJ += $(BUILD)/tools/hdf5.o
+rpath    := $$ORIGIN/..:$$ORIGIN/../lib$(addprefix :,$(filter-out $(abspath $(BINDIR)/../lib),$(abspath $(LIBDIR))))
+TOOL_LIBS = -Wl,--disable-new-dtags,-rpath,$(call quote,$(rpath)) $(NUMERICS) -ldl
 endif
+OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
+	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
 all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
 
@@ -131,9 +137,9 @@ $(BUILD)/$(SHARED): $(LIB_OBJ)
 	$(CC) $(SOFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 	cd $(@D) && for l in $(LINKS); do ln -sf $(@F) $$l; done
 
-$(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC)
+$(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC) $(BUILD)/rpath | $(BUILD)/$(SHARED)
 	@mkdir -p $(@D)
-	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+	$(CC) $(ALL_LDFLAGS) -o $@ $(filter-out %/rpath,$^) $(TOOL_LIBS)
 
 # A script has the style of its pages within.
 $(BUILD)/bin/%: tools/%.sh data/report.css include/stickslip/status.h
@@ -164,11 +170,11 @@ $(BUILD)/tests/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/c
 $(OBJECTS): Makefile $(BUILD)/flags | needs
 
 quote = '$(subst ','\'',$1)'
-FLAGS := $(CC) $(ALL_CFLAGS) : $(ALL_LDFLAGS) $(LIBS)
-$(BUILD)/flags: always
+flags := $(CC) $(ALL_CFLAGS) : $(ALL_LDFLAGS) $(LIBS)
+$(BUILD)/flags $(BUILD)/rpath: $(BUILD)/%: always
 	@mkdir -p $(@D)
-	@printf '%s\n' $(call quote,$(FLAGS)) | cmp -s - $@ || \
-		printf '%s\n' $(call quote,$(FLAGS)) > $@
+	@printf '%s\n' $(call quote,$($*)) | cmp -s - $@ || \
+		printf '%s\n' $(call quote,$($*)) > $@
 
 # --- what it needs ---------------------------------------------------------------------------
 # The packages are looked for when make starts, so what comes after an installation is done by a

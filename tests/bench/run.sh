@@ -80,3 +80,12 @@ if [ "$LONG_RECORD" = 1 ]; then
     compile cover_features ''
     "$out/cover_features" | expand -t 22 || echo "errors of ss-features do not cover as they should"
 fi
+
+# What a tool takes that does nothing: shell loops run many.
+echo 'int main(void) { return 0; }' > "$out/empty.c"
+$CCLD -o "$out/empty" "$out/empty.c"
+start() {       # COMMAND ...: CPU ms a run
+    (i=0; while [ $i -lt 300 ]; do "$@" > /dev/null 2>&1; i=$((i + 1)); done; times) |
+        awk -F '[ms ]+' 'END { printf "%.1f", ($1 * 60 + $2 + $3 * 60 + $4) / 300 * 1000 }'
+}
+echo "CPU ms a run: empty program $(start "$out/empty"), ss-cat --version $(start ss-cat --version)"

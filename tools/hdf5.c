@@ -1,0 +1,85 @@
+/* hdf5.c -- HDF5 when a file needs it.
+ *
+ * HDF5 brings some 35 libraries, and loading these takes more processor time than most runs of a tool.  So
+ * tools are not linked with the store (src/store): these functions have its names, open the shared library
+ * libstickslip where the store is, and call the same function there. */
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stickslip/store.h>
+
+#define LIBRARY "libstickslip.so." SS_VERSION
+
+/* The store's function of that name into *function; 0, with the reason, if there is none. */
+static int
+find(void *function, const char *name, ss_error *err)
+{
+    static void *library;
+    if (library == NULL)
+        library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    void *found = library != NULL ? dlsym(library, name) : NULL;
+    *(void **)function = found;             /* as dlsym(3) has it: C converts no such pointer */
+    if (found == NULL && err != NULL)
+        snprintf(err->text, sizeof err->text,
+                 "HDF5 files need the library that is installed with the tools: %s", dlerror());
+    return found != NULL;
+}
+
+#define FORWARD(name, parameters, arguments) \
+    ss_status \
+    name parameters \
+    { \
+        ss_status (*function) parameters; \
+        return find(&function, #name, err) ? function arguments : SS_EIO; \
+    }
+
+FORWARD(ss_store_write, (const char *path, const ss_record *record, ss_error *err), (path, record, err))
+FORWARD(ss_store_writer_new,
+        (ss_store_writer **out, const char *path, const ss_header *signal, const ss_coefficients *grid,
+         ss_error *err),
+        (out, path, signal, grid, err))
+FORWARD(ss_store_writer_signal,
+        (ss_store_writer *writer, const double *x, size_t n, size_t row, size_t column, ss_error *err),
+        (writer, x, n, row, column, err))
+FORWARD(ss_store_writer_rows,
+        (ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
+         size_t samples, ss_error *err),
+        (writer, scale, first, n, w, samples, err))
+FORWARD(ss_store_writer_end, (ss_store_writer *writer, size_t samples, ss_error *err), (writer, samples, err))
+FORWARD(ss_store_read_signal,
+        (ss_signal **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err),
+        (out, path, dataset, opts, err))
+FORWARD(ss_store_read_coefficients, (ss_coefficients **out, const char *path, ss_error *err), (out, path, err))
+FORWARD(ss_store_reader_new, (ss_store_reader **out, const char *path, ss_error *err), (out, path, err))
+FORWARD(ss_store_reader_scale, (ss_store_reader *reader, size_t i, double *w, ss_error *err),
+        (reader, i, w, err))
+
+int
+ss_store_has_signal(const char *path)
+{
+    int (*function)(const char *);
+    return find(&function, "ss_store_has_signal", NULL) && function(path);
+}
+
+const ss_coefficients *
+ss_store_reader_grid(const ss_store_reader *reader)
+{
+    const ss_coefficients *(*function)(const ss_store_reader *);
+    return find(&function, "ss_store_reader_grid", NULL) ? function(reader) : NULL;
+}
+
+/* NULL, where nothing was opened, opens nothing. */
+void
+ss_store_writer_free(ss_store_writer *writer)
+{
+    void (*function)(ss_store_writer *);
+    if (writer != NULL && find(&function, "ss_store_writer_free", NULL))
+        function(writer);
+}
+
+void
+ss_store_reader_free(ss_store_reader *reader)
+{
+    void (*function)(ss_store_reader *);
+    if (reader != NULL && find(&function, "ss_store_reader_free", NULL))
+        function(reader);
+}
