@@ -1,76 +1,110 @@
 /* breakpoint.c -- a two-sided fit with a free break.
  *
- * Left of the break a cubic, right of it the same plus truncated powers 1 to 3 (a kink), or 0 to 3
- * (a jump).  All but the place of the break is linear: the residual is what an orthogonal
- * projection leaves, and the place is where it is least.  Between two samples a jump has no place
- * (any gives the same samples), so it is put half way. */
+ * On either side of the break a cubic, the two being free of each other (a jump), or the same at the break
+ * (a kink).  Two free cubics leave r; that they differ by d at the break, where their variances are u and
+ * v, adds d^2 / (u + v) if they may not.  The place of the break is where least is left.  Between two
+ * samples a jump has no place (any gives the same samples), so it is put half way. */
 #include "features/breakpoint.h"
 
 #include <math.h>
-#include <string.h>
 
-enum { DEGREE = 3, TERMS = 2 * DEGREE + 2, SAMPLES = 128 };
+enum { JUMP, KINK };
+enum { DEGREE = 3, SAMPLES = 128 };
 
 #define ROUNDING 1e-6           /* re the range of the samples: better no fit needs to be */
+
+/* A cubic through samples of one side, in the monic polynomials that are orthogonal over them. */
+typedef struct side {
+    double middle;              /* of the samples, from the first of the piece on */
+    size_t n;
+    double c[DEGREE + 1], norm[DEGREE + 1];     /* coefficients; sums of squares */
+    double left;                /* sum of squares that it leaves */
+} side;
 
 typedef struct piece {
     double x[SAMPLES];          /* samples first ... first + n - 1, brought into [0, 1] */
     size_t n;
-    double first, unit;         /* of the time axis: half the length, so that powers stay near 1 */
+    double first;
+    size_t split;               /* samples left of the break, whose sides these are; 0: none yet */
+    side side[2];
 } piece;
 
-/* Sum of squares that the terms 0 ... DEGREE and the truncated powers lowest ... DEGREE leave. */
-static double
-residual(const piece *p, double at, int lowest)
+/* The polynomials at s from the middle of n equidistant points (Gram's). */
+static void
+polynomials(size_t n, double s, double p[DEGREE + 1])
 {
-    double q[TERMS][SAMPLES], left[SAMPLES], sum = 0;
-    int terms = 0;
-    size_t right = 0;                   /* samples left of the break */
-    while (right < p->n && p->first + (double)right < at)
-        right++;
-    memcpy(left, p->x, p->n * sizeof *left);
-    for (int side = 0; side < 2; side++)
-        for (int power = side == 0 ? 0 : lowest; power <= DEGREE; power++, terms++) {
-            double *u = q[terms], norm = 0, along = 0, before = 0;
-            for (size_t i = 0; i < p->n; i++) {
-                double s = (p->first + (double)i - at) / p->unit, s2 = s * s;
-                u[i] = side == 1 && i < right ? 0
-                    : power == 0 ? 1 : power == 1 ? s : power == 2 ? s2 : s2 * s;
-                before += u[i] * u[i];
-            }
-            for (int pass = 0; pass < 2; pass++)        /* twice is enough (Kahan, Parlett) */
-                for (int k = 0; k < terms; k++) {
-                    double dot = 0;
-                    for (size_t i = 0; i < p->n; i++)
-                        dot += q[k][i] * u[i];
-                    for (size_t i = 0; i < p->n; i++)
-                        u[i] -= dot * q[k][i];
-                }
-            for (size_t i = 0; i < p->n; i++)
-                norm += u[i] * u[i];
-            double scale = norm > 1e-24 * before ? 1 / sqrt(norm) : 0;      /* 0: nothing new */
-            for (size_t i = 0; i < p->n; i++) {
-                u[i] *= scale;
-                along += u[i] * left[i];
-            }
-            for (size_t i = 0; i < p->n; i++)
-                left[i] -= along * u[i];
+    double nn = (double)n * (double)n;
+    p[0] = 1;
+    p[1] = s;
+    p[2] = s * p[1] - (nn - 1) / 12 * p[0];
+    p[3] = s * p[2] - (nn - 4) / 15 * p[1];
+}
+
+/* Of n samples, more than DEGREE + 1, from first on. */
+static side
+fit_side(const double *x, size_t first, size_t n)
+{
+    side f = { .middle = (double)first + 0.5 * (double)(n - 1), .n = n };
+    double p[DEGREE + 1];
+    for (size_t i = first; i < first + n; i++) {
+        polynomials(n, (double)i - f.middle, p);
+        for (size_t k = 0; k <= DEGREE; k++) {
+            f.c[k] += p[k] * x[i];
+            f.norm[k] += p[k] * p[k];
         }
-    for (size_t i = 0; i < p->n; i++)
-        sum += left[i] * left[i];
-    return sum;
+    }
+    for (size_t k = 0; k <= DEGREE; k++)
+        f.c[k] /= f.norm[k];
+    for (size_t i = first; i < first + n; i++) {
+        polynomials(n, (double)i - f.middle, p);
+        double r = x[i] - f.c[0] - f.c[1] * p[1] - f.c[2] * p[2] - f.c[3] * p[3];
+        f.left += r * r;
+    }
+    return f;
+}
+
+/* Its value at t, and the variance of that, of samples of variance 1. */
+static double
+value_at(const side *f, double t, double *variance)
+{
+    double p[DEGREE + 1], value = 0;
+    polynomials(f->n, t - f->middle, p);
+    *variance = 0;
+    for (size_t k = 0; k <= DEGREE; k++) {
+        value += f->c[k] * p[k];
+        *variance += p[k] * p[k] / f->norm[k];
+    }
+    return value;
+}
+
+/* Sum of squares that a kink or a jump at a place leaves. */
+static double
+residual(piece *p, double at, int is_kink)
+{
+    double u, v;
+    size_t split = (size_t)ceil(at - p->first);
+    if (split != p->split) {
+        p->split = split;
+        p->side[0] = fit_side(p->x, 0, split);
+        p->side[1] = fit_side(p->x, split, p->n - split);
+    }
+    double sum = p->side[0].left + p->side[1].left;
+    if (!is_kink)
+        return sum;
+    double d = value_at(&p->side[0], at - p->first, &u) - value_at(&p->side[1], at - p->first, &v);
+    return sum + d * d / (u + v);
 }
 
 /* Where in [lo, hi] the residual of a kink is least: scanned in steps of a quarter of a sample,
  * then by golden section, then by the parabola through the last three. */
 static double
-least_kink(const piece *p, double lo, double hi, double *sum)
+least_kink(piece *p, double lo, double hi, double *sum)
 {
     const double step = 0.25, golden = (sqrt(5) - 1) / 2;
     double best = lo;
     *sum = INFINITY;
     for (double t = lo; t <= hi; t += step) {
-        double s = residual(p, t, 1);
+        double s = residual(p, t, KINK);
         if (s < *sum) {
             *sum = s;
             best = t;
@@ -78,14 +112,14 @@ least_kink(const piece *p, double lo, double hi, double *sum)
     }
     lo = fmax(lo, best - step), hi = fmin(hi, best + step);
     double t0 = hi - golden * (hi - lo), t1 = lo + golden * (hi - lo);
-    double s0 = residual(p, t0, 1), s1 = residual(p, t1, 1), s_lo = INFINITY, s_hi = INFINITY;
+    double s0 = residual(p, t0, KINK), s1 = residual(p, t1, KINK), s_lo = INFINITY, s_hi = INFINITY;
     while (hi - lo > 0.01)
         if (s0 < s1) {
             hi = t1, s_hi = s1, t1 = t0, s1 = s0;
-            s0 = residual(p, t0 = hi - golden * (hi - lo), 1);
+            s0 = residual(p, t0 = hi - golden * (hi - lo), KINK);
         } else {
             lo = t0, s_lo = s0, t0 = t1, s0 = s1;
-            s1 = residual(p, t1 = lo + golden * (hi - lo), 1);
+            s1 = residual(p, t1 = lo + golden * (hi - lo), KINK);
         }
     best = s0 < s1 ? t0 : t1;
     *sum = fmin(s0, s1);
@@ -94,7 +128,7 @@ least_kink(const piece *p, double lo, double hi, double *sum)
     double u = (best - other) * (*sum - s_end), v = (best - end) * (*sum - s_other);
     double t = best - 0.5 * ((best - other) * u - (best - end) * v) / (u - v);
     if (t > lo && t < hi) {
-        double s = residual(p, t, 1);
+        double s = residual(p, t, KINK);
         if (s < *sum) {
             *sum = s;
             best = t;
@@ -105,12 +139,12 @@ least_kink(const piece *p, double lo, double hi, double *sum)
 
 /* The same of a jump, which has its place half way between two samples. */
 static double
-least_jump(const piece *p, double lo, double hi, double *sum)
+least_jump(piece *p, double lo, double hi, double *sum)
 {
     double best = lo;
     *sum = INFINITY;
     for (double t = floor(lo) + 0.5; t <= hi; t++) {
-        double s = residual(p, t, 0);
+        double s = residual(p, t, JUMP);
         if (s < *sum) {
             *sum = s;
             best = t;
@@ -141,7 +175,6 @@ ss_breakpoint(const double *x, size_t first, size_t last, double at, double reac
     if (last - first + 1 > SAMPLES || !(lo <= hi))
         return at;
     piece p = { .n = last - first + 1, .first = (double)first };
-    p.unit = (double)p.n / 2;
     if (!fill(&p, x + first))
         return at;
     double at_kink = least_kink(&p, lo, hi, &kink);
