@@ -129,14 +129,15 @@ dry_out(map *m, size_t row)
 {
     const line *l = &m->line[row - m->first];
     const ss_scale *scale = scale_of(m, row);
-    double *level = m->level + l->at, rate = m->grid->head->rate;
+    double *level = m->level + l->at, rate = m->grid->head->rate, floor = m->floor;
     size_t from = l->lo, to = l->hi;
     for (size_t k = l->lo; k < l->hi; k++) {
         double here = level[k - l->lo];
-        m->all = fmax(m->all, here);
         if (here > m->outside && !ss_coefficients_edge(m->grid, row, k))
             m->outside = here;
-        level[k - l->lo] = here > m->floor ? here : 0;
+        if (here > m->all)
+            m->all = here;
+        level[k - l->lo] = here > floor ? here : 0;
     }
     while (from < to && ss_scale_edge(scale, from, m->grid->n, rate))
         level[from++ - l->lo] = 0;
@@ -178,40 +179,50 @@ touch_rows(map *m, size_t row, size_t beside, touch *meet)
             continue;
         double at = (double)i * ratio + 0.5;
         size_t j = at < (double)to->n ? (size_t)at : to->n - 1;
-        if (j >= b->lo && j < b->hi)
+        if (j >= b->lo && j < b->hi && m->level[b->at + (j - b->lo)] > 0)
             meet(m, a->at + (i - a->lo), b->at + (j - b->lo));
     }
 }
 
+/* The rows beside each other. */
 static inline void
-touch_all(map *m, touch *meet)
+touch_all_rows(map *m, touch *meet)
 {
-    for (size_t row = m->first; row <= m->last; row++) {
-        const line *l = &m->line[row - m->first];
-        for (size_t i = 1; i < l->hi - l->lo; i++)
-            meet(m, l->at + i - 1, l->at + i);
-        if (row > m->first) {
-            touch_rows(m, row - 1, row, meet);
-            touch_rows(m, row, row - 1, meet);
-        }
+    for (size_t row = m->first; row < m->last; row++) {
+        touch_rows(m, row, row + 1, meet);
+        touch_rows(m, row + 1, row, meet);
     }
 }
 
 /* --- ways and peaks ------------------------------------------------------------------------ */
 
-/* Of equals, the first is the higher. */
+/* Of equals, the first is the higher.  Without branches: they would be guessed wrong. */
+static inline int
+is_higher(const double *level, size_t p, size_t q)
+{
+    return (level[p] > level[q]) | ((level[p] == level[q]) & (p < q));
+}
+
 static inline void
 climb(map *m, size_t p, size_t q)
 {
+    int up = is_higher(m->level, p, q);
+    size_t high = up ? p : q, low = up ? q : p, way = m->way[low];
+    m->way[low] = is_higher(m->level, high, way) ? high : way;
+}
+
+/* The ways along a row. */
+static void
+climb_along(map *m, const line *l)
+{
     const double *level = m->level;
-    if (level[p] < level[q] || (level[p] == level[q] && p > q)) {
-        size_t swap = p;
-        p = q;
-        q = swap;
+    size_t end = l->at + (l->hi - l->lo);
+    for (size_t p = l->at; p < end; p++) {
+        size_t before = p > l->at ? p - 1 : p, behind = p + 1 < end ? p + 1 : p;
+        size_t way = is_higher(level, before, p) ? before : p;
+        way = is_higher(level, behind, way) ? behind : way;
+        m->way[p] = level[p] > 0 ? way : DRY;
     }
-    size_t way = m->way[q];
-    if (way != DRY && (level[p] > level[way] || (level[p] == level[way] && p < way)))
-        m->way[q] = p;
 }
 
 /* The way to a new peak. */
@@ -283,11 +294,11 @@ close_ends(map *m, size_t row)
 }
 
 static void
-find_ways(map *m, size_t points)
+find_ways(map *m)
 {
-    for (size_t p = 0; p < points; p++)
-        m->way[p] = m->level[p] > 0 ? p : DRY;
-    touch_all(m, climb);
+    for (size_t row = m->first; row <= m->last; row++)
+        climb_along(m, &m->line[row - m->first]);
+    touch_all_rows(m, climb);
     for (size_t row = m->first; row <= m->last; row++)
         find_ends(m, row);
     for (size_t row = m->first; row <= m->last && !m->failed; row++)
@@ -332,6 +343,17 @@ add_border(map *m, size_t at, size_t beside)
     *slot = found;
 }
 
+static void
+find_borders(map *m)
+{
+    for (size_t row = m->first; row <= m->last; row++) {
+        const line *l = &m->line[row - m->first];
+        for (size_t i = 1; i < l->hi - l->lo; i++)
+            add_border(m, l->at + i - 1, l->at + i);
+    }
+    touch_all_rows(m, add_border);
+}
+
 /* Strip by strip, of as many points as there is room for, about. */
 static ss_status
 survey(map *m)
@@ -345,9 +367,9 @@ survey(map *m)
         size_t n = next_strip(m, i < strips ? length * (double)i / (double)strips : INFINITY);
         if ((st = make_room(m, n)) != SS_OK || (st = fill(m)) != SS_OK)
             continue;
-        find_ways(m, n);
+        find_ways(m);
         if (!m->failed)
-            touch_all(m, add_border);
+            find_borders(m);
         st = m->failed ? SS_ENOMEM : ss_levels_progress(m->source, (double)i / (double)strips);
     }
     for (size_t i = 0; i < RECENT; i++)
