@@ -20,7 +20,7 @@ stronger_first(const void *a, const void *b)
 
 /* The clearest row, left in *best; rows: how many there are. */
 static ss_status
-find_clearest(row *best, const row_source *source, size_t rows, ss_error *err)
+find_clearest(row *best, row_source *source, size_t rows, ss_error *err)
 {
     double f = ROW_HIGHEST * source->rate / 2;
     *best = (row){ .rms = 1 };
@@ -88,6 +88,7 @@ ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, const ss
         st = collect_bursts(found, &best,
                             ss_row_threshold(length, shortest, rows, ss_spike_defaults.false_alarms),
                             opts->range);
+    ss_row_source_free(&source);
     free(best.peak);
     if (st != SS_OK) {
         ss_bursts_free(found);

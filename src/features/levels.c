@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "features/levels.h"
 #include "morlet/plan.h"
+#include "morlet/versions.h"
 
 enum { AT_ONCE = 1 << 14 };     /* coefficients */
 
@@ -22,10 +23,17 @@ typedef struct task {
     ss_status status;
 } task;
 
-static void
-take_levels(const double *w, size_t n, double *level)
+/* As magnitude_of, all at once where none needs hypot. */
+VERSIONS static void
+take_levels(const double *restrict w, size_t n, double *restrict level)
 {
-    for (size_t k = 0; k < n; k++)
+    int ordinary = 1;
+    for (size_t k = 0; k < n; k++) {
+        double square = w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1];
+        ordinary &= (square > SQUARE_LEAST) & (square < SQUARE_MOST);
+        level[k] = sqrt(square);
+    }
+    for (size_t k = 0; k < n && !ordinary; k++)
         level[k] = magnitude_of(w + 2 * k);
 }
 
@@ -85,19 +93,35 @@ ss_levels_progress(const map_source *source, double done)
 }
 
 ss_status
+ss_levels_of_samples(map_source *out, const double *x, size_t n, double rate,
+                     const ss_morlet_opts *opts, ss_error *err)
+{
+    levels *l = calloc(1, sizeof *l);
+    *out = (map_source){ .levels = l };
+    if (l == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_morlet_new(&l->plan, n, rate, opts, err);
+    if (st == SS_OK)
+        st = ss_morlet_record(&l->rec, x, n, opts->detrend, err);
+    return st == SS_OK ? ss_morlet_forward(l->plan, &l->rec, &l->spectra) : st;
+}
+
+ss_status
 ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
               const ss_morlet_opts *opts, ss_error *err)
 {
-    levels *l = out->levels = calloc(1, sizeof *l);
-    if (l == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_morlet_new(&l->plan, signal->n, signal->head->rate, opts, err);
+    ss_status st = ss_levels_of_samples(out, x, signal->n, signal->head->rate, opts, err);
     if (st == SS_OK)
-        st = ss_morlet_grid_of(&l->grid, signal, column, l->plan, opts);
-    out->grid = l->grid;
-    if (st == SS_OK)
-        st = ss_morlet_record(&l->rec, x, signal->n, opts->detrend, err);
-    return st == SS_OK ? ss_morlet_forward(l->plan, &l->rec, &l->spectra) : st;
+        st = ss_morlet_grid_of(&out->levels->grid, signal, column, out->levels->plan, opts);
+    if (out->levels != NULL)
+        out->grid = out->levels->grid;
+    return st;
+}
+
+const ss_scale *
+ss_levels_scale(const map_source *source, size_t row)
+{
+    return ss_morlet_scale(source->levels->plan, row);
 }
 
 void

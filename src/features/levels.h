@@ -5,17 +5,20 @@
 #include <math.h>
 #include <stickslip/morlet.h>
 
+#define SQUARE_LEAST 1e-280
+#define SQUARE_MOST 1e280
+
 /* |w|, where squares neither overflow nor underflow without the cost of hypot. */
 static inline double
 magnitude_of(const double w[2])
 {
     double square = w[0] * w[0] + w[1] * w[1];
-    return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(w[0], w[1]);
+    return square > SQUARE_LEAST && square < SQUARE_MOST ? sqrt(square) : hypot(w[0], w[1]);
 }
 
 typedef struct levels levels;
 
-/* A map on a grid: its w if levels is NULL. */
+/* A map on a grid: its w if levels is NULL.  The grid may be NULL else. */
 typedef struct map_source {
     const ss_coefficients *grid;
     levels *levels;
@@ -31,7 +34,12 @@ typedef struct level_part {
  * those of gaps replaced.  SS_ESCALE as ss_morlet_new. */
 ss_status ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
                         const ss_morlet_opts *opts, ss_error *err);
-/* Of what ss_levels_new has made, failed or not. */
+/* The same without a grid: of n samples. */
+ss_status ss_levels_of_samples(map_source *out, const double *x, size_t n, double rate,
+                               const ss_morlet_opts *opts, ss_error *err);
+/* Row 0 is that of the longest scale. */
+const ss_scale *ss_levels_scale(const map_source *source, size_t row);
+/* Of what these have made, failed or not. */
 void ss_levels_free(map_source *source);
 
 ss_status ss_levels_fill(const map_source *source, const level_part *part, size_t n);

@@ -18,7 +18,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
-#include "features/levels.h"
 #include "features/scale_rows.h"
 #include <stickslip/morlet.h>
 
@@ -164,34 +163,53 @@ fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale
     return SS_OK;
 }
 
-ss_status
-ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud, ss_error *err)
+/* What computes the rows of an octave. */
+static ss_status
+open_octave(row_source *source, double octave, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
-    ss_morlet *plan = NULL;
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
     opts.octaves = 1;
-    opts.m0 = opts.m1 = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))) / ROW_VOICES;
-    double a = exp2(opts.m0), rate = source->rate;
-    size_t margin = (size_t)ceil(ROW_REACH * a * rate), n = source->n + 2 * margin;
-    double *x = continued(source->x, source->n, margin), *w = NULL;
-    ss_status st = x == NULL ? SS_ENOMEM : ss_morlet_new(&plan, n, rate, &opts, err);
-    if (st == SS_OK && (w = malloc(2 * ss_morlet_total(plan) * sizeof *w)) == NULL)
-        st = SS_ENOMEM;
-    if (st == SS_OK)
-        st = ss_morlet_execute(plan, x, w, err);
-    if (st == SS_OK) {
-        const ss_scale *scale = ss_morlet_scale(plan, 0);
-        for (size_t k = 0; k < scale->n; k++)
-            w[k] = magnitude_of(w + 2 * k);
-        *r = (row){ .a = a, .f = scale->f };
-        st = fill_row(r, source, loud, scale, w, (double)margin / rate);
-        r->rms = hypot(r->rms, source->rounding);
-    }
-    ss_morlet_free(plan);
-    free(w);
+    opts.m0 = octave, opts.m1 = octave + (ROW_VOICES - 1.) / ROW_VOICES;
+    size_t margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
+    double *x = continued(source->x, source->n, margin);
+    ss_row_source_free(source);
+    source->octave = octave;
+    source->margin = margin;
+    ss_status st = x == NULL ? SS_ENOMEM
+        : ss_levels_of_samples(&source->rows, x, source->n + 2 * margin, source->rate, &opts, err);
     free(x);
     return st;
+}
+
+ss_status
+ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
+{
+    double j = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))), octave = floor(j / ROW_VOICES);
+    size_t index = (size_t)((octave + 1) * ROW_VOICES - 1 - j);         /* long to short */
+    ss_status st = SS_OK;
+    if (source->rows.levels == NULL || source->octave != octave)
+        st = open_octave(source, octave, err);
+    if (st != SS_OK)
+        return st;
+    const ss_scale *scale = ss_levels_scale(&source->rows, index);
+    double *level = malloc((scale->n + 1) * sizeof *level);
+    if (level == NULL)
+        return SS_ENOMEM;
+    *r = (row){ .a = scale->a, .f = scale->f };
+    st = ss_levels_fill(&source->rows, &(level_part){ index, 0, scale->n, level }, 1);
+    if (st == SS_OK)
+        st = fill_row(r, source, loud, scale, level, (double)source->margin / source->rate);
+    r->rms = hypot(r->rms, source->rounding);
+    free(level);
+    return st;
+}
+
+void
+ss_row_source_free(row_source *source)
+{
+    ss_levels_free(&source->rows);
+    source->rows.levels = NULL;
 }
 
 double

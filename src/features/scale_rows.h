@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/spikes.h>
+#include "features/levels.h"
 
 #define ROW_CENTER 6.0
 #define ROW_VOICES 4
@@ -19,11 +20,17 @@ typedef struct row_source {
     double rounding;            /* rms of |W| that the rounding of the samples makes */
     const ss_span *gap;         /* in time order [s]: what stands there is not of the signal */
     size_t n_gaps;
+    /* what computes the rows of scales 2^octave s up to twice that, with margin samples before x; levels
+     * is NULL before there are any */
+    map_source rows;
+    double octave;
+    size_t margin;
 } row_source;
 
 /* Checks the samples and the rate.  precision: of a sample, re the largest change. */
 ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate,
                              double precision, const ss_span *gap, size_t n_gaps, ss_error *err);
+void ss_row_source_free(row_source *source);
 
 typedef struct peak {
     double t, level;            /* [s], |W| */
@@ -37,9 +44,10 @@ typedef struct row {
                                    reach of gaps, in time order */
 } row;
 
-/* The row whose scale is nearest to the label f, of 2^(j / ROW_VOICES); its noise is read where no
+/* The row whose scale is nearest to the label f, of 2^(j / ROW_VOICES): cheaper where it is of the octave
+ * of the row before.  Its noise is read where no
  * spike of loud is near, NULL for everywhere.  free(row->peak) when done. */
-ss_status ss_row_new(row *r, const row_source *source, double f, const ss_spikes *loud,
+ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
 
 /* The level, in units of the noise's rms, that Gaussian noise is expected to reach false_alarms

@@ -181,7 +181,7 @@ add_row_spikes(spike_search *s, size_t i)
 static ss_status
 search_rows(spike_search *s, double f, ss_error *err)
 {
-    const row_source *src = &s->source;
+    row_source *src = &s->source;
     double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
     double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
     if (!(octaves > 0))
@@ -285,6 +285,7 @@ ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
         return SS_ENOMEM;
     if (!s.source.constant)
         st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * rate / 2, err);
+    ss_row_source_free(&s.source);
     if (st == SS_OK)
         finish(&s);
     for (size_t i = 0; i < s.n_rows; i++)
