@@ -260,7 +260,6 @@ transforms_refuse_null(void **state)
     assert_null(ss_morlet_scale(NULL, 0));
     assert_null(ss_morlet_scale(plan, ss_morlet_scales(plan)));
     assert_int_equal(ss_morlet_engine(NULL, 0), SS_ENGINE_AUTO);
-    assert_int_equal(ss_morlet_singles(NULL), 0);
     assert_int_equal(ss_morlet_engine(plan, SIZE_MAX), SS_ENGINE_AUTO);
     ss_trade *trade = NULL;
     assert_refused(ss_trade_transform(NULL, x, 4, 1, &ss_morlet_defaults, NULL, &e), &e);

@@ -43,7 +43,6 @@ have() {
     compiler)  echo 'int main(void) { return 0; }' | $CC -x c -fsyntax-only -include stdio.h - ;;
     pkgconfig) command -v "$PKG_CONFIG" ;;
     hdf5)      have_hdf5 ;;
-    fftw3)     "$PKG_CONFIG" --exists fftw3 fftw3f ;;   # both are in one package
     gnuplot)   GNUTERM=dumb gnuplot -e 'set terminal pngcairo; set terminal pdfcairo' ;;
     *)         "$PKG_CONFIG" --exists "$1" ;;
     esac > /dev/null 2>&1

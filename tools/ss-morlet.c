@@ -312,7 +312,7 @@ compare(const ss_morlet *plan, const double *x, const double *w, const char *pat
 }
 
 static void
-say_what_was_done(const ss_morlet *plan, size_t n, double accuracy, double seconds)
+say_what_was_done(const ss_morlet *plan, size_t n, double seconds)
 {
     size_t scales = ss_morlet_scales(plan), by_fft = 0;
     for (size_t i = 0; i < scales; i++)
@@ -321,9 +321,6 @@ say_what_was_done(const ss_morlet *plan, size_t n, double accuracy, double secon
               "%zu by quadrature, %.3g s", ss_morlet_total(plan), n, scales,
               ss_morlet_scale(plan, 0)->f, ss_morlet_scale(plan, scales - 1)->f, by_fft,
               scales - by_fft, seconds);
-    if (by_fft > 0)
-        tool_note("%zu of them in single precision: those, dense or dyadic, where a bound on its "
-                  "rounding lies within the accuracy, %g", ss_morlet_singles(plan), accuracy);
 }
 
 static void
@@ -345,7 +342,7 @@ transform_whole(const request *req, const char *path)
                 ss_morlet_scales(plan));
     store_samples(&f, signal->values, signal->n, 1, signal->n);
     check_flow(&f, ss_morlet_each(plan, x, write_rows, &f, &err), &err, path);
-    say_what_was_done(plan, signal->n, req->opts.accuracy, now() - begin - f.seconds);
+    say_what_was_done(plan, signal->n, now() - begin - f.seconds);
     if (req->check)
         compare(plan, x, f.w, path);
     close_output(&f, signal->n);

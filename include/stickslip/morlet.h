@@ -32,10 +32,8 @@ typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } 
 typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
     SS_ENGINE_QUADRATURE,       /* the definition, wavelet truncated as far as accuracy allows */
-    SS_ENGINE_FFT               /* spectra, by FFTW, on dense and dyadic grids in single precision
-                                   where its rounding lies within the accuracy (1e-5 at best); the
-                                   definition for forced scales that are narrower than two samples
-                                   or longer than some ten records */
+    SS_ENGINE_FFT               /* spectra, by FFTW; the definition for forced scales that are
+                                   narrower than two samples or longer than some ten records */
 } ss_engine;
 
 /* The effort of FFTW to find a fast FFT.  A measured FFT is up to twice as fast, but measuring may take
@@ -103,9 +101,6 @@ size_t ss_morlet_scales(const ss_morlet *plan);                     /* long to s
 const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* an array that the plan owns */
 ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* that computes scale i */
 size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients over all scales */
-
-/* The number of scales computed in single precision, in all of the plan's executions. */
-size_t ss_morlet_singles(const ss_morlet *plan);
 
 /* Transform the plan's n samples of x, which must be finite, into w: re, im of coefficient c at
  * w[2c], w[2c + 1], 2 * ss_morlet_total doubles owned by the caller.  A plan may be executed by

@@ -5,10 +5,7 @@
  * Each weight is there twice, for re and im, which are adjacent in the series and in the output.
  * The inner loop is then a product of that table with points, ROWS places of the pattern at once.
  * The carrier at a place is that at its place in the pattern times that of its row, a pattern's
- * length; for rows it is a product of two tables.
- *
- * All of it exists for double and for single precision, whose coefficients become double when they
- * are written. */
+ * length; for rows it is a product of two tables. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -23,12 +20,11 @@ enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASE
     LINE = 64 };                /* bytes; vectors that lie in one are read at once */
 
 struct weights {
-    int single;
     size_t phases;
     size_t blocks, points;      /* of LANES places, and points, after which the pattern repeats */
     int taps, lead;             /* of a block; points before the place's own that tap 0 is */
     size_t *late;               /* [blocks], points before a block's */
-    void *weight;               /* [blocks][taps][LANES][2] */
+    double *weight;             /* [blocks][taps][LANES][2] */
 };
 
 static size_t
@@ -48,18 +44,8 @@ aligned(void *p)
     return (char *)p + (LINE - (uintptr_t)p % LINE) % LINE;
 }
 
-/* Set number i to x, in the precision in use. */
-static inline void
-store(void *to, int single, size_t i, double x)
-{
-    if (single)
-        ((float *)to)[i] = (float)x;
-    else
-        ((double *)to)[i] = x;
-}
-
 weights *
-ss_dense_new(const kaiser *ker, size_t phases, int single)
+ss_dense_new(const kaiser *ker, size_t phases)
 {
     size_t common = divisor(phases, LANES), blocks = phases / common, extra = 0;
     for (size_t m = 0; m < blocks; m++) {
@@ -70,7 +56,6 @@ ss_dense_new(const kaiser *ker, size_t phases, int single)
     weights *d = calloc(1, sizeof *d + late + LINE + blocks * taps * LANES * 2 * sizeof(double));
     if (d == NULL)
         return NULL;
-    d->single = single;
     d->phases = phases;
     d->blocks = blocks;
     d->points = LANES / common;
@@ -85,8 +70,7 @@ ss_dense_new(const kaiser *ker, size_t phases, int single)
         ss_kaiser_weights(ker, (double)(c % phases) / (double)phases, weight);
         for (size_t i = 0; i < (size_t)ker->taps; i++) {
             size_t at = (block * taps + own - d->late[block] + i) * LANES + c % LANES;
-            store(d->weight, single, 2 * at, weight[i]);
-            store(d->weight, single, 2 * at + 1, weight[i]);
+            d->weight[2 * at] = d->weight[2 * at + 1] = weight[i];
         }
     }
     return d;
@@ -120,7 +104,7 @@ multiply(const double a[2], const double b[2], double e[2])
 typedef struct carrier {
     double near[ROOT * ROOT][2];        /* of rows */
     double (*far)[2];                   /* of every ROOT^2 rows */
-    void *places;                       /* [blocks][2][LANES][2]: re and re, -im and im */
+    double *places;                     /* [blocks][2][LANES][2]: re and re, -im and im */
 } carrier;
 
 static inline void
@@ -161,12 +145,11 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
     for (size_t m = 0; m < d->blocks; m++) {
         turn(turns, m * LANES, circle, coarse[0]);
         for (size_t i = 0; i < LANES; i++) {
-            size_t at = 2 * (2 * m * LANES + i);
+            double *at = to->places + 2 * (2 * m * LANES + i);
             multiply(coarse[0], fine[i], e);
-            store(to->places, d->single, at, e[0] * factor);
-            store(to->places, d->single, at + 1, e[0] * factor);
-            store(to->places, d->single, at + 2 * LANES, -e[1] * factor);
-            store(to->places, d->single, at + 2 * LANES + 1, e[1] * factor);
+            at[0] = at[1] = e[0] * factor;
+            at[2 * LANES] = -e[1] * factor;
+            at[2 * LANES + 1] = e[1] * factor;
         }
     }
 }
@@ -175,69 +158,44 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
 
 /* Groups g <= ... < end of ROWS rows; most[...] become the largest |W|^2 for factor 1 of the first
  * row of each. */
-typedef void write_groups(const weights *d, const void *series, size_t g, size_t end,
-                          const carrier *turning, double factor, double *w, double most[2 * LANES]);
+typedef void write_groups(const weights *d, const double *series, size_t g, size_t end,
+                          const carrier *turning, double *w, double most[2 * LANES]);
 
 #define SWAP_2 { x[1], x[0] }
 #define SWAP_4 { x[1], x[0], x[3], x[2] }
 #define SWAP_8 { x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6] }
-#define SWAP_16 { x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6], \
-                  x[9], x[8], x[11], x[10], x[13], x[12], x[15], x[14] }
 
 #define LOOP double_16
-#define REAL double
 #define WIDTH 2
 #define TARGET FAST
 #define PAIR(p) (VECTOR){ (p)[0], (p)[1] }
 #include "morlet/dense_loop.h"
 
-#define LOOP float_16
-#define REAL float
-#define WIDTH 4
-#define TARGET FAST
-#define PAIR(p) (VECTOR){ (p)[0], (p)[1], (p)[0], (p)[1] }
-#include "morlet/dense_loop.h"
-
 #ifdef HAVE_TARGETS
 #define LOOP double_32
-#define REAL double
 #define WIDTH 4
 #define TARGET FAST_FOR("avx2,fma")
 #define PAIR(p) (VECTOR){ (p)[0], (p)[1], (p)[0], (p)[1] }
-#include "morlet/dense_loop.h"
-
-#define LOOP float_32
-#define REAL float
-#define WIDTH 8
-#define TARGET FAST_FOR("avx2,fma")
-#define PAIR(p) (VECTOR)_mm256_broadcastq_epi64(_mm_loadl_epi64((const __m128i *)(p)))
 #include "morlet/dense_loop.h"
 
 #define LOOP double_64
-#define REAL double
 #define WIDTH 8
 #define TARGET FAST_FOR("avx512f")
 #define PAIR(p) (VECTOR)_mm512_broadcast_f32x4(_mm_loadu_ps((const float *)(p)))
 #include "morlet/dense_loop.h"
 
-#define LOOP float_64
-#define REAL float
-#define WIDTH 16
-#define TARGET FAST_FOR("avx512f")
-#define PAIR(p) (VECTOR)_mm512_broadcastq_epi64(_mm_loadl_epi64((const __m128i *)(p)))
-#include "morlet/dense_loop.h"
 #endif
 
 static write_groups *
-best_loop(int single)
+best_loop(void)
 {
 #ifdef HAVE_TARGETS
     if (__builtin_cpu_supports("avx512f"))
-        return single ? float_64 : double_64;
+        return double_64;
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return single ? float_32 : double_32;
+        return double_32;
 #endif
-    return single ? float_16 : double_16;
+    return double_16;
 }
 
 size_t
@@ -248,23 +206,21 @@ ss_dense_room(size_t n)
 }
 
 double
-ss_dense_write(const weights *d, const void *series, size_t turns, size_t circle, size_t first,
+ss_dense_write(const weights *d, const double *series, size_t turns, size_t circle, size_t first,
                size_t n, double factor, double *spare, double *w)
 {
     carrier turning;
     size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
-    double of_places = d->single ? 1 : factor, most[2 * LANES], largest = 0;
+    double most[2 * LANES], largest = 0;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
-    write_groups *write = best_loop(d->single);
+    write_groups *write = best_loop();
     ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
-    const char *from = (const char *)series
-        + 2 * point * (ptrdiff_t)(d->single ? sizeof(float) : sizeof(double));
-    make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, of_places, aligned(spare));
-    write(d, from, 0, whole, &turning, factor, w, most);
+    make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, factor, aligned(spare));
+    write(d, series + 2 * point, 0, whole, &turning, w, most);
     for (size_t l = 0; l < 2 * LANES; l++)
         largest = fmax(largest, most[l]);
     if (rest > 0) {
-        write(d, from, whole, whole + 1, &turning, factor, last, most);
+        write(d, series + 2 * point, whole, whole + 1, &turning, last, most);
         memcpy(w + 2 * whole * group, last, 2 * rest * sizeof *w);
     }
     for (size_t i = 0; i < rest; i++) {

@@ -1,33 +1,19 @@
-/* dense_loop.h -- the loop of dense.c, for vectors of WIDTH numbers of type REAL.
+/* dense_loop.h -- the loop of dense.c, for vectors of WIDTH numbers.
  *
- * Included once for each of them, with LOOP, REAL, WIDTH, TARGET and PAIR(p) defined: a vector that
- * repeats the two numbers at p. */
+ * Included once for each width, with LOOP, WIDTH, TARGET and PAIR(p) defined: a vector that repeats
+ * the two numbers at p. */
 #define LOOP_JOIN2(a, b) a##b
 #define LOOP_JOIN(a, b) LOOP_JOIN2(a, b)
 #define VECTOR LOOP_JOIN(LOOP, _vector)
 #define SWAP_JOIN(width) LOOP_JOIN(SWAP_, width)
 
-typedef REAL VECTOR __attribute__((vector_size(WIDTH * sizeof(REAL))));
+typedef double VECTOR __attribute__((vector_size(WIDTH * sizeof(double))));
 
 /* Re and im of each place change places. */
 TARGET static inline VECTOR
 LOOP_JOIN(LOOP, _swap)(VECTOR x)
 {
     return (VECTOR)SWAP_JOIN(WIDTH);
-}
-
-/* WIDTH/2 coefficients. */
-TARGET static inline void
-LOOP_JOIN(LOOP, _store)(VECTOR x, double factor, double *w)
-{
-    if (sizeof x == WIDTH * sizeof *w) {
-        memcpy(w, &x, sizeof x);
-        return;
-    }
-    REAL part[WIDTH];
-    memcpy(part, &x, sizeof part);
-    for (int i = 0; i < WIDTH; i++)
-        w[i] = part[i] * factor;
 }
 
 /* x times a carrier, c being its re, re and s its -im, im. */
@@ -39,28 +25,27 @@ LOOP_JOIN(LOOP, _turn)(VECTOR x, VECTOR c, VECTOR s)
 
 /* Sums and their output in one function: in several it was 5 % slower (gcc 12). */
 TARGET static void
-LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *turning,
-     double factor, double *w, double most[2 * LANES])
+LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *turning, double *w,
+     double most[2 * LANES])
 {
     enum { PARTS = 2 * LANES / WIDTH, HELD = 8 / PARTS < ROWS ? 8 / PARTS : ROWS };
-    const REAL *v = series, *all_weights = d->weight, *places = turning->places;
     const size_t blocks = d->blocks, points = d->points, *late = d->late;
     const int taps = d->taps;
     VECTOR largest[PARTS] = { 0 };
     for (; g < end; g++) {
-        REAL e[ROWS][4];            /* of each row, the carrier's re, re, -im, im */
+        double e[ROWS][4];            /* of each row, the carrier's re, re, -im, im */
         for (size_t i = 0; i < ROWS; i++) {
             double turn[2];
             row_carrier(turning, g * ROWS + i, turn);
-            e[i][0] = e[i][1] = (REAL)turn[0];
-            e[i][2] = -(e[i][3] = (REAL)turn[1]);
+            e[i][0] = e[i][1] = turn[0];
+            e[i][2] = -(e[i][3] = turn[1]);
         }
         for (size_t m = 0; m < blocks; m++) {
-            const REAL *weight = all_weights + m * (size_t)taps * 2 * LANES;
-            const REAL *of_places = places + m * 4 * LANES;
+            const double *weight = d->weight + m * (size_t)taps * 2 * LANES;
+            const double *of_places = turning->places + m * 4 * LANES;
             double *to = w + 2 * m * LANES;
             for (size_t first = 0; first < ROWS; first += HELD) {
-                const REAL *from = v + 2 * ((g * ROWS + first) * points + late[m]);
+                const double *from = v + 2 * ((g * ROWS + first) * points + late[m]);
                 VECTOR sum[HELD][PARTS] = { 0 };
                 for (int t = 0; t < taps; t++) {
                     VECTOR k[PARTS];
@@ -90,18 +75,14 @@ LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *
                         memcpy(&place[1], of_places + 2 * LANES + p * WIDTH, sizeof place[1]);
                         x = LOOP_JOIN(LOOP, _turn)(x, c, s);
                         x = LOOP_JOIN(LOOP, _turn)(x, place[0], place[1]);
-                        LOOP_JOIN(LOOP, _store)(x, factor,
-                                                to + 2 * (first + i) * blocks * LANES + p * WIDTH);
+                        memcpy(to + 2 * (first + i) * blocks * LANES + p * WIDTH, &x, sizeof x);
                     }
                 }
             }
         }
         w += 2 * ROWS * blocks * LANES;
     }
-    REAL sizes[2 * LANES];
-    memcpy(sizes, largest, sizeof sizes);
-    for (size_t l = 0; l < 2 * LANES; l++)
-        most[l] = sizes[l];
+    memcpy(most, largest, sizeof largest);
 }
 
 #undef LOOP_JOIN2
@@ -109,7 +90,6 @@ LOOP(const weights *d, const void *series, size_t g, size_t end, const carrier *
 #undef SWAP_JOIN
 #undef VECTOR
 #undef LOOP
-#undef REAL
 #undef WIDTH
 #undef TARGET
 #undef PAIR

@@ -77,12 +77,6 @@ ss_morlet_engine(const ss_morlet *plan, size_t i)
         : SS_ENGINE_QUADRATURE;
 }
 
-size_t
-ss_morlet_singles(const ss_morlet *plan)
-{
-    return plan != NULL && plan->fft != NULL ? ss_fft_singles(plan->fft) : 0;
-}
-
 void
 ss_morlet_free(ss_morlet *plan)
 {

@@ -127,8 +127,6 @@ ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 void ss_spectra_free(spectra *s);
 void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                   double *scratch, span part, double factor, double *most, double *w);
-/* The number of scales computed in single precision so far. */
-size_t ss_fft_singles(const struct fft *fft);
 size_t ss_fft_room(const struct fft *fft);             /* doubles of scratch for one thread */
 double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
 double *ss_fft_scratch(const struct fft *fft);         /* likewise, as many as that */

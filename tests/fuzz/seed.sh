@@ -109,6 +109,4 @@ ss-morlet --voices 1 --center 2 --force --dense --method fft --wisdom all run > 
 sed '1d; /^)/q' all > wisdom/measured
 printf ')' > wisdom/none
 printf '  (TIMEOUT 0 #x100000 #x100000 #x200 #x1 #x2 #x3 #x4)\n)\n' > wisdom/flags-too-wide
-printf ')\n\0)\n' > wisdom/none-of-either
-printf ')\n\0  (TIMEOUT 0 #x100000 #x100000 #x200 #x1 #x2 #x3 #x4)\n)\n' > wisdom/single-too-wide
 rm run all coefficients-of-it

@@ -24,10 +24,7 @@
  * and interpolation with images of size e at most C/P e sum over |v_k| <= R of |X_k|.  Sums of
  * |X_k| over ranges are differences of running sums, which costs almost nothing.  If the bound
  * exceeds the one that the largest |W| allows (9/10 of it; the rest is for lattices that are met only
- * nearly), the scale is computed again with R and e that suffice for any signal.
- *
- * Single precision is tried first where it may suffice: terms are rounded to it, transformed and
- * interpolated in it, and the sum of their sizes bounds the error that this adds. */
+ * nearly), the scale is computed again with R and e that suffice for any signal. */
 #include <fftw3.h>
 #include <math.h>
 #include <stdint.h>
@@ -35,11 +32,11 @@
 #include <string.h>
 #include "morlet/dense.h"
 #include "morlet/fft/plan.h"
+#include "morlet/fft/points.h"
 #include "morlet/kaiser.h"
 #include "morlet/plan.h"
 #include "morlet/versions.h"
 
-#define UNDERFLOW 0x1p-126            /* of a point in single precision, a term */
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 
 enum {
@@ -88,20 +85,6 @@ exponentials(const double *restrict y, double scale, double *restrict g)
         g[i] *= k[i] * scale;
 }
 
-#define REAL double
-#define NAMED(name) name
-#include "morlet/fft/points.h"
-#include "morlet/fft/circle.h"
-#undef REAL
-#undef NAMED
-
-#define REAL float
-#define NAMED(name) name##_single
-#include "morlet/fft/points.h"
-#include "morlet/fft/circle.h"
-#undef REAL
-#undef NAMED
-
 /* The admissible wavelet's second term, v being that of the first: y becomes its exponents. */
 static void
 subtract_second(const struct fft *f, double u, double h, double v, double *y, double scale,
@@ -117,16 +100,16 @@ subtract_second(const struct fft *f, double u, double h, double v, double *y, do
         g[i] -= second[i];
 }
 
-/* Terms in units of a^1/2 times unit, divided by the response of ker, unless that is NULL: term k at
- * k - origin modulo L of c. */
+/* Terms in units of a^1/2, divided by the response of ker, unless that is NULL: term k at k - origin
+ * modulo L of c. */
 static void
 terms(const struct fft *f, const route *r, const band *b, const double *x, ptrdiff_t origin,
-      const kaiser *ker, int single, double unit, void *c)
+      const kaiser *ker, double *c)
 {
     const level *lev = &f->level[r->level];
     ptrdiff_t length = (ptrdiff_t)r->length, k = b->lo;
-    double scale = PI_M14 * sqrt(2 * M_PI) / (double)lev->points / (double)lev->samples / unit;
-    memset(c, 0, 2 * r->length * (single ? sizeof(float) : sizeof(double)));
+    double scale = PI_M14 * sqrt(2 * M_PI) / (double)lev->points / (double)lev->samples;
+    memset(c, 0, 2 * r->length * sizeof *c);
     while (k <= b->hi) {
         double g[TERMS], y[TERMS], first = fma((double)k, b->h, -f->center) + (double)k * b->h_low;
         size_t n = b->hi - k < TERMS ? (size_t)(b->hi - k) + 1 : TERMS;
@@ -138,11 +121,19 @@ terms(const struct fft *f, const route *r, const band *b, const double *x, ptrdi
             subtract_second(f, (double)k * b->h, b->h, first, y, scale, g);
         ptrdiff_t rest = (k - origin) % length;
         size_t at = (size_t)(rest < 0 ? rest + length : rest);
-        if (single)
-            add_terms_single(x, lev->points, k, g, n, c, r->length, at);
-        else
-            add_terms(x, lev->points, k, g, n, c, r->length, at);
+        add_terms(x, lev->points, k, g, n, c, r->length, at);
         k += (ptrdiff_t)n;
+    }
+}
+
+/* Make the points before and after the circle repeat it. */
+static void
+close_circle(double *v, size_t length)
+{
+    for (size_t i = 0; i < MARGIN; i++) {
+        size_t left = length - 1 - i % length, right = i % length;
+        memcpy(v - 2 * (i + 1), v + 2 * left, 2 * sizeof *v);
+        memcpy(v + 2 * (length + i), v + 2 * right, 2 * sizeof *v);
     }
 }
 
@@ -254,49 +245,6 @@ left_out(const struct fft *f, const level *lev, const band *b, const double *sum
     return PI_M14 * sqrt(2 * M_PI) / (double)circle_of(lev) * sum;
 }
 
-/* --- single precision ------------------------------------------------------------------------- */
-
-/* Add sums of |c|, up to 8 % too large, and |c|^2. */
-VERSIONS static void
-sum_terms(const float *restrict c, size_t n, double *size, double *square)
-{
-    enum { MANY = 2 * LANES, BLOCK = 64 * MANY };   /* sums in single precision of a block only */
-    for (size_t i = 0; i < n; i += BLOCK) {
-        float sizes[MANY] = { 0 }, squares[MANY] = { 0 };
-        size_t end = n - i < BLOCK ? n : i + BLOCK, j = i;
-        for (; j + MANY <= end; j += MANY)
-            for (size_t l = 0; l < MANY; l++) {
-                float re = fabsf(c[2 * (j + l)]), im = fabsf(c[2 * (j + l) + 1]);
-                float more = re > im ? re : im, less = re > im ? im : re;
-                sizes[l] += more + 0.4142136f * less;
-                squares[l] += re * re + im * im;
-            }
-        for (; j < end; j++) {
-            sizes[0] += fabsf(c[2 * j]) + fabsf(c[2 * j + 1]);
-            squares[0] += c[2 * j] * c[2 * j] + c[2 * j + 1] * c[2 * j + 1];
-        }
-        for (size_t l = 0; l < MANY; l++) {
-            *size += (double)sizes[l];
-            *square += (double)squares[l];
-        }
-    }
-}
-
-/* The error of a coefficient by rounding.  *likely: the largest |W| of noise of this power. */
-static double
-rounding_of(const route *r, const band *b, ptrdiff_t origin, const float *c, double *likely)
-{
-    double size = 0, square = 0;
-    ptrdiff_t length = (ptrdiff_t)r->length, rest = (b->lo - origin) % length;
-    size_t at = (size_t)(rest < 0 ? rest + length : rest), n = (size_t)(b->hi - b->lo) + 1;
-    n = n < r->length ? n : r->length;
-    size_t first = n < r->length - at ? n : r->length - at;
-    sum_terms(c + 2 * at, first, &size, &square);
-    sum_terms(c, n - first, &size, &square);
-    *likely = 3 * sqrt(square);
-    return r->rounding * size + UNDERFLOW * (double)r->length;
-}
-
 /* --- a scale ---------------------------------------------------------------------------------- */
 
 /* The terms of a short series, after its values v. */
@@ -306,94 +254,48 @@ terms_of(const struct fft *f, double *v)
     return v + 2 * (f->longest + MARGIN);
 }
 
-/* Terms to points.  Returns the error of a coefficient by single precision; if that is too large,
- * infinity, and the points are not computed. */
+/* One pass over part of a scale, with the first cut or the last.  Returns the largest |W|. */
 static double
-transform_back(const route *r, const band *b, ptrdiff_t origin, int single, double accuracy,
-               void *c, void *points)
-{
-    double rounding = 0, likely = 0;
-    if (single)
-        rounding = rounding_of(r, b, origin, c, &likely);
-    if (rounding > 0.7 * accuracy * likely)
-        return INFINITY;
-    if (single)
-        fftwf_execute_dft(r->single, c, points);
-    else
-        fftw_execute_dft(r->inverse, c, points);
-    return rounding;
-}
-
-/* Values of the series.  Returns the largest |w|^2 for factor 1. */
-static double
-write_points(const void *points, ptrdiff_t first, size_t n, int single, double factor, double *w)
-{
-    const double *v = points;
-    const float *of_single = points;
-    return single ? write_lattice_single(of_single + 2 * first, n, factor, w)
-        : write_lattice(v + 2 * first, n, factor, w);
-}
-
-/* One pass over part of a scale.  Returns the largest |W|; *rounding is the error by single
- * precision, or infinity if it is too large: then nothing is computed. */
-static double
-pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span part, way how,
-     double *v, double factor, double *w, double *rounding)
+pass(const ss_morlet *plan, size_t i, const record *rec, const double *x, span part, int last,
+     double *v, double factor, double *w)
 {
     const struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const ss_scale *scale = &plan->scale[i];
     const level *lev = &f->level[r->level];
-    int single = how == SINGLE, bound = how == LAST;
-    band b = band_of(f, lev, scale->a, f->half[bound]);
-    const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, bound);
-    double unit = single ? ldexp(1, ilogb(rec->x_max)) : 1;
-    void *points = v, *c = r->length > APART ? v : terms_of(f, v);
-    ptrdiff_t origin = r->kind == LATTICE ? 0 : b.mid;
-    terms(f, r, &b, x, origin, ker, single, unit, c);
-    *rounding = unit * transform_back(r, &b, origin, single, plan->opts.accuracy, c, points);
-    if (isinf(*rounding))
-        return 0;
-    factor *= unit;
+    band b = band_of(f, lev, scale->a, f->half[last]);
+    const kaiser *ker = r->kind == LATTICE ? NULL : kernel_of(f, r, &b, last);
+    double *c = r->length > APART ? v : terms_of(f, v);
+    terms(f, r, &b, x, r->kind == LATTICE ? 0 : b.mid, ker, c);
+    fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
     if (r->kind == LATTICE) {
-        double before = rint((double)rec->origin / step_of(lev, r));
-        ptrdiff_t first = (ptrdiff_t)part.first - (ptrdiff_t)before;
-        return unit * sqrt(write_points(points, first, part.n, single, factor, w));
+        ptrdiff_t before = (ptrdiff_t)rint((double)rec->origin / step_of(lev, r));
+        return sqrt(write_points(v + 2 * ((ptrdiff_t)part.first - before), part.n, factor, w));
     }
-    if (single)
-        close_circle_single(points, r->length);
-    else
-        close_circle(points, r->length);
+    close_circle(v, r->length);
     if (r->kind == ANYWHERE)
         return sqrt(write_anywhere(f, r, &b, scale, ker, v, rec->origin, part, factor, w));
-    return unit * sqrt(ss_dense_write(r->weights[how], v, (size_t)b.mid, circle_of(lev),
-                                      (size_t)((ptrdiff_t)part.first - rec->origin), part.n, factor,
-                                      terms_of(f, v) + 2 * APART, w));
+    return sqrt(ss_dense_write(r->weights[last], v, (size_t)b.mid, circle_of(lev),
+                               (size_t)((ptrdiff_t)part.first - rec->origin), part.n, factor,
+                               terms_of(f, v) + 2 * APART, w));
 }
 
 void
 ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s, double *scratch,
              span part, double factor, double *most, double *w)
 {
-    struct fft *f = plan->fft;
+    const struct fft *f = plan->fft;
     const route *r = &f->route[i];
     const level *lev = &f->level[r->level];
-    double before = *most, rounding;
-    for (way how = r->single != NULL && rec->x_max > 0 ? SINGLE : FIRST; how < WAYS; how++) {
-        double largest = pass(plan, i, rec, s->level[r->level], part, how, scratch + 2 * MARGIN,
-                              factor, w, &rounding);
-        if (isinf(rounding))
-            continue;
-        *most = fmax(before, largest);
-        if (how == LAST || f->half[0] == f->half[1] || rec->x_max == 0)
-            return;
-        band b = band_of(f, lev, plan->scale[i].a, f->half[0]);
-        double error = rounding + left_out(f, lev, &b, s->size[r->level], r->kind != LATTICE);
-        if (error <= TAIL_FLOOR * rec->x_max + 0.9 * plan->opts.accuracy * fmax(0, *most - error)) {
-            f->singles += how == SINGLE;
-            return;
-        }
-    }
+    const double *x = s->level[r->level];
+    double *v = scratch + 2 * MARGIN, before = *most;
+    *most = fmax(before, pass(plan, i, rec, x, part, 0, v, factor, w));
+    if (f->half[0] == f->half[1] || rec->x_max == 0)
+        return;
+    band b = band_of(f, lev, plan->scale[i].a, f->half[0]);
+    double error = left_out(f, lev, &b, s->size[r->level], r->kind != LATTICE);
+    if (error > TAIL_FLOOR * rec->x_max + 0.9 * plan->opts.accuracy * fmax(0, *most - error))
+        *most = fmax(before, pass(plan, i, rec, x, part, 1, v, factor, w));
 }
 
 size_t

@@ -187,26 +187,26 @@ inverse_cost(size_t length)
     return length < 1 << 12 ? cost : length < 1 << 18 ? 1.6 * cost : 3.5 * cost;
 }
 
-/* A kernel for a band to edge <= EDGE_MAX in this round; 0 if none is accurate enough. */
+/* A kernel for a band to edge <= EDGE_MAX with this cut; 0 if none is accurate enough. */
 static int
-kernel_for(const struct fft *f, double edge, int round, kaiser *out)
+kernel_for(const struct fft *f, double edge, int cut, kaiser *out)
 {
-    kaiser_band shape = { .edge = edge, .reach = f->half[round], .center = f->center,
+    kaiser_band shape = { .edge = edge, .reach = f->half[cut], .center = f->center,
                           .second = f->second };
-    return ss_kaiser_choose(out, &shape, f->images[round]);
+    return ss_kaiser_choose(out, &shape, f->images[cut]);
 }
 
 /* The kernel for a band to this edge, made on the first call; NULL: none, or no memory. */
 static const kaiser *
-advance_kernel(struct fft *f, int round, double edge)
+advance_kernel(struct fft *f, int cut, double edge)
 {
     double made_for;
     int k = kernel_index(edge, &made_for);
     kaiser ker;
     if (edge > EDGE_MAX)
         return NULL;
-    kaiser **at = &f->kernel[round][k];
-    if (*at != NULL || !kernel_for(f, made_for, round, &ker))
+    kaiser **at = &f->kernel[cut][k];
+    if (*at != NULL || !kernel_for(f, made_for, cut, &ker))
         return *at;
     *at = malloc(sizeof ker);
     if (*at != NULL)
@@ -222,10 +222,10 @@ interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int d
 {
     const kaiser *kernel[2];
     band b = { 0 };
-    for (int round = 1; round >= 0; round--) {
-        b = band_of(f, lev, scale->a, f->half[round]);
-        kernel[round] = advance_kernel(f, round, edge_of(&b, length));
-        if (kernel[round] == NULL)
+    for (int cut = 1; cut >= 0; cut--) {
+        b = band_of(f, lev, scale->a, f->half[cut]);
+        kernel[cut] = advance_kernel(f, cut, edge_of(&b, length));
+        if (kernel[cut] == NULL)
             return INFINITY;
     }
     double tap = kernel[0]->taps * (dense ? COST_DENSE_TAP : COST_TAP);
@@ -316,13 +316,13 @@ phases_of(const level *lev, const route *r)
 }
 
 static const weights *
-weights_of(struct fft *f, const kaiser *kernel, size_t phases, int single)
+weights_of(struct fft *f, const kaiser *kernel, size_t phases)
 {
     shared_weights *t = f->shared;
     for (; t < f->shared + f->n_shared; t++)
-        if (t->kernel == kernel && t->phases == phases && t->single == single)
+        if (t->kernel == kernel && t->phases == phases)
             return t->weights;
-    *t = (shared_weights){ kernel, phases, single, ss_dense_new(kernel, phases, single) };
+    *t = (shared_weights){ kernel, phases, ss_dense_new(kernel, phases) };
     f->n_shared += t->weights != NULL;
     return t->weights;
 }
@@ -330,23 +330,23 @@ weights_of(struct fft *f, const kaiser *kernel, size_t phases, int single)
 static ss_status
 share_weights(struct fft *f, const ss_morlet *plan)
 {
-    f->shared = calloc(WAYS * plan->n_scales, sizeof *f->shared);
+    f->shared = calloc(CUTS * plan->n_scales, sizeof *f->shared);
     if (f->shared == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < WAYS * plan->n_scales; i++) {
-        route *r = &f->route[i / WAYS];
-        way how = i % WAYS;
-        if ((r->kind != DENSE && r->kind != ANYWHERE) || (how == SINGLE && r->single == NULL))
+    for (size_t i = 0; i < CUTS * plan->n_scales; i++) {
+        route *r = &f->route[i / CUTS];
+        int cut = i % CUTS;
+        if (r->kind != DENSE && r->kind != ANYWHERE)
             continue;
         const level *lev = &f->level[r->level];
-        band b = band_of(f, lev, plan->scale[i / WAYS].a, f->half[how == LAST]);
-        kaiser *kernel = kernel_of(f, r, &b, how == LAST);
+        band b = band_of(f, lev, plan->scale[i / CUTS].a, f->half[cut]);
+        kaiser *kernel = kernel_of(f, r, &b, cut);
         if (!kernel->prepared)
             ss_kaiser_prepare(kernel);
         if (r->kind != DENSE)
             continue;
-        r->weights[how] = weights_of(f, kernel, phases_of(lev, r), how == SINGLE);
-        if (r->weights[how] == NULL)
+        r->weights[cut] = weights_of(f, kernel, phases_of(lev, r));
+        if (r->weights[cut] == NULL)
             return SS_ENOMEM;
     }
     return SS_OK;
@@ -368,52 +368,6 @@ inverse_of_length(struct fft *f, size_t length, fftw_complex *v, fftw_complex *c
     return of;
 }
 
-/* The error of any coefficient by rounding in single precision, over the sum of the terms' sizes.
- *
- * With u = 2^-24, to first order, as a part of that sum: u for the terms themselves.  In the FFT
- * every point is a sum of all terms times roots of unity, which passes one butterfly for each prime
- * p of L.  Such a butterfly of 2 adds a term, u, after it has been multiplied by a root, which is
- * sqrt(5) u (Brent, Percival and Zimmermann 2007) and u for the root's own rounding; where FFTW keeps
- * few roots and multiplies them, some of them have 3 u more for each product, and one product per
- * codelet of 8 or more: 6 u for each 2 in L is more than all of that.  Butterflies of 3, 5 and 7 add
- * pairs and multiply them by sines and cosines, which for 5 are taken apart once more: with k
- * operations in a row and coefficients whose sizes add up to s, s k u and the root, with 3: s = 1.37
- * and k = 4; 5: 1.76 and 6.5; 7: 1.42 and 7, and the root: below 11, 17 and 19 u.  (Higham 2002,
- * section 24.1, has the like for the 2-norm, which for the largest error gives no more.)
- * Interpolation rounds weights, products and sums of taps, and two products with carriers: the
- * weights are positive and their sum is 1 but for images.  2 % are more than the higher orders.
- *
- * Other primes: there is no such bound, infinity. */
-static double
-single_rounding(size_t length, int taps)
-{
-    static const struct { size_t prime; double u; } butterfly[] = {
-        { 2, 6 }, { 3, 11 }, { 5, 17 }, { 7, 19 }
-    };
-    double sum = taps > 0 ? taps + 10 : 1;
-    for (size_t i = 0; i < sizeof butterfly / sizeof *butterfly; i++)
-        for (; length % butterfly[i].prime == 0; length /= butterfly[i].prime)
-            sum += butterfly[i].u;
-    return length == 1 ? 1.02 * sum * FLT_EPSILON / 2 : INFINITY;
-}
-
-/* For scales of which single precision may be good enough: those for which a tone's would be. */
-static void
-plan_single(const struct fft *f, const ss_morlet *plan, size_t i, inverse *of, fftwf_complex *v,
-            fftwf_complex *c, unsigned how)
-{
-    route *r = &f->route[i];
-    band b = band_of(f, &f->level[r->level], plan->scale[i].a, f->half[0]);
-    int taps = r->kind == DENSE ? kernel_of(f, r, &b, 0)->taps : 0;
-    r->rounding = single_rounding(r->length, taps);
-    if (r->kind == ANYWHERE || f->half[0] == f->half[1] || r->rounding > plan->opts.accuracy / 2)
-        return;
-    if (of->single == NULL)
-        of->single = fftwf_plan_dft_1d((int)r->length, r->length > APART ? v : c, v, FFTW_BACKWARD,
-                                       how);
-    r->single = of->single;
-}
-
 /* v, c and x have the alignment of the arrays to come. */
 static ss_status
 make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x)
@@ -427,7 +381,6 @@ make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x
             continue;
         inverse *of = inverse_of_length(f, r->length, (fftw_complex *)v, (fftw_complex *)c, how);
         r->inverse = of->plan;
-        plan_single(f, plan, i, of, (fftwf_complex *)v, (fftwf_complex *)c, how);
         if (lev->forward == NULL)
             lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x, how);
         if (r->inverse == NULL || lev->forward == NULL)
@@ -506,11 +459,8 @@ ss_fft_free(struct fft *fft)
     if (fft == NULL)
         return;
     pthread_mutex_lock(&ss_fftw_planner);
-    for (size_t i = 0; i < fft->n_inverse; i++) {
+    for (size_t i = 0; i < fft->n_inverse; i++)
         fftw_destroy_plan(fft->inverse[i].plan);
-        if (fft->inverse[i].single != NULL)
-            fftwf_destroy_plan(fft->inverse[i].single);
-    }
     for (int i = 0; i < fft->levels; i++)
         if (fft->level[i].forward != NULL)
             fftw_destroy_plan(fft->level[i].forward);
@@ -525,12 +475,6 @@ ss_fft_free(struct fft *fft)
     free(fft->inverse);
     free(fft->route);
     free(fft);
-}
-
-size_t
-ss_fft_singles(const struct fft *fft)
-{
-    return fft->singles;
 }
 
 int

@@ -5,7 +5,6 @@
 #include <fftw3.h>
 #include <math.h>
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stddef.h>
 #include "morlet/dense.h"
 #include "morlet/kaiser.h"
@@ -32,9 +31,9 @@ typedef struct level {
     size_t block;                   /* terms of the spectrum whose sizes are summed up together */
 } level;
 
-/* A scale is computed in one of these ways after the other, until the bound on its error lies
- * within the promise: in single precision, with the first cut, with the last. */
-typedef enum way { SINGLE, FIRST, LAST, WAYS } way;
+/* A scale is computed with the first cut, and again with the last unless the bound on its error lies
+ * within the promise. */
+enum { CUTS = 2 };
 
 /* The way in which a scale is computed: not by FFT; at points of its series; or between them, at
  * positions that repeat or anywhere. */
@@ -43,16 +42,13 @@ typedef struct route {
     int level;
     size_t length;                  /* L */
     fftw_plan inverse;              /* owned by the list of them */
-    fftwf_plan single;              /* NULL: never in single precision; owned likewise */
-    double rounding;                /* that adds to a coefficient, over the sum of terms' sizes */
-    const weights *weights[WAYS];   /* of those that are dense; owned likewise */
+    const weights *weights[CUTS];   /* of those that are dense; owned likewise */
 } route;
 
 /* Weights that dense scales of one kernel and as many phases share. */
 typedef struct shared_weights {
     const kaiser *kernel;
     size_t phases;
-    int single;
     weights *weights;
 } shared_weights;
 
@@ -60,25 +56,23 @@ typedef struct shared_weights {
 typedef struct inverse {
     size_t length;
     fftw_plan plan;
-    fftwf_plan single;
 } inverse;
 
-/* All of it: what is constant while scales are computed, but for singles. */
+/* All of it, constant while scales are computed. */
 struct fft {
     size_t n;                       /* samples */
     double rate;                    /* [Hz] */
     double center, second;          /* exp(-omega_c^2/2) if admissible, else 0 */
-    double half[2];                 /* of the band, in 1/a: a scale is computed with the first, */
-    double images[2];               /* again with the last; and of interpolation */
+    double half[CUTS];              /* of the band, in 1/a */
+    double images[CUTS];            /* of interpolation */
     level level[2];
     int levels;
     route *route;
     inverse *inverse;
     size_t n_inverse, longest;      /* longest of their lengths */
-    kaiser *kernel[2][KERNELS];     /* for each of half; NULL: none needed */
+    kaiser *kernel[CUTS][KERNELS];  /* NULL: none needed */
     double cost;                    /* of all that is done here, about [s] */
     int no_memory;                  /* for one of them */
-    atomic_size_t singles;          /* scales computed in single precision so far */
     shared_weights *shared;
     size_t n_shared;
 };
@@ -143,12 +137,12 @@ kernel_index(double edge, double *made_for)
     return i;
 }
 
-/* The kernel that a scale needs in a round. */
+/* The kernel that a scale needs with a cut. */
 static inline kaiser *
-kernel_of(const struct fft *f, const route *r, const band *b, int round)
+kernel_of(const struct fft *f, const route *r, const band *b, int cut)
 {
     double made_for;
-    return f->kernel[round][kernel_index(edge_of(b, r->length), &made_for)];
+    return f->kernel[cut][kernel_index(edge_of(b, r->length), &made_for)];
 }
 
 #endif

@@ -1,11 +1,15 @@
-/* points.h -- the terms and points of a series, of numbers of type REAL.
- *
- * Included once for each precision, with REAL and NAMED(name) defined. */
+/* points.h -- the terms and points of a series. */
+#ifndef POINTS_H
+#define POINTS_H
 
-/* to += g x over n terms, of which term k of the spectrum of m points is the first. */
+#include <stddef.h>
+#include "morlet/versions.h"
+
+/* to += g x over n terms, of which term k of the spectrum x of m points, a real signal's, is the first:
+ * to term at of length, and on around it. */
 VERSIONS static void
-NAMED(add_terms)(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, REAL *to,
-                 size_t length, size_t at)
+add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, double *to,
+          size_t length, size_t at)
 {
     while (n > 0) {
         ptrdiff_t r = k % (ptrdiff_t)m;
@@ -14,17 +18,17 @@ NAMED(add_terms)(const double *x, size_t m, ptrdiff_t k, const double *g, size_t
         size_t run = mirrored ? m - from : m / 2 + 1 - from;
         run = run < n ? run : n;
         run = run < length - at ? run : length - at;
-        REAL *out = to + 2 * at;
+        double *out = to + 2 * at;
         if (mirrored)
             for (size_t i = 0; i < run; i++) {
                 const double *in = x + 2 * (m - from - i);
-                out[2 * i] += (REAL)(g[i] * in[0]);
-                out[2 * i + 1] -= (REAL)(g[i] * in[1]);
+                out[2 * i] += g[i] * in[0];
+                out[2 * i + 1] -= g[i] * in[1];
             }
         else
             for (size_t i = 0; i < run; i++) {
-                out[2 * i] += (REAL)(g[i] * x[2 * (from + i)]);
-                out[2 * i + 1] += (REAL)(g[i] * x[2 * (from + i) + 1]);
+                out[2 * i] += g[i] * x[2 * (from + i)];
+                out[2 * i + 1] += g[i] * x[2 * (from + i) + 1];
             }
         g += run;
         n -= run;
@@ -33,21 +37,21 @@ NAMED(add_terms)(const double *x, size_t m, ptrdiff_t k, const double *g, size_t
     }
 }
 
-/* Values of a series as they are.  Returns the largest |w|^2 in units of factor. */
+/* n values of a series times factor into w.  Returns the largest |v|^2. */
 VERSIONS static double
-NAMED(write_lattice)(const REAL *restrict v, size_t n, double factor, double *restrict w)
+write_points(const double *restrict v, size_t n, double factor, double *restrict w)
 {
-    REAL most[POINT_LANES] = { 0 };
+    double most[POINT_LANES] = { 0 };
     size_t i = 0;
     for (; i + POINT_LANES <= n; i += POINT_LANES)
         for (size_t l = 0; l < POINT_LANES; l++) {
-            REAL re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
+            double re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
             most[l] = size > most[l] ? size : most[l];
             w[2 * (i + l)] = re * factor;
             w[2 * (i + l) + 1] = im * factor;
         }
     for (; i < n; i++) {
-        REAL re = v[2 * i], im = v[2 * i + 1], size = re * re + im * im;
+        double re = v[2 * i], im = v[2 * i + 1], size = re * re + im * im;
         most[0] = size > most[0] ? size : most[0];
         w[2 * i] = re * factor;
         w[2 * i + 1] = im * factor;
@@ -56,3 +60,5 @@ NAMED(write_lattice)(const REAL *restrict v, size_t n, double factor, double *re
         most[0] = most[l] > most[0] ? most[l] : most[0];
     return most[0];
 }
+
+#endif

@@ -10,14 +10,9 @@
 #include <string.h>
 #include "base/pool.h"
 #include "morlet/fft/blocks.h"
+#include "morlet/fft/points.h"
 #include "morlet/fft/stage.h"
 #include "morlet/versions.h"
-
-#define REAL double
-#define NAMED(name) name
-#include "morlet/fft/points.h"
-#undef REAL
-#undef NAMED
 
 enum { WORTH_A_THREAD = 8 };    /* windows */
 
@@ -372,7 +367,7 @@ ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double
         size_t window = 1 + k / r->hop - s->first, at = k % r->hop;
         size_t n = r->hop - at < end - k ? r->hop - at : end - k;
         transform_window(st, r, s->level[r->level] + window * st->stride, scratch, v);
-        write_lattice(v + 2 * at, n, factor, w + 2 * (k - part.first));
+        write_points(v + 2 * at, n, factor, w + 2 * (k - part.first));
         k += n;
     }
 }

@@ -28,20 +28,13 @@ flags_fit(const char *wisdom)
 
 enum { WISDOM_ROOM = 1 << 24 };         /* a hundred thousand plans */
 
-/* A file has wisdom in double precision, then, unless it is an old one, in single. */
 static int
-import_wisdom(char *text)
+import_wisdom(const char *text)
 {
-    char *single = strstr(text, "fftwf_wisdom");
-    while (single != NULL && single > text && *single != '(')
-        single--;
-    if (single != NULL && single > text && single[-1] == '\n')
-        single[-1] = '\0';
-    if (!flags_fit(text) || (single != NULL && !flags_fit(single)))
+    if (!flags_fit(text))
         return 0;
     pthread_mutex_lock(&ss_fftw_planner);
-    int good = fftw_import_wisdom_from_string(text)
-        && (single == NULL || fftwf_import_wisdom_from_string(single));
+    int good = fftw_import_wisdom_from_string(text);
     pthread_mutex_unlock(&ss_fftw_planner);
     return good;
 }
@@ -70,7 +63,6 @@ ss_wisdom_write(FILE *out)
         return SS_EINVAL;
     pthread_mutex_lock(&ss_fftw_planner);
     fftw_export_wisdom_to_file(out);
-    fftwf_export_wisdom_to_file(out);
     pthread_mutex_unlock(&ss_fftw_planner);
     return fflush(out) == 0 && !ferror(out) ? SS_OK : SS_EIO;
 }

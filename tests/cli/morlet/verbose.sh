@@ -1,6 +1,5 @@
 # -v says what was chosen and what it cost.
 ss-signal sine --duration 3 | ss-morlet -v --method quadrature 2>&1 > /dev/null | sed -e '/of CPU/d' -e 's/, [^,]* s$/, TIME s/'
-ss-signal sine --duration 3 | ss-morlet -v --dense --accuracy 1e-3 2>&1 > /dev/null | sed -n '2s/: [1-9][0-9]* of/: SOME of/p'
 ss-morlet --version | grep -c 'ss-morlet (libstickslip)'
 ss-morlet --help | awk 'length > 80 { print "too wide: " $0 } END { if (NR > 24) print NR " lines" }'
 ss-morlet --help > /dev/null
