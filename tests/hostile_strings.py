@@ -14,7 +14,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 VARIABLES = ("title label1 label2 x_label y_label signal_label line_label colour colours fine font width "
-             "height from to drawn span step levels fmin fmax left bottom panel cone_colour").split()
+             "height from to drawn span step levels fmin fmax left bottom panel cone_colour noise ridge_colour row").split()
 CANARY = "touch pwned"
 PIECES = [f"system('{CANARY}')", f'system "{CANARY}"', f"`{CANARY}`", f"$({CANARY})", f"; !{CANARY}\n",
           f"| {CANARY}", f"'.system('{CANARY}').'", f'".system("{CANARY}")."', "'", '"', "''", '""', "\\",
@@ -101,7 +101,7 @@ def from_contour(strings):
         out.write(b"# stickslip features 1\n# " + line(strings[4]) + b"\n# spike: 0.1 jump "
                   + line(strings[5]) + b"\n0.05\t0.1\t1\t0.06\t9\t" + line(strings[0]) + b"\n")
     return run("ss-contour", "--signal", "signal.tsv", "--column", "1", "--events", "events.tsv",
-               "--features", "features.tsv", stdin=grid or b"")
+               "--features", "features.tsv", "--fill", "--ridge", "--fmax", "20", stdin=grid or b"")
 
 
 def from_map(strings):

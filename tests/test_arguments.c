@@ -630,6 +630,7 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_reader_new(&reader, in, "in", &gaps, NULL), SS_EINVAL);
         assert_null(ss_format_name((size_t)k));
         assert_null(ss_time_unit_name((size_t)k));
+        assert_null(ss_palette_name((size_t)k));
         assert_int_equal(ss_format_has_words((ss_format)k), 0);
         assert_int_equal(ss_writer_new(&writer, in, (ss_format)k, head, NULL), SS_EINVAL);
         assert_int_equal(ss_signal_write(signal, in, (ss_format)k, NULL), SS_EINVAL);

@@ -19,8 +19,8 @@ contours() {    # NAME TITLE COLUMN [OPTION ...]: the contours, and what was rea
     name=$1 title=$2 column=$3
     shift 3
     ss-features ${column:+--column "$column"} -o "$OUT/$name-features.tsv" "$OUT/$name.h5"
-    draw "$name" ss-contour --title "$title" "$@" "$OUT/$name.h5"
-    draw "$name-features" ss-contour --title "$title" --features "$OUT/$name-features.tsv" "$@" \
+    draw "$name" ss-contour --span 80 --title "$title" "$@" "$OUT/$name.h5"
+    draw "$name-features" ss-contour --span 80 --title "$title" --features "$OUT/$name-features.tsv" "$@" \
         "$OUT/$name.h5"
 }
 
@@ -28,7 +28,7 @@ figure() {      # NAME SCENE TITLE: contours on the fine grid, and on the paper'
     ss-sim "$2" | ss-morlet -o "$OUT/$1.h5"
     ss-morlet --dyadic "$OUT/$1.h5" -o "$OUT/$1-dyadic.h5"
     contours "$1" "$3" ''
-    draw "$1-dyadic" ss-contour --title "$3, dyadic" "$OUT/$1-dyadic.h5"
+    draw "$1-dyadic" ss-contour --span 80 --title "$3, dyadic" "$OUT/$1-dyadic.h5"
     draw "loop-$2" ss-plot --xy x,f --title "$3" "$OUT/$1.h5"
 }
 

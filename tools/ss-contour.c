@@ -12,7 +12,11 @@ static const char usage[] =
 "Draw wavelet coefficients: contours of |W| in dB below the largest, over time\n"
 "and frequency, below the signal if the HDF5 file has it.\n"
 "      --levels=N       contour lines (18)\n"
-"      --span=DB        their range below the largest |W| (80)\n"
+"      --span=DB        their range below the largest |W| (80, or to the noise)\n"
+"      --fill           colours between the lines, too\n"
+"      --palette=NAME   viridis, cividis, plasma, inferno, magma or grey\n"
+"      --ridge          mark at each time the frequencies where |W| is largest\n"
+"      --fmin=HZ, --fmax=HZ  draw these frequencies (all); for times see --from\n"
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
@@ -22,13 +26,11 @@ TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
-"  -q, --quiet          no warnings\n"
-"  -v, --verbose        report the input\n"
-"  -h, --help           show this text and exit\n"
-"      --version        show the version and exit\n";
+"  -q, --quiet          no warnings; -v, --verbose: report the input\n"
+"  -h, --help           show this text; --version: show the version\n";
 
 enum {
-    OPT_LEVELS = TOOL_OPT_FIRST, OPT_SPAN, OPT_SIGNAL, OPT_EVENTS, OPT_FEATURES,
+    OPT_LEVELS = TOOL_OPT_FIRST, OPT_SPAN, OPT_FILL, OPT_PALETTE, OPT_RIDGE, OPT_FMIN, OPT_FMAX, OPT_SIGNAL, OPT_EVENTS, OPT_FEATURES,
     OPT_TITLE
 };
 
@@ -136,12 +138,27 @@ is_stdin(const char *path)
     return path != NULL && strcmp(path, "-") == 0;
 }
 
+static const char *
+palette(const char *text)
+{
+    enum { MOST = 16 };
+    const char *name[MOST + 1] = { NULL };
+    for (size_t i = 0; i < MOST && ss_palette_name(i) != NULL; i++)
+        name[i] = ss_palette_name(i);
+    return name[tool_choice("--palette", text, name)];
+}
+
 int
 main(int argc, char *argv[])
 {
     static const struct option longopts[] = {
         { "levels", required_argument, NULL, OPT_LEVELS },
         { "span", required_argument, NULL, OPT_SPAN },
+        { "fill", no_argument, NULL, OPT_FILL },
+        { "palette", required_argument, NULL, OPT_PALETTE },
+        { "ridge", no_argument, NULL, OPT_RIDGE },
+        { "fmin", required_argument, NULL, OPT_FMIN },
+        { "fmax", required_argument, NULL, OPT_FMAX },
         { "signal", required_argument, NULL, OPT_SIGNAL },
         { "column", required_argument, NULL, 'c' },
         { "events", required_argument, NULL, OPT_EVENTS },
@@ -160,7 +177,15 @@ main(int argc, char *argv[])
     for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
         switch (c) {
         case OPT_LEVELS: d.opts.levels = (int)tool_integer("--levels", optarg, 1, (long)ss_contour_levels.to); break;
-        case OPT_SPAN: d.opts.span = tool_number_in("--span", optarg, ss_contour_spans); break;
+        case OPT_SPAN:
+            d.opts.span = tool_number_in("--span", optarg, ss_contour_spans);
+            d.opts.noise = 0;
+            break;
+        case OPT_FILL: d.opts.fill = 1; break;
+        case OPT_PALETTE: d.opts.palette = palette(optarg); break;
+        case OPT_RIDGE: d.opts.ridge = 1; break;
+        case OPT_FMIN: d.opts.fmin = tool_number_in("--fmin", optarg, ss_morlet_ranges.frequency); break;
+        case OPT_FMAX: d.opts.fmax = tool_number_in("--fmax", optarg, ss_morlet_ranges.frequency); break;
         case OPT_SIGNAL: signal_path = optarg; break;
         case 'c': column = optarg; break;
         case OPT_EVENTS: events = optarg; break;
@@ -173,6 +198,8 @@ main(int argc, char *argv[])
                 tool_option(c);
         }
     const char *path = tool_input(argc, argv, optind);
+    if (d.opts.fmin > 0 && d.opts.fmax > 0 && d.opts.fmin >= d.opts.fmax)
+        tool_usage("--fmin does not lie below --fmax");
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
     tool_reading_end(&d.reading, column);
     opts.from = d.reading.from;         /* the lines go on to the border */

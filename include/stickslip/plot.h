@@ -40,7 +40,13 @@ ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
 
 typedef struct ss_contour_opts {
     int levels;                 /* contour lines */
-    double span;                /* [dB] that they span below the largest |W| */
+    double span;                /* [dB] that they span below the largest |W|, at most */
+    double noise;               /* |W| at which noise begins, and the lines end, though not above 10 dB
+                                   below the largest; NaN: measured, see below; 0: they span all of span */
+    const char *palette;        /* one of ss_palette_name; NULL: viridis */
+    int fill;                   /* 1: colours between the lines, too */
+    int ridge;                  /* 1: the ridges are marked, see below */
+    double fmin, fmax;          /* [Hz] the labels drawn, 0: all there are */
     const ss_signal *signal;    /* for panel (a), or NULL */
     size_t column;              /* of that signal */
     const double *event;        /* [s] on the source's clock, marked by vertical lines, or NULL */
@@ -52,9 +58,25 @@ typedef struct ss_contour_opts {
 } ss_contour_opts;
 extern const ss_range ss_contour_levels;
 extern const ss_range ss_contour_spans;         /* [dB] */
-extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB */
+extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB, or down to the noise */
+/* The name of the i-th palette, each with even steps of lightness: "viridis", ...; NULL after the last. */
+const char *ss_palette_name(size_t i);
 
-/* Contours of L = 20 log10(|W| / max|W| where edge = 0) at -k span/levels, k = 1 ... levels. */
+/* Contours of L = 20 log10(|W| / max|W| where edge = 0) at -k span/levels, k = 1 ... levels.
+ *
+ * Noise is measured where |W| of a scale, outside the cone of influence, has the distribution that Gaussian
+ * noise gives it, exp(-|W|^2/s^2) being the share above |W|: where the ratios of its 10, 25 and 50 %
+ * quantiles are those of this law within 1 dB, with at least 100 wavelets' lengths of it.  s is found
+ * from the 25 % quantile: within 0.5 dB where all is noise, up to 2 dB too high where events last for
+ * 30 % of the time.  With an octave of such scales or more, noise begins 9.64 dB above the s that nine of
+ * ten of them do not exceed: one in ten thousand of its |W| is larger.
+ *
+ * A ridge point is a maximum of |W| over the scales at one time, outside the cone, 3 dB above the saddles
+ * beside it and above the lowest line.  Where a steady oscillation has it, it lies at the label
+ * 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) times its frequency, 0.987 for omega_c = 6; with the norm 1/a
+ * at that frequency.
+ *
+ * Marks outside the span and the labels drawn are arrows at the border. */
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
                           const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
 

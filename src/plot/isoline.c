@@ -96,11 +96,22 @@ step_over(const tracer *t, cell_side *p)
     return 1;
 }
 
+/* Is the grid point on the left, on the way into the cell through the side, at the level or above? */
+static int
+is_high_left(const tracer *t, cell_side p)
+{
+    size_t end[2][2];
+    side_ends(p, end[0], end[1]);
+    const size_t *left = end[p.side >= 2];
+    return height(t, left[0], left[1]) >= t->level;
+}
+
 /* Trace the line that enters a cell through p.side, to its end or back to its start. */
 static void
 trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {
     size_t n = 0;
+    int high_left = is_high_left(t, p);
     cross(t, p, n++);
     do {
         p.side = exit_side(t, p);
@@ -112,7 +123,7 @@ trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
         }
         cross(t, p, n++);
     } while (step_over(t, &p));
-    sink((const double (*)[2])t->point, n, user);
+    sink((const double (*)[2])t->point, n, high_left, user);
 }
 
 static void

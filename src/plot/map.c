@@ -282,7 +282,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     if (st != SS_OK)
         return st;
     fprintf(out, "set lmargin at screen %g; set tmargin at screen %s; "
-            "set bmargin at screen 0.14\n", 0.14 + 0.02 * fmax(0, letters_of(&g->y) - 3), line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
+            "set bmargin at screen 0.14\n", 0.14 + 0.025 * fmax(0, letters_of(&g->y) - 3), line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", r->n > 0 || r->missing ? "0.835" : "0.965");
     write_axis(out, "x", &g->x);
     write_axis(out, "y", &g->y);

@@ -82,8 +82,9 @@ append_piece(map_lines *s, const double (*point)[2], size_t n)
 }
 
 static void
-write_line(const double (*point)[2], size_t n, void *user)
+write_line(const double (*point)[2], size_t n, int high_left, void *user)
 {
+    (void)high_left;
     map_lines *s = user;
     for (size_t first = 0, end; first < n; first = end + 1) {
         for (end = first; end < n && is_known(s, point[end]); end++)

@@ -8,7 +8,7 @@
 #define PANEL 2.1               /* height of one panel [cm] */
 #define TITLE 0.6               /* height above the panels [cm] */
 #define TIME 1.0                /* and below them */
-#define ROOM 6.8                /* for the label of a panel [ems] */
+#define ROOM 8.2                /* for the label of a panel [ems] */
 #define XY_ROOM 17.0            /* and for those of one column over another */
 
 /* Margins in the script's own variables: panel i of n has its share of the height between the rims,

@@ -200,34 +200,11 @@ text_width(const char *text, size_t n)
     return width;
 }
 
-/* The start of the second line of a label that is wider than the room: after a blank, underscore or
- * slash, so that the wider line is as narrow as possible; 0 for one line.  *width: of the label. */
-static size_t
-line_break(const script_label *l, double room, double *width)
+/* The unit of a label, with its power of ten. */
+static void
+add_scale(script_label *l, const char *unit, int exponent, int brackets)
 {
-    size_t best = 0;
-    *width = text_width(l->text, l->n);
-    for (size_t i = 1; text_width(l->text, l->n) > room && i + 1 < l->n; i++) {
-        double wider = fmax(text_width(l->text, i + 1),
-                            text_width(l->text + i + 1, l->n - i - 1));
-        if (strchr(" _/", l->text[i]) != NULL && wider < *width) {
-            best = i + 1;
-            *width = wider;
-        }
-    }
-    return best;
-}
-
-void
-ss_script_make_label(script_label *l, const ss_column *column, int exponent, double room)
-{
-    const char *unit = column->unit;
-    int brackets = unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL);
-    double width;
-    *l = (script_label){ .n = 0 };
-    add(l, column->name);
-    if (unit[0] != '\0' || exponent != 0)
-        add(l, brackets ? " / (" : " / ");
+    add(l, brackets ? "(" : "");
     if (exponent != 0) {
         add(l, "10");
         add_superscript(l, exponent);
@@ -235,8 +212,46 @@ ss_script_make_label(script_label *l, const ss_column *column, int exponent, dou
     }
     add_unit(l, unit);
     add(l, brackets ? ")" : "");
+}
+
+/* The length of a column's name without the unit at its end: "slip_mm_s" of mm/s, "accel_g" of g. */
+static size_t
+name_length(const ss_column *column)
+{
+    const char *name = column->name, *unit = column->unit;
+    size_t n = strlen(name);
+    for (size_t i = strlen(unit), at = n; *unit != '\0' && at > 1; at--) {
+        while (i > 0 && unit[i - 1] == '^')
+            i--;
+        if (i == 0)
+            return name[at - 1] == '_' ? at - 1 : n;
+        if (name[at - 1] != unit[i - 1] && !(name[at - 1] == '_' && strchr("/ *", unit[i - 1]) != NULL))
+            return n;
+        i--;
+    }
+    return n;
+}
+
+void
+ss_script_make_label(script_label *l, const ss_column *column, int exponent, double room)
+{
+    const char *unit = column->unit;
+    int scaled = unit[0] != '\0' || exponent != 0;
+    *l = (script_label){ .n = 0 };
+    add(l, column->name);
+    size_t name = l->n < LABEL_MAX ? name_length(column) : LABEL_MAX;
+    l->n = name;
+    add(l, scaled ? " / " : "");
+    if (scaled)
+        add_scale(l, unit, exponent, unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL));
     mark_cut(l);
-    l->second = line_break(l, room, &width);
+    double width = text_width(l->text, l->n);
+    if (width > room && scaled && name < LABEL_MAX) {
+        l->n = l->second = name;
+        add_scale(l, unit, exponent, 1);
+        mark_cut(l);
+        width = fmax(text_width(l->text, name), text_width(l->text + name, l->n - name));
+    }
     l->font = fmin(room / width, l->second > 0 ? 0.85 : 1);     /* two lines leave tics their room */
 }
 

@@ -9,6 +9,7 @@ for form in png svg pdf; do
     ss-plot --xy x,f --from 1 run.h5 -o loop.$form
     ss-contour run.h5 --events events -o contour.$form
     ss-contour --signal run.tsv --column v --from 1 --to 1.5 - < run.coef -o zoom.$form
+    ss-contour --fill --palette magma --ridge --fmin 9 --fmax 99 --from 1 --to 4 --events events run.h5 -o fill.$form
 done
 ls
 head -c 4 panels.png | tail -c 3

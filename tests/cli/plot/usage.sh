@@ -5,7 +5,8 @@ for options in '-o a.gif' '--xy x' '--xy x,' '--xy x,f -c a' '--from x' 'one two
     # shellcheck disable=SC2086  # several words
     ss-plot $options > /dev/null || echo $?
 done
-for options in '--levels 0' '--levels 101' '--span 0' '-o a.tsv' '--signal -' '--from 2 --to 1'; do
+for options in '--levels 0' '--levels 101' '--span 0' '--palette jet' '--fmin 0' '--fmin 9 --fmax 9' \
+    '-o a.tsv' '--signal -' '--from 2 --to 1'; do
     # shellcheck disable=SC2086
     ss-contour $options < /dev/null || echo $?
 done

@@ -1,0 +1,190 @@
+/* contour_map.c -- the map of |W| that a contour plot draws.
+ *
+ * |W| is mapped to a rectangle as wide as the picture, one row a scale.  A column has the largest
+ * |W| of its translations, so that no spike is lost; between translations farther apart |W| is
+ * interpolated linearly. */
+#include "plot/contour.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include "base/error.h"
+#include "base/progress.h"
+#include "plot/noise_level.h"
+
+#define LEAST_SPAN 10.0         /* [dB] that lines span, however high the noise is */
+
+/* The map while it is filled. */
+typedef struct filling {
+    const ss_coefficients *c;
+    const ss_contour_opts *contour;
+    size_t first;               /* scale of the first row */
+    double outside, anywhere;   /* the largest |W| outside the cone of influence, -1: there is none; and of all */
+    noise_level *noise;         /* NULL: not measured */
+} filling;
+
+static double
+magnitude(const double *w, size_t k)
+{
+    return hypot(w[2 * k], w[2 * k + 1]);
+}
+
+/* |W| of a scale in the column of time [lo, hi], from the first sample. */
+static double
+in_column(const ss_scale *scale, const double *w, double lo, double hi)
+{
+    double step = scale->b_num / scale->b_den, at = (lo + hi) / 2 / step;
+    size_t last = scale->n - 1, k = at > 0 ? (size_t)fmin(at, (double)last) : 0;
+    double part = fmin(fmax(at - (double)k, 0), 1);
+    double level = magnitude(w, k);
+    if (k < last)
+        level += part * (magnitude(w, k + 1) - level);
+    for (k = lo > 0 ? (size_t)fmin(ceil(lo / step), (double)last) : 0;
+         k <= last && (double)k * step <= hi; k++)
+        level = fmax(level, magnitude(w, k));
+    return level;
+}
+
+/* The largest |W| and the noise of scale i; returns 0 if a |W| is not finite. */
+static int
+survey(filling *f, size_t i, const double *w)
+{
+    for (size_t k = 0; k < f->c->scale[i].n; k++) {
+        double level = magnitude(w, k);
+        if (!isfinite(level))
+            return 0;
+        f->anywhere = fmax(f->anywhere, level);
+        if ((f->noise == NULL && level <= f->outside) || ss_coefficients_edge(f->c, i, k))
+            continue;
+        f->outside = fmax(f->outside, level);
+        if (f->noise != NULL)
+            ss_noise_level_add(f->noise, i, level * level);
+    }
+    return 1;
+}
+
+/* Lines go on beyond the record, colours do not. */
+static void
+fill_row(double *row, const filling *f, size_t s, const double *w, const script_span *span)
+{
+    double width = (span->to - span->from) / CONTOUR_COLUMNS, end = (double)f->c->n / f->c->head->rate;
+    for (size_t i = 0; i <= CONTOUR_COLUMNS; i++) {
+        double t = span->from - f->c->head->start + (double)i * width;
+        int known = t >= -width / 2 && t <= end + width / 2;
+        row[i] = known || !f->contour->fill ? in_column(&f->c->scale[s], w, t - width / 2, t + width / 2) : 0;
+    }
+}
+
+/* |W|, a row each, and what survey finds of all scales. */
+static ss_status
+fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
+{
+    const ss_coefficients *c = f->c;
+    for (size_t s = 0; s < c->n_scales; s++) {
+        const double *w = own != NULL ? own : c->w + 2 * c->scale[s].offset;
+        ss_status st = own != NULL ? f->contour->source(s, own, f->contour->source_user, err) : SS_OK;
+        if (st != SS_OK)
+            return st;
+        if (!survey(f, s, w))
+            return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
+                           c->scale[s].f);
+        if (s >= f->first && s - f->first < map->rows)
+            fill_row(map->level + (s - f->first) * (CONTOUR_COLUMNS + 1), f, s, w, map->span_of_time);
+        if (ss_progress_at(&f->contour->progress, (double)(s + 1) / (double)c->n_scales) != SS_OK)
+            return SS_STOP;
+    }
+    return SS_OK;
+}
+
+/* Decibels in place of |W|, and how far down the lines go. */
+static void
+set_levels(contour_map *map, const filling *f)
+{
+    double max = f->outside >= 0 ? f->outside : f->anywhere;
+    double noise = f->noise != NULL ? ss_noise_level(f->noise, f->c->scale) : f->contour->noise;
+    for (size_t i = 0; i < map->rows * (CONTOUR_COLUMNS + 1); i++)
+        map->level[i] = max > 0 && map->level[i] > 0
+            ? fmin(fmax(20 * log10(map->level[i] / max), -CONTOUR_FLOOR), CONTOUR_FLOOR) : -CONTOUR_FLOOR;
+    map->span = f->contour->span;
+    map->noise = max > 0 && noise > 0 ? round(20 * log10(noise / max)) : NAN;
+    if (!(map->noise > -map->span))
+        map->noise = NAN;
+    if (!isnan(map->noise))
+        map->span = fmin(fmax(-map->noise, LEAST_SPAN), map->span);
+}
+
+/* The first row becomes the map at the label fmin, the last at fmax, where these are given. */
+static void
+cut_rows(contour_map *map, double fmin, double fmax)
+{
+    size_t last = map->rows - 1, columns = CONTOUR_COLUMNS + 1;
+    double *f = map->f, *top = map->level + last * columns;
+    double lo = fmin > f[0] ? log(fmin / f[0]) / log(f[1] / f[0]) : 0;
+    double hi = fmax < f[last] && fmax > 0 ? log(fmax / f[last - 1]) / log(f[last] / f[last - 1]) : 1;
+    for (size_t i = 0; i < columns; i++) {
+        double *bottom = map->level + i, below = top[i - columns];
+        double at_lo = bottom[0] + lo * (bottom[columns] - bottom[0]);
+        top[i] = below + hi * (top[i] - below);
+        bottom[0] = at_lo;
+    }
+    f[0] = lo > 0 ? fmin : f[0];
+    f[last] = hi < 1 ? fmax : f[last];
+}
+
+/* The scales that are drawn: those in the labels, and one beyond at either end. */
+static ss_status
+choose_rows(contour_map *map, filling *f, ss_error *err)
+{
+    const ss_scale *scale = f->c->scale;
+    size_t last = f->c->n_scales - 1;
+    double lo = fmax(f->contour->fmin, scale[0].f), hi = f->contour->fmax > 0
+        ? fmin(f->contour->fmax, scale[last].f) : scale[last].f;
+    if (!(lo < hi))
+        return ss_fail(err, SS_EINVAL, "nothing to draw from %g Hz to %g Hz; the coefficients go from %g Hz to "
+                       "%g Hz", f->contour->fmin, f->contour->fmax, scale[0].f, scale[last].f);
+    while (scale[f->first + 1].f <= lo)
+        f->first++;
+    while (scale[last - 1].f >= hi)
+        last--;
+    map->rows = last - f->first + 1;
+    return SS_OK;
+}
+
+void
+ss_contour_map_free(contour_map *map)
+{
+    free(map->f);
+    free(map->level);
+}
+
+ss_status
+ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts *contour,
+               const script_span *span, ss_error *err)
+{
+    filling f = { .c = c, .contour = contour, .outside = -1 };
+    size_t longest = 0;
+    double *own = NULL;
+    *map = (contour_map){ .span_of_time = span };
+    ss_status st = choose_rows(map, &f, err);
+    if (st != SS_OK)
+        return st;
+    for (size_t s = 0; s < c->n_scales; s++)
+        longest = c->scale[s].n > longest ? c->scale[s].n : longest;
+    map->f = malloc(map->rows * sizeof *map->f);
+    map->level = malloc(map->rows * (CONTOUR_COLUMNS + 1) * sizeof *map->level);
+    own = c->w == NULL ? malloc(2 * longest * sizeof *own) : NULL;
+    f.noise = isnan(contour->noise) ? ss_noise_level_new(c->n_scales) : NULL;
+    if (map->f == NULL || map->level == NULL || (c->w == NULL && own == NULL)
+        || (isnan(contour->noise) && f.noise == NULL))
+        st = ss_fail_memory(err, NULL);
+    for (size_t i = 0; st == SS_OK && i < map->rows; i++)
+        map->f[i] = c->scale[f.first + i].f;
+    if (st == SS_OK)
+        st = fill_rows(map, &f, own, err);
+    if (st == SS_OK) {
+        set_levels(map, &f);
+        cut_rows(map, contour->fmin, contour->fmax);
+    }
+    ss_noise_level_free(f.noise);
+    free(own);
+    return st;
+}

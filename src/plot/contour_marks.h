@@ -1,0 +1,25 @@
+/* contour_marks.h -- what was read from a signal, over its contours. */
+#ifndef CONTOUR_MARKS_H
+#define CONTOUR_MARKS_H
+
+#include "plot/contour.h"
+
+/* What there is of each kind to draw: an empty block is an error for gnuplot. */
+typedef struct contour_marks {
+    size_t spans, spikes, maxima;
+    size_t event_arrows, feature_arrows;
+} contour_marks;
+
+/* The datablocks of events and overlay, as far as they lie in the map, and of arrows for the rest. */
+contour_marks ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts *contour);
+/* In the plot command: events lie behind the lines, features before them. */
+void ss_contour_plot_events(FILE *out, const contour_marks *marks, size_t n_events);
+void ss_contour_plot_features(FILE *out, const contour_marks *marks);
+
+/* SS_EINVAL: a time or frequency is not finite. */
+ss_status ss_contour_check_marks(const ss_contour_opts *contour, ss_error *err);
+
+/* Decimals of a frequency: six digits at least. */
+int ss_contour_decimals(double f);
+
+#endif

@@ -1,0 +1,114 @@
+/* noise_level.c -- where noise begins in a map of |W|.
+ *
+ * Of Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential distribution:
+ * its quantile u is -s^2 ln(1 - u).  A scale at which the quantiles of |W|^2 keep these ratios in the lower
+ * half, which few events reach, shows noise, and how high it is.  Steady oscillations have no such
+ * spread; transients, and the rounding left between them, have far more.
+ *
+ * Quantiles come from histograms in bins of 1/8 of a binary order, 0.26 to 0.51 dB, within which they are
+ * interpolated: so no coefficient need be kept. */
+#include "plot/noise_level.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/sort.h"
+
+enum { ORDERS = 1024, PART_BITS = 3, BINS = ORDERS << PART_BITS };
+#define LEAST_ORDER (-512)      /* of |W|^2 */
+#define RATIO_OFF 1.0           /* [dB] that a ratio of quantiles may be off */
+#define LENGTHS 100.0           /* independent coefficients that this takes */
+#define SHARE 0.9               /* of the scales, at which noise is no higher */
+#define RARE 1e-4               /* share of the noise that is higher than where it begins */
+
+struct noise_level {
+    size_t n_scales;
+    uint64_t *count;            /* BINS of each scale */
+};
+
+noise_level *
+ss_noise_level_new(size_t n_scales)
+{
+    noise_level *noise = calloc(1, sizeof *noise);
+    if (noise == NULL || (noise->count = calloc(n_scales, BINS * sizeof *noise->count)) == NULL) {
+        free(noise);
+        return NULL;
+    }
+    noise->n_scales = n_scales;
+    return noise;
+}
+
+void
+ss_noise_level_free(noise_level *noise)
+{
+    if (noise != NULL)
+        free(noise->count);
+    free(noise);
+}
+
+/* The exponent of a double and the first bits behind its binary point, which count the bins. */
+void
+ss_noise_level_add(noise_level *noise, size_t i, double power)
+{
+    int64_t bits;
+    memcpy(&bits, &power, sizeof bits);
+    int64_t bin = (bits >> (52 - PART_BITS)) - ((int64_t)(1023 + LEAST_ORDER) << PART_BITS);
+    noise->count[i * BINS + (size_t)(bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin)]++;
+}
+
+/* The least power in a bin. */
+static double
+start_of(size_t bin)
+{
+    const size_t parts = 1 << PART_BITS;
+    return ldexp(1 + (double)(bin % parts) / (double)parts, (int)(bin / parts) + LEAST_ORDER);
+}
+
+static double
+quantile(const uint64_t *count, double total, double part)
+{
+    double left = part * total;
+    size_t bin = 0;
+    while (bin < BINS - 1 && (double)count[bin] <= left)
+        left -= (double)count[bin++];
+    return start_of(bin) + left / (double)count[bin] * (start_of(bin + 1) - start_of(bin));
+}
+
+/* s^2 of a scale's noise; 0 if it shows none. */
+static double
+power_of(const uint64_t *count, const ss_scale *scale)
+{
+    static const double part[3] = { 0.1, 0.25, 0.5 };
+    double total = 0, q[3];
+    for (size_t i = 0; i < BINS; i++)
+        total += (double)count[i];
+    double length = 2 * sqrt(M_PI) * scale->a;          /* over which |W|^2 of noise is correlated */
+    if (!(total * scale->b_num / scale->b_den >= LENGTHS * length))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        q[i] = quantile(count, total, part[i]);
+    for (int i = 1; i < 3; i++)
+        if (!(fabs(10 * log10(q[i] / q[i - 1] * log1p(-part[i - 1]) / log1p(-part[i]))) <= RATIO_OFF))
+            return 0;
+    return q[1] / -log1p(-part[1]);
+}
+
+double
+ss_noise_level(const noise_level *noise, const ss_scale *scale)
+{
+    size_t n = noise->n_scales, found = 0;
+    double *power = malloc(n * sizeof *power), level = 0;
+    if (power == NULL)
+        return 0;
+    for (size_t i = 0; i < n; i++)
+        if ((power[found] = power_of(noise->count + i * BINS, &scale[i])) > 0)
+            found++;
+    double octaves = log2(scale[n - 1].f / scale[0].f) * (double)found / (double)(n - 1);
+    if (found > 0 && octaves >= 1) {
+        qsort(power, found, sizeof *power, ss_ascending);
+        level = sqrt(power[(size_t)(SHARE * (double)(found - 1))] * -log(RARE));
+    }
+    free(power);
+    return level;
+}

@@ -1,0 +1,17 @@
+/* noise_level.h -- where noise begins in a map of |W|, measured as its coefficients pass. */
+#ifndef NOISE_LEVEL_H
+#define NOISE_LEVEL_H
+
+#include <stddef.h>
+#include <stickslip/morlet.h>
+
+typedef struct noise_level noise_level;
+
+noise_level *ss_noise_level_new(size_t n_scales);       /* NULL: no memory */
+/* A coefficient of scale i outside the cone of influence, by |W|^2 >= 0. */
+void ss_noise_level_add(noise_level *noise, size_t i, double power);
+/* |W| at which noise begins; 0: none was found. */
+double ss_noise_level(const noise_level *noise, const ss_scale *scale);
+void ss_noise_level_free(noise_level *noise);           /* NULL is allowed */
+
+#endif
