@@ -25,26 +25,30 @@ enum { ORDERS = 1024, PART_BITS = 3, BINS = ORDERS << PART_BITS };
 struct noise_level {
     size_t n_scales;
     uint64_t *count;            /* BINS of each scale */
+    double *power;              /* room for one of each */
 };
+
+void
+ss_noise_level_free(noise_level *noise)
+{
+    if (noise != NULL) {
+        free(noise->count);
+        free(noise->power);
+    }
+    free(noise);
+}
 
 noise_level *
 ss_noise_level_new(size_t n_scales)
 {
     noise_level *noise = calloc(1, sizeof *noise);
-    if (noise == NULL || (noise->count = calloc(n_scales, BINS * sizeof *noise->count)) == NULL) {
-        free(noise);
+    if (noise == NULL || (noise->count = calloc(n_scales, BINS * sizeof *noise->count)) == NULL
+        || (noise->power = calloc(n_scales, sizeof *noise->power)) == NULL) {
+        ss_noise_level_free(noise);
         return NULL;
     }
     noise->n_scales = n_scales;
     return noise;
-}
-
-void
-ss_noise_level_free(noise_level *noise)
-{
-    if (noise != NULL)
-        free(noise->count);
-    free(noise);
 }
 
 /* The exponent of a double and the first bits behind its binary point, which count the bins. */
@@ -95,20 +99,16 @@ power_of(const uint64_t *count, const ss_scale *scale)
 }
 
 double
-ss_noise_level(const noise_level *noise, const ss_scale *scale)
+ss_noise_level(noise_level *noise, const ss_scale *scale)
 {
     size_t n = noise->n_scales, found = 0;
-    double *power = malloc(n * sizeof *power), level = 0;
-    if (power == NULL)
-        return 0;
+    double *power = noise->power;
     for (size_t i = 0; i < n; i++)
         if ((power[found] = power_of(noise->count + i * BINS, &scale[i])) > 0)
             found++;
     double octaves = log2(scale[n - 1].f / scale[0].f) * (double)found / (double)(n - 1);
-    if (found > 0 && octaves >= 1) {
-        qsort(power, found, sizeof *power, ss_ascending);
-        level = sqrt(power[(size_t)(SHARE * (double)(found - 1))] * -log(RARE));
-    }
-    free(power);
-    return level;
+    if (found == 0 || octaves < 1)
+        return 0;
+    qsort(power, found, sizeof *power, ss_ascending);
+    return sqrt(power[(size_t)(SHARE * (double)(found - 1))] * -log(RARE));
 }

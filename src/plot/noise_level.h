@@ -11,7 +11,7 @@ noise_level *ss_noise_level_new(size_t n_scales);       /* NULL: no memory */
 /* A coefficient of scale i outside the cone of influence, by |W|^2 >= 0. */
 void ss_noise_level_add(noise_level *noise, size_t i, double power);
 /* |W| at which noise begins; 0: none was found. */
-double ss_noise_level(const noise_level *noise, const ss_scale *scale);
+double ss_noise_level(noise_level *noise, const ss_scale *scale);
 void ss_noise_level_free(noise_level *noise);           /* NULL is allowed */
 
 #endif
