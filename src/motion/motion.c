@@ -17,8 +17,10 @@ ss_step_cap(const state *m)
 double
 ss_step_floor(const state *m)
 {
-    double cap = ss_step_cap(m);
-    return STEP_FLOOR * (m->model->quickest != NULL ? fmin(cap, 1 / m->model->quickest(m->scene)) : cap);
+    double floor = STEP_FLOOR * ss_step_cap(m);
+    if (m->model->quickest != NULL)
+        floor = fmin(floor, STEP_FLOOR / m->model->quickest(m->scene));
+    return fmax(floor, DBL_MIN);            /* which ends a search for a step whatever the scene */
 }
 
 /* x is about 1e-4 m and measured by the scene; v by that times the larger of Omega and omega_n; what

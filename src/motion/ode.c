@@ -176,7 +176,7 @@ ode_step(engine *e, double h_max, ss_error *err)
                 o->h_next = h_adjusted;     /* a step cut short by h_max says nothing */
             break;
         }
-        if (!(h_adjusted >= o->shortest && h_adjusted > 0))
+        if (!(h_adjusted >= o->shortest))
             return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
                            "step fell below %.3g s", step->type->name, o->tol, e->m->origin.hi + m->u,
                            o->shortest);
@@ -361,7 +361,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
                                         o };
     o->multistep = method[i].multistep;
     o->tol = tol;
-    o->h_next = ss_step_cap(m);
+    o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
     for (size_t k = 0; k < m->model->dim; k++) {
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];

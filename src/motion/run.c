@@ -198,7 +198,8 @@ over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
     const char *what;
     char budget[80];
     double t = m->origin.hi + m->now.u, all = r->scene->settle + r->scene->duration;
-    double estimate = (double)e->steps * all / t;
+    double estimate = fmin((double)e->steps * all / t, TOO_MANY_STEPS);
+    const char *about = estimate < TOO_MANY_STEPS ? "about" : "more than";
     m->now.model->fastest(&m->now, &what);
     if (r->opts->max_steps > 0)
         snprintf(budget, sizeof budget, "step budget of %lu", r->opts->max_steps);
@@ -206,12 +207,12 @@ over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
         snprintf(budget, sizeof budget, "budget of %.2g right-hand sides (max_steps would set another)",
                  r->work);
     if (e->h < cap / 2)
-        return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, about "
+        return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, %s "
                        "%.2g steps would do; the tolerance forces steps of %.3g s, where the "
-                       "motion of %s allows %.3g s", budget, t, all, estimate, e->h, what, cap);
-    return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, about %.2g "
+                       "motion of %s allows %.3g s", budget, t, all, about, estimate, e->h, what, cap);
+    return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, %s %.2g "
                    "steps would do; they are %.3g s long, 1/%d of the period of %s",
-                   budget, t, all, estimate, cap, STEPS_PER_PERIOD, what);
+                   budget, t, all, about, estimate, cap, STEPS_PER_PERIOD, what);
 }
 
 /* Refuse at once a run that is sure to be too long: because of the mode in which the scene begins, if
@@ -228,9 +229,8 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
         return SS_OK;
     m->model->fastest(m, &what);
     if (!(steps <= TOO_MANY_STEPS))
-        return ss_fail(err, SS_EBUDGET, "%.3g s are %.2g steps of 1/%d of the period of %s: more than "
-                       "%.0g are not tried", length, steps, STEPS_PER_PERIOD, what,
-                       TOO_MANY_STEPS);
+        return ss_fail(err, SS_EBUDGET, "%.3g s are too many steps of 1/%d of the period of %s: more than "
+                       "%.0g are not tried", length, STEPS_PER_PERIOD, what, TOO_MANY_STEPS);
     if (r->opts->max_steps > 0 || least <= most)
         return SS_OK;
     return ss_fail(err, SS_EBUDGET, "%.3g s are at least %.3g steps of 1/%d of the period of %s: more "

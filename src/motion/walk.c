@@ -70,6 +70,9 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
     w->still = m->model->still != NULL && m->model->still(m, &u_end);
     if (w->still) {
         w->h = u_end - m->u;
+        if (isinf(w->h) && isinf(longest))
+            return ss_fail(err, SS_EDATA, "the stick at t = %.9g s is without end: no slip comes within a "
+                           "time that a double holds", w->m.origin.hi + m->u);
         w->ends = w->h <= longest;
         if (w->ends)
             return SS_OK;

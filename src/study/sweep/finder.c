@@ -162,3 +162,17 @@ ss_finder_go(finder *f, int cycles, meter *r, tangent *t)
     f->n += cycles;
     return SS_OK;
 }
+
+ss_status
+ss_finder_return(finder *f, int most, double tol, int *period)
+{
+    const section at = ss_section_of(&f->w.m.now);
+    ss_status st = SS_OK;
+    *period = 0;
+    for (int p = 1; st == SS_OK && *period == 0 && p <= most; p++) {
+        st = ss_finder_go(f, 1, NULL, NULL);
+        if (ss_section_distance(f, ss_section_of(&f->w.m.now), at) <= tol)
+            *period = p;
+    }
+    return st;
+}

@@ -43,6 +43,9 @@ ss_status ss_finder_begin_at(finder *f, const motion *from);
 /* Walk so many cycles, with a meter and a tangent unless they are NULL.  SS_EDATA: an
  * autonomous scene slides on without a stick. */
 ss_status ss_finder_go(finder *f, int cycles, meter *r, tangent *t);
+/* The first number of cycles, `most` at most, after which the present state is within tol of itself; 0 if
+ * it is after none. */
+ss_status ss_finder_return(finder *f, int most, double tol, int *period);
 
 /* --- period.c ---------------------------------------------------------------------------------- */
 

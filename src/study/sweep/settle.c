@@ -58,11 +58,8 @@ settle_and_look(finder *f, int *period)
     for (unsigned long i = 0; st == SS_OK && i < f->opts->settle; i++)
         st = ss_finder_go(f, 1, NULL, NULL);
     const motion here = f->w.m;
-    for (int p = 1; st == SS_OK && *period == 0 && p <= f->opts->max_period; p++) {
-        st = ss_finder_go(f, 1, NULL, NULL);
-        if (ss_section_distance(f, ss_section_of(&f->w.m.now), ss_section_of(&here.now)) <= f->opts->tol)
-            *period = p;
-    }
+    if (st == SS_OK)
+        st = ss_finder_return(f, f->opts->max_period, f->opts->tol, period);
     return st == SS_OK ? ss_finder_begin_at(f, &here) : st;
 }
 

@@ -100,22 +100,6 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     return st;
 }
 
-/* The first multiple of a cycle after which the present state returns to itself, `most` at most; 0 if
- * it does not.  Newton's method has left a part of the tolerance. */
-static ss_status
-first_return(finder *f, int most, int *period)
-{
-    const section at = ss_section_of(&f->w.m.now);
-    ss_status st = SS_OK;
-    *period = 0;
-    for (int p = 1; st == SS_OK && *period == 0 && p <= most; p++) {
-        st = ss_finder_go(f, 1, NULL, NULL);
-        if (ss_section_distance(f, ss_section_of(&f->w.m.now), at) <= 2 * f->opts->tol)
-            *period = p;
-    }
-    return st;
-}
-
 static ss_status
 look(finder *f, int approached, int *period, ss_steady *out)
 {
@@ -137,7 +121,7 @@ look(finder *f, int approached, int *period, ss_steady *out)
     if (wanted && st == SS_OK)
         st = ss_finder_begin_at(f, &at);
     if (wanted && st == SS_OK)
-        st = first_return(f, cycles, period);
+        st = ss_finder_return(f, cycles, 2 * f->opts->tol, period);   /* Newton's left a part of tol */
     if (*period == 0 || st != SS_OK)
         return st;
     st = ss_finder_begin_at(f, &at);

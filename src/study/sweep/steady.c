@@ -238,8 +238,11 @@ static ss_status
 check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
 {
     int asks = opts->search == SS_SEARCH_SHOOT || (opts->measures & FLOQUET);
-    if (scene->base_frequency > 0)
+    if (scene->base_frequency > 0 && isfinite(1 / scene->base_frequency))
         return SS_OK;
+    if (scene->base_frequency > 0)
+        return ss_fail(err, SS_ERANGE, "base_frequency is too low: the time of a forcing cycle lies beyond "
+                       "double precision");
     if (scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
     if (!sticks(ss_model_of(scene)))
@@ -278,7 +281,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
         limit = compare_with_limit(&f, out);
     ss_course_free(&f.course);
     for (int i = 0; i < SS_MEASURES; i++)
-        if (st != SS_OK || !(opts->measures & 1u << i))
+        if (st != SS_OK || !(opts->measures & 1u << i) || !isfinite(out->value[i]))
             out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
     if (limit != SS_OK)
         return limit == SS_ENOMEM ? ss_fail_memory(err, NULL) : SS_EDATA;

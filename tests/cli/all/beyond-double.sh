@@ -27,3 +27,6 @@ echo "an axis may reach from end to end of a double"
 ss-sweep coulomb --vary friction=1e-300:1e300:3:log --measure amplitude | grep -v '^#' | cut -f 1,2,4
 echo "the run of reference has a budget too"
 try ss-trade -q --budget 1e-6 -s alpha=1e9 state-variable
+echo "a stick that no pull ends, a cycle that no clock measures"
+ss-sweep pulled-slider --vary base_velocity=1e-320:1:2 | grep -v '^#' | cut -f 1,2,10
+ss-sweep coulomb --vary base_frequency=1e-320:2.5:2 | grep -v '^#' | cut -f 1,2,10
