@@ -151,7 +151,7 @@ check_request(request *req)
     }
     if (req->inverse && (req->transforms || req->reading.given))
         tool_usage("--inverse takes no options but --accuracy, --output and --format");
-    if (req->wisdom != NULL && strcmp(req->wisdom, "-") == 0)
+    if (req->wisdom != NULL && (strcmp(req->wisdom, "-") == 0 || *req->wisdom == '\0'))
         tool_usage("--wisdom needs a file, which is read and written");
     if (req->stream && opts->fmin == 0 && !opts->octaves)
         tool_usage("--stream needs --fmin, as the length of the record is not known");

@@ -3,49 +3,14 @@
 #include "stream/summary.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "features/numbers.h"
 #include "stream/output.h"
 
-/* The recordings that have a number. */
-typedef enum group { ALL, WITH_LOADING, WITH_LOADING_OVER_X, WITH_MASS, WITH_X_AND_F } group;
-
-/* Values and medians begin alike: the number and its standard error. */
-#define AT(member) offsetof(ss_features, member.value)
-
-static const struct number {
-    const char *key, *unit;     /* unit NULL: that of the column is in it */
-    size_t at;
-    int is_median;
-    group of;
-} number[SS_SUMMARY_NUMBERS] = {
-    { "transitions", "", 0, 0, ALL },           /* a count: ss_features.n */
-    { "slips", "", AT(slips), 0, ALL },
-    { "slip_rate", "1/s", AT(slip_rate), 0, ALL },
-    { "loading_slope", NULL, AT(slope), 1, WITH_LOADING },
-    { "loading_stiffness", NULL, AT(stiffness), 1, WITH_LOADING_OVER_X },
-    { "drop", NULL, AT(drop), 1, WITH_LOADING },
-    { "drop_duration", "s", AT(duration), 1, WITH_LOADING },
-    { "recurrence_time", "s", AT(recurrence), 1, WITH_LOADING },
-    { "stick_time", "s", AT(stick), 1, WITH_LOADING },
-    { "static_friction", NULL, AT(static_friction), 1, WITH_LOADING },
-    { "friction", NULL, AT(friction), 1, WITH_LOADING },
-    { "k_over_m", "1/s^2", AT(k_over_m), 1, WITH_LOADING },
-    { "repetition_frequency", "Hz", AT(repetition_frequency), 0, ALL },
-    { "transition_frequency_raw", "Hz", AT(frequency_raw), 0, ALL },
-    { "transition_frequency", "Hz", AT(frequency), 0, ALL },
-    { "damping_ratio", "", AT(damping_ratio), 0, ALL },
-    { "total_stiffness_raw", "N/m", AT(total_stiffness_raw), 0, WITH_MASS },
-    { "total_stiffness", "N/m", AT(total_stiffness), 0, WITH_MASS },
-    { "contact_stiffness", "N/m", AT(contact_stiffness), 0, WITH_MASS },
-    { "contact_damping", "N s/m", AT(contact_damping), 0, WITH_MASS },
-    { "contact_stiffness_slope", "N/m", AT(contact_slope), 0, WITH_X_AND_F },
-};
-
 static int
-belongs(group of, const ss_features *f, const ss_features_opts *opts)
+belongs(number_group of, const ss_features *f, const ss_features_opts *opts)
 {
     switch (of) {
     case WITH_LOADING:        return f->loading != NULL;
@@ -60,7 +25,8 @@ void
 ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
 {
     char text[3][SS_NUMBER_MAX];
-    for (const struct number *n = number + 1; n < number + SS_SUMMARY_NUMBERS; n++) {
+    for (size_t i = 1; i < SS_SUMMARY_NUMBERS; i++) {
+        const feature_number *n = &ss_feature_numbers[i];
         ss_median m = { NAN, NAN, NAN };
         if (!belongs(n->of, f, opts))
             continue;
@@ -76,7 +42,7 @@ ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts
 const char *
 ss_summary_name(size_t i)
 {
-    return i < SS_SUMMARY_NUMBERS ? number[i].key : NULL;
+    return i < SS_SUMMARY_NUMBERS ? ss_feature_numbers[i].key : NULL;
 }
 
 static void
@@ -102,8 +68,8 @@ ss_summary_fill(ss_summary *out, const ss_features *f, const ss_signal *signal, 
     }
     out->number[0].value = (double)f->n;
     for (size_t i = 1; i < SS_SUMMARY_NUMBERS; i++)
-        if (!number[i].is_median || f->loading != NULL)
-            memcpy(&out->number[i], (const char *)f + number[i].at, sizeof out->number[i]);
+        if (!ss_feature_numbers[i].is_median || f->loading != NULL)
+            memcpy(&out->number[i], (const char *)f + ss_feature_numbers[i].at, sizeof out->number[i]);
     snprintf(out->unit, sizeof out->unit, "%s", signal->head->column[column].unit);
     add_reason(out, "slips", f->why_slips);
     add_reason(out, "repetition", f->why_repetition);
@@ -117,7 +83,8 @@ write_columns(struct rows *rows)
 {
     ss_rows_column(rows, "file", "");
     ss_rows_column(rows, "unit", "");
-    for (const struct number *n = number; n < number + SS_SUMMARY_NUMBERS; n++) {
+    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++) {
+        const feature_number *n = &ss_feature_numbers[i];
         char error[64];
         snprintf(error, sizeof error, "%s_error", n->key);
         ss_rows_column(rows, n->key, n->unit != NULL ? n->unit : "");
@@ -174,7 +141,7 @@ add_value(scatter *sum, const ss_summary *s, size_t i)
     sum->squares += off * (v.value - sum->mean);
     if (sum->n == 1)
         sum->unit = s->unit;
-    else if (number[i].unit == NULL && sum->unit != NULL && strcmp(sum->unit, s->unit) != 0)
+    else if (ss_feature_numbers[i].unit == NULL && sum->unit != NULL && strcmp(sum->unit, s->unit) != 0)
         sum->unit = NULL;
     if (isnan(v.error))
         return;
@@ -191,7 +158,7 @@ write_scatter(struct rows *rows, size_t i, const ss_summary summary[], size_t n)
     for (size_t k = 0; k < n; k++)
         add_value(&sum, &summary[k], i);
     int comparable = sum.unit != NULL;
-    ss_rows_note(rows, "%s: %s %s %s %zu", number[i].key,
+    ss_rows_note(rows, "%s: %s %s %s %zu", ss_feature_numbers[i].key,
                  ss_number_text(mean, comparable ? sum.mean : NAN),
                  ss_number_text(between, comparable && sum.n > 1
                                 ? sqrt(sum.squares / (double)(sum.n - 1)) : NAN),

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXTS = 6, NUMBERS = 48, SCALES = 3, PER_SCALE = 4 };
+enum { TEXTS = 6, NUMBERS = 48, SCALES = 3, PER_SCALE = 4, LEVELS = 2 };
 
 typedef struct material {
     char *text[TEXTS];
@@ -75,6 +75,7 @@ draw_contour(FILE *out, const material *m, const ss_signal *signal, const ss_plo
     contour.signal = signal;
     contour.event = event;
     contour.n_events = 1;
+    contour.levels = LEVELS;
     return ss_plot_contour(out, &c, &contour, opts, err);
 }
 

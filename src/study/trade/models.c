@@ -10,6 +10,7 @@
 #include <stickslip/sweep.h>
 #include "base/error.h"
 #include "base/progress.h"
+#include "features/numbers.h"
 #include "motion/engine.h"
 #include "study/curve.h"
 #include "study/trade/common.h"
@@ -20,36 +21,33 @@ const ss_models_opts ss_models_defaults = { .span = 80, .threads = 1 };
 
 enum { COLUMNS = 4, A = 2, F = 3, MAP = 2 * COLUMNS, FEATURES = SS_COMPARED_MICROSLIPS + 1 };
 
-#define FEATURE(field) offsetof(ss_features, field)
-/* offset: of a number of ss_features. */
-static const struct { const char *name, *unit; size_t offset; } compared[SS_COMPARED] = {
-    { "x", "", 0 }, { "x_rms", "", 0 }, { "v", "", 0 }, { "v_rms", "", 0 },
-    { "a", "", 0 }, { "a_rms", "", 0 }, { "f", "", 0 }, { "f_rms", "", 0 },
-    [MAP] = { "map", "dB", 0 }, { "map_rms", "dB", 0 },
-    [SS_COMPARED_EVENTS] = { "events", "", 0 }, { "microslips", "", 0 },
-    [FEATURES] = { "slips", "", FEATURE(slips) },
-    { "slip_rate", "", FEATURE(slip_rate) },
-    { "repetition_frequency", "", FEATURE(repetition_frequency) },
-    { "transition_frequency_raw", "", FEATURE(frequency_raw) },
-    { "transition_frequency", "", FEATURE(frequency) },
-    { "damping_ratio", "", FEATURE(damping_ratio) },
-    { "total_stiffness_raw", "", FEATURE(total_stiffness_raw) },
-    { "total_stiffness", "", FEATURE(total_stiffness) },
-    { "contact_stiffness", "", FEATURE(contact_stiffness) },
-    { "contact_damping", "", FEATURE(contact_damping) },
-    { "contact_stiffness_slope", "", FEATURE(contact_slope) },
+static const struct { const char *name, *unit; } compared[FEATURES] = {
+    { "x", "" }, { "x_rms", "" }, { "v", "" }, { "v_rms", "" },
+    { "a", "" }, { "a_rms", "" }, { "f", "" }, { "f_rms", "" },
+    [MAP] = { "map", "dB" }, { "map_rms", "dB" },
+    [SS_COMPARED_EVENTS] = { "events", "" }, { "microslips", "" },
 };
+
+/* Behind them the features that are no count and no medians, as ratios. */
+static const feature_number *
+feature_at(size_t i)
+{
+    const feature_number *n = ss_feature_numbers + 1;
+    for (size_t before = i - FEATURES; n->is_median || before-- > 0; n++)
+        continue;
+    return n;
+}
 
 const char *
 ss_compared_name(size_t i)
 {
-    return i < SS_COMPARED ? compared[i].name : NULL;
+    return i < FEATURES ? compared[i].name : i < SS_COMPARED ? feature_at(i)->key : NULL;
 }
 
 const char *
 ss_compared_unit(size_t i)
 {
-    return i < SS_COMPARED ? compared[i].unit : NULL;
+    return i < FEATURES ? compared[i].unit : i < SS_COMPARED ? "" : NULL;
 }
 
 /* --- one run ------------------------------------------------------------------------------- */
@@ -211,7 +209,7 @@ difference(size_t a, size_t b)
 static double
 feature(const portrait *p, size_t i)
 {
-    return ((const ss_value *)(const void *)((const char *)p->features + compared[i].offset))->value;
+    return ((const ss_value *)(const void *)((const char *)p->features + feature_at(i)->at))->value;
 }
 
 static void
