@@ -25,4 +25,14 @@ read_shipped(const ss_shipped_scene *shipped)
     return read_shipped_named(shipped->name);
 }
 
+/* The shipped slider, pulled at U over a surface that moves at S. */
+static inline ss_scene
+read_slider(double U, double S)
+{
+    ss_scene s = read_shipped_named("pulled-slider");
+    s.base_velocity = U;
+    s.surface_velocity = S;
+    return s;
+}
+
 #endif

@@ -191,18 +191,25 @@ write_foreign(hsize_t user_block)
     H5Fclose(file);
 }
 
+/* A new attribute of an open object. */
+static inline void
+put_scalar(hid_t object, const char *name, hid_t type, const void *value)
+{
+    hid_t space = H5Screate(H5S_SCALAR);
+    hid_t id = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(id, type, value) >= 0);
+    H5Aclose(id);
+    H5Sclose(space);
+}
+
 /* Give an object of the file another number as an attribute, as anyone might. */
 static inline void
 put_attribute(const char *object, const char *name, double value)
 {
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), id = H5Oopen(file, object, H5P_DEFAULT);
-    hid_t space = H5Screate(H5S_SCALAR);
     if (H5Aexists(id, name) > 0)
         H5Adelete(id, name);
-    hid_t a = H5Acreate2(id, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT);
-    assert_true(H5Awrite(a, H5T_NATIVE_DOUBLE, &value) >= 0);
-    H5Aclose(a);
-    H5Sclose(space);
+    put_scalar(id, name, H5T_NATIVE_DOUBLE, &value);
     H5Oclose(id);
     H5Fclose(file);
 }

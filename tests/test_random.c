@@ -40,21 +40,11 @@ enum { LONG_BUDGET = 100000000 };       /* of one that swings in the front of ta
 
 enum { MOST_SAMPLES = 200000 };         /* friction that is faster than that is not added up */
 
-/* What is wrong with a scene, with all that it takes to see it again. */
-static void
-complain(const trial *t, const char *what, double got, double allowed)
-{
-    fprintf(stderr, "scene %lu: %s: %.3g, allowed %.3g\n", (unsigned long)t->number, what, got,
-            allowed);
-    ss_scene_write(&t->scene, stderr);
-    fail();
-}
-
 static void
 demand(const trial *t, const char *what, double got, double allowed)
 {
     if (!(got <= allowed))
-        complain(t, what, got, allowed);
+        complain(t->number, &t->scene, what, got, allowed);
 }
 
 /* A run ends, or says why not. */
@@ -65,7 +55,7 @@ ended(const trial *t, const run *r)
         return 1;
     if ((r->status != SS_ETOL && r->status != SS_ECHATTER && r->status != SS_EBUDGET)
         || r->err.text[0] == '\0')
-        complain(t, r->err.text, r->status, 0);
+        complain(t->number, &t->scene, r->err.text, r->status, 0);
     return 0;
 }
 
@@ -81,7 +71,7 @@ trial_of(uint64_t number)
     trial t = { .number = number, .scene = random_scene(number) };
     ss_error err = { 0 };
     if (ss_scene_check(&t.scene, &err) != SS_OK || ss_scene_supported(&t.scene, &err) != SS_OK)
-        complain(&t, err.text, 0, 0);
+        complain(t.number, &t.scene, err.text, 0, 0);
     t.method = t.scene.model == SS_STATE_VARIABLE ? ss_sim_method_for(&t.scene) : "exact";
     t.run = run_alike(&t, &t.scene, 1e-12);
     demand(&t, t.run.err.text, t.run.status, SS_OK);
@@ -120,7 +110,7 @@ agrees_with_another_method(const trial *t, const char *other, double tol, unsign
     run b = run_with(&t->scene, other, tol, most);
     if (ended(t, &b)) {
         if (t->run.stats.unresolved + b.stats.unresolved == 0 && !same_events(t, &b))
-            complain(t, "events", (double)b.n_events, (double)t->run.n_events);
+            complain(t->number, &t->scene, "events", (double)b.n_events, (double)t->run.n_events);
         demand(t, "another method's x over its scale", difference(&t->run, &b, 1) / t->scale,
                4 * tol * (double)(b.stats.steps + 100) + 16 * (tol / 1e-12) * t->nudged / t->scale);
     }

@@ -42,16 +42,9 @@ near(const char *what, double got, double truth, double allowed)
 static ss_scene
 slider(double U, double S)
 {
-    ss_scene s = ss_scene_defaults;
-    s.mass = .0307;
-    s.stiffness = 168;
-    s.static_friction = .0602;
-    s.friction = .0452;
-    s.base_velocity = U;
-    s.surface_velocity = S;
+    ss_scene s = read_slider(U, S);
     s.v0 = S;
     s.duration = 48;
-    s.rate = 2000;
     return s;
 }
 
@@ -409,15 +402,6 @@ typedef struct trial {
     oracle *o;
 } trial;
 
-static void
-complain(const trial *t, const char *what, double got, double allowed)
-{
-    fprintf(stderr, "scene %lu: %s: %.3g, allowed %.3g\n", (unsigned long)t->number, what, got,
-            allowed);
-    ss_scene_write(&t->scene, stderr);
-    fail();
-}
-
 static double *
 x_of(const oracle *o, double duration)
 {
@@ -472,24 +456,25 @@ agrees_with_the_oracle(const trial *t, const char *method, double tol)
     double allowed = 4 * tol * steps * t->scale + 64 * (1 + tol / DBL_EPSILON) * t->spread;
     double late = 0, off = 0, fastest = sqrt(s->stiffness / s->mass) * t->scale;
     if (r.status != SS_OK)
-        complain(t, r.err.text, r.status, 0);
+        complain(t->number, &t->scene, r.err.text, r.status, 0);
     size_t n = r.n_events < t->o->n - first ? r.n_events : t->o->n - first;
     for (size_t i = 0; i < n && r.stats.unresolved == 0; i++) {
         const oracle_piece *p = &t->o->piece[i + first];
         if (r.event[i].kind != p->kind || r.event[i].direction != p->direction)
-            complain(t, "the kind of an event", (double)i, r.event[i].t);
+            complain(t->number, &t->scene, "the kind of an event", (double)i, r.event[i].t);
         late = fmax(late, fabs(r.event[i].t - (double)p->t0));
     }
     if (r.stats.unresolved == 0 && !touches(s) && r.n_events != t->o->n - first
         && !(t->spread > 1e-10 * t->scale))
-        complain(t, "events", (double)r.n_events, (double)(t->o->n - first));
+        complain(t->number, &t->scene, "events", (double)r.n_events, (double)(t->o->n - first));
     for (size_t i = 0; i < r.n; i++)
         off = fmax(off, fabs(r.sample[i].x - s->base_velocity * r.sample[i].t - t->x[i]));
     if (!(off <= allowed))
-        complain(t, method, off / t->scale, allowed / t->scale);
+        complain(t->number, &t->scene, method, off / t->scale, allowed / t->scale);
     /* a crossing that grazes is known to the root of what x is known to */
     if (!(late * fastest <= sqrt(allowed * t->scale)))
-        complain(t, "time of an event", late * fastest / t->scale, sqrt(allowed / t->scale));
+        complain(t->number, &t->scene, "time of an event", late * fastest / t->scale,
+                 sqrt(allowed / t->scale));
     run_free(&r);
 }
 

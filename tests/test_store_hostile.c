@@ -153,19 +153,15 @@ open_signal_without_values(hid_t file, hsize_t n)
 {
     const double one = 1;
     static const char *const name[] = { "rate", "start", "has_time" };
-    hid_t how = H5Pcreate(H5P_GROUP_CREATE), scalar = H5Screate(H5S_SCALAR);
+    hid_t how = H5Pcreate(H5P_GROUP_CREATE);
     H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED);
     hid_t group = H5Gcreate2(file, "signal", H5P_DEFAULT, how, H5P_DEFAULT);
-    for (size_t i = 0; i < 3; i++) {
-        hid_t id = H5Acreate2(group, name[i], H5T_NATIVE_DOUBLE, scalar, H5P_DEFAULT, H5P_DEFAULT);
-        H5Awrite(id, H5T_NATIVE_DOUBLE, &one);
-        H5Aclose(id);
-    }
+    for (size_t i = 0; i < 3; i++)
+        put_scalar(group, name[i], H5T_NATIVE_DOUBLE, &one);
     hid_t space = H5Screate_simple(1, &n, NULL);
     hid_t id = H5Dcreate2(group, "t", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     H5Dclose(id);
     H5Sclose(space);
-    H5Sclose(scalar);
     H5Pclose(how);
     return group;
 }
@@ -266,14 +262,11 @@ a_column_shorter_than_t_is_refused(void **state)
 static void
 put_variable_text(hid_t file, const char *name, size_t n, int letter)
 {
-    hid_t type = H5Tcopy(H5T_C_S1), scalar = H5Screate(H5S_SCALAR);
+    hid_t type = H5Tcopy(H5T_C_S1);
     char *text = calloc(n + 1, 1);
     assert_non_null(memset(text, letter, n));
     H5Tset_size(type, H5T_VARIABLE);
-    hid_t id = H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT);
-    assert_true(H5Awrite(id, type, &text) >= 0);
-    H5Aclose(id);
-    H5Sclose(scalar);
+    put_scalar(file, name, type, &text);
     H5Tclose(type);
     free(text);
 }

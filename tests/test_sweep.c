@@ -408,20 +408,6 @@ says_what_has_no_period(void **state)
 
 /* --- without forcing ------------------------------------------------------------------------- */
 
-/* Pulled at U over a surface that moves at S. */
-static ss_scene
-pulled_slider(double U, double S)
-{
-    ss_scene s = ss_scene_defaults;
-    s.mass = .0307;
-    s.stiffness = 168;
-    s.static_friction = .0602;
-    s.friction = .0452;
-    s.base_velocity = U;
-    s.surface_velocity = S;
-    return s;
-}
-
 /* From rest at f_s the spring's force swings about f_k by D sqrt(1 + 1/q^2) = k |U - S| sqrt(1 + q^2) / w,
  * while the surface goes |U - S| T on. */
 static void
@@ -433,7 +419,7 @@ a_pulled_slider_has_its_closed_form(void **state)
     for (size_t i = 0; i < 5; i++)
         for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
             double U = row[i][0], S = row[i][1];
-            ss_scene s = pulled_slider(U, S);
+            ss_scene s = read_slider(U, S);
             double w = sqrt(s.stiffness / s.mass), q = .015 * w / (s.stiffness * speed), root = sqrt(1 + q * q);
             ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_STICK_FRACTION) | BIT(SS_V_MAX)
                                      | BIT(SS_ENERGY) | BIT(SS_PERIOD) | BIT(SS_STOPS) | BIT(SS_X_PHASE)
@@ -511,7 +497,7 @@ a_damped_slider_sticks_as_its_record_does(void **state)
     (void)state;
     for (double d = .05; d < .5; d += .1)
         for (int belt = 0; belt < 2; belt++) {
-            ss_scene s = pulled_slider(belt ? 0 : 1e-3, belt ? -1e-3 : 0);
+            ss_scene s = read_slider(belt ? 0 : 1e-3, belt ? -1e-3 : 0);
             s.damping = d;
             onsets o = onsets_of(s, 4);
             ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_X_PHASE) | BIT(SS_PERIOD), 0);
@@ -531,7 +517,7 @@ a_slider_on_a_contact_comes_nearer_by_its_multiplier(void **state)
     (void)state;
     for (size_t i = 0; i < 2; i++)
         for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
-            ss_scene s = pulled_slider(row[i].U, 0);
+            ss_scene s = read_slider(row[i].U, 0);
             s.model = SS_COMPLIANT;
             s.contact_stiffness = 20000;
             s.contact_damping = row[i].damping;
@@ -562,7 +548,7 @@ says_what_has_no_cycle(void **state)
     (void)state;
     opts.measures = BIT(SS_PERIOD) | BIT(SS_CYCLE_TIME);
     for (size_t i = 0; i < 2; i++) {
-        ss_scene s = pulled_slider(row[i].U, 0);
+        ss_scene s = read_slider(row[i].U, 0);
         s.damping = row[i].d;
         assert_int_equal(ss_steady_find(&at, &s, &opts, &err), row[i].status);
         assert_ptr_equal(strstr(err.text, row[i].why), err.text);
@@ -573,7 +559,7 @@ says_what_has_no_cycle(void **state)
             1e-14, "cycle_time");
     opts.method = "rk8pd";
     opts.search = SS_SEARCH_SHOOT;
-    ss_scene slider = pulled_slider(.1, 0);
+    ss_scene slider = read_slider(.1, 0);
     assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
     assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting and multipliers need method "
                         "exact");

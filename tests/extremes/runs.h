@@ -93,4 +93,13 @@ difference(const run *a, const run *b, double factor)
     return worst;
 }
 
+/* What is wrong with a scene, with all that it takes to see it again. */
+static inline void
+complain(uint64_t number, const ss_scene *scene, const char *what, double got, double allowed)
+{
+    fprintf(stderr, "scene %lu: %s: %.3g, allowed %.3g\n", (unsigned long)number, what, got, allowed);
+    ss_scene_write(scene, stderr);
+    fail();
+}
+
 #endif

@@ -8,5 +8,6 @@ for name in fifo link folder /dev/null /dev/full; do
     timeout 10 ss-morlet --dyadic --wisdom $name signal > /dev/null || echo $?
 done
 timeout 10 ss-morlet --dyadic --wisdom - signal > /dev/null || echo $?
+ss-morlet --dyadic --wisdom= signal > /dev/null || echo $?
 [ -c /dev/null ] || echo "/dev/null was replaced"
 ls
