@@ -101,7 +101,7 @@ typedef struct ss_models_row {
     ss_scene scene;
     ss_status status;           /* SS_OK, or why there is no such row, with the reason */
     ss_error reason;
-    double error[SS_COMPARED];  /* NaN where one of the scenes has no such number */
+    double error[SS_COMPARED];  /* NaN where a scene has no such number, or no finite ratio */
     size_t events, microslips;  /* in the record */
     double seconds;             /* CPU time of one run */
 } ss_models_row;

@@ -233,6 +233,8 @@ compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_sce
         double was = feature(ref, i), is = feature(p, i);
         error[i] = is == was ? 0 : fabs(is - was) / fabs(was);
     }
+    for (size_t i = 0; i < SS_COMPARED; i++)
+        error[i] = isfinite(error[i]) ? error[i] : NAN;     /* a part of 0, or beyond a double */
     row->events = p->events;
     row->microslips = p->microslips;
 }

@@ -30,3 +30,5 @@ try ss-trade -q --budget 1e-6 -s alpha=1e9 state-variable
 echo "a stick that no pull ends, a cycle that no clock measures"
 ss-sweep pulled-slider --vary base_velocity=1e-320:1:2 | grep -v '^#' | cut -f 1,2,10
 ss-sweep coulomb --vary base_frequency=1e-320:2.5:2 | grep -v '^#' | cut -f 1,2,10
+echo "an error that is no number of the scene's largest value is left out"
+ss-trade -q --models -s mass=1e300 -s settle=0 -s duration=0.5 -s rate=100 state-variable | grep '^coulomb' | cut -f 1,9
