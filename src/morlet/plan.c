@@ -49,23 +49,19 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
 size_t
 ss_morlet_scales(const ss_morlet *plan)
 {
-    if (plan == NULL)
-        return 0;
-    return plan->n_scales;
+    return plan != NULL ? plan->n_scales : 0;
 }
 
 const ss_scale *
 ss_morlet_scale(const ss_morlet *plan, size_t i)
 {
-    return plan != NULL && i < plan->n_scales ? &plan->scale[i] : NULL;
+    return i < ss_morlet_scales(plan) ? &plan->scale[i] : NULL;
 }
 
 size_t
 ss_morlet_total(const ss_morlet *plan)
 {
-    if (plan == NULL)
-        return 0;
-    return plan->total;
+    return plan != NULL ? plan->total : 0;
 }
 
 ss_engine
@@ -106,12 +102,18 @@ ss_morlet_spectra_free(spectra *s)
     ss_spectra_free(s);
 }
 
-ss_status
-ss_morlet_scratch(const ss_morlet *plan, double **scratch)
+size_t
+ss_morlet_room(const ss_morlet *plan)
 {
     size_t of_fft = plan->fft != NULL ? ss_fft_room(plan->fft) : 0;
     size_t of_blocks = plan->blocks != NULL ? ss_blocks_room(plan->blocks) : 0;
-    size_t room = of_fft > of_blocks ? of_fft : of_blocks;
+    return of_fft > of_blocks ? of_fft : of_blocks;
+}
+
+ss_status
+ss_morlet_scratch(const ss_morlet *plan, double **scratch)
+{
+    size_t room = ss_morlet_room(plan);
     *scratch = room > 0 ? ss_fft_doubles(room) : NULL;
     return room > 0 && *scratch == NULL ? SS_ENOMEM : SS_OK;
 }

@@ -47,6 +47,11 @@ typedef struct spot {
     double c, tau;
 } spot;
 
+/* How many of the samples come before the first that is not finite, and max|x| of those; the error
+ * that a sample is not, numbered from 1: SS_EINVAL. */
+size_t ss_morlet_finite(const double *x, size_t n, double *most);
+ss_status ss_morlet_not_finite(ss_error *err, size_t number, double x);
+
 /* SS_EINVAL if a sample is not finite. */
 ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend,
                            ss_error *err);
@@ -129,7 +134,6 @@ void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spec
                   double *scratch, span part, double factor, double *most, double *w);
 size_t ss_fft_room(const struct fft *fft);             /* doubles of scratch for one thread */
 double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
-double *ss_fft_scratch(const struct fft *fft);         /* likewise, as many as that */
 void ss_fft_scratch_free(double *scratch);
 
 /* Of a plan for windows: what one costs [s], the samples of which every window must begin at a
@@ -139,13 +143,14 @@ size_t ss_fft_unit(const ss_morlet *plan);
 size_t ss_fft_places(const struct fft *fft, size_t i);
 
 /* The spectra of a record for all engines of a plan; to be freed, forward failed or not.
- * Then what one thread needs beside them: NULL if nothing, else ss_fft_scratch_free's. */
+ * Then what one thread needs beside them, in doubles: NULL if nothing, else ss_fft_scratch_free's. */
 ss_status ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out);
 void ss_morlet_spectra_free(spectra *s);
+size_t ss_morlet_room(const ss_morlet *plan);
 ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 
 /* A part of scale i, in the norm and the samples' own size: by its engine, or by the definition if
- * s is NULL.  scratch is ss_fft_scratch's; wave may be NULL; *most as above. */
+ * s is NULL.  scratch has ss_morlet_room; wave may be NULL; *most as above. */
 ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                          double *scratch, wavelet *wave, span part, double *most, double *w,
                          ss_error *err);

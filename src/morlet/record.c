@@ -66,15 +66,32 @@ subtract(record *rec, ss_detrend detrend)
         rec->x[i] = (double)((long double)rec->x[i] - x0 - mean - slope * (i - mid));
 }
 
+size_t
+ss_morlet_finite(const double *x, size_t n, double *most)
+{
+    *most = largest(x, n);
+    if (*most <= DBL_MAX)
+        return n;
+    for (n = 0; isfinite(x[n]); n++)
+        ;
+    *most = largest(x, n);
+    return n;
+}
+
+ss_status
+ss_morlet_not_finite(ss_error *err, size_t number, double x)
+{
+    return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", number,
+                   isnan(x) ? "NaN" : "infinite");
+}
+
 ss_status
 ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err)
 {
-    double most = largest(x, n);
-    size_t i = most <= DBL_MAX ? n : 0;
-    for (; i < n; i++)
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", i + 1,
-                           isnan(x[i]) ? "NaN" : "infinite");
+    double most;
+    size_t good = ss_morlet_finite(x, n, &most);
+    if (good < n)
+        return ss_morlet_not_finite(err, good + 1, x[good]);
     *rec = (record){ .n = n, .x = n <= SIZE_MAX / sizeof *x ? malloc(n * sizeof *x) : NULL };
     if (rec->x == NULL)
         return SS_ENOMEM;

@@ -310,12 +310,6 @@ ss_fft_doubles(size_t n)
     return fftw_malloc(n * sizeof(double));
 }
 
-double *
-ss_fft_scratch(const struct fft *fft)
-{
-    return ss_fft_doubles(ss_fft_room(fft));
-}
-
 void
 ss_fft_scratch_free(double *scratch)
 {

@@ -1,0 +1,90 @@
+/* stream.h -- shared by the files of a stream: stream.c takes the samples, stream_plan.c chooses the
+ * windows, stream_window.c computes one. */
+#ifndef STREAM_H
+#define STREAM_H
+
+#include "morlet/fft/blocks.h"
+#include "morlet/plan.h"
+
+enum {
+    STREAM_PIECE = 1 << 14,     /* samples processed at a time, at most */
+    GIVEN = 1 << 17             /* coefficients passed to the sink at a time, at most */
+};
+
+/* The state of a scale. */
+typedef struct scale_state {
+    size_t next;                /* its next translation */
+    ptrdiff_t due;              /* the samples that it needs, from the first on */
+    size_t count;               /* in the record; SIZE_MAX until that has ended */
+    ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
+    span part;                  /* computed now; those from skip on go to the sink */
+    size_t skip;
+    double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
+    int exponent;
+    wavelet *wave;              /* NULL: made when needed */
+    double place, table;        /* cost by the definition: a coefficient, the wavelet [s] */
+} scale_state;
+
+/* Scales that share their windows. */
+typedef struct group {
+    ss_morlet *plan;            /* its n is the length of a window */
+    size_t first;               /* its scales are first ... first + plan->n_scales - 1 */
+    ptrdiff_t unit;             /* a window begins at a multiple of this */
+} group;
+
+/* The work of one thread: scales first ... end - 1 of a window. */
+typedef struct stream_worker {
+    double *w, *scratch;        /* scratch: NULL if no scale needs it */
+    const struct window *window;
+    size_t first, end;
+    ss_status status;
+    ss_error error;
+} stream_worker;
+
+struct ss_stream {
+    ss_morlet_opts opts;
+    double rate;
+    ss_coefficient_sink *sink;
+    void *user;
+    size_t n_scales, n_groups, samples;
+    size_t full;                /* no window is full before there are so many samples */
+    ss_scale *scale;
+    scale_state *state;
+    group blocks;               /* the first scales, those in blocks, if any */
+    cascade *cascade;           /* NULL: none are */
+    group *group;               /* the others */
+    stream_worker *worker;      /* as many as threads */
+    size_t worker_room;         /* coefficients in w of a worker */
+    double *x, x_max;           /* the last samples, for groups, and max|x| of all */
+    ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
+    size_t room;                /* in x */
+    int ended;
+    ss_status status;           /* of what failed first */
+    ss_error error;
+};
+
+/* Grid, groups, plans and buffers, in a stream that has nothing else yet. */
+ss_status ss_stream_plan(ss_stream *s, ss_error *err);
+
+/* Continue scale i at this translation. */
+void ss_stream_continue(ss_stream *s, size_t i, size_t next);
+/* The next translations of scale i that need no sample from limit on. */
+size_t ss_stream_ready(const ss_stream *s, size_t i, ptrdiff_t limit);
+
+/* Samples that the next translation of a group's scale may lie behind the place where its computation
+ * begins. */
+ptrdiff_t ss_group_places(const group *g, size_t i);
+/* The start of a group's next window; PTRDIFF_MAX if none is left. */
+ptrdiff_t ss_group_start(const ss_stream *s, const group *g);
+/* All coefficients of a group's window at start to the sink, of those that have arrived. */
+ss_status ss_group_transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err);
+
+/* By this power of 2 samples are divided, the largest of which is x_max, for blocks: 0 but for sizes
+ * near the ends of what a double holds. */
+int ss_blocks_exponent(double x_max);
+/* The coefficients in blocks whose windows are full to the sink; then all that need no sample from
+ * limit on, PTRDIFF_MAX: all. */
+ss_status ss_blocks_transform_full(ss_stream *s, ss_error *err);
+ss_status ss_blocks_transform_rest(ss_stream *s, ptrdiff_t limit, ss_error *err);
+
+#endif

@@ -1,0 +1,215 @@
+/* stream_plan.c -- the windows of a stream, and what is made before its first sample.
+ *
+ * The longest scales of a stepped grid are computed in blocks, as those of a record are
+ * (fft/windows.c).  Of the others, scales of similar length form a group, which has a plan for windows
+ * of a fixed length, at least twice the length of its longest wavelet. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "morlet/stream.h"
+
+enum {
+    BASE = 1 << 13,             /* samples in a window at least */
+    SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
+    OCTAVES = 5,                /* of scales in the others */
+    LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
+    TABLES = 32 << 20           /* bytes of wavelets kept */
+};
+
+static ss_status
+plan_grid(ss_stream *s, ss_error *err)
+{
+    ss_status st = ss_morlet_grid(&s->scale, &s->n_scales, 0, s->rate, &s->opts, err);
+    if (st != SS_OK)
+        return st;
+    ss_morlet_leave_rounding(&s->opts);
+    s->state = calloc(s->n_scales, sizeof *s->state);
+    if (s->state == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < s->n_scales; i++) {
+        double reach = ceil(REACH * s->scale[i].a * s->rate) + 1;
+        s->state[i].reach = (ptrdiff_t)fmin(reach, 0x1p50);
+        s->state[i].count = SIZE_MAX;
+        ss_stream_continue(s, i, 0);
+    }
+    return SS_OK;
+}
+
+/* A plan for windows of n samples. */
+static ss_status
+new_group(const ss_stream *s, group *g, size_t first, size_t n_scales, size_t n)
+{
+    *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
+    if (g->plan == NULL)
+        return SS_ENOMEM;
+    *g->plan = (ss_morlet){ .opts = s->opts, .n = n, .rate = s->rate, .window = 1,
+                            .n_scales = n_scales, .scale = malloc(n_scales * sizeof *s->scale) };
+    if (g->plan->scale == NULL)
+        return SS_ENOMEM;
+    memcpy(g->plan->scale, s->scale + first, n_scales * sizeof *s->scale);
+    return SS_OK;
+}
+
+/* The scales that are transformed in blocks. */
+static ss_status
+plan_blocks(ss_stream *s)
+{
+    group *g = &s->blocks;
+    size_t n = 0;
+    ss_status st = new_group(s, g, 0, s->n_scales, 0);
+    if (st == SS_OK)
+        st = ss_blocks_new(g->plan);
+    while (st == SS_OK && n < s->n_scales && ss_blocks_covers(g->plan->blocks, n))
+        n++;
+    if (st == SS_OK && n > 0 && (s->cascade = ss_cascade_new(g->plan->blocks)) == NULL)
+        st = SS_ENOMEM;
+    if (g->plan != NULL)
+        g->plan->n_scales = n;
+    return st;
+}
+
+/* The number of scales from first on that form a group. */
+static size_t
+scales_together(const ss_stream *s, size_t first)
+{
+    size_t n = 1;
+    if (s->state[first].reach <= SHORT)
+        return s->n_scales - first;
+    while (first + n < s->n_scales && s->state[first + n].reach > SHORT
+           && s->scale[first].a < s->scale[first + n].a * (1 << OCTAVES))
+        n++;
+    return n;
+}
+
+/* The plan of a group, its scales with as many translations as a window yields. */
+static ss_status
+plan_group(const ss_stream *s, group *g, size_t first)
+{
+    double reach = (double)s->state[first].reach, n = reach * (reach < LONG / 8 ? 8 : 4);
+    if (s->state[first].reach <= SHORT)
+        n = exp2(ceil(log2(fmax(n, BASE))));
+    if (!(n < 0x1p58))
+        return SS_ENOMEM;
+    ss_status st = new_group(s, g, first, scales_together(s, first), (size_t)n);
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; i < g->plan->n_scales; i++) {
+        ss_scale *sc = &g->plan->scale[i];
+        double hop = (double)g->plan->n - 2 * reach, step = sc->b_num / sc->b_den * s->rate;
+        sc->n = (size_t)fmin(ceil(hop / step), 0x1p50);
+    }
+    st = ss_fft_new(g->plan);
+    if (st == SS_OK)
+        g->unit = (ptrdiff_t)ss_fft_unit(g->plan);
+    return st;
+}
+
+static ss_status
+plan_groups(ss_stream *s)
+{
+    s->group = calloc(s->n_scales, sizeof *s->group);
+    if (s->group == NULL)
+        return SS_ENOMEM;
+    for (size_t first = s->blocks.plan->n_scales; first < s->n_scales;) {
+        group *g = &s->group[s->n_groups++];
+        ss_status st = plan_group(s, g, first);
+        if (st != SS_OK)
+            return st;
+        first += g->plan->n_scales;
+    }
+    return SS_OK;
+}
+
+/* The cost by the definition, and its wavelets that are kept: the short ones. */
+static ss_status
+plan_sums(ss_stream *s)
+{
+    size_t bytes = 0;
+    for (size_t i = s->n_groups; i-- > 0;) {
+        const ss_morlet *plan = s->group[i].plan;
+        for (size_t k = plan->n_scales; k-- > 0;) {
+            scale_state *r = &s->state[s->group[i].first + k];
+            const ss_scale *sc = &plan->scale[k];
+            r->place = ss_quadrature_cost(plan, sc, 1);
+            r->table = ss_wavelet_cost(plan, sc);
+            bytes += ss_wavelet_bytes(&s->opts, sc->a, s->rate, plan->n);
+            if (bytes > TABLES)
+                continue;
+            r->wave = ss_wavelet_new(&s->opts, sc->a, s->rate, plan->n);
+            if (r->wave == NULL)
+                return SS_ENOMEM;
+        }
+    }
+    return SS_OK;
+}
+
+/* Room for samples; the signal is zero before its first. */
+static ss_status
+make_room_for_samples(ss_stream *s)
+{
+    size_t longest = 0;
+    for (size_t i = 0; i < s->n_groups; i++) {
+        ptrdiff_t start = ss_group_start(s, &s->group[i]);
+        size_t n = s->group[i].plan->n;
+        longest = n > longest ? n : longest;
+        s->origin = start < s->origin ? start : s->origin;
+    }
+    s->room = longest + STREAM_PIECE;
+    s->x = calloc(s->room, sizeof *s->x);
+    return s->x != NULL ? SS_OK : SS_ENOMEM;
+}
+
+/* Coefficients that a worker computes at a time, at most. */
+static size_t
+worker_room(const ss_stream *s)
+{
+    size_t places = 1, room = 0;
+    for (size_t i = 0; i < s->n_groups; i++)
+        for (size_t k = 0; k < s->group[i].plan->n_scales; k++) {
+            size_t n = (size_t)ss_group_places(&s->group[i], s->group[i].first + k);
+            places = n > places ? n : places;
+        }
+    for (size_t i = 0; i < s->blocks.plan->n_scales; i++) {
+        size_t hop = ss_blocks_hop(s->blocks.plan->blocks, i);
+        room = hop > room ? hop : room;
+    }
+    return room > GIVEN + places ? room : GIVEN + places;
+}
+
+static ss_status
+make_workers(ss_stream *s)
+{
+    size_t scratch = ss_morlet_room(s->blocks.plan);
+    for (size_t i = 0; i < s->n_groups; i++) {
+        size_t n = ss_morlet_room(s->group[i].plan);
+        scratch = n > scratch ? n : scratch;
+    }
+    s->worker_room = worker_room(s);
+    s->worker = calloc((size_t)s->opts.threads, sizeof *s->worker);
+    if (s->worker == NULL)
+        return SS_ENOMEM;
+    for (int t = 0; t < s->opts.threads; t++) {
+        stream_worker *wk = &s->worker[t];
+        wk->w = malloc(2 * s->worker_room * sizeof *wk->w);
+        wk->scratch = scratch > 0 ? ss_fft_doubles(scratch) : NULL;
+        if (wk->w == NULL || (scratch > 0 && wk->scratch == NULL))
+            return SS_ENOMEM;
+    }
+    return SS_OK;
+}
+
+ss_status
+ss_stream_plan(ss_stream *s, ss_error *err)
+{
+    ss_status st = plan_grid(s, err);
+    if (st == SS_OK)
+        st = plan_blocks(s);
+    if (st == SS_OK)
+        st = plan_groups(s);
+    if (st == SS_OK)
+        st = plan_sums(s);
+    if (st == SS_OK)
+        st = make_room_for_samples(s);
+    return st == SS_OK ? make_workers(s) : st;
+}
