@@ -1,5 +1,7 @@
 /* test_signal_tables.c -- delimited text as recorders write it, and the clock behind its stamps. */
 #include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
 #include "signal_text.h"
 
 /* Headers of LabVIEW's measurement files, with two channels. */
@@ -350,6 +352,105 @@ interpolates_uneven_stamps_to_a_uniform_clock(void **state)
     ss_signal_free(s);
 }
 
+/* --- a file is read twice, and what cannot be read again once -------------------------------- */
+
+static ss_status
+read_once(ss_signal **out, const char *text, const ss_read_opts *opts, ss_error *err)
+{
+    FILE *f = fmemopen((char *)text, strlen(text), "r");
+    assert_non_null(f);
+    ss_status st = ss_signal_read(out, f, "in", opts, err);
+    fclose(f);
+    return st;
+}
+
+static void
+compare_readings(const char *text, const ss_read_opts *opts)
+{
+    ss_signal *a = NULL, *b = NULL;
+    ss_error said_a = { 0 }, said_b = { 0 };
+    ss_status st = read_bytes(&a, text, strlen(text), opts, &said_a);
+    if (read_once(&b, text, opts, &said_b) != st || strcmp(said_a.text, said_b.text) != 0)
+        fail_msg("%.200s: '%s' and '%s'", text, said_a.text, said_b.text);
+    if (st != SS_OK)
+        return;
+    assert_int_equal(a->n, b->n);
+    assert_int_equal(a->head->n_columns, b->head->n_columns);
+    if (a->head->rate != b->head->rate || a->head->start != b->head->start)
+        fail_msg("%.200s: %.17g and %.17g Hz", text, a->head->rate, b->head->rate);
+    assert_memory_equal(a->values, b->values, a->n * a->head->n_columns * sizeof *a->values);
+    ss_signal_free(a);
+    ss_signal_free(b);
+}
+
+/* A long table: row i has the time i / 1000 and i, and the last row is the given text. */
+static char *
+long_table(size_t n, const char *last)
+{
+    char *text = malloc(24 * n + 100), *end = text + sprintf(text, "t_s,x\n");
+    assert_non_null(text);
+    for (size_t i = 0; i < n; i++)
+        end += sprintf(end, "%.3f,%zu\n", (double)i / 1000, i);
+    strcpy(end, last);
+    return text;
+}
+
+static void
+reads_a_file_as_it_reads_a_pipe(void **state)
+{
+    static const char *const text[] = {
+        "t,x\n10:00:00,1\n22:00:00,2\n10:00:00,3\n22:00:00,4\n10:00:00,5\n",    /* days go on */
+        "t;x\n0;1\n1;2\n2;1,5\n3;4\n", "t;x\n0;1.5\n1;2,5\n", "t;x\n0;1\n1;2,5\n2;1.5\n",
+        "t,x\n0,1\n1,2\n2,1.0D+01\n3,1e999\n", "t,x\n0,1\n1,\n2,3\n", "t,x\n0,1\n1,nan\n2,3\n",
+        "t,x\n0,1\n1,2\n3,4\n", "t,x\n0,1\n1,2\n1,4\n", "t,x\n0,1\n1,2\n3,4\n4,bad\n",
+        "t,x\n0,1\n1,2\nStep 2\nt,y\n0,3\n1,4\n", "t,x\n0,1\n1,2\nEnd of data\n",
+        "0,1\n1,2\n5,3\n", "t,x\n0,1\n# a comment\n\n1,2\n2, 3 \n 3,4\r\n", "t,x\n0,1\n1,2,3\n",
+        "t x\n0 1\n1  2\n2\t3\n", "x\n1\n2\n3\n", "t,x\n0,1\n", "date,x\n2024-03-05,1\n2024-03-06,2\n",
+    };
+    static const char *const last[] = { "", "10.000,1", "bad,1\n", "10.0005,1\n", "9.999,1\n", "Step 2\nt,y\n0,1\n1,2\n" };
+    static const ss_read_opts opts[] = { { 0 }, { .rate = 100 }, { .gaps = SS_GAPS_INTERPOLATE }, { .table = 2 },
+                                         { .from = 0.5, .to = 2.5 } };
+    (void)state;
+    for (size_t k = 0; k < sizeof opts / sizeof *opts; k++)
+        for (size_t i = 0; i < sizeof text / sizeof *text; i++)
+            compare_readings(text[i], &opts[k]);
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        compare_readings(table[i].text, &(ss_read_opts){ .time = table[i].time, .rate = table[i].rate });
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++) {
+        char *lines = long_table(10000, last[i]);
+        compare_readings(lines, NULL);
+        free(lines);
+    }
+}
+
+static void
+notices_a_file_that_changes(void **state)
+{
+    (void)state;
+    for (int longer = 0; longer < 2; longer++) {
+        char *text = long_table(10000, "");
+        FILE *f = file_of(text, strlen(text));
+        ss_reader *reader;
+        ss_error err = { 0 };
+        double row[1000];
+        size_t n, all = 0;
+        ss_status st = ss_reader_new(&reader, f, "in", NULL, &err);
+        assert_int_equal(st, SS_OK);
+        if (longer)
+            assert_true(pwrite(fileno(f), "10.000,1\n", 9, (off_t)strlen(text)) == 9);
+        else
+            assert_int_equal(ftruncate(fileno(f), strstr(text, "8.000,") - text), 0);
+        while ((st = ss_reader_rows(reader, row, 1000, &n, &err)) == SS_OK && n > 0)
+            all += n;
+        assert_int_equal(st, SS_EDATA);
+        assert_non_null(strstr(err.text, "the file has changed while it was read"));
+        assert_true(all < 10000);
+        ss_reader_free(reader);
+        fclose(f);
+        free(text);
+    }
+}
+
 int
 main(void)
 {
@@ -364,6 +465,8 @@ main(void)
         cmocka_unit_test(refuses_options_that_a_clock_excludes),
         cmocka_unit_test(reads_the_measured_recordings),
         cmocka_unit_test(interpolates_uneven_stamps_to_a_uniform_clock),
+        cmocka_unit_test(reads_a_file_as_it_reads_a_pipe),
+        cmocka_unit_test(notices_a_file_that_changes),
     };
     return cmocka_run_group_tests_name("signal tables", tests, NULL, NULL);
 }

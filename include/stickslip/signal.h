@@ -112,7 +112,8 @@ typedef struct ss_reader ss_reader;
 /* Open a stream of any of the three kinds, recognised by its first bytes.  The reader does not own
  * in, but bypasses its buffer, so nothing may have been read from a pipe before.  name is the name of
  * the file in messages.  opts may be NULL.  Text and AU streams are read as they arrive, in constant
- * memory; delimited text is read completely first, to check its clock. */
+ * memory.  Delimited text is read completely first, to check its clock: a file then once more, in constant
+ * memory too; a pipe, or one with samples missing, uneven stamps or several tables, is held. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);

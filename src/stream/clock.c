@@ -8,48 +8,90 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "base/sort.h"
 #include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* sample periods that a stamp may be off */
 
-/* The straight line through the stamps over their samples' numbers (least squares) and the stamp
- * farthest from it. */
+/* --- the straight line through stamps, by least squares ------------------------------------- */
+
+/* Does the corner b lie within the hull of a and c?  sign: of the side. */
+static int
+is_within(struct clock_point a, struct clock_point b, struct clock_point c, double sign)
+{
+    return sign * ((b.sample - a.sample) * (c.stamp - a.stamp)
+                   - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0;
+}
+
+/* The point farthest from a line is a corner of the convex hull, which has few of them. */
+static int
+add_corner(struct clock_side *s, struct clock_point p, double sign)
+{
+    while (s->n > 1 && is_within(s->corner[s->n - 2], s->corner[s->n - 1], p, sign))
+        s->n--;
+    struct clock_point *more = ss_list_room(s->corner, &s->room, s->n, sizeof *more);
+    if (more == NULL)
+        return 0;
+    s->corner = more;
+    s->corner[s->n++] = p;
+    return 1;
+}
+
+int
+ss_clock_add(clock_fit *f, double sample, double stamp)
+{
+    f->last = (struct clock_point){ sample, stamp };
+    if (f->n++ == 0)
+        f->first = f->last;
+    double t = stamp - f->first.stamp, off = sample - f->mean.sample;
+    f->mean.sample += off / (double)f->n;
+    f->mean.stamp += (t - f->mean.stamp) / (double)f->n;
+    f->product += off * (t - f->mean.stamp);
+    f->square += off * (sample - f->mean.sample);
+    return add_corner(&f->side[0], f->last, 1) && add_corner(&f->side[1], f->last, -1);
+}
+
+void
+ss_clock_free(clock_fit *f)
+{
+    free(f->side[0].corner);
+    free(f->side[1].corner);
+}
+
 struct line {
     double period, at_0;
-    double deviation;           /* the largest, [s] */
-    size_t worst;
 };
 
 static struct line
-fit(const double *t, const size_t *sample, size_t n)
+line_of(const clock_fit *f)
 {
-    struct line l = { 0, 0, 0, 0 };
-    double middle = 0, mean = 0, tx = 0, xx = 0;
-    for (size_t i = 0; i < n; i++) {
-        middle += (double)sample[i] / (double)n;
-        mean += (t[i] - t[0]) / (double)n;
-    }
-    for (size_t i = 0; i < n; i++) {
-        double x = (double)sample[i] - middle;
-        tx += x * (t[i] - t[0] - mean);
-        xx += x * x;
-    }
-    l.period = tx / xx;
-    l.at_0 = t[0] + (mean - l.period * middle);
-    for (size_t i = 0; i < n; i++) {
-        double off = fabs(t[i] - l.at_0 - l.period * (double)sample[i]);
-        if (!(off <= l.deviation)) {
-            l.deviation = off;
-            l.worst = i;
-        }
-    }
-    return l;
+    double period = f->product / f->square;
+    return (struct line){ period, f->first.stamp + (f->mean.stamp - period * f->mean.sample) };
 }
 
-ss_status
-ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n, double *usual,
-              ss_error *err)
+static double
+distance(struct line l, struct clock_point p)
+{
+    return fabs(p.stamp - l.at_0 - l.period * p.sample);
+}
+
+static double
+largest_distance(const clock_fit *f, struct line l)
+{
+    double most = 0;
+    for (int s = 0; s < 2; s++)
+        for (size_t i = 0; i < f->side[s].n; i++) {
+            double off = distance(l, f->side[s].corner[i]);
+            most = off <= most ? most : off;    /* and NaN */
+        }
+    return most;
+}
+
+/* --- stamps in an array --------------------------------------------------------------------- */
+
+static ss_status
+check_stamps(const char *file, const double *t, const unsigned long *line, size_t n, ss_error *err)
 {
     if (n < 2)
         return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", file);
@@ -59,6 +101,16 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
     if (!isfinite(t[n - 1] - t[0]))
         return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", file, t[0],
                        t[n - 1]);
+    return SS_OK;
+}
+
+ss_status
+ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n, double *usual,
+              ss_error *err)
+{
+    ss_status st = check_stamps(file, t, line, n, err);
+    if (st != SS_OK)
+        return st;
     double *step = malloc(n * sizeof *step);
     if (step == NULL)
         return ss_fail_memory(err, file);
@@ -70,26 +122,46 @@ ss_usual_step(const char *file, const double *t, const unsigned long *line, size
     return SS_OK;
 }
 
+/* The first, where rounding alone tells two apart. */
+static size_t
+farthest_from(struct line l, const double *t, const size_t *sample, size_t n)
+{
+    size_t worst = 0;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        double off = distance(l, (struct clock_point){ (double)sample[i], t[i] });
+        if (!(off <= most * (1 + 1e-9))) {
+            most = off;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
 /* Name the row at fault: the one whose step from the row before is farthest from the usual one, or,
  * where no step is out of line, the one farthest from the best clock. */
 static ss_status
-refuse(const char *file, const double *t, const unsigned long *line, size_t n, double usual,
+refuse(const char *file, const double *t, const unsigned long *line, size_t n, const size_t *sample,
        int gaps, struct line l, ss_error *err)
 {
+    size_t farthest = farthest_from(l, t, sample, n), worst = 1;
+    double deviation = distance(l, (struct clock_point){ (double)sample[farthest], t[farthest] });
     if (gaps && l.period > 0)
         return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
-                       "this one is off by %.3g sample periods, %.1f is allowed", file, line[l.worst],
-                       l.deviation / l.period, TOLERANCE);
-    double off = 0;
-    size_t worst = 1;
+                       "this one is off by %.3g sample periods, %.1f is allowed", file, line[farthest],
+                       deviation / l.period, TOLERANCE);
+    double off = 0, usual;
+    ss_status st = ss_usual_step(file, t, line, n, &usual, err);
+    if (st != SS_OK)
+        return st;
     for (size_t i = 1; i < n; i++)
         if (fabs(t[i] - t[i - 1] - usual) > off) {
             off = fabs(t[i] - t[i - 1] - usual);
             worst = i;
         }
     if (off <= TOLERANCE * usual) {
-        off = l.deviation;
-        worst = l.worst;
+        off = deviation;
+        worst = farthest;
     }
     double missing = rint(off / usual);
     if (missing > 0 && t[worst] - t[worst - 1] > usual && fabs(off / usual - missing) <= 2 * TOLERANCE)
@@ -137,32 +209,51 @@ roundest(double lo, double hi, int *digits)
 }
 
 ss_status
-ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n, int gaps,
-              size_t *sample, double *rate, ss_error *err)
+ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
 {
-    double usual;
-    ss_status st = ss_usual_step(file, t, line, n, &usual, err);
-    if (st != SS_OK)
-        return st;
-    for (size_t i = 0; i < n; i++)
-        sample[i] = i;
-    if (gaps)
-        count_samples(t, n, usual, sample);
-    struct line l = fit(t, sample, n);
-    if (!(l.period > 0 && l.deviation <= TOLERANCE * l.period))
-        return refuse(file, t, line, n, usual, gaps, l, err);
+    if (f->n < 2)
+        return SS_EUNEVEN;
+    struct line l = line_of(f);
+    double deviation = largest_distance(f, l);
+    if (!(l.period > 0 && deviation <= TOLERANCE * l.period))
+        return SS_EUNEVEN;
 
     /* Each stamp is off by the deviation at most, so the period over all of them by twice that. */
-    double rounding = 2 * DBL_EPSILON * fmax(fabs(t[0]), fabs(t[n - 1]));
-    double slack = 2 * (l.deviation + rounding) / (double)sample[n - 1] + 4 * DBL_EPSILON * l.period;
+    double rounding = 2 * DBL_EPSILON * fmax(fabs(f->first.stamp), fabs(f->last.stamp));
+    double slack = 2 * (deviation + rounding) / f->last.sample + 4 * DBL_EPSILON * l.period;
     int rate_digits, period_digits;
-    st = ss_refuse_range(file, 1 / (l.period - slack), t[0], err);
+    ss_status st = ss_refuse_range(file, 1 / (l.period - slack), f->first.stamp, err);
     if (st != SS_OK)
         return st;
     double by_rate = roundest(1 / (l.period + slack), 1 / (l.period - slack), &rate_digits);
     double by_period = roundest(l.period - slack, l.period + slack, &period_digits);
     *rate = rate_digits <= period_digits ? by_rate : 1 / by_period;
     return SS_OK;
+}
+
+ss_status
+ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n, int gaps,
+              size_t *sample, double *rate, ss_error *err)
+{
+    double usual;
+    clock_fit fit = { 0 };
+    ss_status st = check_stamps(file, t, line, n, err);
+    if (st == SS_OK && gaps)
+        st = ss_usual_step(file, t, line, n, &usual, err);
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; i < n; i++)
+        sample[i] = i;
+    if (gaps)
+        count_samples(t, n, usual, sample);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        st = ss_clock_add(&fit, (double)sample[i], t[i]) ? SS_OK : ss_fail_memory(err, file);
+    if (st == SS_OK)
+        st = ss_clock_rate(&fit, file, rate, err);
+    if (st == SS_EUNEVEN)
+        st = refuse(file, t, line, n, sample, gaps, line_of(&fit), err);
+    ss_clock_free(&fit);
+    return st;
 }
 
 ss_status

@@ -5,6 +5,26 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
+/* What a uniform clock is found from, of stamps that come one after the other: begin with zeros. */
+struct clock_point {
+    double sample, stamp;
+};
+typedef struct clock_fit {
+    size_t n;
+    struct clock_point first, last, mean;       /* mean: from the first on */
+    double product, square;     /* sums of products of sample and stamp, and of sample, about the mean */
+    struct clock_side {         /* corners of the convex hull: below and above all points */
+        struct clock_point *corner;
+        size_t n, room;
+    } side[2];
+} clock_fit;
+
+/* Add a stamp that is later than the one before; 0: no memory. */
+int ss_clock_add(clock_fit *f, double sample, double stamp);
+/* The rate; SS_EUNEVEN, without a text, if the stamps are not uniform. */
+ss_status ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err);
+void ss_clock_free(clock_fit *f);
+
 /* Find the uniform clock of n time stamps t; row i stands in line line[i].  sample[i] becomes the number
  * of row i's sample, from 0, which is i unless gaps are allowed. */
 ss_status ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n,

@@ -42,6 +42,15 @@ drop_lines(struct table *t)
     t->n_head = 0;
 }
 
+/* The first letter that is no blank. */
+static char
+first_of(const char *line)
+{
+    while (*line == ' ' || *line == '\t')
+        line++;
+    return *line;
+}
+
 /* The next line that is not empty; comment is set if it is one.  NULL at the end. */
 static ss_status
 next_line(struct table *t, char **line, int *comment, ss_error *err)
@@ -57,7 +66,7 @@ next_line(struct table *t, char **line, int *comment, ss_error *err)
         if (strchr(*line, '\r') != NULL)
             return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
                            "makes them)", t->in->name, t->in->line);
-    } while ((*line)[strspn(*line, " \t")] == '\0');
+    } while (first_of(*line) == '\0');
     *comment = **line == '#';
     return SS_OK;
 }
@@ -158,11 +167,45 @@ read_cell(struct table *t, size_t i, double *value, ss_error *err)
                    t->in->name, t->in->line, t->names->column[i].name, cell, what);
 }
 
+/* Read a row of nothing but plain numbers, as most are; 0: it must be looked at cell by cell. */
+static int
+read_plain(const struct table *t, char *p, double *row)
+{
+    char *end;
+    for (size_t i = 0; i < t->n_columns; i++, p = end + 1) {
+        while (*p == ' ')
+            p++;
+        char *mark = p + (*p == '-');
+        if (t->column[i].kind != COLUMN_NUMBERS || *mark < '0' || *mark > '9')
+            return 0;
+        while (*mark >= '0' && *mark <= '9')
+            mark++;
+        int comma = *mark == ',' && t->separator != ',';
+        if ((comma || *mark == '.') && t->separator != ',' && *mark != t->mark)
+            return 0;
+        if (comma)
+            *mark = '.';
+        row[i] = ss_number_parse(p, &end);
+        if (comma)
+            *mark = ',';
+        if (*end != (i + 1 < t->n_columns ? t->separator : '\0') || !isfinite(row[i]))
+            return 0;
+    }
+    return 1;
+}
+
 static ss_status
 append_row(struct table *t, char *text, ss_error *err)
 {
+    if (!make_room(t))
+        return ss_delimited_no_memory(t, err);
+    t->line[t->n_rows] = t->in->line;
+    if (read_plain(t, text, t->value + t->n_rows * t->n_columns)) {
+        t->n_rows++;
+        return SS_OK;
+    }
     size_t n = ss_delimited_split(t, text, t->separator);
-    if (n == NONE || !make_room(t))
+    if (n == NONE)
         return ss_delimited_no_memory(t, err);
     if (n != t->n_columns && !(n == t->n_columns + 1 && (t->comments || t->labview)))
         return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", t->in->name,
@@ -173,7 +216,7 @@ append_row(struct table *t, char *text, ss_error *err)
         if (st != SS_OK)
             return st;
     }
-    t->line[t->n_rows++] = t->in->line;
+    t->n_rows++;
     return SS_OK;
 }
 
@@ -273,15 +316,13 @@ begin_first(struct table *t, const char *row, ss_error *err)
     return begin_kept(t, t->n_head - 1, err);
 }
 
-/* --- several tables ------------------------------------------------------------------------- */
-
 /* May this line be a heading, and no row? */
 static ss_status
 is_heading(struct table *t, const char *line, int *yes, ss_error *err)
 {
     size_t numbers;
     *yes = 0;
-    if (strchr("+-.0123456789", line[strspn(line, " \t")]) != NULL)
+    if (strchr("0123456789-.+", first_of(line)) != NULL)
         return SS_OK;
     char *shape = ss_delimited_shape(t, line, t->separator, &numbers);
     if (shape == NULL)
@@ -337,6 +378,111 @@ read_body(struct table *t, char **row, ss_error *err)
     return st;
 }
 
+/* --- a table that is read twice ------------------------------------------------------------- */
+
+static int
+may_read_twice(const struct table *t)
+{
+    const ss_read_opts *opts = t->opts;
+    return opts->gaps == SS_GAPS_REFUSE && !(opts->resample > 0) && opts->table == 0 && !t->labview
+        && !(t->counted.increment > 0);
+}
+
+/* Add the stamp of a row to the clock; 0 if it is not later than the one before. */
+static int
+add_stamp(struct table *t, struct time_column time, size_t row)
+{
+    if (time.column == NONE)
+        return 1;
+    double stamp = t->value[row * t->n_columns + time.column] * time.factor / time.divisor;
+    return (t->fit.n == 0 || stamp > t->fit.last.stamp) && ss_clock_add(&t->fit, (double)t->fit.n, stamp);
+}
+
+/* Check all rows, and find their clock, keeping none but the first.  Sets t->twice unless there is another
+ * table or the clock is not uniform. */
+static ss_status
+survey(struct table *t, ss_error *err)
+{
+    const struct time_column time = ss_delimited_time(t);
+    size_t kept = t->n_rows;
+    int comment, heading = 0, even = 1;
+    double rate;
+    char *line;
+    for (size_t i = 0; even && i < kept; i++)
+        even = add_stamp(t, time, i);
+    while (even) {
+        ss_status st = next_line(t, &line, &comment, err);
+        if (st == SS_OK && line != NULL && !comment)
+            st = is_heading(t, line, &heading, err);
+        if (st != SS_OK || heading)
+            return st;
+        if (line == NULL)
+            break;
+        if (comment)
+            continue;
+        if ((st = append_row(t, line, err)) != SS_OK)
+            return st;
+        even = add_stamp(t, time, kept);
+        t->n_rows = kept;
+        t->left++;
+    }
+    t->twice = even && (time.column == NONE || ss_clock_rate(&t->fit, t->in->name, &rate, NULL) == SS_OK);
+    return SS_OK;
+}
+
+/* Survey a table that can be read again, and return to the line below the rows that are kept. */
+static ss_status
+try_twice(struct table *t, ss_error *err)
+{
+    off_t place = may_read_twice(t) ? ss_input_place(t->in) : -1;
+    unsigned long line = t->in->line;
+    char mark = t->mark;
+    if (place < 0)
+        return SS_OK;
+    ss_status st = survey(t, err);
+    const double *last = t->value + (t->n_rows - 1) * t->n_columns;
+    t->mark = mark;
+    for (size_t i = 0; st == SS_OK && i < t->n_columns; i++)    /* times of day go on from there */
+        t->column[i].last = last[i];
+    return st == SS_OK ? ss_input_return(t->in, place, line, err) : st;
+}
+
+/* Leave the columns that are not kept out of the rows. */
+static void
+drop_columns(struct table *t)
+{
+    size_t to = 0;
+    for (size_t i = 0; i < t->n_rows; i++)
+        for (size_t c = 0; c < t->n_kept; c++)
+            t->value[to++] = t->value[i * t->n_columns + t->kept[c]];
+}
+
+/* Read rows again, as many as fit into a piece. */
+static ss_status
+read_piece(ss_reader *reader, struct table *t, ss_error *err)
+{
+    enum { PIECE = 4096 };
+    char *line = "";
+    int comment;
+    ss_status st = SS_OK;
+    t->value = reader->values;
+    t->n_rows = 0;
+    while (st == SS_OK && t->n_rows < PIECE && (st = next_line(t, &line, &comment, err)) == SS_OK && line != NULL)
+        if (!comment)
+            st = append_row(t, line, err);
+    if (st == SS_OK && (t->n_rows > t->left || (line == NULL && t->n_rows < t->left)))
+        st = ss_fail(err, SS_EDATA, "%s:%lu: the file has changed while it was read", t->in->name, t->in->line);
+    t->left -= t->n_rows;
+    drop_columns(t);
+    reader->values = t->value;
+    reader->n_rows = t->n_rows;
+    reader->next = 0;
+    t->value = NULL;
+    return st;
+}
+
+/* --- several tables ------------------------------------------------------------------------- */
+
 /* Forget the rows and columns of a table before the next. */
 static ss_status
 clear_table(struct table *t, ss_error *err)
@@ -379,6 +525,10 @@ read_table(struct table *t, ss_error *err)
     ss_status st = keep_header(t, &row, err);
     if (st == SS_OK)
         st = begin_first(t, row, err);
+    if (st == SS_OK)
+        st = try_twice(t, err);
+    if (t->twice)
+        return st;
     for (; st == SS_OK && (st = read_body(t, &row, err)) == SS_OK && row != NULL; number++) {
         if (number == wanted)
             return SS_OK;
@@ -395,33 +545,35 @@ read_table(struct table *t, ss_error *err)
 
 /* --- as a reader --------------------------------------------------------------------------- */
 
-/* Leave the column of time and those of text or other stamps out of the names, which become *head, and of
- * the rows. */
+/* Keep all columns but that of time and those of text or other stamps, with their names in *head. */
 static ss_status
-drop_columns(struct table *t, ss_header **head)
+keep_columns(struct table *t, ss_header **head)
 {
-    size_t kept = 0, n = 0, *column = malloc(t->n_columns * sizeof *column);
-    if (column == NULL)
+    t->kept = malloc(t->n_columns * sizeof *t->kept);
+    if (t->kept == NULL)
         return SS_ENOMEM;
     for (size_t c = 0; c < t->n_columns; c++)
         if (c != t->time && t->column[c].kind == COLUMN_NUMBERS)
-            column[n++] = c;
+            t->kept[t->n_kept++] = c;
     ss_header_free(*head);
-    ss_status st = ss_header_select(head, t->names, column, n, 0);
-    for (size_t i = 0; i < t->n_rows; i++)
-        for (size_t c = 0; c < n; c++)
-            t->value[kept++] = t->value[i * t->n_columns + column[c]];
-    free(column);
+    ss_status st = ss_header_select(head, t->names, t->kept, t->n_kept, 0);
+    drop_columns(t);
     return st;
 }
 
+/* Errors of rows were found at the start, unless the file changes. */
 static ss_status
 table_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
-    size_t columns = reader->head->n_columns, left = reader->n_rows - (size_t)reader->row;
-    (void)err;                                  /* all errors were found at the start */
+    ss_status st = SS_OK;
+    if (reader->next == reader->n_rows && reader->table != NULL)
+        st = read_piece(reader, reader->table, err);
+    if (st != SS_OK)
+        return st;
+    size_t columns = reader->head->n_columns, left = reader->n_rows - reader->next;
     *n = left < max ? left : max;
-    memcpy(rows, reader->values + reader->row * columns, *n * columns * sizeof *rows);
+    memcpy(rows, reader->values + reader->next * columns, *n * columns * sizeof *rows);
+    reader->next += *n;
     reader->row += *n;
     return SS_OK;
 }
@@ -430,7 +582,7 @@ ss_status
 ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
 {
     ss_status st = ss_delimited_choose_clock(t, err);
-    if (st == SS_OK && drop_columns(t, &reader->head) != SS_OK)
+    if (st == SS_OK && keep_columns(t, &reader->head) != SS_OK)
         st = ss_delimited_no_memory(t, err);
     size_t columns = reader->head != NULL ? reader->head->n_columns : 0;
     if (st == SS_OK && columns == 0)
@@ -449,33 +601,52 @@ ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
 void
 ss_delimited_free(struct table *t)
 {
+    if (t == NULL)
+        return;
     drop_lines(t);
     free(t->head);
     free(t->column);
     free(t->cell);
     free(t->value);
     free(t->line);
+    free(t->kept);
+    ss_clock_free(&t->fit);
     ss_header_free(t->names);
+}
+
+static ss_status
+open_text(struct table *t, ss_reader *reader, ss_error *err)
+{
+    struct input *in = t->in;
+    ss_status st = ss_input_need(in, 3, err);
+    if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
+        in->lo += 3;                            /* a byte-order mark */
+    if (st == SS_OK && t->names == NULL)
+        st = ss_delimited_no_memory(t, err);
+    if (st == SS_OK)
+        st = read_table(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_check_labview(t, err);
+    return st == SS_OK ? ss_delimited_finish(t, reader, err) : st;
 }
 
 static ss_status
 open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
-    struct input *in = &reader->in;
-    struct table t = { .in = in, .opts = opts, .time = NONE, .layout = LAYOUT_ONE,
-                       .names = ss_header_new(0, 0) };
-    ss_status st = ss_input_need(in, 3, err);
-    if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
-        in->lo += 3;                            /* a byte-order mark */
-    if (st == SS_OK && t.names == NULL)
-        st = ss_delimited_no_memory(&t, err);
-    if (st == SS_OK)
-        st = read_table(&t, err);
-    if (st == SS_OK)
-        st = ss_delimited_check_labview(&t, err);
-    if (st == SS_OK)
-        st = ss_delimited_finish(&t, reader, err);
-    ss_delimited_free(&t);
+    static const ss_read_opts none;             /* for rows that are read again */
+    struct table *t = malloc(sizeof *t);
+    if (t == NULL)
+        return ss_fail_memory(err, reader->in.name);
+    *t = (struct table){ .in = &reader->in, .opts = opts, .time = NONE, .layout = LAYOUT_ONE,
+                         .names = ss_header_new(0, 0) };
+    ss_status st = open_text(t, reader, err);
+    t->opts = &none;
+    if (st == SS_OK && t->twice) {
+        reader->table = t;
+        return SS_OK;
+    }
+    ss_delimited_free(t);
+    free(t);
     return st;
 }
 

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stickslip/signal.h>
+#include "stream/clock.h"
 #include "stream/input.h"
 #include "stream/reader.h"
 
@@ -30,6 +31,12 @@ struct table_column {
     unsigned parts;             /* of stamps: a date, a time of day or both */
     double day;                 /* the day from which they count, in the first row; NaN: no date */
     double last;                /* the stamp of the row before */
+};
+
+/* A column of times: seconds are its values * factor / divisor. */
+struct time_column {
+    size_t column;              /* NONE: there is none */
+    double factor, divisor;
 };
 
 struct table_line {             /* above the data, to be freed */
@@ -62,6 +69,10 @@ struct table {
     double *value;              /* rows, one after the other */
     unsigned long *line;        /* where each row stands */
     size_t n_rows, room;
+    size_t *kept, n_kept;       /* the columns of the signal */
+    int twice;                  /* value has the first rows only; the others are read again */
+    uint64_t left;              /* the number of these */
+    clock_fit fit;              /* of all stamps of such a table */
 };
 
 ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
@@ -74,7 +85,7 @@ void ss_delimited_warn(const struct table *t, ss_status about, const char *forma
 /* Hand the rows of a table, whose names and values are complete, to the reader: with a clock, without
  * the columns of time and text, with gaps filled. */
 ss_status ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err);
-void ss_delimited_free(struct table *t);
+void ss_delimited_free(struct table *t);        /* NULL is allowed */
 
 /* Cells (delimited_cells.c). */
 
@@ -117,5 +128,7 @@ int ss_delimited_is_segment(const struct table *t, const char *line);
 
 /* Find the column of time and turn the rows into samples of its clock (delimited_clock.c). */
 ss_status ss_delimited_choose_clock(struct table *t, ss_error *err);
+/* The column of time that it will take, as names, kinds and the first row show. */
+struct time_column ss_delimited_time(const struct table *t);
 
 #endif

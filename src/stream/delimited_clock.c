@@ -190,6 +190,13 @@ place_rows(struct table *t, const double *stamp, double *own, ss_error *err)
 static ss_status
 read_stamps(struct table *t, size_t column, double factor, double divisor, double *own, ss_error *err)
 {
+    t->time = column;
+    if (t->twice) {
+        ss_status even = ss_clock_rate(&t->fit, t->in->name, &t->names->rate, err);
+        t->names->start = t->fit.first.stamp;
+        *own = t->names->rate;
+        return even;
+    }
     drop_rows_without(t, column);
     double *stamp = malloc((t->n_rows + 1) * sizeof *stamp);
     if (stamp == NULL)
@@ -197,10 +204,8 @@ read_stamps(struct table *t, size_t column, double factor, double divisor, doubl
     for (size_t i = 0; i < t->n_rows; i++)
         stamp[i] = t->counted.origin + t->value[i * t->n_columns + column] * factor / divisor;
     ss_status st = place_rows(t, stamp, own, err);
-    if (st == SS_OK) {
+    if (st == SS_OK)
         t->names->start = stamp[0];
-        t->time = column;
-    }
     free(stamp);
     return st;
 }
@@ -310,15 +315,14 @@ no_such_column(const struct table *t, const char *name, ss_error *err)
 
 /* The column of time that the caller names. */
 static ss_status
-read_chosen(struct table *t, const char *name, ss_error *err)
+read_chosen(struct table *t, size_t chosen, ss_error *err)
 {
-    int chosen = ss_header_column(t->names, name);
-    if (chosen < 0)
-        return no_such_column(t, name, err);
+    if (chosen == NONE)
+        return no_such_column(t, t->opts->time, err);
     t->counted.origin = 0;
     switch (t->column[chosen].kind) {
-    case COLUMN_STAMPS:  return read_stamp_clock(t, (size_t)chosen, err);
-    case COLUMN_NUMBERS: return read_clock(t, (size_t)chosen, err);
+    case COLUMN_STAMPS:  return read_stamp_clock(t, chosen, err);
+    case COLUMN_NUMBERS: return read_clock(t, chosen, err);
     case COLUMN_TEXT:    break;
     }
     return ss_fail(err, SS_EDATA, "%s: column %s holds text, not times", t->in->name,
@@ -334,32 +338,68 @@ count_rows(struct table *t)
     return SS_OK;
 }
 
-ss_status
-ss_delimited_choose_clock(struct table *t, ss_error *err)
+/* The column of time, or NONE; *guessed: only its place says so. */
+static size_t
+find_time(const struct table *t, int *guessed)
 {
     const ss_read_opts *opts = t->opts;
     const ss_column *column = t->names->column;
+    int chosen = opts->time != NULL ? ss_header_column(t->names, opts->time) : -1;
+    *guessed = 0;
+    if (opts->time != NULL || opts->rate > 0)
+        return chosen >= 0 ? (size_t)chosen : NONE;
+    if (t->counted.increment > 0)
+        return t->counted.numbered ? 0 : NONE;
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_NUMBERS && is_called_time(&column[i]))
+            return i;
+    size_t stamps = find_any_stamps(t);
+    if (stamps != NONE)
+        return stamps;
+    if (t->n_columns < 2 || t->column[0].kind != COLUMN_NUMBERS)
+        return NONE;
+    if (*column[0].unit != '\0' && find_time_unit(column[0].unit) != NULL)
+        return 0;
+    *guessed = !t->named;                       /* a force over its deflection ascends too */
+    return *guessed ? 0 : NONE;
+}
+
+struct time_column
+ss_delimited_time(const struct table *t)
+{
+    int guessed;
+    struct time_column time = { find_time(t, &guessed), 1, 1 };
+    const struct time_unit *unit;
+    if (time.column == NONE || t->column[time.column].kind == COLUMN_STAMPS)
+        return time;
+    if (t->column[time.column].kind == COLUMN_TEXT
+        || given_unit(t, &t->names->column[time.column], &unit, NULL) != SS_OK)
+        return (struct time_column){ NONE, 1, 1 };
+    if (unit == NULL)
+        unit = unit_of_date(t->value[time.column]);
+    if (unit != NULL)
+        time = (struct time_column){ time.column, unit->factor, unit->divisor };
+    return time;
+}
+
+ss_status
+ss_delimited_choose_clock(struct table *t, ss_error *err)
+{
+    int guessed;
+    size_t column = find_time(t, &guessed);
     double rate;
-    if (opts->time != NULL)
-        return read_chosen(t, opts->time, err);
-    if (opts->rate > 0) {
-        t->names->rate = opts->rate;
+    if (t->opts->time != NULL)
+        return read_chosen(t, column, err);
+    if (t->opts->rate > 0) {
+        t->names->rate = t->opts->rate;
         return SS_OK;
     }
     if (t->counted.increment > 0)
         return t->counted.numbered ? read_stamps(t, 0, t->counted.increment, 1, &rate, err) : count_rows(t);
-    for (size_t i = 0; i < t->n_columns; i++)
-        if (t->column[i].kind == COLUMN_NUMBERS && is_called_time(&column[i]))
-            return read_clock(t, i, err);
-    size_t stamps = find_any_stamps(t);
-    if (stamps != NONE)
-        return read_stamp_clock(t, stamps, err);
-    int numbers = t->n_columns > 1 && t->column[0].kind == COLUMN_NUMBERS;
-    if (numbers && *column[0].unit != '\0' && find_time_unit(column[0].unit) != NULL)
-        return read_clock(t, 0, err);
-    ss_status st = SS_ECLOCK;
-    if (numbers && !t->named)                   /* a force over its deflection ascends too */
-        st = read_clock(t, 0, NULL);
+    if (column != NONE && !guessed)
+        return t->column[column].kind == COLUMN_STAMPS ? read_stamp_clock(t, column, err)
+            : read_clock(t, column, err);
+    ss_status st = guessed ? read_clock(t, column, NULL) : SS_ECLOCK;
     if (st == SS_OK || st == SS_ENOMEM)
         return st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
     return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->in->name);

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <stickslip/number.h>
 #include "base/error.h"
@@ -144,6 +145,26 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
     *end = '\0';
     *length = (size_t)(end - *line);
     in->line++;
+    return SS_OK;
+}
+
+off_t
+ss_input_place(const struct input *in)
+{
+    struct stat st;
+    int fd = fileno(in->file);
+    off_t end = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) ? lseek(fd, 0, SEEK_CUR) : -1;
+    return end >= 0 ? end - (off_t)(in->hi - in->lo) : -1;
+}
+
+ss_status
+ss_input_return(struct input *in, off_t place, unsigned long line, ss_error *err)
+{
+    if (lseek(fileno(in->file), place, SEEK_SET) != place)
+        return ss_fail_errno(err, in->name, errno);
+    in->lo = in->hi = in->scanned = 0;
+    in->ended = 0;
+    in->line = line;
     return SS_OK;
 }
 

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <sys/types.h>
 #include <stickslip/status.h>
 
 /* More than any honest input has: it bounds the memory of hostile input. */
@@ -37,6 +38,10 @@ ss_status ss_input_row(struct input *in, char **line, ss_error *err);
  * SS_EDATA, with the line: `expected` is not there. */
 ss_status ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
                           ss_error *err);
+/* The place of the next unread byte in a regular file, or -1: what was read cannot be read again. */
+off_t ss_input_place(const struct input *in);
+/* Go on at a place, behind so many lines. */
+ss_status ss_input_return(struct input *in, off_t place, unsigned long line, ss_error *err);
 int ss_input_has_line(struct input *in);           /* is a whole line in the buffer? */
 int ss_input_waits(const struct input *in);        /* would reading more bytes block? */
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "stream/calibration.h"
 #include "stream/clock.h"
+#include "stream/delimited.h"
 #include "stream/format.h"
 #include "stream/reader.h"
 
@@ -63,6 +64,8 @@ ss_reader_close(ss_reader *reader)
 {
     ss_input_close(&reader->in);
     ss_header_free(reader->head);
+    ss_delimited_free(reader->table);
+    free(reader->table);
     free(reader->values);
     free(reader->factor);
 }

@@ -30,8 +30,9 @@ struct ss_reader {
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
     uint64_t end;               /* frames: their end in the file, unless that is unknown */
     int is_chunk;               /* frames: behind them, another chunk of a WAV file is no error */
-    double *values;             /* delimited text: all rows, one after the other */
-    size_t n_rows;
+    double *values;             /* delimited text: rows, one after the other: all, or a piece */
+    size_t n_rows, next;        /* next: of these, to be given */
+    struct table *table;        /* delimited text that is read piece by piece, or NULL */
 };
 
 /* Begin to read the kind, in the format of the first bytes; to be closed even after a failure. */

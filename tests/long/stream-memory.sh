@@ -2,6 +2,14 @@
 # whose length is not known.
 [ -r /proc/self/status ] || { echo "no /proc"; exit 77; }
 [ -z "$SAN" ] || { echo "sanitizers need memory of their own"; exit 77; }
+high_water() {  # PROCESS: the most memory that it takes until it ends, in KiB
+    most=0
+    while now=$(awk '/^VmHWM/ { print $2 }' "/proc/$1/status" 2> /dev/null) && [ -n "$now" ]; do
+        most=$now
+        sleep 0.2
+    done
+    echo "$most"
+}
 watch() {       # NAME SECONDS OPTIONS ...: of a signal of 10 kHz
     name=$1
     mkfifo in
@@ -9,11 +17,7 @@ watch() {       # NAME SECONDS OPTIONS ...: of a signal of 10 kHz
     shift 2
     ss-morlet --stream "$@" < in > /dev/null &
     tool=$!
-    most=0
-    while now=$(awk '/^VmHWM/ { print $2 }' /proc/$tool/status 2> /dev/null) && [ -n "$now" ]; do
-        most=$now
-        sleep 0.2
-    done
+    most=$(high_water $tool)
     wait $tool
     rm in
     [ "$most" -gt 0 ] && [ "$most" -lt 195312 ] || echo "$name: $most KiB"
@@ -24,3 +28,17 @@ watch stepped 10000 --voices 2 --octaves=-8:1.5 --format au
 watch 'dense into HDF5' 200 --dense --voices 2 --octaves=-8:1.5 -o x.h5
 watch 'stepped into HDF5' 1000 --voices 2 --octaves=-8:1.5 -o x.h5
 rm x.h5
+
+# Delimited text in a file, of one kind or another, in constant memory.
+ss-signal noise --rate 10000 --duration 1000 --format csv > long.csv
+{ tr ',' ';' < long.csv | tr . ,; } > comma.csv
+for file in long.csv comma.csv; do
+    for command in 'ss-cat --format au' 'ss-noise --rms 1 --format au' \
+            'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au'; do
+        $command $file > /dev/null &
+        most=$(high_water $!)
+        wait $!
+        [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command $file: $most KiB"
+    done
+done
+rm long.csv comma.csv
