@@ -39,7 +39,6 @@ typedef struct fitting {
     candidate c;
     rank_record record;                /* the part of it that is fitted */
     match best;
-    double noise;                       /* variance, at most */
     double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
 
@@ -103,18 +102,6 @@ search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stret
     return st;
 }
 
-/* Do two matches have the same parameters, within MATCH_DECISIVE of their errors? */
-static int
-are_same(const match *a, const match *b)
-{
-    for (size_t i = 0; i < CANDIDATE_KEYS; i++) {
-        double d = a->key[i] - b->key[i];
-        if (d * d > MATCH_DECISIVE * a->left * a->covariance[i][i] + 1e-12)
-            return 0;
-    }
-    return 1;
-}
-
 static ss_status
 match_all(fitting *w, const ss_stretch *progress)
 {
@@ -124,7 +111,7 @@ match_all(fitting *w, const ss_stretch *progress)
         const ss_stretch part = ss_stretch_part(progress, (double)i / (double)n,
                                                 (double)(i + 1) / (double)n);
         ss_status st = ss_match_find(&found[i], &w->c, &w->c.start[i], w->goal.period, &w->record,
-                                     &part);
+                                     found, i, &part);
         if (st != SS_OK)
             return st;
         best = found[i].left < found[best].left ? i : best;
@@ -132,7 +119,7 @@ match_all(fitting *w, const ss_stretch *progress)
     w->best = found[best];
     w->rival = INFINITY;
     for (size_t i = 0; i < n; i++)
-        if (found[i].compared > 0 && !are_same(&w->best, &found[i]))
+        if (found[i].compared > 0 && !ss_match_same(&w->best, &found[i]))
             w->rival = fmin(w->rival, found[i].left);
     return SS_OK;
 }
@@ -175,7 +162,7 @@ report(ss_fit *fit, const fitting *w)
     fit->base_frequency = scaled(s->base_frequency,
                                  m->left * m->covariance[MATCH_FREQUENCY][MATCH_FREQUENCY]);
     fit->residual_started = sqrt(m->left / m->power);
-    fit->noise = sqrt(fmin(w->noise, m->white) / m->power);
+    fit->noise = sqrt(fmin(w->record.noise, m->white) / m->power);
 }
 
 /* Of the record less the settled scene's, the offset between them apart. */
@@ -255,10 +242,10 @@ judge(ss_fit *fit, const fitting *w)
         return st;
     if (m->compared == 0)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
-    else if (!ss_match_explains(m, w->noise))
+    else if (!ss_match_explains(m, w->record.noise))
         snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
                  "%.3g times the noise", 100 * fit->residual_started,
-                 sqrt(ss_match_excess(m, w->noise)));
+                 sqrt(ss_match_excess(m, w->record.noise)));
     else if ((w->rival - m->left) * (double)m->compared < MATCH_DECISIVE * m->left)
         snprintf(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
                  "signal, %.3g %%", 100 * fit->residual_started);
@@ -319,7 +306,7 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
     double split = search_share(w);
     const ss_stretch searching = ss_stretch_part(&whole, 0, split);
     const ss_stretch matching = ss_stretch_part(&whole, split, 1);
-    ss_status st = ss_record_noise(&w->noise, &w->record, w->goal.period * w->rate);
+    ss_status st = ss_record_noise(&w->record, w->goal.period * w->rate);
     if (st == SS_OK)
         st = search_starts(w, signal, column, &searching, err);
     if (st == SS_OK)

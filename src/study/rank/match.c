@@ -33,6 +33,7 @@ enum { UNKNOWNS = MATCH_UNKNOWNS, MOVED = MATCH_SIZE };     /* MOVED: those that
 #define FARTHEST 0.2                    /* the longest step of an unknown */
 #define UNLIKELY 0.2                    /* part of the power: no descent from a misfit above it */
 #define LOST 0.03                       /* part of the power: no other start mends more than it */
+#define MUCH 4.                         /* times the noise */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
  * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
@@ -260,16 +261,23 @@ try_step(matching *w, point *at, const double step[UNKNOWNS])
     return 1;
 }
 
+/* The part of the residual below which a gain is none.  Noise moves the sum of squares by once its
+ * variance: a hundredth of that is nothing.  Where much more is left, no digits are needed. */
+static double
+least_gain(const matching *w, double left)
+{
+    return w->wide > 1 || left > MUCH * w->r->noise ? 1e-3 : 1e-2 / (double)w->r->n;
+}
+
 /* Move *at, the present point of w, to the least residual. */
 static void
 descend(matching *w, point *at)
 {
-    /* noise moves the sum of squares by once its variance: a thousandth of that is nothing */
-    double damping = 1e-3, least = w->wide > 1 ? 1e-3 : 1e-3 / (double)w->r->n;
+    double damping = 1e-3;
     int failed = 0;
     compare(w, &w->here, at);
     for (int pass = 0; pass < PASSES && failed < TRIALS && isfinite(at->left); pass++) {
-        double step[UNKNOWNS], before = at->left;
+        double step[UNKNOWNS], before = at->left, least = least_gain(w, before);
         normal e;
         if (w->slopes == NO_SLOPES && !find_slopes(w, at))
             return;
@@ -460,11 +468,35 @@ descend_all(matching *w, point *at)
     }
 }
 
+/* Do two sets of keys differ by no more than MATCH_DECISIVE of their errors in a match? */
+static int
+are_same(const match *m, const double a[], const double b[])
+{
+    for (size_t i = 0; i < CANDIDATE_KEYS; i++) {
+        double d = a[i] - b[i];
+        if (d * d > MATCH_DECISIVE * m->left * m->covariance[i][i] + 1e-12)
+            return 0;
+    }
+    return 1;
+}
+
+/* Take over the one of others whose settled motion is that of m; 0 if there is none. */
+static int
+take_over(match *m, const match *others, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (are_same(m, m->settled, others[i].settled)) {
+            *m = others[i];
+            return 1;
+        }
+    return 0;
+}
+
 /* Fit the settled motion first, then motions from any start if they leave less.  The record hardly depends
  * on a start three cycles before it, so that the residual changes slowly with that start.  For a start one
  * cycle before it, descents end too early unless they begin near the solution. */
 static void
-solve(matching *w, point *at, double misfit, match *m)
+solve(matching *w, point *at, double misfit, const match *others, size_t n_others, match *m)
 {
     static const double cycles[] = { 3, 1 };
     w->n_moved -= 2;
@@ -476,6 +508,9 @@ solve(matching *w, point *at, double misfit, match *m)
     else
         compare(w, &w->here, at);
     report(w, at, m);
+    memcpy(m->settled, m->key, sizeof m->settled);
+    if (take_over(m, others, n_others))
+        return;
     w->n_moved += 2;
     for (size_t i = 0; i < 2 && m->compared > 0 && m->left <= LOST * m->power; i++) {
         double before = m->left;
@@ -522,7 +557,7 @@ no_match(const rank_record *record)
 
 ss_status
 ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
-              const rank_record *record, const ss_stretch *progress)
+              const rank_record *record, const match *others, size_t n_others, const ss_stretch *progress)
 {
     matching w = { .c = c, .r = record, .progress = progress };
     point at = { .left = INFINITY };
@@ -534,7 +569,7 @@ ss_match_find(match *m, candidate *c, const candidate_start *start, double perio
     memcpy(m->key, start->key, sizeof m->key);
     begin_at_rest(&w, start, period, &at);
     if (start->size > 0)
-        solve(&w, &at, start->misfit, m);
+        solve(&w, &at, start->misfit, others, n_others, m);
     free(room);
     return w.status;
 }
@@ -566,6 +601,12 @@ double
 ss_match_excess(const match *m, double noise)
 {
     return m->left / fmax(fmin(noise, m->white), MATCH_QUIET * m->power);
+}
+
+int
+ss_match_same(const match *a, const match *b)
+{
+    return are_same(a, a->key, b->key);
 }
 
 int

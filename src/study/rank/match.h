@@ -34,6 +34,7 @@ typedef struct match {
     match_origin origin;
     ss_scene scene;             /* its motion is the record less offset and residual */
     double key[CANDIDATE_KEYS];
+    double settled[CANDIDATE_KEYS];     /* the keys of the best settled motion */
     double left;                /* mean square of the residual away from events */
     double left_all;            /* the same over all samples that are not missing */
     double power;               /* variance of these samples */
@@ -43,15 +44,19 @@ typedef struct match {
 } match;
 
 /* Fit the scene of one start of a candidate, its keys within their ranges, to a record.  If the scene
- * does not slip, cannot be run, or the candidate's budget is used up, the residual is the record.
- * SS_STOP if the progress function stops it. */
+ * does not slip, cannot be run, or the candidate's budget is used up, the residual is the record.  If its
+ * settled motion is that of one of the n matches of other starts, it is that match.  SS_STOP if the
+ * progress function stops it. */
 ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
-                        const rank_record *record, const ss_stretch *progress);
+                        const rank_record *record, const match *others, size_t n_others,
+                        const ss_stretch *progress);
 
 /* Fit the motion of a match to a record of another quantity, c->pick, of the same time. */
 ss_status ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
                          const ss_stretch *progress);
 
+/* Do two matches have the same keys, within MATCH_DECISIVE of the errors of the first? */
+int ss_match_same(const match *a, const match *b);
 /* The residual of a match over noise of this variance, or of less if the residual is not white. */
 double ss_match_excess(const match *m, double noise);
 /* 1 if the residual is no more than noise, within the error of its estimate. */

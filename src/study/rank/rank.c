@@ -52,14 +52,12 @@ enum { WINDOW = 4 };                    /* cycles of which features are compared
 
 typedef struct comparison {
     const ss_signal *signal;            /* the window */
-    const char *missing;                /* of its samples; NULL: none */
     size_t column;
+    rank_record record;                 /* of the column */
     const ss_rank_opts *opts;
     ss_span *gap;                       /* of the window [s] */
     size_t n_gaps;
     cycle goal;
-    double from;                        /* start of the window in the record [s] */
-    double noise;                       /* variance, at most */
     observation observation;            /* of the signal */
 } comparison;
 
@@ -68,13 +66,6 @@ typedef struct found {
     match match;
     candidate candidate;
 } found;
-
-static rank_record
-record_of(const comparison *w, size_t column)
-{
-    return (rank_record){ .x = w->signal->values + column * w->signal->n, .missing = w->missing,
-                           .n = w->signal->n, .rate = w->signal->head->rate, .from = w->from };
-}
 
 /* The adjusted scene as the signal's window would show it, its gaps included. */
 static ss_status
@@ -91,7 +82,7 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
     run->head->start = w->signal->head->start;
     st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
     if (st == SS_OK)
-        st = ss_noise_add_once(x, run->n, sqrt(w->noise), seed);
+        st = ss_noise_add_once(x, run->n, sqrt(w->record.noise), seed);
     for (size_t c = 0; c < run->head->n_columns; c++)
         ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)
@@ -106,18 +97,17 @@ static ss_status
 match_scene(found *f, const comparison *w, const ss_stretch *progress)
 {
     candidate *c = &f->candidate;
-    const rank_record record = record_of(w, w->column);
+    match of[CANDIDATE_KEPT];
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i < c->n_starts; i++) {
         const ss_stretch part = ss_stretch_part(progress, (double)i / (double)c->n_starts,
                                                 (double)(i + 1) / (double)c->n_starts);
-        match m;
-        if (i > 0 && (ss_match_explains(&f->match, w->noise)
+        if (i > 0 && (ss_match_explains(&f->match, w->record.noise)
                       || c->start[i].misfit > HOPELESS * w->goal.power))
             break;
-        st = ss_match_find(&m, c, &c->start[i], w->goal.period, &record, &part);
-        if (i == 0 || m.left < f->match.left)
-            f->match = m;
+        st = ss_match_find(&of[i], c, &c->start[i], w->goal.period, &w->record, of, i, &part);
+        if (i == 0 || of[i].left < f->match.left)
+            f->match = of[i];
     }
     return st;
 }
@@ -216,10 +206,9 @@ lead_of(const match *m, const match *over, double noise)
 static int
 is_sinusoid(const comparison *w, const match *m)
 {
-    const rank_record record = record_of(w, w->column);
     match sinusoid = *m;
-    sinusoid.left = ss_record_sinusoid(&record, m->scene.base_frequency);
-    return ss_match_explains(&sinusoid, w->noise);
+    sinusoid.left = ss_record_sinusoid(&w->record, m->scene.base_frequency);
+    return ss_match_explains(&sinusoid, w->record.noise);
 }
 
 /* The verdict, by the residuals of the scenes. */
@@ -232,18 +221,18 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     r->verdict = SS_UNDECIDED;
     for (size_t i = 0; i < r->n; i++) {
         least = f[i].match.left < f[least].match.left ? i : least;
-        fit += ss_match_explains(&f[i].match, w->noise);
+        fit += ss_match_explains(&f[i].match, w->record.noise);
     }
     const match *best = &f[least].match;
     if (fit == 0) {
         r->verdict = SS_NONE_FITS;
         snprintf(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
                  "%.3g times the noise", 100 * best->left / best->power,
-                 ss_match_excess(best, w->noise));
+                 ss_match_excess(best, w->record.noise));
     } else if (is_sinusoid(w, m)) {
         snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no "
                  "transitions");
-    } else if (lead_of(best, m, w->noise) > MATCH_DECISIVE) {
+    } else if (lead_of(best, m, w->record.noise) > MATCH_DECISIVE) {
         snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
                  "power, and another, which leaves %.3g %%, shows other transitions",
                  100 * m->left / m->power, 100 * best->left / best->power);
@@ -252,8 +241,8 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     }
     for (size_t i = 1; r->verdict == SS_NAMED && i < r->n; i++)
         if (r->row[i].adjusted.model != first->adjusted.model
-            && ss_match_explains(&f[r->row[i].scene].match, w->noise)
-            && lead_of(m, &f[r->row[i].scene].match, w->noise) < MATCH_DECISIVE) {
+            && ss_match_explains(&f[r->row[i].scene].match, w->record.noise)
+            && lead_of(m, &f[r->row[i].scene].match, w->record.noise) < MATCH_DECISIVE) {
             r->verdict = SS_UNDECIDED;
             snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
                      ss_model_name(first->adjusted.model), ss_model_name(r->row[i].adjusted.model));
@@ -288,24 +277,25 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
 {
     const size_t column = (size_t)w->opts->also[quantity];
     const ss_stretch silent = { { NULL, NULL }, 0, 1 };
-    const rank_record record = record_of(w, column);
+    rank_record record = w->record;
     const char *first = w->signal->head->column[w->column].name;
     const char *other = w->signal->head->column[column].name;
     candidate c = named->candidate;
     const char *model = ss_model_name(c.scene.model);
     match m;
-    double noise, errors;
+    double errors;
     c.pick = quantity;
-    ss_status st = ss_record_noise(&noise, &record, w->goal.period * record.rate);
+    record.x = w->signal->values + column * w->signal->n;
+    ss_status st = ss_record_noise(&record, w->goal.period * record.rate);
     if (st == SS_OK)
         st = ss_match_other(&m, &c, &named->match, &record, &silent);
     if (st != SS_OK)
         return st;
     size_t key = contradicted_key(&c, &named->match, &m, &errors);
-    if (!ss_match_explains(&m, noise))
+    if (!ss_match_explains(&m, record.noise))
         snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
                  "leaves %.3g %% of that, %.3g times the noise", model, first, other,
-                 100 * m.left / m.power, ss_match_excess(&m, noise));
+                 100 * m.left / m.power, ss_match_excess(&m, record.noise));
     else if (key < c.n)
         snprintf(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
                  "%.2g %% apart, %.2g standard errors", model, first, other,
@@ -334,13 +324,13 @@ settle(ss_ranking *r, comparison *w, const found *f)
     double least = INFINITY;
     for (size_t i = 0; i < r->n; i++) {
         least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
-        w->noise = fmin(w->noise, f[i].match.compared > 0 ? f[i].match.white : INFINITY);
+        w->record.noise = fmin(w->record.noise, f[i].match.compared > 0 ? f[i].match.white : INFINITY);
     }
-    r->noise = w->noise / f[0].match.power;
+    r->noise = w->record.noise / f[0].match.power;
     for (size_t i = 0; i < r->n; i++) {
         r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
         r->row[i].total = total(&r->row[i], SS_BY_RESIDUAL, 1);
-        r->row[i].excess = ss_match_excess(&f[i].match, w->noise);
+        r->row[i].excess = ss_match_excess(&f[i].match, w->record.noise);
     }
     qsort(r->row, r->n, sizeof *r->row, less_first);
     for (size_t i = 0; i < SS_CRITERIA; i++)
@@ -407,16 +397,16 @@ rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_s
         return ss_fail(err, st, "%s", ss_strerror(st));
     }
     w->signal = window;
-    w->missing = missing != NULL ? missing + first : NULL;
-    w->from = (double)first / rate;
+    w->record = (rank_record){ .x = window->values + w->column * n, .n = n, .rate = rate,
+                               .missing = missing != NULL ? missing + first : NULL,
+                               .from = (double)first / rate };
     st = ss_gaps_of(&w->gap, &w->n_gaps, window->head, n);
     for (size_t c = 0; st == SS_OK && c < window->head->n_columns; c++)
         ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
     if (st == SS_OK)
         st = ss_observation_of(&w->observation, window, w->column, w->goal.period, err);
-    const rank_record record = record_of(w, w->column);
     if (st == SS_OK)
-        st = ss_record_noise(&w->noise, &record, w->goal.period * rate);
+        st = ss_record_noise(&w->record, w->goal.period * rate);
     if (st == SS_OK)
         st = rank_scenes(r, f, scene, w, progress, err);
     ss_observation_free(&w->observation);

@@ -102,7 +102,7 @@ step_variance(const rank_record *r)
 }
 
 ss_status
-ss_record_noise(double *variance, const rank_record *r, double samples)
+ss_record_noise(rank_record *r, double samples)
 {
     double *d = malloc((r->n + 1) * sizeof *d);
     if (d == NULL)
@@ -111,7 +111,7 @@ ss_record_noise(double *variance, const rank_record *r, double samples)
     double repeated = samples > 0 && samples < (double)r->n
         ? cycle_variance(r, samples, d) : INFINITY;
     double least = fmin(fast, repeated);
-    *variance = fmax(isfinite(least) ? least : 0, step_variance(r));
+    r->noise = fmax(isfinite(least) ? least : 0, step_variance(r));
     free(d);
     return SS_OK;
 }

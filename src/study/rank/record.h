@@ -12,6 +12,7 @@ typedef struct rank_record {
     size_t n;
     double rate;                /* [Hz] */
     double from;                /* time of x[0] in the record whose cycle was searched [s] */
+    double noise;               /* variance, at most: see ss_record_noise */
 } rank_record;
 
 /* SS_OK for a column that is there, has finite values and suits the options. */
@@ -19,9 +20,8 @@ ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_
                           ss_error *err);
 /* Mean square about the mean. */
 double ss_record_power(const rank_record *r);
-/* The variance of white noise in a record that repeats after so many samples, 0 if nothing repeats:
- * at most as much as there is. */
-ss_status ss_record_noise(double *variance, const rank_record *r, double samples);
+/* Set r->noise of a record that repeats after so many samples, 0 if nothing repeats. */
+ss_status ss_record_noise(rank_record *r, double samples);
 /* The mean square residual of the best sinusoid of this frequency [Hz] with an offset. */
 double ss_record_sinusoid(const rank_record *r, double frequency);
 
