@@ -7,7 +7,6 @@
 #include <stickslip/features.h>
 #include <stickslip/spikes.h>
 #include "base/sort.h"
-#include "signal/gaps.h"
 
 #define SPAN 80.0                       /* [dB] of a contour map */
 
@@ -52,36 +51,24 @@ measure_jumps(observation *l, double half)
 
 /* Spikes not more than 20 dB below the strongest: how many a half cycle, and how smooth. */
 static ss_status
-measure_spikes(observation *l, const double *x, const ss_header *head, size_t n, double half,
-               ss_error *err)
+measure_spikes(observation *l, const ss_spikes *found, double halves)
 {
-    ss_spikes *found = NULL;
-    ss_span *gap = NULL;
-    ss_spike_opts opts = ss_spike_defaults;
     size_t count = 0;
-    ss_status st = ss_gaps_of(&gap, &opts.n_gaps, head, n);
-    opts.gap = gap;
-    if (st == SS_OK)
-        st = ss_spikes_find(&found, x, n, head->rate, &opts, err);
-    free(gap);
-    if (st != SS_OK)
-        return st;
     double *slope = malloc((found->n + 1) * sizeof *slope);
-    for (size_t i = 0; slope != NULL && i < found->n; i++)
+    if (slope == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < found->n; i++)
         if (found->spike[i].kind != SS_SPIKE_GLITCH && found->spike[i].level >= -20)
             slope[count++] = found->spike[i].slope;
-    if (slope != NULL) {
-        l->countable = found->conclusive;
-        l->value[SS_BY_SPIKES] = (double)count * half / ((double)n / head->rate);
-        l->value[SS_BY_SLOPE] = median(slope, count);
-    }
-    ss_spikes_free(found);
+    l->countable = found->conclusive;
+    l->value[SS_BY_SPIKES] = (double)count / halves;
+    l->value[SS_BY_SLOPE] = median(slope, count);
     free(slope);
-    return slope != NULL ? SS_OK : SS_ENOMEM;
+    return SS_OK;
 }
 
 static ss_status
-measure_transitions(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
+measure_features(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts = ss_features_defaults;
@@ -90,14 +77,15 @@ measure_transitions(observation *l, const ss_signal *signal, size_t column, doub
     ss_status st = ss_features_find(&f, signal, column, &opts, err);
     if (st != SS_OK)
         return st;
-    double halves = floor((double)signal->n / signal->head->rate / half);
+    double halves = (double)signal->n / signal->head->rate / half;
     l->has_slope = opts.displacement >= 0 && opts.force >= 0;
-    l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / halves, 1);
+    l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / floor(halves), 1);
     l->value[SS_BY_FREQUENCY] = f->frequency.value;
     l->value[SS_BY_DAMPING] = f->damping_ratio.value;
     l->value[SS_BY_STIFFNESS] = f->contact_slope.value;
+    st = measure_spikes(l, f->spikes, halves);
     ss_features_free(f);
-    return SS_OK;
+    return st;
 }
 
 void
@@ -111,7 +99,6 @@ ss_status
 ss_observation_of(observation *l, const ss_signal *signal, size_t column, double period,
                   ss_error *err)
 {
-    const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_status st;
     opts.voices = 4;
@@ -120,9 +107,7 @@ ss_observation_of(observation *l, const ss_signal *signal, size_t column, double
     for (size_t i = 0; i < SS_CRITERIA; i++)
         l->value[i] = NAN;
     l->map = NULL;
-    st = measure_transitions(l, signal, column, period / 2, err);
-    if (st == SS_OK)
-        st = measure_spikes(l, x, signal->head, signal->n, period / 2, err);
+    st = measure_features(l, signal, column, period / 2, err);
     if (st == SS_OK)
         st = ss_morlet_transform(&l->map, signal, column, &opts, err);
     if (st == SS_OK)
