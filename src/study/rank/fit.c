@@ -22,6 +22,7 @@
 #include "study/rank/samples.h"
 
 enum { STARTS = 96, KEEP = 8, STEPS = 150 };
+enum { LONGER = 2 };                    /* matches that the first one takes longer than others */
 enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 #define BUDGET 1e8                      /* steps of a fit: less than a minute */
 #define NEAR 1.5                        /* the features' estimates are that good, as a factor */
@@ -102,14 +103,21 @@ search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stret
     return st;
 }
 
+/* The part of the matches that is done before the one of start i: the first takes the longest, as others
+ * often take it over. */
+static double
+part_before(size_t i, size_t n)
+{
+    return i == 0 ? 0 : (double)(i + LONGER) / (double)(n + LONGER);
+}
+
 static ss_status
 match_all(fitting *w, const ss_stretch *progress)
 {
     match found[CANDIDATE_KEPT] = { { .left = INFINITY } };
     size_t best = 0, n = w->c.n_starts;
     for (size_t i = 0; i < n; i++) {
-        const ss_stretch part = ss_stretch_part(progress, (double)i / (double)n,
-                                                (double)(i + 1) / (double)n);
+        const ss_stretch part = ss_stretch_part(progress, part_before(i, n), part_before(i + 1, n));
         ss_status st = ss_match_find(&found[i], &w->c, &w->c.start[i], w->goal.period, &w->record,
                                      found, i, &part);
         if (st != SS_OK)
@@ -293,7 +301,7 @@ search_share(const fitting *w)
 {
     double runs = 2 * STARTS + 1.5 * KEEP * STEPS, cycles = CANDIDATE_SETTLE + 1;
     double record = (double)w->record.n / w->rate / w->goal.period + CANDIDATE_SETTLE;
-    return runs * cycles / (runs * cycles + KEEP * MATCH_RUNS * record);
+    return runs * cycles / (runs * cycles + (KEEP + LONGER) * MATCH_RUNS / 3 * record);
 }
 
 static ss_status
