@@ -152,11 +152,12 @@ find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
 static void
 note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
 {
-    if (isnan(r->forcing_frequency)) {
-        tool_note("no period found, so no scene was adjusted: %s", r->why);
+    if (isnan(r->row[0].total)) {
+        tool_note("no scene was adjusted: %s", r->why);
         return;
     }
-    tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the signal within %.3g %%",
+    if (!isnan(r->forcing_frequency))
+        tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the signal within %.3g %%",
               r->forcing_frequency, opts->forcing_frequency > 0 ? "as given" : "found", r->n,
               r->n == 1 ? "" : "s", 100 * opts->spread);
     for (size_t i = 0; i < r->n; i++)
@@ -271,11 +272,16 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
     const ss_features *f = p->features;
     warn_of_rig("k/m", f->k_over_m, k_over_m, j->opts.spread);
     warn_of_rig("loading", f->slope, loading, j->opts.spread);
+    if (!p->explains)
+        tool_warn("the slips leave %.3g times the noise: friction is not constant in slip, so k/m may be off by "
+                  "more than its error", p->excess);
     FILE *out = tool_output(j->output);
     fprintf(out, "# Pulled slider with Coulomb friction, fitted to %s, column %s.\n"
             "# %zu of %zu falls of the force are its slips.  Medians, standard errors, and the standard\n"
-            "# deviation of the slips; the stiffness is that given, mass and base_velocity follow:\n",
-            signal_name(j->signal_path), signal->head->column[column].name, p->n_slips, f->n);
+            "# deviation of the slips; the stiffness is that given, mass and base_velocity follow.\n"
+            "# Left of the power of the falls: %.3g %%, %.3g times the noise.\n",
+            signal_name(j->signal_path), signal->head->column[column].name, p->n_slips, f->n,
+            100 * p->left, p->excess);
     write_median(out, "static_friction", f->static_friction, "N", NAN);
     write_median(out, "friction", f->friction, "N", NAN);
     write_median(out, "drop", f->drop, "N", NAN);

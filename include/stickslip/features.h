@@ -67,6 +67,8 @@ typedef struct ss_loading {
     ss_value stick;             /* before the fall, that the force follows the line of the slope */
     ss_value static_friction, friction;     /* force at the end of the stick; friction in slip [unit] */
     ss_value k_over_m;          /* stiffness over mass [1/s^2] */
+    double left, power, n;      /* sums of squares of its n samples: what that motion leaves, and
+                                   about their mean [unit^2] */
 } ss_loading;
 
 /* The median of many, its standard error, and the standard deviation of the many by their median

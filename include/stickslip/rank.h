@@ -61,7 +61,7 @@ typedef struct ss_rank_row {
     double excess;              /* mean square of the residual over that of the noise */
     double value[SS_CRITERIA];      /* of the adjusted scene; NaN where it has none */
     double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one has a value */
-    double total;
+    double total;               /* NaN: nothing was compared, and rows are as given without values */
 } ss_rank_row;
 
 typedef enum ss_verdict {
@@ -81,12 +81,14 @@ typedef struct ss_ranking {
     ss_rank_row *row;           /* best first */
 } ss_ranking;
 
-/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Each is adjusted within
+/* Rank n >= 1 scenes, which are forced, by one column of a signal, whose values must be finite.  Each is adjusted within
  * the spread to the signal's mean cycle and then to the samples of some cycles, run with white noise
  * of the signal's own level and its gaps, and compared; what lies within the reach of a gap is left
  * out of both, as ss_features_find does.  Noise is what is neither slow nor repeated, see ss-rank(1).
  * "None fits" and "undecided" are answers, with SS_OK.  SS_EBUDGET for a scene that takes more
- * than 2e7 integration steps to be adjusted.  opts may be NULL. To be freed with ss_ranking_free. */
+ * than 2e7 integration steps to be adjusted.  opts may be NULL. To be freed with ss_ranking_free.
+ * If the first scene is pulled all must be, as ss_pull_fit takes them, and the column the spring's force:
+ * each is adjusted to its slips, and only what these leave and the adjustment are compared. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
@@ -143,6 +145,10 @@ typedef struct ss_pull {
     char why[256];              /* empty if it does */
     ss_scene scene;             /* begins to slip with the record, then goes its own way */
     size_t n_slips;             /* falls of the force that are slips of a Coulomb slider */
+    double left;                /* part of the power of their samples that these leave */
+    double excess;              /* the same over the noise */
+    int explains;               /* what they leave is noise; else friction is not constant in slip */
+    double noise;               /* power of the noise over that of the record, at most; all NaN: no slip */
     ss_features *features;      /* its loadings are the events [N], their medians the scene's */
 } ss_pull;
 

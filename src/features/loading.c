@@ -119,6 +119,9 @@ read_slip(ss_loading *l, const search *s, const ss_slip *slip)
     l->static_friction = times(slip->top, s->largest);
     l->friction = times(slip->middle, s->largest);
     l->k_over_m = times(slip->k_over_m, s->rate * s->rate);
+    l->left = slip->left * s->largest * s->largest;
+    l->power = slip->power * s->largest * s->largest;
+    l->n = slip->n;
 }
 
 /* The samples of the rise, as far as they stay near the line. */
@@ -256,7 +259,7 @@ read_loading(const search *s, const double *x, const ss_drop *drop, const fall *
 {
     const fall *before = is_first ? NULL : f - 1;
     ss_loading l = { drop->t, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
-                     unknown };
+                     unknown, 0, 0, 0 };
     if (f->is_slip)
         read_slip(&l, s, &f->slip);
     if (before != NULL && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t),

@@ -131,13 +131,13 @@ start(problem *f, double p[FITTED], ss_window room, size_t high, size_t low)
     return f->used.end >= f->used.first + FEWEST;
 }
 
-/* Is what is left, of so many squares, small enough?  *inflation: of variances, by its correlation. */
+/* Is what is left small enough?  *inflation: of variances, by its correlation. */
 static int
-explains(const problem *f, const gsl_vector *left, double *inflation)
+explains(const problem *f, const gsl_vector *left, ss_slip *out, double *inflation)
 {
     size_t n = ss_window_length(f->used);
     double squares = 0, neighbours = 0, last = 0;
-    double power = gsl_stats_tss(f->x + f->used.first, 1, n);
+    out->power = gsl_stats_tss(f->x + f->used.first, 1, n);
     for (size_t i = 0; i < n; i++) {
         double r = gsl_vector_get(left, i);
         squares += r * r;
@@ -146,7 +146,9 @@ explains(const problem *f, const gsl_vector *left, double *inflation)
     }
     double rho = squares > 0 ? fmax(0, fmin(0.99, neighbours / squares)) : 0;
     *inflation = squares / (double)(n - FITTED) * (1 + rho) / (1 - rho);
-    return squares <= (1 - EXPLAINED) * power;
+    out->left = squares;
+    out->n = (double)n;
+    return squares <= (1 - EXPLAINED) * out->power;
 }
 
 enum { OF_SLIP = 7 };
@@ -163,8 +165,8 @@ describe(const double p[FITTED], double loading, double number[OF_SLIP])
 }
 
 /* With the errors that the covariance of the parameters gives them. */
-static ss_slip
-slip_of(const problem *f, const double p[FITTED], const gsl_matrix *covariance, double inflation)
+static void
+fill(ss_slip *s, const problem *f, const double p[FITTED], const gsl_matrix *covariance, double inflation)
 {
     const double step = 1e-4;                   /* of a unit */
     double value[OF_SLIP], slope[FITTED][OF_SLIP], below[OF_SLIP], moved[FITTED];
@@ -187,7 +189,8 @@ slip_of(const problem *f, const double p[FITTED], const gsl_matrix *covariance, 
                 variance += slope[k][i] * slope[l][i] * gsl_matrix_get(covariance, k, l);
         v[i] = (ss_value){ value[i], sqrt(inflation * fmax(variance, 0)) };
     }
-    return (ss_slip){ v[0], v[1], v[2], v[3], v[4], v[5], v[6] };
+    s->onset = v[0], s->end = v[1], s->drop = v[2], s->duration = v[3];
+    s->top = v[4], s->middle = v[5], s->k_over_m = v[6];
 }
 
 static int
@@ -205,7 +208,8 @@ ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t
     problem f = { .x = x, .loading = loading };
     double p[FITTED], first[FITTED], inflation;
     const ss_value none = { NAN, NAN };
-    *out = (ss_slip){ none, none, none, none, none, none, none };
+    *out = (ss_slip){ none, none, none, none, none, none, none, NAN, NAN, 0 };
+    ss_slip found = *out;
     *is_found = 0;
     if (!(loading > 0) || low < high + FEWEST || !start(&f, p, room, high, low))
         return SS_OK;
@@ -224,10 +228,10 @@ ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t
     if (ended == GSL_SUCCESS)
         ended = gsl_multifit_nlinear_driver(STEPS, 1e-8, 0, 0, NULL, NULL, &info, space);
     if ((ended == GSL_SUCCESS || ended == GSL_ENOPROG)
-        && explains(&f, gsl_multifit_nlinear_residual(space), &inflation)
+        && explains(&f, gsl_multifit_nlinear_residual(space), &found, &inflation)
         && gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(space), 0, covariance) == GSL_SUCCESS) {
         parameters_of(&f, gsl_multifit_nlinear_position(space), p);
-        ss_slip found = slip_of(&f, p, covariance, inflation);
+        fill(&found, &f, p, covariance, inflation);
         *is_found = is_sound(&found, f.used);
         *out = *is_found ? found : *out;
     }

@@ -11,6 +11,8 @@ typedef struct ss_slip {
     ss_value drop, duration;    /* between these; of its middle, from 10 to 90 % */
     ss_value top, middle;       /* the force at the onset; the friction in slip */
     ss_value k_over_m;          /* [rad^2/sample^2] */
+    double left, power;         /* sums of squares of the samples: what the fit leaves, and about the mean */
+    double n;                   /* of them; 0: not fitted */
 } ss_slip;
 
 /* Fit a slip to the fall of x from sample high to sample low, between loadings of so much a sample > 0;

@@ -27,6 +27,12 @@ write_explained(FILE *out, double part)
     fprintf(out, "%s %%", ss_number_fixed(text, 100 * (1 - left), decimals));
 }
 
+static int
+is_compared(const ss_ranking *r)
+{
+    return !isnan(r->row[0].total);
+}
+
 /* Without a scene named, the one that explains most. */
 static const ss_rank_row *
 find_best(const ss_ranking *r)
@@ -47,9 +53,9 @@ write_answer(FILE *out, const ss_ranking *r, const char *const *scene)
     else
         fprintf(out, "# answer: %s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell",
                 r->why);
-    if (r->verdict != SS_NAMED && !isnan(r->forcing_frequency))
+    if (r->verdict != SS_NAMED && is_compared(r))
         fprintf(out, "; %s explains most, ", scene[best->scene]);
-    if (!isnan(r->forcing_frequency))
+    if (is_compared(r))
         write_explained(out, best->explained);
     fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
 }
@@ -128,7 +134,7 @@ static void
 write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene)
 {
     const ss_rank_row *row = &r->row[i];
-    int compared = !isnan(r->forcing_frequency);
+    int compared = is_compared(r);
     if (r->verdict == SS_NAMED)
         ss_rows_count(rows, i + 1);
     else
@@ -160,7 +166,7 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
     if (st == SS_OK) {
         if (rows.format->has_notes)
             write_notes(out, ranking, about, opts);
-        if (rows.format->has_notes && !isnan(ranking->forcing_frequency))
+        if (rows.format->has_notes && is_compared(ranking))
             write_orders(out, ranking, about->scene, order);
         write_columns(&rows);
         for (size_t i = 0; i < ranking->n; i++)

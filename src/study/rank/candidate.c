@@ -21,6 +21,7 @@
 #include "study/rank/samples.h"
 
 enum { STARTS_MOST = 256 };
+#define SMALL 0.01              /* of a simplex: a match goes on from there, and faster */
 #define SAME 0.02               /* of a key: one descent reaches the same from both */
 
 static double *
@@ -40,8 +41,8 @@ ss_candidate_check(const ss_scene *scene, ss_error *err)
 {
     ss_status st = ss_scene_check(scene, err);
     if (st == SS_OK && ss_scene_is_pulled(scene))
-        return ss_fail(err, SS_EINVAL, "a scene that is pulled has no cycle of its base to compare; it can "
-                       "only be fitted");
+        return ss_fail(err, SS_EINVAL, "pulled scenes are ranked among themselves only, and fitted by their "
+                       "slips");
     if (st == SS_OK && !(drive_of(scene) > 0))
         return ss_fail(err, SS_EINVAL, "base_amplitude = 0: such a scene has no cycle to compare");
     const char *term = st == SS_OK ? ss_scene_term(scene) : NULL;
@@ -185,7 +186,7 @@ descend(start *s, size_t free, size_t steps, problem *p)
     if (m == NULL)
         return SS_ENOMEM;
     int failed = gsl_multimin_fminimizer_set(m, &f, &u.vector, &step.vector);
-    for (size_t i = 0; !failed && i < steps && gsl_multimin_fminimizer_size(m) > 1e-4; i++)
+    for (size_t i = 0; !failed && i < steps && gsl_multimin_fminimizer_size(m) > SMALL; i++)
         failed = gsl_multimin_fminimizer_iterate(m);
     if (m->fval < s->height) {
         s->height = m->fval;

@@ -20,6 +20,7 @@
 #include "study/rank/candidate.h"
 #include "study/rank/match.h"
 #include "study/rank/observation.h"
+#include "study/rank/pull.h"
 
 /* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the
  * power; the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice
@@ -43,7 +44,7 @@ const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "
 const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
                                         .also = { -1, -1, -1, -1, -1 } };
 
-enum { STARTS = 32, KEEP = 4, STEPS = 80 };      /* of the search */
+enum { STARTS = 32, KEEP = 2, STEPS = 40 };      /* of the search */
 #define HOPELESS 0.03                   /* of the power of a cycle */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
@@ -318,6 +319,15 @@ ask_other_columns(ss_ranking *r, const comparison *w, const found *f)
     return st;
 }
 
+/* The rows in the order of their totals. */
+static void
+sort_rows(ss_ranking *r)
+{
+    for (size_t i = 0; i < r->n; i++)
+        r->row[i].total = total(&r->row[i], SS_BY_RESIDUAL, 1);
+    qsort(r->row, r->n, sizeof *r->row, less_first);
+}
+
 static ss_status
 settle(ss_ranking *r, comparison *w, const found *f)
 {
@@ -329,10 +339,9 @@ settle(ss_ranking *r, comparison *w, const found *f)
     r->noise = w->record.noise / f[0].match.power;
     for (size_t i = 0; i < r->n; i++) {
         r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
-        r->row[i].total = total(&r->row[i], SS_BY_RESIDUAL, 1);
         r->row[i].excess = ss_match_excess(&f[i].match, w->record.noise);
     }
-    qsort(r->row, r->n, sizeof *r->row, less_first);
+    sort_rows(r);
     for (size_t i = 0; i < SS_CRITERIA; i++)
         r->value[i] = w->observation.value[i];
     judge(r, w, f);
@@ -416,6 +425,41 @@ rank_all(ss_ranking *r, const ss_signal *signal, const char *missing, const ss_s
     return st;
 }
 
+static ss_status
+rank_pulled(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
+            const ss_rank_opts *opts, ss_error *err)
+{
+    ss_status st = ss_pull_compare(r, signal, column, scene, opts, err);
+    if (st == SS_OK && isfinite(r->row[0].excess))
+        sort_rows(r);
+    return st;
+}
+
+static ss_status
+rank_forced(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
+            const ss_rank_opts *opts, ss_error *err)
+{
+    const ss_stretch whole = { opts->progress, 0, 1 };
+    const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(r->n + 1));
+    char *missing = NULL;
+    comparison *w = calloc(1, sizeof *w);
+    if (w == NULL)
+        return ss_fail_memory(err, NULL);
+    *w = (comparison){ .column = column, .opts = opts };
+    ss_status st = ss_gaps_missing(&missing, signal);
+    if (st == SS_OK)
+        st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
+                           missing, signal->n, signal->head->rate, opts->forcing_frequency,
+                           &reading);
+    if (st == SS_OK && w->goal.period > 0) {
+        r->forcing_frequency = 1 / w->goal.period;
+        st = rank_all(r, signal, missing, scene, w, &whole, err);
+    }
+    free(missing);
+    free(w);
+    return st;
+}
+
 ss_status
 ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
         const ss_rank_opts *opts, ss_error *err)
@@ -425,37 +469,25 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     if (opts == NULL)
         opts = &ss_rank_defaults;
     ss_status st = check(signal, column, n, opts, err);
-    for (size_t i = 0; st == SS_OK && i < n; i++)
+    int are_pulled = st == SS_OK && ss_scene_is_pulled(&scene[0]);
+    for (size_t i = 0; st == SS_OK && !are_pulled && i < n; i++)
         st = ss_candidate_check(&scene[i], err);
     if (st != SS_OK)
         return st;
     ss_ranking *r = calloc(1, sizeof *r);
-    comparison *w = calloc(1, sizeof *w);
     if (r != NULL)
         r->row = calloc(n, sizeof *r->row);
-    if (r == NULL || w == NULL || r->row == NULL) {
+    if (r == NULL || r->row == NULL) {
         ss_ranking_free(r);
-        free(w);
         return ss_fail_memory(err, NULL);
     }
     r->n = n;
+    r->forcing_frequency = r->noise = NAN;
+    for (size_t i = 0; i < SS_CRITERIA; i++)
+        r->value[i] = NAN;
     for (size_t i = 0; i < n; i++)
-        r->row[i].scene = i;
-    *w = (comparison){ .column = column, .opts = opts };
-    const ss_stretch whole = { opts->progress, 0, 1 };
-    const ss_stretch reading = ss_stretch_part(&whole, 0, 1 / (double)(n + 1));
-    char *missing = NULL;
-    st = ss_gaps_missing(&missing, signal);
-    if (st == SS_OK)
-        st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
-                           missing, signal->n, signal->head->rate, opts->forcing_frequency,
-                           &reading);
-    r->forcing_frequency = w->goal.period > 0 ? 1 / w->goal.period : NAN;
-    r->noise = NAN;
-    if (st == SS_OK && w->goal.period > 0)
-        st = rank_all(r, signal, missing, scene, w, &whole, err);
-    free(missing);
-    free(w);
+        r->row[i] = (ss_rank_row){ .scene = i, .total = NAN, .excess = NAN };
+    st = (are_pulled ? rank_pulled : rank_forced)(r, signal, column, scene, opts, err);
     if (st == SS_OK)
         *out = r;
     else

@@ -1,0 +1,11 @@
+/* pull.h -- rank scenes of pulled sliders by the slips in the force of the spring. */
+#ifndef PULL_H
+#define PULL_H
+
+#include <stickslip/rank.h>
+
+/* Fill r's rows, in the order of the r->n scenes, its noise and its verdict.  The rows have no totals. */
+ss_status ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
+                          const ss_rank_opts *opts, ss_error *err);
+
+#endif
