@@ -493,11 +493,13 @@ static ss_status
 pulls(int variant)
 {
     ss_pull *made = NULL;
+    ss_ranking *ranked = NULL;
     ss_rank_opts opts = ss_rank_defaults;
-    (void)variant;
     opts.quantity = SS_SPRING;
-    ss_status st = ss_pull_fit(&made, pulled, SS_SPRING, &pull, &opts, &err);
+    ss_status st = variant == 0 ? ss_pull_fit(&made, pulled, SS_SPRING, &pull, &opts, &err)
+        : ss_ranking_new(&ranked, pulled, SS_SPRING, &pull, 1, &opts, &err);
     ss_pull_free(made);
+    ss_ranking_free(ranked);
     return st;
 }
 
@@ -679,7 +681,7 @@ static const struct row {
     { "reading coefficients", read_coefficients, 1, 30 },
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
-    { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 1, 10 }, { "sweeps", sweeps, 6, 20 },
+    { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 },
     { "reading tables", read_tables, 1, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 5, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },

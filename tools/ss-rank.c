@@ -12,7 +12,7 @@ static const char usage[] =
 "Adjust each scene to the signal within the spread of its parameters, compare\n"
 "what both show, and write one row a scene, the best first; or say that nothing\n"
 "can be told.  SCENE is a file or the name of a shipped scene (default: the\n"
-"four of the paper).\n"
+"four of the paper).  Pulled scenes are ranked by the slips in the spring's force.\n"
 "  -c, --column=NAME|N   of the signal (default: a, else the only one)\n"
 "  -a, --as=QUANTITY     what it is of: x, v, a, f or s, the spring's force\n"
 "                        (default: by unit or name)\n"

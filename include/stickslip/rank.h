@@ -57,7 +57,8 @@ extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found, no 
 typedef struct ss_rank_row {
     size_t scene;               /* its index among those given */
     ss_scene adjusted;          /* parameters within the spread, phase of the signal's compared cycles */
-    double explained;           /* part of the signal's power about its mean that it explains */
+    double explained;           /* part of the signal's power about its mean that it explains; of pulls,
+                                   of the power of the samples about the slips */
     double excess;              /* mean square of the residual over that of the noise */
     double value[SS_CRITERIA];      /* of the adjusted scene; NaN where it has none */
     double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one has a value */

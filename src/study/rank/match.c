@@ -31,10 +31,8 @@ enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };               /* samples of half a cycle, to find the fastest slip */
 enum { UNKNOWNS = MATCH_UNKNOWNS, MOVED = MATCH_SIZE };     /* MOVED: those that move the motion */
 #define FARTHEST 0.2                    /* the longest step of an unknown */
-#define UNLIKELY 0.1                    /* part of the power: no descent from a misfit above it */
-#define LOST 0.03                       /* part of the power: no other start mends more than it */
+#define UNLIKELY 0.1                    /* part of the power: no descent or start mends more than it */
 #define MUCH 4.                         /* times the noise: no digits are needed of it */
-#define GAINED 0.9                      /* of what was left: then another start may gain more */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
  * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
@@ -514,14 +512,14 @@ solve(matching *w, point *at, double misfit, const match *others, size_t n_other
     if (take_over(m, others, n_others))
         return;
     w->n_moved += 2;
-    for (size_t i = 0; i < 2 && m->compared > 0 && m->left <= LOST * m->power; i++) {
-        double enough = (m->left > MUCH * w->r->noise ? GAINED : 1) * m->left;
+    for (size_t i = 0; i < 2 && m->compared > 0 && m->left <= UNLIKELY * m->power; i++) {
+        double before = m->left;
         if (!free_start(w, cycles[i], at, m->power))
             return;
         descend_all(w, at);
         if (at->left < m->left)
             report(w, at, m);
-        if (m->left >= enough)
+        if (m->left == before)
             return;
     }
 }

@@ -216,18 +216,33 @@ static void
 compare(ss_ranking *r, const ss_pull *p, double nearest, double next, double change, size_t most,
         double spread)
 {
+    const double error = sqrt(MATCH_DECISIVE) * error_of(p->features);
     r->verdict = SS_NONE_FITS;
     if (!p->explains)
-        snprintf(r->why, sizeof r->why, "the slips of a Coulomb slider leave %.3g %% of the power of the falls, "
-                 "%.3g times the noise", 100 * p->left, p->excess);
-    else if (!(fabs(change) <= log((1 + spread) / (1 - spread))))
-        snprintf(r->why, sizeof r->why, "the slips are those of a Coulomb slider, but the nearest scene would "
-                 "need %.3g times its %s", exp(change), adjusted_name[most]);
-    else if (pow((next - nearest) / error_of(p->features), 2) < MATCH_DECISIVE) {
+        snprintf(r->why, sizeof r->why, "the slips of a Coulomb slider leave %.3g %% of the power of the "
+                 "falls, %.3g times the noise", 100 * p->left, p->excess);
+    else if (!(fabs(change) <= log((1 + spread) / (1 - spread)) + error))
+        snprintf(r->why, sizeof r->why, "the slips are those of a Coulomb slider, but the nearest scene "
+                 "would need %.3g times its %s", exp(change), adjusted_name[most]);
+    else if (next - nearest < error) {
         r->verdict = SS_UNDECIDED;
         snprintf(r->why, sizeof r->why, "two scenes are equally near to the slips, within their errors");
     } else
         r->verdict = SS_NAMED;
+}
+
+static ss_status
+check_scenes(const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
+             const ss_rank_opts *opts, ss_error *err)
+{
+    for (size_t i = 0; i < n; i++) {
+        ss_status st = check(signal, column, &scene[i], opts, err);
+        if (st != SS_OK)
+            return st;
+        if (scene[i].base_velocity * scene[0].base_velocity < 0)
+            return ss_fail(err, SS_EINVAL, "scenes that are pulled to either side are not compared");
+    }
+    return SS_OK;
 }
 
 ss_status
@@ -237,9 +252,7 @@ ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_
     double nearest = INFINITY, next = INFINITY, change = NAN;
     size_t most = 0;
     ss_pull *p = NULL;
-    ss_status st = SS_OK;
-    for (size_t i = 0; st == SS_OK && i < r->n; i++)
-        st = check(signal, column, &scene[i], opts, err);
+    ss_status st = check_scenes(signal, column, scene, r->n, opts, err);
     if (st == SS_OK)
         st = ss_pull_fit(&p, signal, column, &scene[0], opts, err);
     if (st != SS_OK)
