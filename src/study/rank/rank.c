@@ -39,11 +39,6 @@ const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
 };
 
-const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
-
-const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
-                                        .also = { -1, -1, -1, -1, -1 } };
-
 enum { STARTS = 32, KEEP = 2, STEPS = 40 };      /* of the search */
 #define HOPELESS 0.03                   /* of the power of a cycle */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */

@@ -10,6 +10,11 @@
 #include <gsl/gsl_statistics_double.h>
 #include "base/error.h"
 
+const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
+
+const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
+                                        .also = { -1, -1, -1, -1, -1 } };
+
 static int
 is_missing(const rank_record *r, size_t i, size_t n)
 {
