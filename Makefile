@@ -84,7 +84,7 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
-TOOL_OBJ := $(BUILD)/tools/common.o $(BUILD)/tools/files.o $(BUILD)/tools/output.o $(BUILD)/tools/reading.o
+TOOL_OBJ := $(patsubst %,$(BUILD)/tools/%.o,common files options output reading)
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)

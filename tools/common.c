@@ -8,7 +8,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <limits.h>
 #include <math.h>
@@ -89,19 +88,6 @@ tool_end_at_rows(const char *path)
         catch_signals(ask_to_stop);
 }
 
-/* getopt would show a long option that it does not know as it is: a file may have such a name. */
-static void
-refuse_control(char *argv[])
-{
-    for (char **arg = argv + 1; *arg != NULL && strcmp(*arg, "--") != 0; arg++) {
-        size_t n = strcspn(*arg, "=");
-        char *option = strncmp(*arg, "--", 2) == 0 ? strndup(*arg, n) : NULL;
-        if (option != NULL && strncmp(ss_printable(option), *arg, n) != 0)
-            tool_usage("unrecognized option '%s'", option);
-        free(option);
-    }
-}
-
 void
 tool_begin(char *argv[], const char *name, const char *usage)
 {
@@ -111,7 +97,6 @@ tool_begin(char *argv[], const char *name, const char *usage)
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
     gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
     signal(SIGXFSZ, SIG_IGN);           /* a file over the limit is a failed write, not a signal */
-    refuse_control(argv);
 }
 
 /* One line, whatever stands in the names of files. */
@@ -222,96 +207,15 @@ tool_check(ss_status status, const ss_error *err)
 }
 
 void
-tool_option(int c)
+tool_show(tool_text text)
 {
-    switch (c) {
-    case 'q': tool_verbosity = -1; return;
-    case 'v': tool_verbosity = 1; return;
-    case 'h': fputs(usage_text, stdout); break;
-    case TOOL_OPT_VERSION: printf("%s (libstickslip) %s\n", tool_name, ss_version()); break;
-    default: tool_usage(NULL);          /* getopt has said what is wrong */
-    }
+    if (text == TOOL_HELP)
+        fputs(usage_text, stdout);
+    else
+        printf("%s (libstickslip) %s\n", tool_name, ss_version());
     tool_verbosity = 0;
     tool_end();
     exit(0);
-}
-
-double
-tool_number(const char *option, const char *text, double lo, double hi)
-{
-    char *end;
-    double x = ss_number_parse(text, &end);
-    if (end == text || *end != '\0')
-        tool_usage("%s: '%s' is not a number", option, text);
-    if (!(x >= lo && x <= hi)) {
-        char a[SS_NUMBER_MAX], b[SS_NUMBER_MAX];
-        ss_number_format(a, lo);
-        ss_number_format(b, hi);
-        if (lo == DBL_MIN)
-            tool_usage("%s: %s is out of range, it must be > 0", option, text);
-        if (hi >= DBL_MAX)
-            tool_usage("%s: %s is out of range, at least %s is needed", option, text, a);
-        tool_usage("%s: %s is out of range %s ... %s", option, text, a, b);
-    }
-    return x;
-}
-
-double
-tool_number_in(const char *option, const char *text, ss_range range)
-{
-    return tool_number(option, text, range.from, range.to);
-}
-
-long
-tool_integer(const char *option, const char *text, long lo, long hi)
-{
-    char *end;
-    errno = 0;
-    long i = strtol(text, &end, 10);
-    if (end == text || *end != '\0')
-        tool_usage("%s: '%s' is not a whole number", option, text);
-    if (hi == LONG_MAX && i < lo)
-        tool_usage("%s: %s is out of range, at least %ld is needed", option, text, lo);
-    if (errno != 0 || i < lo || i > hi)
-        tool_usage("%s: %s is out of range %ld ... %ld", option, text, lo, hi);
-    return i;
-}
-
-void
-tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
-          double pair[2])
-{
-    char first[64];
-    size_t n = strcspn(text, ":");
-    if (text[n] != ':' || n >= sizeof first)
-        tool_usage("%s: '%s' is not %s", option, text, form);
-    memcpy(first, text, n);
-    first[n] = '\0';
-    pair[0] = tool_number(option, first, lo, hi);
-    pair[1] = tool_number(option, text + n + 1, pair[0], hi);
-}
-
-int
-tool_choice(const char *option, const char *text, const char *const choice[])
-{
-    char list[256] = "";
-    for (int i = 0; choice[i] != NULL; i++) {
-        if (strcmp(text, choice[i]) == 0)
-            return i;
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
-                 choice[i]);
-    }
-    tool_usage("%s: '%s' is none of %s", option, text, list);
-}
-
-const char *
-tool_method(const char *text)
-{
-    enum { MOST = 32 };
-    const char *method[MOST + 1] = { NULL };
-    for (size_t i = 0; i < MOST && ss_sim_method_name(i) != NULL; i++)
-        method[i] = ss_sim_method_name(i);
-    return method[tool_choice("--method", text, method)];
 }
 
 /* --- input --------------------------------------------------------------------------------- */
@@ -397,13 +301,14 @@ tool_read_coefficients(const char *path)
 }
 
 ss_scene
-tool_read_scene(const char *path, const char *const settings[], size_t n)
+tool_read_scene(const char *path, const tool_texts *settings)
 {
     ss_scene scene;
     ss_error err = { 0 };
     ss_status st = strcmp(tool_reads(path), "-") == 0
-                 ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings, n, &err)
-                 : ss_scene_load(&scene, path, settings, n, &err);
+                 ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings->text,
+                                     settings->n, &err)
+                 : ss_scene_load(&scene, path, settings->text, settings->n, &err);
     if (st == SS_EINVAL)
         tool_usage("--set: %s", err.text);
     tool_check(st, &err);
@@ -421,23 +326,23 @@ tool_is_hdf5(const char *path)
 }
 
 char *
-tool_name_scene(const char *path, const char *const settings[], size_t n)
+tool_name_scene(const char *path, const tool_texts *settings)
 {
     static const char *const of_record[] = { "settle", "duration", "rate" };
     const char *slash = strrchr(path, '/'), *own = slash != NULL ? slash + 1 : tool_input_name(path);
     size_t size = strlen(own) + 1;
-    for (size_t i = 0; i < n; i++)
-        size += strlen(settings[i]) + 2;
+    for (size_t i = 0; i < settings->n; i++)
+        size += strlen(settings->text[i]) + 2;
     char *name = malloc(size), *end;
     if (name == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     end = stpcpy(name, own);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < settings->n; i++) {
         int physical = 1;
         for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
-            physical &= strncmp(settings[i], of_record[k], strlen(of_record[k])) != 0;
+            physical &= strncmp(settings->text[i], of_record[k], strlen(of_record[k])) != 0;
         if (physical)
-            end = stpcpy(stpcpy(end, ", "), settings[i]);
+            end = stpcpy(stpcpy(end, ", "), settings->text[i]);
     }
     return name;
 }

@@ -1,5 +1,5 @@
-/* common.h -- what every tool does the same way: its name in messages, exit codes, numbers in
- * options, output that is whole or absent. */
+/* common.h -- what every tool does the same way: its name in messages, exit codes, input, and output
+ * that is whole or absent. */
 #ifndef COMMON_H
 #define COMMON_H
 
@@ -29,60 +29,17 @@ void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK
 /* A hint how to remedy a failure, "; text", or "". */
 const char *tool_hint(ss_status status, const ss_error *err);
 
+/* Write the text of --help or --version and exit. */
+typedef enum tool_text { TOOL_HELP, TOOL_VERSION } tool_text;
+void tool_show(tool_text text) TOOL_NORETURN;
+
 extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 
-/* Values of options; wrong ones are wrong usage. */
-double tool_number(const char *option, const char *text, double lo, double hi);
-double tool_number_in(const char *option, const char *text, ss_range range);
-long tool_integer(const char *option, const char *text, long lo, long hi);
-/* Two numbers "A:B", lo <= A <= B <= hi; form is what the message says is wanted. */
-void tool_pair(const char *option, const char *text, const char *form, double lo, double hi,
-               double pair[2]);
-/* The index of text in the NULL-terminated list. */
-int tool_choice(const char *option, const char *text, const char *const choice[]);
-
-/* The options that tools share, to be put into their long options. */
-enum {
-    TOOL_OPT_VERSION = 256, TOOL_OPT_FORMAT, TOOL_OPT_STYLE, TOOL_OPT_TIME, TOOL_OPT_TIME_UNIT, TOOL_OPT_RATE,
-    TOOL_OPT_TABLE, TOOL_OPT_GAPS, TOOL_OPT_RESAMPLE, TOOL_OPT_FROM, TOOL_OPT_TO, TOOL_OPT_SCALE,
-    TOOL_OPT_UNIT, TOOL_OPT_FIRST
-};
-#define TOOL_LONGOPTS \
-    { "output", required_argument, NULL, 'o' }, { "quiet", no_argument, NULL, 'q' }, \
-    { "verbose", no_argument, NULL, 'v' }, { "help", no_argument, NULL, 'h' }, \
-    { "version", no_argument, NULL, TOOL_OPT_VERSION }, { NULL, 0, NULL, 0 }
-/* Handle an option that is not the tool's own: -q, -v, --help, --version, or wrong usage. */
-void tool_option(int c);
-
-/* The options of reading a signal, which all tools that do so share: in their long options, and in the text
- * of --help. */
-#define TOOL_READING_LONGOPTS \
-    { "time", required_argument, NULL, TOOL_OPT_TIME }, \
-    { "time-unit", required_argument, NULL, TOOL_OPT_TIME_UNIT }, \
-    { "rate", required_argument, NULL, TOOL_OPT_RATE }, { "table", required_argument, NULL, TOOL_OPT_TABLE }, \
-    { "gaps", required_argument, NULL, TOOL_OPT_GAPS }, \
-    { "resample", required_argument, NULL, TOOL_OPT_RESAMPLE }, \
-    { "from", required_argument, NULL, TOOL_OPT_FROM }, { "to", required_argument, NULL, TOOL_OPT_TO }, \
-    { "scale", required_argument, NULL, TOOL_OPT_SCALE }, { "unit", required_argument, NULL, TOOL_OPT_UNIT }
-#define TOOL_READING_USAGE \
-    "Of reading, as in ss-cat:\n" \
-    "      --time=NAME|N, --time-unit=UNIT, --rate=HZ, --table=N, --gaps=HOW,\n" \
-    "      --resample=HZ, --from=S, --to=S, --scale=[NAME=]F, --unit=[NAME=]U\n"
-
-typedef struct tool_reading {
-    ss_read_opts opts;          /* for tool_read_signal and ss_reader_new */
-    double from, to;            /* NaN: not given; in opts too */
-    ss_calibration *calibration;
-    int given;                  /* was any of the options? */
-} tool_reading;
-
-void tool_reading_begin(tool_reading *r, int argc);
-/* 1 if what getopt_long gave is one of them, with this text. */
-int tool_reading_option(tool_reading *r, int c, char *text);
-/* Call when all are there; --scale and --unit without a name are of this column, or if NULL of the only
- * one. */
-void tool_reading_end(tool_reading *r, const char *column);
-void tool_reading_free(tool_reading *r);
+/* Several values of one option, in their order; to be freed with free(text). */
+typedef struct tool_texts {
+    const char **text;
+    size_t n;
+} tool_texts;
 
 /* --- input --------------------------------------------------------------------------------- */
 
@@ -103,10 +60,10 @@ ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 ss_coefficients *tool_read_coefficients(const char *path);
 /* Read a scene given by path, by the bare name of a shipped one, or "-", with settings
  * "key=value" in place of its own; dies, a setting at fault being wrong usage. */
-ss_scene tool_read_scene(const char *path, const char *const settings[], size_t n);
+ss_scene tool_read_scene(const char *path, const tool_texts *settings);
 /* The name by which it is known, without its directories, and what was changed in its physics; to be
  * freed. */
-char *tool_name_scene(const char *path, const char *const settings[], size_t n);
+char *tool_name_scene(const char *path, const tool_texts *settings);
 /* 1 if path holds HDF5 or names a dataset in it, which cannot be read row by row, else 0. */
 int tool_is_hdf5(const char *path);
 /* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
@@ -154,8 +111,6 @@ void tool_cut(FILE *out, long offset);
 /* The value of --format: a format of streams; _of_words: one that holds words. */
 tool_kind tool_format(const char *text);
 tool_kind tool_format_of_words(const char *text);
-/* The value of --method: a method of simulation. */
-const char *tool_method(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 

@@ -1,5 +1,5 @@
 /* output.c -- the forms of output: streams, HDF5, scripts, and the pictures that gnuplot makes of them. */
-#include "common.h"
+#include "options.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* reading.c -- the options of every tool that reads a signal. */
-#include "common.h"
+#include "options.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,67 +14,64 @@ warn(ss_status about, const char *text, void *user)
     tool_warn("%s%s", text, tool_hint(about, &err));
 }
 
-void
-tool_reading_begin(tool_reading *r, int argc)
+static void
+set_table(const tool_option *o, char *text)
 {
-    *r = (tool_reading){ .opts.warn = warn, .from = NAN, .to = NAN,
-                         .calibration = calloc((size_t)argc, sizeof *r->calibration) };
-    if (r->calibration == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    *(size_t *)o->to = (size_t)tool_integer("--table", text, 1, 1000000);
 }
 
-/* Cut "[NAME=]VALUE": gives VALUE, and a new calibration has the name. */
+/* Cut "[NAME=]VALUE": gives VALUE; a new calibration, *made, has the name. */
 static char *
-add_calibration(tool_reading *r, char *text)
+add_calibration(tool_reading *r, char *text, ss_calibration **made)
 {
     char *equals = strrchr(text, '=');
-    ss_calibration *c = &r->calibration[r->opts.n_calibrations++];
+    size_t n = r->opts.n_calibrations++;
+    r->calibration = realloc(r->calibration, (n + 1) * sizeof *r->calibration);
+    if (r->calibration == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    *made = &r->calibration[n];
+    **made = (ss_calibration){ .column = equals != NULL ? text : NULL };
     if (equals == NULL)
         return text;
     *equals = '\0';
-    c->column = text;
     return equals + 1;
 }
 
-static const char *
-time_unit(const char *text)
+static void
+set_scale(const tool_option *o, char *text)
 {
-    enum { MOST = 16 };
-    const char *name[MOST + 1] = { NULL };
-    for (size_t i = 0; i < MOST && ss_time_unit_name(i) != NULL; i++)
-        name[i] = ss_time_unit_name(i);
-    return name[tool_choice("--time-unit", text, name)];
+    ss_calibration *c;
+    text = add_calibration(o->to, text, &c);
+    c->scale = tool_number("--scale", text, -DBL_MAX, DBL_MAX);
+    if (c->scale == 0)
+        tool_usage("--scale: 0 leaves nothing of a column");
 }
 
-int
-tool_reading_option(tool_reading *r, int c, char *text)
+static void
+set_unit(const tool_option *o, char *text)
+{
+    ss_calibration *c;
+    text = add_calibration(o->to, text, &c);
+    c->unit = text;
+}
+
+void
+tool_reading_options(tool_reading *r, tool_option row[TOOL_READING_OPTIONS])
 {
     static const char *const gaps[] = { "refuse", "split", "interpolate", NULL };
+    const ss_range positive = { DBL_MIN, DBL_MAX }, any = { -DBL_MAX, DBL_MAX };
     ss_read_opts *opts = &r->opts;
-    char *value;
-    switch (c) {
-    case TOOL_OPT_TIME:      opts->time = text; break;
-    case TOOL_OPT_TIME_UNIT: opts->time_unit = time_unit(text); break;
-    case TOOL_OPT_RATE:      opts->rate = tool_number("--rate", text, DBL_MIN, DBL_MAX); break;
-    case TOOL_OPT_TABLE:     opts->table = (size_t)tool_integer("--table", text, 1, 1000000); break;
-    case TOOL_OPT_GAPS:      opts->gaps = (ss_gaps)tool_choice("--gaps", text, gaps); break;
-    case TOOL_OPT_RESAMPLE:  opts->resample = tool_number("--resample", text, DBL_MIN, DBL_MAX); break;
-    case TOOL_OPT_FROM:      r->from = tool_number("--from", text, -DBL_MAX, DBL_MAX); break;
-    case TOOL_OPT_TO:        r->to = tool_number("--to", text, -DBL_MAX, DBL_MAX); break;
-    case TOOL_OPT_SCALE:
-        value = add_calibration(r, text);
-        r->calibration[opts->n_calibrations - 1].scale = tool_number("--scale", value, -DBL_MAX, DBL_MAX);
-        if (r->calibration[opts->n_calibrations - 1].scale == 0)
-            tool_usage("--scale: 0 leaves nothing of a column");
-        break;
-    case TOOL_OPT_UNIT:
-        value = add_calibration(r, text);
-        r->calibration[opts->n_calibrations - 1].unit = value;
-        break;
-    default: return 0;
-    }
-    r->given = 1;
-    return 1;
+    opts->warn = warn;
+    r->from = r->to = NAN;
+    const tool_option option[TOOL_READING_OPTIONS] = {
+        TOOL_TEXT(r->time_letter, "time", &opts->time),
+        TOOL_NAME(0, "time-unit", &opts->time_unit, ss_time_unit_name),
+        TOOL_NUMBER(r->rate_letter, "rate", &opts->rate, positive),
+        TOOL_VALUE(0, "table", set_table, &opts->table), TOOL_CHOICE(0, "gaps", &opts->gaps, gaps),
+        TOOL_NUMBER(0, "resample", &opts->resample, positive),
+        TOOL_NUMBER(0, "from", &r->from, any), TOOL_NUMBER(0, "to", &r->to, any),
+        TOOL_VALUE(0, "scale", set_scale, r), TOOL_VALUE(0, "unit", set_unit, r) };
+    memcpy(row, option, sizeof option);
 }
 
 void

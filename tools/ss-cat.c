@@ -1,7 +1,6 @@
 /* ss-cat.c -- any supported file as a signal stream. */
-#include "common.h"
+#include "options.h"
 
-#include <getopt.h>
 #include <stdlib.h>
 
 static const char usage[] =
@@ -29,8 +28,7 @@ static const char usage[] =
 enum { PIECE = 4096 };
 
 static const char *path, *output;
-static const char **wanted;             /* names of columns */
-static size_t n_wanted;
+static tool_texts wanted;               /* names of columns */
 
 static void
 say_header(const ss_header *head)
@@ -46,12 +44,12 @@ say_header(const ss_header *head)
 static size_t *
 choose_columns(const ss_header *head, size_t *n)
 {
-    *n = n_wanted > 0 ? n_wanted : head->n_columns;
+    *n = wanted.n > 0 ? wanted.n : head->n_columns;
     size_t *column = malloc(*n * sizeof *column);
     if (column == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < *n; i++)
-        column[i] = n_wanted > 0 ? tool_column(head, path, wanted[i]) : i;
+        column[i] = wanted.n > 0 ? tool_column(head, path, wanted.text[i]) : i;
     return column;
 }
 
@@ -109,37 +107,21 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
 int
 main(int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "column", required_argument, NULL, 'c' }, TOOL_READING_LONGOPTS,
-        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
-    tool_reading reading;
+    tool_reading reading = { .time_letter = 't', .rate_letter = 'r' };
     tool_kind kind = TOOL_TSV;
+    const tool_option options[] = {
+        TOOL_TEXTS('c', "column", &wanted), TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-cat", usage);
-    tool_reading_begin(&reading, argc);
-    wanted = malloc((size_t)argc * sizeof *wanted);
-    if (wanted == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "c:t:r:o:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case 'c': wanted[n_wanted++] = optarg; break;
-        case 't': tool_reading_option(&reading, TOOL_OPT_TIME, optarg); break;
-        case 'r': tool_reading_option(&reading, TOOL_OPT_RATE, optarg); break;
-        case 'o': output = optarg; break;
-        case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
-        default:
-            if (!tool_reading_option(&reading, c, optarg))
-                tool_option(c);
-        }
-    path = tool_input(argc, argv, optind);
-    tool_reading_end(&reading, n_wanted == 1 ? wanted[0] : NULL);
+    path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
+    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     if (kind == TOOL_H5 || tool_is_hdf5(path) || reading.opts.resample > 0)
         copy_whole(kind, &reading.opts);
     else
         copy_stream(kind, &reading.opts);
     tool_reading_free(&reading);
-    free(wanted);
+    free(wanted.text);
     tool_end();
     return 0;
 }

@@ -1,8 +1,6 @@
 /* ss-contour.c -- contours of wavelet coefficients over time and frequency. */
-#include "common.h"
+#include "options.h"
 
-#include <float.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,11 +26,6 @@ TOOL_READING_USAGE
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings; -v, --verbose: report the input\n"
 "  -h, --help           show this text; --version: show the version\n";
-
-enum {
-    OPT_LEVELS = TOOL_OPT_FIRST, OPT_SPAN, OPT_FILL, OPT_PALETTE, OPT_RIDGE, OPT_FMIN, OPT_FMAX, OPT_SIGNAL, OPT_EVENTS, OPT_FEATURES,
-    OPT_TITLE
-};
 
 typedef struct drawing {
     ss_coefficients *own;       /* all in memory, or else a file that has them */
@@ -138,66 +131,27 @@ is_stdin(const char *path)
     return path != NULL && strcmp(path, "-") == 0;
 }
 
-static const char *
-palette(const char *text)
-{
-    enum { MOST = 16 };
-    const char *name[MOST + 1] = { NULL };
-    for (size_t i = 0; i < MOST && ss_palette_name(i) != NULL; i++)
-        name[i] = ss_palette_name(i);
-    return name[tool_choice("--palette", text, name)];
-}
-
 int
 main(int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "levels", required_argument, NULL, OPT_LEVELS },
-        { "span", required_argument, NULL, OPT_SPAN },
-        { "fill", no_argument, NULL, OPT_FILL },
-        { "palette", required_argument, NULL, OPT_PALETTE },
-        { "ridge", no_argument, NULL, OPT_RIDGE },
-        { "fmin", required_argument, NULL, OPT_FMIN },
-        { "fmax", required_argument, NULL, OPT_FMAX },
-        { "signal", required_argument, NULL, OPT_SIGNAL },
-        { "column", required_argument, NULL, 'c' },
-        { "events", required_argument, NULL, OPT_EVENTS },
-        { "features", required_argument, NULL, OPT_FEATURES },
-        { "title", required_argument, NULL, OPT_TITLE },
-        { "style", required_argument, NULL, TOOL_OPT_STYLE },
-        TOOL_READING_LONGOPTS,
-        TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
     drawing d = { .opts = ss_contour_defaults };
     const char *output = NULL, *signal_path = NULL, *column = NULL, *events = NULL;
     const char *features = NULL;
+    const tool_option options[] = {
+        TOOL_WHOLE(0, "levels", &d.opts.levels, ss_contour_levels),
+        TOOL_NUMBER(0, "span", &d.opts.span, ss_contour_spans), TOOL_FLAG(0, "fill", &d.opts.fill),
+        TOOL_NAME(0, "palette", &d.opts.palette, ss_palette_name), TOOL_FLAG(0, "ridge", &d.opts.ridge),
+        TOOL_NUMBER(0, "fmin", &d.opts.fmin, ss_morlet_ranges.frequency),
+        TOOL_NUMBER(0, "fmax", &d.opts.fmax, ss_morlet_ranges.frequency), TOOL_TEXT(0, "signal", &signal_path),
+        TOOL_TEXT('c', "column", &column), TOOL_TEXT(0, "events", &events),
+        TOOL_TEXT(0, "features", &features), TOOL_TEXT(0, "title", &opts.title),
+        TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
 
     tool_begin(argv, "ss-contour", usage);
-    tool_reading_begin(&d.reading, argc);
-    for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case OPT_LEVELS: d.opts.levels = (int)tool_integer("--levels", optarg, 1, (long)ss_contour_levels.to); break;
-        case OPT_SPAN:
-            d.opts.span = tool_number_in("--span", optarg, ss_contour_spans);
-            d.opts.noise = 0;
-            break;
-        case OPT_FILL: d.opts.fill = 1; break;
-        case OPT_PALETTE: d.opts.palette = palette(optarg); break;
-        case OPT_RIDGE: d.opts.ridge = 1; break;
-        case OPT_FMIN: d.opts.fmin = tool_number_in("--fmin", optarg, ss_morlet_ranges.frequency); break;
-        case OPT_FMAX: d.opts.fmax = tool_number_in("--fmax", optarg, ss_morlet_ranges.frequency); break;
-        case OPT_SIGNAL: signal_path = optarg; break;
-        case 'c': column = optarg; break;
-        case OPT_EVENTS: events = optarg; break;
-        case OPT_FEATURES: features = optarg; break;
-        case OPT_TITLE: opts.title = optarg; break;
-        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
-        case 'o': output = optarg; break;
-        default:
-            if (!tool_reading_option(&d.reading, c, optarg))
-                tool_option(c);
-        }
-    const char *path = tool_input(argc, argv, optind);
+    int first = TOOL_PARSE(argc, argv, options, &d.reading);
+    const char *path = tool_input(argc, argv, first);
+    d.opts.noise = tool_given("span") ? 0 : d.opts.noise;
     if (d.opts.fmin > 0 && d.opts.fmax > 0 && d.opts.fmin >= d.opts.fmax)
         tool_usage("--fmin does not lie below --fmax");
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);

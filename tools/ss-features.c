@@ -1,9 +1,8 @@
 /* ss-features.c -- the transitions of a signal, one a row, and what they have in common, which is a
  * row of several signals. */
-#include "common.h"
+#include "options.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,28 +31,6 @@ TOOL_READING_USAGE
 "  -o, --output=FILE       .tsv or .csv; --format=tsv|csv of standard output\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
-enum {
-    OPT_THRESHOLD = TOOL_OPT_FIRST, OPT_NORM, OPT_FMIN, OPT_MASS, OPT_STIFFNESS,
-    OPT_DISPLACEMENT, OPT_FORCE, OPT_DROP, OPT_THREADS, OPT_SUMMARY
-};
-
-static const struct option longopts[] = {
-    { "column", required_argument, NULL, 'c' }, TOOL_READING_LONGOPTS,
-    { "format", required_argument, NULL, TOOL_OPT_FORMAT },
-    { "threshold", required_argument, NULL, OPT_THRESHOLD },
-    { "norm", required_argument, NULL, OPT_NORM },
-    { "fmin", required_argument, NULL, OPT_FMIN },
-    { "mass", required_argument, NULL, OPT_MASS },
-    { "stiffness", required_argument, NULL, OPT_STIFFNESS },
-    { "displacement", required_argument, NULL, OPT_DISPLACEMENT },
-    { "force", required_argument, NULL, OPT_FORCE },
-    { "drop", required_argument, NULL, OPT_DROP },
-    { "threads", required_argument, NULL, OPT_THREADS },
-    { "jobs", required_argument, NULL, 'j' },
-    { "summary", no_argument, NULL, OPT_SUMMARY },
-    TOOL_LONGOPTS
-};
-
 enum { JOBS_MAX = 100 };    /* each has two files open, and as many may wait for one before them */
 
 typedef struct request {
@@ -61,36 +38,8 @@ typedef struct request {
     tool_reading reading;
     const char *column, *displacement, *force, *output;
     tool_kind kind;
-    size_t jobs;
-    int summary;
+    int jobs, summary;
 } request;
-
-static void
-set_option(request *req, int c)
-{
-    static const char *const norms[] = { "l2", "l1", NULL };    /* as in ss_norm */
-    ss_features_opts *opts = &req->opts;
-    switch (c) {
-    case 'c':              req->column = optarg; break;
-    case OPT_THRESHOLD:    opts->threshold = tool_number("--threshold", optarg, 1e-3, 1000); break;
-    case OPT_NORM:         opts->norm = (ss_norm)tool_choice("--norm", optarg, norms); break;
-    case OPT_FMIN:         opts->fmin = tool_number("--fmin", optarg, 1e-100, 1e100); break;
-    case OPT_MASS:         opts->mass = tool_number("--mass", optarg, 1e-100, 1e100); break;
-    case OPT_STIFFNESS:    opts->stiffness = tool_number("--stiffness", optarg, 0, 1e100); break;
-    case OPT_DISPLACEMENT: req->displacement = optarg; break;
-    case OPT_FORCE:        req->force = optarg; break;
-    case OPT_DROP:         opts->drop = tool_number("--drop", optarg, 1e-300, 1e300); break;
-    case OPT_THREADS:      opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
-                           break;
-    case 'j':              req->jobs = (size_t)tool_integer("--jobs", optarg, 1, JOBS_MAX); break;
-    case OPT_SUMMARY:      req->summary = 1; break;
-    case 'o':              req->output = optarg; break;
-    case TOOL_OPT_FORMAT:  req->kind = tool_format_of_words(optarg); break;
-    default:
-        if (!tool_reading_option(&req->reading, c, optarg))
-            tool_option(c);
-    }
-}
 
 /* The column that was asked for, or the one of that name if it is there, else -1. */
 static int
@@ -225,13 +174,13 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
 {
     job *jobs = calloc(n, sizeof *jobs);
     ss_summary *summary = calloc(n, sizeof *summary);
-    size_t begun = 0, ended = 0, good = 0;
+    size_t begun = 0, ended = 0, good = 0, at_once = (size_t)req->jobs;
     if (jobs == NULL || summary == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < n; i++)
         tool_reads(path[i]);
     for (size_t first = 0; first < n;) {
-        while (begun < n && begun - ended < req->jobs && begun - first < 2 * req->jobs)
+        while (begun < n && begun - ended < at_once && begun - first < 2 * at_once)
             start_job(&jobs[begun], req, path[begun]), begun++;
         wait_for_job(jobs, begun);
         for (ended++; first < begun && jobs[first].done; first++)
@@ -248,23 +197,33 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
 int
 main(int argc, char *argv[])
 {
+    static const char *const norms[] = { "l2", "l1", NULL };    /* as in ss_norm */
+    const ss_range prominences = { 1e-3, 1000 }, positive = { 1e-100, 1e100 }, springs = { 0, 1e100 };
+    const ss_range heights = { 1e-300, 1e300 }, jobs = { 1, JOBS_MAX };
     request req = { .opts = ss_features_defaults, .kind = TOOL_TSV, .jobs = 1 };
+    const tool_option options[] = {
+        TOOL_TEXT('c', "column", &req.column), TOOL_NUMBER(0, "threshold", &req.opts.threshold, prominences),
+        TOOL_CHOICE(0, "norm", &req.opts.norm, norms), TOOL_NUMBER(0, "fmin", &req.opts.fmin, positive),
+        TOOL_NUMBER(0, "mass", &req.opts.mass, positive),
+        TOOL_NUMBER(0, "stiffness", &req.opts.stiffness, springs),
+        TOOL_TEXT(0, "displacement", &req.displacement), TOOL_TEXT(0, "force", &req.force),
+        TOOL_NUMBER(0, "drop", &req.opts.drop, heights), TOOL_THREADS(0, &req.opts.threads),
+        TOOL_WHOLE('j', "jobs", &req.jobs, jobs), TOOL_FLAG(0, "summary", &req.summary),
+        TOOL_OUTPUT(&req.output), TOOL_FORMAT_OF_WORDS(&req.kind) };
 
     tool_begin(argv, "ss-features", usage);
-    tool_reading_begin(&req.reading, argc);
-    for (int c; (c = getopt_long(argc, argv, "c:j:o:qvh", longopts, NULL)) != -1;)
-        set_option(&req, c);
+    int first = TOOL_PARSE(argc, argv, options, &req.reading);
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
     tool_reading_end(&req.reading, req.column);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, req.kind);
     req.opts.progress = (ss_progress){ tool_progress, &req };
-    char *standard[] = { "-" }, **file = argc > optind ? argv + optind : standard;
-    size_t n = argc > optind ? (size_t)(argc - optind) : 1, good = 1;
+    char *standard[] = { "-" }, **file = argc > first ? argv + first : standard;
+    size_t n = argc > first ? (size_t)(argc - first) : 1, good = 1;
     if (n > 1 || req.summary)
         good = write_table(&req, file, n, kind);
     else
-        write_one(&req, tool_input(argc, argv, optind), kind);
+        write_one(&req, tool_input(argc, argv, first), kind);
     tool_reading_free(&req.reading);
     tool_end();
     return good == 0;

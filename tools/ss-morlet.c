@@ -1,12 +1,11 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <sys/stat.h>
-#include "common.h"
+#include "options.h"
 
 static const char usage[] =
 "usage: ss-morlet [options] [FILE] > coefficients\n"
@@ -32,39 +31,6 @@ TOOL_READING_USAGE
 "  -o, --output=FILE      .tsv, .au, .csv, or .h5; --format=tsv|au|csv\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
-enum {
-    OPT_COLUMN = TOOL_OPT_FIRST, OPT_CENTER, OPT_VOICES, OPT_STEP, OPT_DENSE, OPT_DYADIC, OPT_FMIN,
-    OPT_FMAX, OPT_OCTAVES, OPT_METHOD, OPT_ACCURACY, OPT_NORM, OPT_ADMISSIBLE, OPT_DETREND,
-    OPT_FORCE, OPT_THREADS, OPT_STREAM, OPT_INVERSE, OPT_WISDOM, OPT_CHECK,
-    OPT_EXACT_BITS
-};
-
-static const struct option longopts[] = {
-    { "column", required_argument, NULL, OPT_COLUMN }, TOOL_READING_LONGOPTS,
-    { "center", required_argument, NULL, OPT_CENTER },
-    { "voices", required_argument, NULL, OPT_VOICES },
-    { "step", required_argument, NULL, OPT_STEP },
-    { "dense", no_argument, NULL, OPT_DENSE },
-    { "dyadic", no_argument, NULL, OPT_DYADIC },
-    { "fmin", required_argument, NULL, OPT_FMIN },
-    { "fmax", required_argument, NULL, OPT_FMAX },
-    { "octaves", required_argument, NULL, OPT_OCTAVES },
-    { "method", required_argument, NULL, OPT_METHOD },
-    { "accuracy", required_argument, NULL, OPT_ACCURACY },
-    { "norm", required_argument, NULL, OPT_NORM },
-    { "admissible", no_argument, NULL, OPT_ADMISSIBLE },
-    { "detrend", required_argument, NULL, OPT_DETREND },
-    { "force", no_argument, NULL, OPT_FORCE },
-    { "threads", required_argument, NULL, OPT_THREADS },
-    { "stream", no_argument, NULL, OPT_STREAM },
-    { "inverse", no_argument, NULL, OPT_INVERSE },
-    { "wisdom", required_argument, NULL, OPT_WISDOM },
-    { "check", no_argument, NULL, OPT_CHECK },
-    { "exact-bits", no_argument, NULL, OPT_EXACT_BITS },
-    { "format", required_argument, NULL, TOOL_OPT_FORMAT },
-    TOOL_LONGOPTS
-};
-
 /* In the order of the library's enumerations. */
 static const char *const methods[] = { "auto", "quadrature", "fft", NULL };
 static const char *const norms[] = { "l2", "l1", NULL };
@@ -74,16 +40,14 @@ typedef struct request {
     ss_morlet_opts opts;
     tool_reading reading;
     const char *column, *output, *wisdom;
-    int dyadic, grid;                   /* --dyadic; --voices, --step or --dense */
-    int stream, inverse, check, exact_bits;
-    int accurate;                       /* --accuracy was given */
-    int transforms;                     /* an option was given that is of the transform alone */
+    int dyadic, stream, inverse, check, exact_bits;
     tool_kind kind;                     /* what is written */
 } request;
 
 static void
-parse_octaves(ss_morlet_opts *opts, const char *text)
+set_octaves(const tool_option *o, char *text)
 {
+    ss_morlet_opts *opts = o->to;
     double m[2];
     tool_pair("--octaves", text, "M0:M1", ss_morlet_ranges.octave.from,
               ss_morlet_ranges.octave.to, m);
@@ -92,65 +56,49 @@ parse_octaves(ss_morlet_opts *opts, const char *text)
     opts->m1 = m[1];
 }
 
-static void
-set_option(request *req, int c)
+static int
+parse(request *req, int argc, char *argv[])
 {
     const struct ss_morlet_ranges *in = &ss_morlet_ranges;
     ss_morlet_opts *opts = &req->opts;
-    req->grid |= c == OPT_VOICES || c == OPT_STEP || c == OPT_DENSE;
-    req->accurate |= c == OPT_ACCURACY;
-    req->transforms |= c >= OPT_COLUMN && c != OPT_ACCURACY && c != OPT_INVERSE;
-    switch (c) {
-    case OPT_COLUMN:     req->column = optarg; break;
-    case OPT_CENTER:     opts->center = tool_number_in("--center", optarg, in->center); break;
-    case OPT_VOICES:     opts->voices = (int)tool_integer("--voices", optarg, 1, (long)in->voices.to); break;
-    case OPT_STEP:       opts->step = tool_number_in("--step", optarg, in->step); break;
-    case OPT_DENSE:      opts->dense = 1; break;
-    case OPT_DYADIC:     req->dyadic = 1; break;
-    case OPT_FMIN:       opts->fmin = tool_number_in("--fmin", optarg, in->frequency); break;
-    case OPT_FMAX:       opts->fmax = tool_number_in("--fmax", optarg, in->frequency); break;
-    case OPT_OCTAVES:    parse_octaves(opts, optarg); break;
-    case OPT_METHOD:     opts->engine = (ss_engine)tool_choice("--method", optarg, methods); break;
-    case OPT_ACCURACY:   opts->accuracy = tool_number_in("--accuracy", optarg, in->accuracy); break;
-    case OPT_NORM:       opts->norm = (ss_norm)tool_choice("--norm", optarg, norms); break;
-    case OPT_ADMISSIBLE: opts->admissible = 1; break;
-    case OPT_DETREND:    opts->detrend = (ss_detrend)tool_choice("--detrend", optarg, detrends);
-                         break;
-    case OPT_FORCE:      opts->force = 1; break;
-    case OPT_THREADS:    opts->threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
-                         break;
-    case OPT_STREAM:     req->stream = 1; break;
-    case OPT_INVERSE:    req->inverse = 1; break;
-    case OPT_WISDOM:     req->wisdom = optarg;
-                         opts->planner = SS_PLANNER_MEASURE;
-                         break;
-    case OPT_CHECK:      req->check = 1; break;
-    case OPT_EXACT_BITS: req->exact_bits = 1; break;
-    case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
-    case 'o':            req->output = optarg; break;
-    default:
-        if (!tool_reading_option(&req->reading, c, optarg))
-            tool_option(c);
-    }
+    const tool_option options[] = {
+        TOOL_TEXT('c', "column", &req->column), TOOL_NUMBER(0, "center", &opts->center, in->center),
+        TOOL_WHOLE(0, "voices", &opts->voices, in->voices), TOOL_NUMBER(0, "step", &opts->step, in->step),
+        TOOL_FLAG(0, "dense", &opts->dense), TOOL_FLAG(0, "dyadic", &req->dyadic),
+        TOOL_NUMBER(0, "fmin", &opts->fmin, in->frequency),
+        TOOL_NUMBER(0, "fmax", &opts->fmax, in->frequency), TOOL_VALUE(0, "octaves", set_octaves, opts),
+        TOOL_CHOICE(0, "method", &opts->engine, methods),
+        TOOL_NUMBER(0, "accuracy", &opts->accuracy, in->accuracy),
+        TOOL_CHOICE(0, "norm", &opts->norm, norms), TOOL_FLAG(0, "admissible", &opts->admissible),
+        TOOL_CHOICE(0, "detrend", &opts->detrend, detrends), TOOL_FLAG(0, "force", &opts->force),
+        TOOL_THREADS(0, &opts->threads), TOOL_FLAG(0, "stream", &req->stream),
+        TOOL_FLAG(0, "inverse", &req->inverse), TOOL_TEXT(0, "wisdom", &req->wisdom),
+        TOOL_FLAG(0, "check", &req->check), TOOL_FLAG(0, "exact-bits", &req->exact_bits),
+        TOOL_OUTPUT(&req->output), TOOL_FORMAT(&req->kind) };
+    return TOOL_PARSE(argc, argv, options, &req->reading);
 }
 
 /* Options that exclude each other. */
 static void
 check_request(request *req)
 {
+    static const char *const of_inverse[] = { "inverse", "accuracy", "output", "format", "quiet",
+                                              "verbose", NULL };
     ss_morlet_opts *opts = &req->opts;
     if (opts->octaves && (opts->fmin > 0 || opts->fmax > 0))
         tool_usage("--octaves excludes --fmin and --fmax");
     if (opts->fmin > 0 && opts->fmax > 0 && opts->fmin > opts->fmax)
         tool_usage("--fmin lies above --fmax");
-    if (req->dyadic && req->grid)
+    if (req->dyadic && (tool_given("voices") || tool_given("step") || opts->dense))
         tool_usage("--dyadic excludes --voices, --step and --dense");
     if (req->dyadic) {
         opts->voices = 1;
         opts->step = 1;
     }
-    if (req->inverse && (req->transforms || req->reading.given))
+    if (req->inverse && tool_given_others(of_inverse))
         tool_usage("--inverse takes no options but --accuracy, --output and --format");
+    if (req->wisdom != NULL)
+        opts->planner = SS_PLANNER_MEASURE;
     if (req->wisdom != NULL && (strcmp(req->wisdom, "-") == 0 || *req->wisdom == '\0'))
         tool_usage("--wisdom needs a file, which is read and written");
     if (req->stream && opts->fmin == 0 && !opts->octaves)
@@ -358,7 +306,7 @@ invert(const request *req, const char *path)
     ss_coefficients *coef = tool_read_coefficients(path);
     ss_signal *signal;
     ss_error err = { 0 };
-    double error, accuracy = req->accurate ? req->opts.accuracy : 1e-3;
+    double error, accuracy = tool_given("accuracy") ? req->opts.accuracy : 1e-3;
     const ss_progress progress = { tool_progress, NULL };
     check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
           path);
@@ -471,12 +419,10 @@ main(int argc, char *argv[])
     request req = { .opts = ss_morlet_defaults, .kind = TOOL_TSV };
 
     tool_begin(argv, "ss-morlet", usage);
-    tool_reading_begin(&req.reading, argc);
-    for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
-        set_option(&req, c == 'c' ? OPT_COLUMN : c);
+    int first = parse(&req, argc, argv);
     tool_reading_end(&req.reading, req.column);
     check_request(&req);
-    const char *path = tool_input(argc, argv, optind);
+    const char *path = tool_input(argc, argv, first);
     FILE *wisdom = NULL;
     if (req.wisdom != NULL) {
         read_wisdom(req.wisdom);

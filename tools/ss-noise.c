@@ -1,8 +1,7 @@
 /* ss-noise.c -- a signal with noise added, or as a converter gives it. */
-#include "common.h"
+#include "options.h"
 
 #include <float.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -25,16 +24,13 @@ TOOL_READING_USAGE
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum {
-    OPT_SNR = TOOL_OPT_FIRST, OPT_RMS, OPT_BAND, OPT_SEED, OPT_BITS, OPT_RANGE, PIECE = 4096
-};
+enum { PIECE = 4096 };
 
 static const char *path, *output;
 static tool_reading reading;
-static const char **wanted;             /* names of columns */
-static size_t n_wanted;
+static tool_texts wanted;               /* names of columns */
 static double snr = NAN, rms = NAN, band[2] = { NAN, NAN }, range = NAN;
-static long seed = 1, bits;
+static int seed = 1, bits;
 
 /* 1 for each column that was asked for, else 0. */
 static double *
@@ -43,10 +39,10 @@ choose_columns(const ss_header *head)
     double *chosen = calloc(head->n_columns, sizeof *chosen);
     if (chosen == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (size_t c = 0; c < head->n_columns && n_wanted == 0; c++)
+    for (size_t c = 0; c < head->n_columns && wanted.n == 0; c++)
         chosen[c] = 1;
-    for (size_t i = 0; i < n_wanted; i++)
-        chosen[tool_column(head, path, wanted[i])] = 1;
+    for (size_t i = 0; i < wanted.n; i++)
+        chosen[tool_column(head, path, wanted.text[i])] = 1;
     return chosen;
 }
 
@@ -57,7 +53,7 @@ static void
 convert(double *x, size_t n)
 {
     ss_error err = { 0 };
-    tool_check(ss_samples_quantise(x, n, (int)bits, range, &n_clipped, &err), &err);
+    tool_check(ss_samples_quantise(x, n, bits, range, &n_clipped, &err), &err);
     n_converted += n;
 }
 
@@ -80,14 +76,14 @@ add_notes(ss_header *head)
         ss_number_format(number, isnan(rms) ? snr : rms);
         for (int i = 0; i < 2 && !isnan(band[0]); i++)
             ss_number_format(limit[i], band[i]);
-        snprintf(text, sizeof text, "%s %s%s%s%s%s%s%s, seed %ld", isnan(rms) ? "snr" : "rms",
+        snprintf(text, sizeof text, "%s %s%s%s%s%s%s%s, seed %d", isnan(rms) ? "snr" : "rms",
                  number, isnan(rms) ? " dB" : "", isnan(band[0]) ? "" : ", ", limit[0],
                  isnan(band[0]) ? "" : " to ", limit[1], isnan(band[0]) ? "" : " Hz", seed);
         tool_check(ss_header_note(head, "noise", text), NULL);
     }
     if (bits > 0) {
         ss_number_format(number, range);
-        snprintf(text, sizeof text, "%ld bits, range %s", bits, number);
+        snprintf(text, sizeof text, "%d bits, range %s", bits, number);
         tool_check(ss_header_note(head, "converter", text), NULL);
     }
 }
@@ -185,39 +181,27 @@ change_stream(tool_kind kind, ss_noise *noise)
     free(chosen);
 }
 
+static void
+set_band(const tool_option *o, char *text)
+{
+    tool_pair("--band", text, "LO:HI", 0, DBL_MAX, o->to);
+}
+
 int
 main(int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "snr", required_argument, NULL, OPT_SNR }, { "rms", required_argument, NULL, OPT_RMS },
-        { "band", required_argument, NULL, OPT_BAND },
-        { "bits", required_argument, NULL, OPT_BITS },
-        { "range", required_argument, NULL, OPT_RANGE },
-        { "seed", required_argument, NULL, OPT_SEED }, { "column", required_argument, NULL, 'c' },
-        TOOL_READING_LONGOPTS, { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
+    const ss_range decibels = { -1000, 1000 }, size = { 0, DBL_MAX }, spans = { DBL_MIN * 0x1p60, DBL_MAX };
+    const ss_range of_bits = { 1, SS_BITS_MAX }, seeds = { 0, 0x7fffffff };
     tool_kind kind = TOOL_TSV;
     ss_noise *noise;
+    const tool_option options[] = {
+        TOOL_NUMBER(0, "snr", &snr, decibels), TOOL_NUMBER(0, "rms", &rms, size),
+        TOOL_VALUE(0, "band", set_band, band), TOOL_WHOLE(0, "bits", &bits, of_bits),
+        TOOL_NUMBER(0, "range", &range, spans), TOOL_WHOLE(0, "seed", &seed, seeds),
+        TOOL_TEXTS('c', "column", &wanted), TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-noise", usage);
-    tool_reading_begin(&reading, argc);
-    wanted = malloc((size_t)argc * sizeof *wanted);
-    if (wanted == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "c:o:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case OPT_SNR: snr = tool_number("--snr", optarg, -1000, 1000); break;
-        case OPT_RMS: rms = tool_number("--rms", optarg, 0, DBL_MAX); break;
-        case OPT_BAND: tool_pair("--band", optarg, "LO:HI", 0, DBL_MAX, band); break;
-        case OPT_BITS: bits = tool_integer("--bits", optarg, 1, SS_BITS_MAX); break;
-        case OPT_RANGE: range = tool_number("--range", optarg, DBL_MIN * 0x1p60, DBL_MAX); break;
-        case OPT_SEED: seed = tool_integer("--seed", optarg, 0, 0x7fffffff); break;
-        case 'c': wanted[n_wanted++] = optarg; break;
-        case 'o': output = optarg; break;
-        case TOOL_OPT_FORMAT: kind = tool_format(optarg); break;
-        default:
-            if (!tool_reading_option(&reading, c, optarg))
-                tool_option(c);
-        }
+    int first = TOOL_PARSE(argc, argv, options, &reading);
     int noisy = !isnan(snr) || !isnan(rms);
     if (!isnan(snr) && !isnan(rms))
         tool_usage("--snr and --rms exclude each other");
@@ -227,8 +211,8 @@ main(int argc, char *argv[])
         tool_usage("--band needs --snr or --rms");
     if ((bits > 0) == isnan(range))
         tool_usage("--bits and --range need each other");
-    tool_reading_end(&reading, n_wanted == 1 ? wanted[0] : NULL);
-    path = tool_input(argc, argv, optind);
+    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
+    path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
     if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0 || kind == TOOL_H5 || tool_is_hdf5(path))
@@ -237,7 +221,7 @@ main(int argc, char *argv[])
         change_stream(kind, noise);
     ss_noise_free(noise);
     tool_reading_free(&reading);
-    free(wanted);
+    free(wanted.text);
     tool_end();
     return 0;
 }

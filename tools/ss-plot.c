@@ -1,8 +1,7 @@
 /* ss-plot.c -- a signal over time, one panel a column, or one column over another. */
-#include "common.h"
+#include "options.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +26,6 @@ TOOL_READING_USAGE
 "  -v, --verbose        report the input\n"
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
-
-enum { OPT_XY = TOOL_OPT_FIRST, OPT_OVER, OPT_MAP, OPT_LINE, OPT_TITLE };
 
 typedef struct drawing {
     const ss_signal *signal;
@@ -55,16 +52,18 @@ find_signal_column(const drawing *d, const char *path, const char *name)
     return tool_column(head, path, name);
 }
 
-/* Cut "X,Y" in two names. */
+/* --xy X,Y: two columns. */
 static void
-cut_pair(char *pair, const char *name[2])
+set_xy(const tool_option *o, char *pair)
 {
+    tool_texts *name = o->to;
     char *comma = strchr(pair, ',');
     if (comma == NULL || comma == pair || comma[1] == '\0')
         tool_usage("--xy: '%s' is not X,Y", pair);
     *comma = '\0';
-    name[0] = pair;
-    name[1] = comma + 1;
+    name->n = 0;
+    tool_set_texts(o, pair);
+    tool_set_texts(o, comma + 1);
 }
 
 /* --- maps ---------------------------------------------------------------------------------- */
@@ -165,81 +164,65 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
     free(curve);
 }
 
-/* ------------------------------------------------------------------------------------------- */
+/* --- the whole ----------------------------------------------------------------------------- */
+
+/* Draw the named columns of a signal, or all, or one over another. */
+static void
+draw_signal(const char *path, const tool_texts *name, int xy, const char *over, const char *output,
+            const ss_read_opts *reading, ss_plot_opts *opts)
+{
+    ss_signal *signal = tool_read_signal(path, reading);
+    drawing d = { signal, malloc((name->n + 1) * sizeof *d.column), name->n, xy };
+    if (d.column == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (size_t i = 0; i < d.n; i++)
+        d.column[i] = find_signal_column(&d, path, name->text[i]);
+    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
+              signal->head->n_columns);
+    ss_signal *other = over != NULL ? tool_read_signal(over, NULL) : NULL;
+    opts->over = other;
+    tool_draw(output, opts, write_script, &d);
+    ss_signal_free(other);
+    ss_signal_free(signal);
+    free(d.column);
+}
 
 int
 main(int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "column", required_argument, NULL, 'c' }, { "xy", required_argument, NULL, OPT_XY },
-        { "map", required_argument, NULL, OPT_MAP }, { "line", required_argument, NULL, OPT_LINE },
-        { "over", required_argument, NULL, OPT_OVER }, { "title", required_argument, NULL, OPT_TITLE },
-        { "style", required_argument, NULL, TOOL_OPT_STYLE },
-        TOOL_READING_LONGOPTS, TOOL_LONGOPTS };
     ss_plot_opts opts = ss_plot_defaults;
-    tool_reading reading;
+    tool_reading reading = { .rate_letter = 'r' };
     const char *output = NULL, *over = NULL, *map = NULL, *line = NULL;
-    const char **name = malloc(((size_t)argc + 2) * sizeof *name);
-    drawing d = { NULL, malloc(((size_t)argc + 2) * sizeof *d.column), 0, 0 };
+    tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
+    const tool_option options[] = {
+        TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
+        TOOL_TEXT(0, "over", &over), TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
+        TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
 
     tool_begin(argv, "ss-plot", usage);
-    tool_reading_begin(&reading, argc);
-    if (name == NULL || d.column == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c, columns = 0; (c = getopt_long(argc, argv, "c:r:o:qvh", longopts, NULL)) != -1;) {
-        columns += c == 'c';
-        d.xy |= c == OPT_XY;
-        if (d.xy && columns > 0)
-            tool_usage("--xy and --column exclude each other");
-        switch (c) {
-        case 'c': name[d.n++] = optarg; break;
-        case OPT_XY: cut_pair(optarg, name); d.n = 2; break;
-        case OPT_OVER: over = optarg; break;
-        case OPT_MAP: map = optarg; break;
-        case OPT_LINE: line = optarg; break;
-        case OPT_TITLE: opts.title = optarg; break;
-        case TOOL_OPT_STYLE: opts.style = tool_style(optarg); break;
-        case 'r': tool_reading_option(&reading, TOOL_OPT_RATE, optarg); break;
-        case 'o': output = optarg; break;
-        default:
-            if (!tool_reading_option(&reading, c, optarg))
-                tool_option(c);
-        }
-    }
-    const char *path = tool_input(argc, argv, optind);
+    int first = TOOL_PARSE(argc, argv, options, &reading);
+    if (xy.n > 0 && wanted.n > 0)
+        tool_usage("--xy and --column exclude each other");
+    const char *path = tool_input(argc, argv, first);
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
-    tool_reading_end(&reading, !d.xy && d.n == 1 ? name[0] : NULL);
+    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     opts.from = reading.from;           /* the lines go on to the border */
     opts.to = reading.to;
     reading.opts.from = reading.opts.to = 0;
-    if (map != NULL && (d.xy || d.n > 0 || reading.given))
+    if (map != NULL && (xy.n > 0 || wanted.n > 0 || reading.given))
         tool_usage("--map excludes --xy, --column and the options of reading");
-    if (over != NULL && (map != NULL || d.xy))
+    if (over != NULL && (map != NULL || xy.n > 0))
         tool_usage("--over excludes --map and --xy");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {
         check_map(map);
         draw_map(path, map, line, output, &opts);
-        free(d.column);
-        free(name);
-        tool_reading_free(&reading);
-        tool_end();
-        return 0;
+    } else {
+        draw_signal(path, xy.n > 0 ? &xy : &wanted, xy.n > 0, over, output, &reading.opts, &opts);
     }
-    ss_signal *signal = tool_read_signal(path, &reading.opts);
-    d.signal = signal;
-    for (size_t i = 0; i < d.n; i++)
-        d.column[i] = find_signal_column(&d, path, name[i]);
-    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
-              signal->head->n_columns);
-    ss_signal *other = over != NULL ? tool_read_signal(over, NULL) : NULL;
-    opts.over = other;
-    tool_draw(output, &opts, write_script, &d);
-    ss_signal_free(other);
-    ss_signal_free(signal);
-    free(d.column);
-    free(name);
+    free(wanted.text);
+    free(xy.text);
     tool_reading_free(&reading);
     tool_end();
     return 0;

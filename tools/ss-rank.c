@@ -1,11 +1,10 @@
 /* ss-rank -- which friction model explains a signal, criterion by criterion; or the scene that
  * fits. */
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "common.h"
+#include "options.h"
 
 static const char usage[] =
 "usage: ss-rank [options] [SIGNAL [SCENE...]]\n"
@@ -31,12 +30,11 @@ TOOL_READING_USAGE
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 
-enum { OPT_FIT = TOOL_OPT_FIRST };
-
 typedef struct job {
     const char *signal_path, *column_name, *as, *known_by, *output;
-    const char **settings, **scenes;
-    size_t n_settings, n_scenes;
+    tool_texts settings;
+    const char **scenes;
+    size_t n_scenes;
     tool_kind kind;
     tool_reading reading;
     ss_rank_opts opts;
@@ -181,8 +179,8 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
     if (scene == NULL || name == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < j->n_scenes; i++) {
-        scene[i] = tool_read_scene(j->scenes[i], j->settings, j->n_settings);
-        name[i] = tool_name_scene(j->scenes[i], j->settings, j->n_settings);
+        scene[i] = tool_read_scene(j->scenes[i], &j->settings);
+        name[i] = tool_name_scene(j->scenes[i], &j->settings);
     }
     tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
     note_work(r, name, opts);
@@ -297,55 +295,47 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
 static void
 fit(const job *j, const ss_signal *signal, size_t column)
 {
-    ss_scene start = tool_read_scene(j->scenes[0], j->settings, j->n_settings);
+    ss_scene start = tool_read_scene(j->scenes[0], &j->settings);
     (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
+}
+
+static void
+set_quantity(const tool_option *o, char *text)
+{
+    *(const char **)o->to = ss_quantity_names[tool_choice("--as", text, ss_quantity_names)];
 }
 
 int
 main(int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "column", required_argument, NULL, 'c' }, { "as", required_argument, NULL, 'a' },
-        { "set", required_argument, NULL, 's' }, { "spread", required_argument, NULL, 'p' },
-        { "forcing", required_argument, NULL, 'F' }, { "fit", no_argument, NULL, OPT_FIT },
-        TOOL_READING_LONGOPTS,
-        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
-    job j = { .kind = TOOL_TSV, .settings = calloc((size_t)argc, sizeof *j.settings), .opts = ss_rank_defaults };
+    const ss_range percents = { 0, 99 }, frequencies = { 1e-9, 1e12 };
+    job j = { .kind = TOOL_TSV, .opts = ss_rank_defaults };
+    double percent = 100 * j.opts.spread;
     int fits = 0;
+    const tool_option options[] = {
+        TOOL_TEXT('c', "column", &j.column_name), TOOL_VALUE('a', "as", set_quantity, &j.as),
+        TOOL_TEXTS('s', "set", &j.settings), TOOL_NUMBER('p', "spread", &percent, percents),
+        TOOL_NUMBER('F', "forcing", &j.opts.forcing_frequency, frequencies),
+        TOOL_FLAG(0, "fit", &fits), TOOL_OUTPUT(&j.output), TOOL_FORMAT_OF_WORDS(&j.kind) };
 
     tool_begin(argv, "ss-rank", usage);
-    tool_reading_begin(&j.reading, argc);
-    if (j.settings == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "c:a:s:p:F:o:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case 'c': j.column_name = optarg; break;
-        case 'a': j.as = ss_quantity_names[tool_choice("--as", optarg, ss_quantity_names)]; break;
-        case 's': j.settings[j.n_settings++] = optarg; break;
-        case 'p': j.opts.spread = tool_number("--spread", optarg, 0, 99) / 100; break;
-        case 'F': j.opts.forcing_frequency = tool_number("--forcing", optarg, 1e-9, 1e12); break;
-        case OPT_FIT: fits = 1; break;
-        case 'o': j.output = optarg; break;
-        case TOOL_OPT_FORMAT: j.kind = tool_format_of_words(optarg); break;
-        default:
-            if (!tool_reading_option(&j.reading, c, optarg))
-                tool_option(c);
-        }
+    int first = TOOL_PARSE(argc, argv, options, &j.reading);
+    j.opts.spread = percent / 100;
     tool_reading_end(&j.reading, j.column_name);
-    if (fits && argc - optind > 2)
+    if (fits && argc - first > 2)
         tool_usage("--fit takes one scene");
     if (fits)
         tool_writes(j.output);
     else
         j.kind = tool_output_kind(j.output, TOOL_WORDS, j.kind);
-    j.signal_path = optind < argc ? argv[optind] : "-";
+    j.signal_path = first < argc ? argv[first] : "-";
     const char *shipped[16];
     size_t n = 0;
     while (n < sizeof shipped / sizeof *shipped && ss_shipped_scenes[n].name != NULL)
         shipped[n] = ss_shipped_scenes[n].name, n++;
-    j.scenes = optind + 1 < argc ? (const char **)argv + optind + 1 : shipped;
-    j.n_scenes = optind + 1 < argc ? (size_t)(argc - optind - 1) : n;
-    if (fits && optind + 1 >= argc)
+    j.scenes = first + 1 < argc ? (const char **)argv + first + 1 : shipped;
+    j.n_scenes = first + 1 < argc ? (size_t)(argc - first - 1) : n;
+    if (fits && first + 1 >= argc)
         shipped[0] = "compliant-light";
 
     ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);
@@ -362,7 +352,7 @@ main(int argc, char *argv[])
         rank(&j, signal, column, &j.opts);
     ss_signal_free(signal);
     tool_reading_free(&j.reading);
-    free(j.settings);
+    free(j.settings.text);
     tool_end();
     return 0;
 }

@@ -1,11 +1,9 @@
 /* ss-sim -- simulate a scene; write samples or events. */
 #include <errno.h>
-#include <getopt.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "common.h"
+#include "options.h"
 
 static const char usage[] =
 "usage: ss-sim [options] SCENE\n"
@@ -30,14 +28,11 @@ static const char usage[] =
 "  -v, --verbose         report the method, the work and the cost\n"
 "  -h, --help            show this text; --version: show the version\n";
 
-enum { OPT_MAX_STEPS = TOOL_OPT_FIRST };
-
 /* What was asked for. */
 typedef struct request {
     const char *base;                   /* NULL: the scene's */
     const char *scene_path, *path;      /* path: of the output, NULL or "-" for standard output */
-    const char **settings;
-    size_t n_settings;
+    tool_texts settings;
     ss_sim_columns columns;
     int events, list;
     tool_kind kind;
@@ -149,7 +144,7 @@ list(void)
 static void
 write_scene(const request *req, const ss_scene *scene)
 {
-    char *name = tool_name_scene(req->scene_path, req->settings, req->n_settings);
+    char *name = tool_name_scene(req->scene_path, &req->settings);
     FILE *out = tool_output(req->path);
     fprintf(out, "# %s\n", name);
     free(name);
@@ -217,7 +212,7 @@ static void
 note_origin(ss_header *head, const request *req)
 {
     const ss_sim_opts *opts = &req->opts;
-    char tol[SS_NUMBER_MAX], *name = tool_name_scene(req->scene_path, req->settings, req->n_settings);
+    char tol[SS_NUMBER_MAX], *name = tool_name_scene(req->scene_path, &req->settings);
     ss_number_format(tol, opts->tol);
     if (ss_header_note(head, "scene", name) != SS_OK
         || ss_header_note(head, "integrator", opts->method) != SS_OK
@@ -227,45 +222,30 @@ note_origin(ss_header *head, const request *req)
 }
 
 static void
+set_columns(const tool_option *o, char *text)
+{
+    ss_error err = { 0 };
+    if (ss_sim_columns_parse(o->to, text, &err) != SS_OK)
+        tool_usage("--columns: %s", err.text);
+}
+
+static void
 parse(request *req, int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "set", required_argument, NULL, 's' },
-        { "base", required_argument, NULL, 'b' }, { "columns", required_argument, NULL, 'c' },
-        { "events", no_argument, NULL, 'e' }, { "method", required_argument, NULL, 'm' },
-        { "tol", required_argument, NULL, 't' },
-        { "accuracy", required_argument, NULL, 'a' },
-        { "max-steps", required_argument, NULL, OPT_MAX_STEPS },
-        { "list", no_argument, NULL, 'l' },
-        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
     ss_sim_opts *opts = &req->opts;
-    ss_error err = { 0 };
-
-    for (int c; (c = getopt_long(argc, argv, "s:b:c:em:t:a:lo:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case 's': req->settings[req->n_settings++] = optarg; break;
-        case 'b': req->base = optarg; break;
-        case 'c':
-            if (ss_sim_columns_parse(&req->columns, optarg, &err) != SS_OK)
-                tool_usage("--columns: %s", err.text);
-            break;
-        case 'e': req->events = 1; break;
-        case 'm': opts->method = tool_method(optarg); break;
-        case 't': opts->tol = tool_number_in("--tol", optarg, ss_sim_tolerances); break;
-        case 'a': req->accuracy = tool_number_in("--accuracy", optarg, ss_trade_accuracies); break;
-        case OPT_MAX_STEPS:
-            opts->max_steps = (unsigned long)tool_integer("--max-steps", optarg, 1, LONG_MAX);
-            break;
-        case 'l': req->list = 1; break;
-        case TOOL_OPT_FORMAT: req->kind = tool_format(optarg); break;
-        case 'o': req->path = optarg; break;
-        default: tool_option(c);
-        }
-    if (optind == argc && req->list)
+    const tool_option options[] = {
+        TOOL_TEXTS('s', "set", &req->settings), TOOL_TEXT('b', "base", &req->base),
+        TOOL_VALUE('c', "columns", set_columns, &req->columns), TOOL_FLAG('e', "events", &req->events),
+        TOOL_METHOD('m', &opts->method), TOOL_NUMBER('t', "tol", &opts->tol, ss_sim_tolerances),
+        TOOL_NUMBER('a', "accuracy", &req->accuracy, ss_trade_accuracies),
+        TOOL_COUNT(0, "max-steps", &opts->max_steps), TOOL_FLAG('l', "list", &req->list),
+        TOOL_OUTPUT(&req->path), TOOL_FORMAT(&req->kind) };
+    int first = TOOL_PARSE(argc, argv, options, NULL);
+    if (first == argc && req->list)
         list();
-    if (optind == argc)
+    if (first == argc)
         tool_usage("SCENE is missing: give a file, or a name that --list shows");
-    req->scene_path = tool_input(argc, argv, optind);
+    req->scene_path = tool_input(argc, argv, first);
     if (req->list)
         return;
     req->kind = tool_output_kind(req->path, req->events ? TOOL_WORDS : TOOL_SIGNALS, req->kind);
@@ -307,15 +287,12 @@ main(int argc, char *argv[])
     ss_error err = { 0 };
 
     tool_begin(argv, "ss-sim", usage);
-    req.settings = calloc((size_t)argc, sizeof *req.settings);
-    if (req.settings == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
     ss_sim_columns_parse(&req.columns, "t,x,v,a,f", NULL);
     parse(&req, argc, argv);
-    ss_scene scene = tool_read_scene(req.scene_path, req.settings, req.n_settings);
+    ss_scene scene = tool_read_scene(req.scene_path, &req.settings);
     if (req.list) {
         write_scene(&req, &scene);
-        free(req.settings);
+        free(req.settings.text);
         tool_end();
         return 0;
     }
@@ -348,7 +325,7 @@ main(int argc, char *argv[])
         tool_warn("%lu slips and touches of the limit are smaller than the error of x: x is right, "
                   "their number and times are not resolved", stats.unresolved);
     finish(&o, ss_model_has_events(scene.model));
-    free(req.settings);
+    free(req.settings.text);
     tool_end();
     return 0;
 }

@@ -1,11 +1,9 @@
 /* ss-sweep -- the periodic state of a scene in numbers, over a grid of its parameters. */
 #include <errno.h>
-#include <getopt.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "common.h"
+#include "options.h"
 
 static const char usage[] =
 "usage: ss-sweep [options] --vary=KEY=FROM:TO:N[:log] ... SCENE\n"
@@ -33,14 +31,10 @@ static const char usage[] =
 "  -o, --output=FILE     .tsv or .csv; --format=tsv|csv of standard output\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
-enum { OPT_SHOOT = TOOL_OPT_FIRST, OPT_SIMULATE, OPT_PERIOD, OPT_CYCLES, OPT_STEPS, OPT_SETTLE, OPT_METHOD,
-       OPT_SHARD };
-
 typedef struct request {
     const char *scene_path, *path, *resume;
     tool_kind kind;
-    const char **settings;
-    size_t n_settings;
+    tool_texts settings;
     ss_axis *axis;
     ss_sweep_opts opts;
     ss_measure pick[SS_MEASURES];       /* the measures, in the order asked for */
@@ -72,8 +66,9 @@ pick_measure(request *req, const char *name, size_t length)
 }
 
 static void
-pick_measures(request *req, const char *names)
+set_measures(const tool_option *o, char *names)
 {
+    request *req = o->to;
     req->opts.steady.measures = 0;
     req->n_picks = 0;
     for (const char *name = names;; name++) {
@@ -100,8 +95,9 @@ pick_usual(request *req, ss_model model)
 }
 
 static void
-parse_shard(ss_sweep_opts *opts, const char *text)
+set_shard(const tool_option *o, char *text)
 {
+    ss_sweep_opts *opts = o->to;
     char *slash, *end;
     long i = strtol(text, &slash, 10), n = *slash == '/' ? strtol(slash + 1, &end, 10) : 0;
     if (*slash != '/' || slash == text || end == slash + 1 || *end != '\0' || n < 1 || i < 0
@@ -111,61 +107,52 @@ parse_shard(ss_sweep_opts *opts, const char *text)
     opts->shards = (size_t)n;
 }
 
-static unsigned long
-count(const char *option, const char *text)
+static void
+add_axis(const tool_option *o, char *text)
 {
-    return (unsigned long)tool_integer(option, text, 1, LONG_MAX);
+    request *req = o->to;
+    ss_error err = { 0 };
+    req->axis = realloc(req->axis, (req->opts.n_axes + 1) * sizeof *req->axis);
+    if (req->axis == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    if (ss_axis_parse(&req->axis[req->opts.n_axes++], text, &err) != SS_OK)
+        tool_usage("--vary: %s", err.text);
+}
+
+static void
+simulate(const tool_option *o, char *text)
+{
+    (void)text;
+    *(ss_search *)o->to = SS_SEARCH_SIMULATE;
+}
+
+static void
+shoot(const tool_option *o, char *text)
+{
+    (void)text;
+    *(ss_search *)o->to = SS_SEARCH_SHOOT;
 }
 
 static void
 parse(request *req, int argc, char *argv[])
 {
-    static const struct option longopts[] = {
-        { "vary", required_argument, NULL, 'y' }, { "measure", required_argument, NULL, 'm' },
-        { "set", required_argument, NULL, 's' }, { "shoot", no_argument, NULL, OPT_SHOOT },
-        { "simulate", no_argument, NULL, OPT_SIMULATE },
-        { "tol", required_argument, NULL, 't' },
-        { "max-period", required_argument, NULL, OPT_PERIOD },
-        { "max-cycles", required_argument, NULL, OPT_CYCLES },
-        { "max-steps", required_argument, NULL, OPT_STEPS },
-        { "settle-cycles", required_argument, NULL, OPT_SETTLE },
-        { "method", required_argument, NULL, OPT_METHOD },
-        { "threads", required_argument, NULL, 'j' },
-        { "shard", required_argument, NULL, OPT_SHARD },
-        { "resume", required_argument, NULL, 'r' }, { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
+    const ss_range periods = { 1, SS_PERIOD_MAX };
     ss_steady_opts *steady = &req->opts.steady;
-    ss_error err = { 0 };
-
-    for (int c; (c = getopt_long(argc, argv, "y:m:s:t:j:r:o:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case 'y':
-            if (ss_axis_parse(&req->axis[req->opts.n_axes++], optarg, &err) != SS_OK)
-                tool_usage("--vary: %s", err.text);
-            break;
-        case 'm': pick_measures(req, optarg); break;
-        case 's': req->settings[req->n_settings++] = optarg; break;
-        case OPT_SIMULATE: steady->search = SS_SEARCH_SIMULATE; break;
-        case OPT_SHOOT: steady->search = SS_SEARCH_SHOOT; break;
-        case 't': steady->tol = tool_number_in("--tol", optarg, ss_steady_tolerances); break;
-        case OPT_PERIOD:
-            steady->max_period = (int)tool_integer("--max-period", optarg, 1, SS_PERIOD_MAX);
-            break;
-        case OPT_CYCLES: steady->max_cycles = count("--max-cycles", optarg); break;
-        case OPT_STEPS: steady->max_steps = count("--max-steps", optarg); break;
-        case OPT_SETTLE: steady->settle = count("--settle-cycles", optarg); break;
-        case OPT_METHOD: steady->method = tool_method(optarg); break;
-        case 'j':
-            req->opts.threads = (int)tool_integer("--threads", optarg, 1, SS_THREADS_MAX);
-            break;
-        case OPT_SHARD: parse_shard(&req->opts, optarg); break;
-        case 'r': req->resume = optarg; break;
-        case 'o': req->path = optarg; break;
-        case TOOL_OPT_FORMAT: req->kind = tool_format_of_words(optarg); break;
-        default: tool_option(c);
-        }
-    if (optind == argc)
+    const tool_option options[] = {
+        TOOL_VALUE('y', "vary", add_axis, req), TOOL_VALUE('m', "measure", set_measures, req),
+        TOOL_TEXTS('s', "set", &req->settings), TOOL_CALL(0, "simulate", simulate, &steady->search),
+        TOOL_CALL(0, "shoot", shoot, &steady->search),
+        TOOL_NUMBER('t', "tol", &steady->tol, ss_steady_tolerances),
+        TOOL_WHOLE(0, "max-period", &steady->max_period, periods),
+        TOOL_COUNT(0, "max-cycles", &steady->max_cycles), TOOL_COUNT(0, "max-steps", &steady->max_steps),
+        TOOL_COUNT(0, "settle-cycles", &steady->settle), TOOL_METHOD(0, &steady->method),
+        TOOL_THREADS('j', &req->opts.threads), TOOL_VALUE(0, "shard", set_shard, &req->opts),
+        TOOL_TEXT('r', "resume", &req->resume), TOOL_OUTPUT(&req->path),
+        TOOL_FORMAT_OF_WORDS(&req->kind) };
+    int first = TOOL_PARSE(argc, argv, options, NULL);
+    if (first == argc)
         tool_usage("SCENE is missing: give a file, or the name of a shipped scene");
-    req->scene_path = tool_input(argc, argv, optind);
+    req->scene_path = tool_input(argc, argv, first);
     req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, req->kind));
     if (req->resume != NULL && strcmp(req->resume, "-") == 0)
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
@@ -222,8 +209,8 @@ open_rows(request *req)
 static void
 check_settings(const request *req)
 {
-    for (size_t i = 0; i < req->n_settings; i++) {
-        const char *name = req->settings[i] + strspn(req->settings[i], " \t");
+    for (size_t i = 0; i < req->settings.n; i++) {
+        const char *name = req->settings.text[i] + strspn(req->settings.text[i], " \t");
         size_t length = strcspn(name, " \t=");
         for (size_t k = 0; k < req->opts.n_axes; k++)
             if (strlen(req->axis[k].key) == length
@@ -240,13 +227,9 @@ main(int argc, char *argv[])
     ss_error err = { 0 };
 
     tool_begin(argv, "ss-sweep", usage);
-    req.settings = calloc((size_t)argc, sizeof *req.settings);
-    req.axis = calloc((size_t)argc, sizeof *req.axis);
-    if (req.settings == NULL || req.axis == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
     parse(&req, argc, argv);
     check_settings(&req);
-    ss_scene scene = tool_read_scene(req.scene_path, req.settings, req.n_settings);
+    ss_scene scene = tool_read_scene(req.scene_path, &req.settings);
     if (req.n_picks == 0)
         pick_usual(&req, scene.model);
     req.opts.axis = req.axis;
@@ -254,7 +237,7 @@ main(int argc, char *argv[])
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)
         tool_usage("%s", err.text);
 
-    char *name = tool_name_scene(req.scene_path, req.settings, req.n_settings);
+    char *name = tool_name_scene(req.scene_path, &req.settings);
     req.text = (ss_sweep_text){ .name = name, .scene = &scene, .opts = &req.opts,
                                 .measure = req.pick, .n_measures = req.n_picks,
                                 .format = req.text.format };
@@ -266,7 +249,7 @@ main(int argc, char *argv[])
     tool_check(st, &err);
     tool_note("%zu points, %zu of them incomplete", req.rows, req.failed);
     free(name);
-    free(req.settings);
+    free(req.settings.text);
     free(req.axis);
     tool_end();
     return 0;

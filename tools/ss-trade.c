@@ -2,11 +2,10 @@
  * what a simpler scene costs in accuracy, measured on this machine. */
 #include <ctype.h>
 #include <float.h>
-#include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "common.h"
+#include "options.h"
 
 static const char usage[] =
 "usage: ss-trade [options] SCENE|SIGNAL\n"
@@ -56,8 +55,8 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 
 /* What the command line asks for. */
 typedef struct request {
-    const char **settings, *column, *output, *path;
-    size_t n_settings;
+    const char *column, *output, *path;
+    tool_texts settings;
     tool_reading reading;
     tool_kind kind;
     int dense, models;
@@ -132,8 +131,8 @@ measure_scene(request *req)
     ss_error err = { 0 };
     if (req->column != NULL || req->dense || req->reading.given)
         tool_usage("--column, --dense and options of reading are for a signal, and %s is a scene", req->path);
-    ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
-    req->name = tool_name_scene(req->path, req->settings, req->n_settings);
+    ss_scene scene = tool_read_scene(req->path, &req->settings);
+    req->name = tool_name_scene(req->path, &req->settings);
     tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
     tool_note("%zu rows against %s, whose x is known within %.2g of its maximum", trade->n,
               trade->reference, trade->known_x);
@@ -146,11 +145,11 @@ measure_signal(request *req)
     ss_trade *trade = NULL;
     ss_error err = { 0 };
     ss_morlet_opts grid = ss_morlet_defaults;
-    if (req->n_settings > 0)
+    if (req->settings.n > 0)
         tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));
     ss_signal *signal = tool_read_signal(req->path, &req->reading.opts);
     size_t column = tool_column(signal->head, req->path, req->column);
-    req->name = tool_name_scene(req->path, NULL, 0);
+    req->name = tool_name_scene(req->path, &(tool_texts){ NULL, 0 });
     grid.dense = req->dense;
     tool_check(ss_trade_transform(&trade, signal->values + column * signal->n, signal->n,
                                   signal->head->rate, &grid, &req->opts, &err), &err);
@@ -162,8 +161,9 @@ measure_signal(request *req)
 /* --- simpler scenes ------------------------------------------------------------------------ */
 
 static void
-set_needs(request *req, const char *list)
+set_needs(const tool_option *o, char *list)
 {
+    request *req = o->to;
     ss_error err = { 0 };
     req->models = 1;
     if (ss_needs_parse(req->need, &req->n_needs, list, &err) != SS_OK)
@@ -192,8 +192,8 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     ss_models *models = NULL;
     ss_models_opts opts = ss_models_defaults;
     ss_error err = { 0 };
-    ss_scene scene = tool_read_scene(req->path, req->settings, req->n_settings);
-    req->name = tool_name_scene(req->path, req->settings, req->n_settings);
+    ss_scene scene = tool_read_scene(req->path, &req->settings);
+    req->name = tool_name_scene(req->path, &req->settings);
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
     opts.progress.function = tool_progress;
     tool_check(ss_models_measure(&models, &scene, &opts, &err), &err);
@@ -225,40 +225,23 @@ trade_accuracy(request *req, tool_kind kind, ss_plot_opts *plot)
 int
 main(int argc, char *argv[])
 {
-    enum { OPT_DENSE = TOOL_OPT_FIRST };
-    static const struct option longopts[] = {
-        { "set", required_argument, NULL, 's' }, { "budget", required_argument, NULL, 'b' },
-        { "target", required_argument, NULL, 't' }, { "column", required_argument, NULL, 'c' },
-        { "models", no_argument, NULL, 'm' }, { "need", required_argument, NULL, 'n' },
-        { "dense", no_argument, NULL, OPT_DENSE }, TOOL_READING_LONGOPTS,
-        { "format", required_argument, NULL, TOOL_OPT_FORMAT }, TOOL_LONGOPTS };
-    request req = { .kind = TOOL_TSV, .opts = ss_trade_defaults, .settings = calloc((size_t)argc, sizeof *req.settings) };
+    const ss_range budgets = { 1e-6, DBL_MAX }, targets = { 1e-14, 1 };
+    request req = { .kind = TOOL_TSV, .opts = ss_trade_defaults };
     ss_plot_opts plot = ss_plot_defaults;
+    const tool_option options[] = {
+        TOOL_TEXTS('s', "set", &req.settings), TOOL_TEXT('c', "column", &req.column),
+        TOOL_FLAG(0, "dense", &req.dense), TOOL_NUMBER('b', "budget", &req.opts.budget, budgets),
+        TOOL_NUMBER('t', "target", &req.opts.target, targets), TOOL_FLAG('m', "models", &req.models),
+        TOOL_VALUE('n', "need", set_needs, &req), TOOL_OUTPUT(&req.output),
+        TOOL_FORMAT_OF_WORDS(&req.kind) };
 
     tool_begin(argv, "ss-trade", usage);
-    tool_reading_begin(&req.reading, argc);
-    if (req.settings == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (int c; (c = getopt_long(argc, argv, "s:c:b:t:mn:o:qvh", longopts, NULL)) != -1;)
-        switch (c) {
-        case 's': req.settings[req.n_settings++] = optarg; break;
-        case 'c': req.column = optarg; break;
-        case 'b': req.opts.budget = tool_number("--budget", optarg, 1e-6, DBL_MAX); break;
-        case 't': req.opts.target = tool_number("--target", optarg, 1e-14, 1); break;
-        case 'm': req.models = 1; break;
-        case 'n': set_needs(&req, optarg); break;
-        case 'o': req.output = optarg; break;
-        case TOOL_OPT_FORMAT: req.kind = tool_format_of_words(optarg); break;
-        case OPT_DENSE: req.dense = 1; break;
-        default:
-            if (!tool_reading_option(&req.reading, c, optarg))
-                tool_option(c);
-        }
+    int first = TOOL_PARSE(argc, argv, options, &req.reading);
     tool_reading_end(&req.reading, req.column);
-    if (optind == argc)
+    if (first == argc)
         tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
-    if (optind + 1 != argc)
-        tool_usage("unexpected argument '%s'", argv[optind + 1]);
+    if (first + 1 != argc)
+        tool_usage("unexpected argument '%s'", argv[first + 1]);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, req.kind);
     if (req.opts.target > 0 && kind < TOOL_STREAM)
         tool_usage("--target writes options, not a picture");
@@ -267,7 +250,7 @@ main(int argc, char *argv[])
     if (req.n_needs > 0 && kind < TOOL_STREAM)
         tool_usage("--need writes an answer, not a picture");
 
-    req.path = argv[optind];
+    req.path = argv[first];
     req.opts.progress.function = tool_progress;
     if (req.models)
         compare_models(&req, kind, &plot);
@@ -275,7 +258,7 @@ main(int argc, char *argv[])
         trade_accuracy(&req, kind, &plot);
     free(req.name);
     tool_reading_free(&req.reading);
-    free(req.settings);
+    free(req.settings.text);
     tool_end();
     return 0;
 }

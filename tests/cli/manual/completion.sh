@@ -38,10 +38,11 @@ LINES
     for tool in "$SRC"/tools/ss-*.c; do
         name=$(basename "$tool" .c)
         echo "$name --"
-        { cat "$tool"; sed -n '/define TOOL_LONGOPTS/,/NULL, 0, NULL/p' "$SRC/tools/common.h"
-          ! grep -q TOOL_READING_LONGOPTS "$tool" || sed -n '/define TOOL_READING_LONGOPTS/,/"unit"/p' "$SRC/tools/common.h"; } |
-            tr '\n' ' ' | grep -oE '\{ "[a-z-]+", (required|no)_argument' | sort -u |
-            tee "$name.options" | sed -n "s/{ \"\(.*\)\", required.*/$name --\1=/p" |
+        set -- "$tool" "$SRC/tools/options.c"
+        ! grep -q 'tool_reading reading' "$tool" || set -- "$@" "$SRC/tools/reading.c"
+        grep -ohE 'TOOL_[A-Z]+\([^,()]*, "[a-z-]+"|TOOL_(OUTPUT|FORMAT|METHOD|STYLE|THREADS)[A-Z_]*\(' "$@" |
+            sed -e 's/.*_\([A-Z]*\)(.*"\(.*\)"/\2 \1/' -e 's/_OF_WORDS//' -e 's/TOOL_\(.*\)(/\1 VALUE/' | tr A-Z a-z |
+            sort -u | tee "$name.options" | sed -n -e '/ flag$/d' -e '/ call$/d' -e "s/\(.*\) .*/$name --\1=/p" |
             grep -v -e '--output=' -e '--events=' -e '--features=' -e '--line=' -e '--signal=' \
                 -e '--wisdom=' -e '--resume='        # files
     done
@@ -65,7 +66,7 @@ BASH
 sed -n '/^ss-[a-z]* --: /!p' in-bash
 sed -n 's/^\(ss-[a-z]*\) --: /\1 /p' in-bash | while read -r tool options; do
     echo "$options" | tr ' ' '\n' | sed 's/^--//' | sort > offered
-    sed 's/.*"\(.*\)".*/\1/' "$tool.options" | sort | diff - offered || echo "of $tool"
+    sed 's/ .*//' "$tool.options" | sort | diff - offered || echo "of $tool"
 done
 # Every tool and none else.
 for tool in "$SRC"/tools/ss-*.c; do
