@@ -22,6 +22,7 @@ typedef struct fitter {
     size_t n;                   /* samples */
     double noise;               /* variance */
     double *limit;              /* see ss_sticks_belong; 0: not known yet */
+    double *median;             /* of chi-square of so many degrees of freedom; 0: not known yet */
     size_t n_gaps;
     const ss_window *gap;
     int is_train;               /* what was fitted last: of micro-slips, see ss_slips_recur */

@@ -1,8 +1,8 @@
 /* maxima.c -- local maxima of |W| and how far they stand out.
  *
- * From every point a way leads to its highest neighbour, and so on up to a peak: all the points
- * whose ways end there are its basin.  Ways only rise, so the basins of two peaks join at the highest
- * point of their border, and the borders alone say what flooding the whole map from above would: they
+ * From every point a way leads to a higher neighbour, and so on up to a peak: all the points whose ways
+ * end there are its basin.  Ways only rise, whichever they are, so the basins of two peaks join at the
+ * highest point of their border, and the borders alone say what flooding the whole map from above would: they
  * are taken from the highest down, and where two pools meet, the one with the lower peak ends.  That
  * border is the highest saddle between this peak and any higher one: the prominence is the fall from
  * peak to saddle.
@@ -165,33 +165,19 @@ fill(map *m)
 
 /* --- passing over a strip -------------------------------------------------------------------- */
 
-typedef void touch(map *m, size_t p, size_t q);
-
-/* Neighbours in two rows: of each point the one nearest in time, the first and the last beyond. */
-static inline void
-touch_rows(map *m, size_t row, size_t beside, touch *meet)
+/* The point of a row nearest in time to point i of another, the first and the last beyond: its steps over
+ * theirs are ratio. */
+static inline size_t
+nearest(size_t i, double ratio, const ss_scale *in)
 {
-    const ss_scale *from = scale_of(m, row), *to = scale_of(m, beside);
-    const line *a = &m->line[row - m->first], *b = &m->line[beside - m->first];
-    double ratio = from->b_num / from->b_den / (to->b_num / to->b_den);
-    for (size_t i = a->lo; i < a->hi; i++) {
-        if (m->level[a->at + (i - a->lo)] == 0)         /* most of noise is */
-            continue;
-        double at = (double)i * ratio + 0.5;
-        size_t j = at < (double)to->n ? (size_t)at : to->n - 1;
-        if (j >= b->lo && j < b->hi && m->level[b->at + (j - b->lo)] > 0)
-            meet(m, a->at + (i - a->lo), b->at + (j - b->lo));
-    }
+    double at = (double)(ptrdiff_t)i * ratio + 0.5;
+    return at < (double)(ptrdiff_t)in->n ? (size_t)(ptrdiff_t)at : in->n - 1;
 }
 
-/* The rows beside each other. */
-static inline void
-touch_all_rows(map *m, touch *meet)
+static double
+ratio_of(const ss_scale *from, const ss_scale *to)
 {
-    for (size_t row = m->first; row < m->last; row++) {
-        touch_rows(m, row, row + 1, meet);
-        touch_rows(m, row + 1, row, meet);
-    }
+    return from->b_num / from->b_den / (to->b_num / to->b_den);
 }
 
 /* --- ways and peaks ------------------------------------------------------------------------ */
@@ -203,25 +189,44 @@ is_higher(const double *level, size_t p, size_t q)
     return (level[p] > level[q]) | ((level[p] == level[q]) & (p < q));
 }
 
-static inline void
-climb(map *m, size_t p, size_t q)
+/* The highest of a point and of its neighbours in a row beside, those that it is nearest to, too. */
+static size_t
+highest_beside(const map *m, size_t row, size_t i, size_t beside, size_t highest)
 {
-    int up = is_higher(m->level, p, q);
-    size_t high = up ? p : q, low = up ? q : p, way = m->way[low];
-    m->way[low] = is_higher(m->level, high, way) ? high : way;
+    const ss_scale *from = scale_of(m, row), *to = scale_of(m, beside);
+    const line *b = &m->line[beside - m->first];
+    double ratio = ratio_of(from, to), back = ratio_of(to, from);
+    size_t mine = nearest(i, ratio, to), reach = (size_t)(ratio / 2) + 2;
+    for (size_t j = mine > reach ? mine - reach : 0; j <= mine + reach && j < to->n; j++)
+        if (j >= b->lo && j < b->hi && (j == mine || nearest(j, back, from) == i)
+            && is_higher(m->level, b->at + (j - b->lo), highest))
+            highest = b->at + (j - b->lo);
+    return highest;
 }
 
-/* The ways along a row. */
+static size_t
+highest_across(const map *m, size_t row, size_t i, size_t highest)
+{
+    if (row > m->first)
+        highest = highest_beside(m, row, i, row - 1, highest);
+    return row < m->last ? highest_beside(m, row, i, row + 1, highest) : highest;
+}
+
+/* The ways of a row: along it if they rise there, as it does not matter which way up is taken; from its
+ * maxima to the rows beside. */
 static void
-climb_along(map *m, const line *l)
+climb(map *m, size_t row)
 {
     const double *level = m->level;
+    const line *l = &m->line[row - m->first];
     size_t end = l->at + (l->hi - l->lo);
     for (size_t p = l->at; p < end; p++) {
         size_t before = p > l->at ? p - 1 : p, behind = p + 1 < end ? p + 1 : p;
         size_t way = is_higher(level, before, p) ? before : p;
         way = is_higher(level, behind, way) ? behind : way;
         m->way[p] = level[p] > 0 ? way : DRY;
+        if (m->way[p] == p)
+            m->way[p] = highest_across(m, row, l->lo + (p - l->at), p);
     }
 }
 
@@ -297,8 +302,7 @@ static void
 find_ways(map *m)
 {
     for (size_t row = m->first; row <= m->last; row++)
-        climb_along(m, &m->line[row - m->first]);
-    touch_all_rows(m, climb);
+        climb(m, row);
     for (size_t row = m->first; row <= m->last; row++)
         find_ends(m, row);
     for (size_t row = m->first; row <= m->last && !m->failed; row++)
@@ -343,6 +347,20 @@ add_border(map *m, size_t at, size_t beside)
     *slot = found;
 }
 
+/* Between each point of a row and its neighbour beside. */
+static void
+find_borders_of(map *m, size_t row, size_t beside, double ratio)
+{
+    const line *a = &m->line[row - m->first], *b = &m->line[beside - m->first];
+    for (size_t i = a->lo, p = a->at; i < a->hi; i++, p++) {
+        if (m->way[p] == DRY)                           /* most of noise is */
+            continue;
+        size_t j = nearest(i, ratio, scale_of(m, beside));
+        if (j >= b->lo && j < b->hi)
+            add_border(m, p, b->at + (j - b->lo));
+    }
+}
+
 static void
 find_borders(map *m)
 {
@@ -350,8 +368,13 @@ find_borders(map *m)
         const line *l = &m->line[row - m->first];
         for (size_t i = 1; i < l->hi - l->lo; i++)
             add_border(m, l->at + i - 1, l->at + i);
+        if (row == m->last)
+            break;
+        const ss_scale *here = scale_of(m, row), *next = scale_of(m, row + 1);
+        find_borders_of(m, row, row + 1, ratio_of(here, next));
+        if (ratio_of(here, next) != 1 || here->n != next->n)    /* or they are the same */
+            find_borders_of(m, row + 1, row, ratio_of(next, here));
     }
-    touch_all_rows(m, add_border);
 }
 
 /* Strip by strip, of as many points as there is room for, about. */

@@ -252,8 +252,9 @@ ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchor
     size_t room = (size_t)ceil(4 * MOST * turn) + 2 * VARPRO_COLUMNS;
     room = room < n + 1 ? room : n + 1;         /* longer than any window */
     ss_status st = ss_varpro_init(&k.fit, x, room);
-    if (st == SS_OK && (k.limit = calloc(room, sizeof *k.limit)) == NULL)
+    if (st == SS_OK && (k.limit = calloc(2 * room, sizeof *k.limit)) == NULL)
         st = SS_ENOMEM;
+    k.median = k.limit != NULL ? k.limit + room : NULL;
     ss_varpro_start(&k.fit, w, START * w, 0);
     if (st == SS_OK)
         st = fit_both(&k, anchor, n_anchors, white, window, value, each, forcing);

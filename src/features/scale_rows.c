@@ -29,7 +29,8 @@
 static int
 missing(const row_source *source, size_t i)
 {
-    return ss_gaps_near(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
+    return source->n_gaps > 0
+        && ss_gaps_near(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
 }
 
 /* The step of the converter that the samples came through, 0 if none is seen: the smallest change,

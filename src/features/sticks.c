@@ -27,8 +27,10 @@ ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
         if (ss_window_length(window[i]) <= k->fit.columns)
             continue;
         linear fitted = ss_varpro_project(&k->fit, window[i]);
-        double freedom = (double)(ss_window_length(window[i]) - k->fit.columns);
-        variance[used] = fitted.rss / gsl_cdf_chisq_Pinv(0.5, freedom);
+        size_t freedom = ss_window_length(window[i]) - k->fit.columns;
+        if (!(k->median[freedom] > 0))
+            k->median[freedom] = gsl_cdf_chisq_Pinv(0.5, (double)freedom);
+        variance[used] = fitted.rss / k->median[freedom];
         ring[used++] = fitted.ring / (double)ss_window_length(window[i]);
     }
     if (used > 0)

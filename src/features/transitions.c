@@ -36,30 +36,42 @@ same_kind(const ss_maximum *m, double f)
     return fabs(log2(m->f / f)) <= BAND;
 }
 
+typedef struct gathered {
+    double octave, level;       /* of a maximum */
+} gathered;
+
 /* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do.
  * An oscillation within a transition is faster than what repeats. */
-static double
-find_recurrent(const search *s, double prominence)
+static ss_status
+find_recurrent(const search *s, double prominence, double *f)
 {
-    double best = 0, best_level = 0, slowest = s->out->repetition_frequency.value;
-    size_t most = FEW - 1;
+    double best_level = 0, slowest = s->out->repetition_frequency.value;
+    size_t most = FEW - 1, n = 0;
+    gathered *list = malloc((s->n_found + 1) * sizeof *list);
+    *f = 0;
+    if (list == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < s->n_found; i++)
+        if (s->found[i].prominence >= prominence)
+            list[n++] = (gathered){ log2(s->found[i].f), s->found[i].level };
+    if (n > 1)
+        qsort(list, n, sizeof *list, ss_ascending);
     for (size_t i = 0; i < s->n_found; i++) {
-        double level = 0;
-        size_t count = 0;
-        if (s->found[i].f <= slowest)           /* not a number: nothing repeats */
-            continue;
-        for (size_t k = 0; k < s->n_found; k++)
-            if (s->found[k].prominence >= prominence && same_kind(&s->found[k], s->found[i].f)) {
-                count++;
-                level += s->found[k].level;
-            }
-        if (count > most || (count == most && most >= FEW && level > best_level)) {
-            most = count;
-            best = s->found[i].f;
+        double octave = log2(s->found[i].f), level = 0;
+        size_t from = ss_list_from(list, n, sizeof *list, octave - BAND);
+        size_t end = ss_list_from(list, n, sizeof *list, octave + BAND);
+        if (end - from < FEW || end - from < most || s->found[i].f <= slowest)
+            continue;           /* that is not a number where nothing repeats */
+        for (size_t k = from; k < end; k++)
+            level += list[k].level;
+        if (end - from > most || level > best_level) {
+            most = end - from;
+            *f = s->found[i].f;
             best_level = level;
         }
     }
-    return best;
+    free(list);
+    return SS_OK;
 }
 
 /* The label of a maximum in terms of the sinusoid that makes it. */
@@ -463,8 +475,9 @@ find_transitions(search *s)
         && has_strong_event(out->spikes);
     ss_status st = SS_OK;
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
-        double f = find_recurrent(s, slight ? 0 : s->opts->threshold);
-        if (f > 0)
+        double f;
+        st = find_recurrent(s, slight ? 0 : s->opts->threshold, &f);
+        if (st == SS_OK && f > 0)
             st = find_ringing(s, f);
         if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
             out->n = 0;                 /* the spikes know the times better */
