@@ -91,6 +91,37 @@ power_of_two(double least)
     return size;
 }
 
+/* Those at n angular frequencies, by apart from w on, by one convolution: the phase k i of line k at
+ * sample i is half of k^2 + i^2 - (k - i)^2 (Bluestein 1970). */
+static ss_status
+sums_at(const zoomed *zoom, double w, double by, size_t n, double complex *to)
+{
+    double from = (w - zoom->center) * zoom->step, half = 0.5 * by * zoom->step;
+    size_t size = power_of_two((double)(zoom->n + n));
+    double complex *a = calloc(2 * size, sizeof *a), *chirp = a + size;
+    if (a == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < zoom->n || i < n; i++) {
+        double t = (double)i;
+        double complex c = cexp(I * half * t * t);
+        if (i < zoom->n)
+            a[i] = zoom->z[i] * cexp(-I * from * t) * conj(c);
+        if (i < n)
+            chirp[i] = c;
+        if (i > 0 && i < zoom->n)
+            chirp[size - i] = c;
+    }
+    gsl_fft_complex_radix2_forward((double *)a, 1, size);
+    gsl_fft_complex_radix2_forward((double *)chirp, 1, size);
+    for (size_t i = 0; i < size; i++)
+        a[i] *= chirp[i];
+    gsl_fft_complex_radix2_inverse((double *)a, 1, size);
+    for (size_t k = 0; k < n; k++)
+        to[k] = 2 * zoom->step / zoom->length * cexp(-I * half * (double)k * (double)k) * a[k];
+    free(a);
+    return SS_OK;
+}
+
 static ss_status
 zoom_in(zoomed *zoom, const double *x, size_t n, double f)
 {
@@ -294,14 +325,15 @@ subtract_zoomed(zoomed *zoom, double *x, size_t n, double f, double period, ss_h
     c.first = (size_t)ceil(low * length + REACH);
     c.n = (size_t)fmax(0, high * length - REACH - (double)c.first);
     c.bin = malloc((c.n + 1) * sizeof *c.bin);
-    if (st != SS_OK || c.bin == NULL) {
-        free(c.bin);
-        return SS_ENOMEM;
-    }
-    for (size_t i = 0; i < c.n; i++)
-        c.bin[i] = sum_at(zoom, 2 * M_PI * (double)(c.first + i) / length);
-    find_lines(&c);
+    if (st == SS_OK && c.bin == NULL)
+        st = SS_ENOMEM;
+    if (st == SS_OK)
+        st = sums_at(zoom, 2 * M_PI * (double)c.first / length, 2 * M_PI / length, c.n, c.bin);
+    if (st == SS_OK)
+        find_lines(&c);
     free(c.bin);
+    if (st != SS_OK)
+        return st;
     for (size_t l = 0; l < c.n_lines; l++)
         if (c.line[l].seen < CLEAR) {
             *found = SS_HUM_HIDDEN;
