@@ -22,11 +22,6 @@ typedef struct score {
     double h[PARAMETERS * PARAMETERS], g[PARAMETERS];
 } score;
 
-/* Sums of products with a column that counts the changes of the gain so far, and with its square. */
-typedef struct steps {
-    varpro_sums once, twice;
-} steps;
-
 static void
 add_sums(varpro_sums *to, const varpro_sums *of, double times)
 {
@@ -37,27 +32,26 @@ add_sums(varpro_sums *to, const varpro_sums *of, double times)
     }
 }
 
-/* Of a window whose gain changes at a place, and, if again, once a period from there. */
-static steps
-steps_from(fitter *k, ss_window win, size_t at, int again)
+/* Sums of products with a column that counts the changes of a window's gain so far, at a place and once
+ * a period from there, and with its square. */
+static void
+count_changes(fitter *k, ss_window win, size_t at, varpro_sums *once, varpro_sums *twice)
 {
-    steps sum = { { 0 }, { 0 } };
     varpro_sums behind;
-    size_t n = ss_window_length(win);
     double period = 2 * M_PI / k->fit.w;
-    size_t count = again ? (size_t)((double)(n - 1 - at) / period) + 1 : 1;
+    size_t end = ss_window_length(win), changes = (size_t)((double)(end - 1 - at) / period) + 1;
     ss_varpro_sums_start(&k->fit, win.first, &behind);
-    for (size_t end = n; count > 0; count--) {
-        size_t from = at + (size_t)ceil((double)(count - 1) * period);
+    *once = *twice = behind;
+    for (; changes > 0; changes--) {
+        size_t from = at + (size_t)ceil((double)(changes - 1) * period);
         ss_varpro_sums_add(&k->fit, (ss_window){ win.first + from, win.first + end }, &behind);
         end = from;
-        add_sums(&sum.once, &behind, 1);
-        add_sums(&sum.twice, &behind, 2 * (double)count - 1);
+        add_sums(once, &behind, 1);
+        add_sums(twice, &behind, 2 * (double)changes - 1);
     }
-    return sum;
 }
 
-/* Column u, a cos + b sin, or v, b cos - a sin, of the steps: its products with all columns. */
+/* The products of c cos + s sin with all columns. */
 static void
 step_column(const varpro_sums *sums, double c, double s, double of[VARPRO_COLUMNS])
 {
@@ -65,24 +59,25 @@ step_column(const varpro_sums *sums, double c, double s, double of[VARPRO_COLUMN
         of[j] = c * sums->g[VARPRO_COS][j] + s * sums->g[VARPRO_SIN][j];
 }
 
-/* Add what a window's gain, changed as the steps say, has to do with w, s and the residual: y is what the
- * steps' columns are along the orthonormal ones, the last two of which the derivatives lie in. */
+/* Add what a change of a window's gain, as the sums say, has to do with w, s and the residual: y is what
+ * its columns are along the orthonormal ones, the last two of which the derivatives lie in. */
 static void
-add_score(const varpro_factor *f, const linear *fitted, const steps *at, score *to)
+add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
+          const varpro_sums *twice, score *to)
 {
     enum { LEFT = VARPRO_T_COS };
     const double c[] = { fitted->a, fitted->b }, s[] = { fitted->b, -fitted->a };
     double j[PARAMETERS][2], y[2][VARPRO_COLUMNS], of[VARPRO_COLUMNS];
     ss_varpro_derivatives(f, fitted->a, fitted->b, j[0], j[1]);
     for (int p = 0; p < 2; p++) {
-        step_column(&at->once, c[p], s[p], of);
+        step_column(once, c[p], s[p], of);
         ss_varpro_substitute(f, of, y[p]);
         memcpy(j[2 + p], y[p] + LEFT, sizeof j[0]);
-        double g = c[p] * at->once.x[VARPRO_COS] + s[p] * at->once.x[VARPRO_SIN];
+        double g = c[p] * once->x[VARPRO_COS] + s[p] * once->x[VARPRO_SIN];
         for (int i = 0; i < LEFT; i++)
             g -= y[p][i] * f->y[i];
         to->g[2 + p] += g;
-        step_column(&at->twice, c[p], s[p], of);
+        step_column(twice, c[p], s[p], of);
         for (int q = 0; q <= p; q++) {
             double h = c[q] * of[VARPRO_COS] + s[q] * of[VARPRO_SIN];
             for (int i = 0; i < LEFT; i++)
@@ -101,14 +96,23 @@ add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places,
 {
     linear fitted = ss_varpro_project(&k->fit, win);
     const normal *n = &fitted.normal;
-    for (size_t l = 0; l < n_places; l++, to++) {
+    varpro_sums behind, once, twice;
+    size_t end = ss_window_length(win);
+    ss_varpro_sums_start(&k->fit, win.first, &behind);
+    for (size_t l = n_places; l-- > 0;) {
         size_t at = first + l * step;
-        if (at < ss_window_length(win)) {
-            steps sums = steps_from(k, win, at, again);
-            add_score(&k->fit.factor, &fitted, &sums, to);
+        to[l].h[0] += n->ww, to[l].h[PARAMETERS] += n->ws, to[l].h[PARAMETERS + 1] += n->ss;
+        to[l].g[0] += n->w, to[l].g[1] += n->s;
+        if (at >= ss_window_length(win))
+            continue;
+        if (again) {
+            count_changes(k, win, at, &once, &twice);
+            add_score(&k->fit.factor, &fitted, &once, &twice, &to[l]);
+            continue;
         }
-        to->h[0] += n->ww, to->h[PARAMETERS] += n->ws, to->h[PARAMETERS + 1] += n->ss;
-        to->g[0] += n->w, to->g[1] += n->s;
+        ss_varpro_sums_add(&k->fit, (ss_window){ win.first + at, win.first + end }, &behind);
+        add_score(&k->fit.factor, &fitted, &behind, &behind, &to[l]);
+        end = at;
     }
 }
 
