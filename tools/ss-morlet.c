@@ -149,12 +149,6 @@ read_wisdom(const char *path)
     fclose(in);
 }
 
-static ss_format
-format_of(const request *req)
-{
-    return tool_stream(req->kind);
-}
-
 static void
 check_written(ss_status status, const ss_error *err)
 {
@@ -216,7 +210,7 @@ open_output(flow *f, const request *req, const ss_header *signal, size_t column,
                                        &f->error), &f->error);
     } else {
         f->out = tool_output(req->output);
-        check_written(ss_coefficient_writer_new(&f->text, f->out, format_of(req), head, &f->error),
+        check_written(ss_coefficient_writer_new(&f->text, f->out, tool_stream(req->kind), head, &f->error),
                       &f->error);
     }
     ss_header_free(head);

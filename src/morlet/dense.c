@@ -107,10 +107,18 @@ typedef struct carrier {
     double *places;                     /* [blocks][2][LANES][2]: re and re, -im and im */
 } carrier;
 
+/* Of each row of a group, the carrier's re, re, -im, im. */
 static inline void
-row_carrier(const carrier *from, size_t row, double e[2])
+row_carriers(const carrier *from, size_t group, double e[ROWS][4])
 {
-    multiply(from->far[row / (ROOT * ROOT)], from->near[row % (ROOT * ROOT)], e);
+    for (size_t i = 0; i < ROWS; i++) {
+        size_t row = group * ROWS + i;
+        double turn[2];
+        multiply(from->far[row / (ROOT * ROOT)], from->near[row % (ROOT * ROOT)], turn);
+        e[i][0] = e[i][1] = turn[0];
+        e[i][2] = -turn[1];
+        e[i][3] = turn[1];
+    }
 }
 
 /* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), by squares: their errors are some eps. */

@@ -33,13 +33,8 @@ LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *tur
     const int taps = d->taps;
     VECTOR largest[PARTS] = { 0 };
     for (; g < end; g++) {
-        double e[ROWS][4];            /* of each row, the carrier's re, re, -im, im */
-        for (size_t i = 0; i < ROWS; i++) {
-            double turn[2];
-            row_carrier(turning, g * ROWS + i, turn);
-            e[i][0] = e[i][1] = turn[0];
-            e[i][2] = -(e[i][3] = turn[1]);
-        }
+        double e[ROWS][4];
+        row_carriers(turning, g, e);
         for (size_t m = 0; m < blocks; m++) {
             const double *weight = d->weight + m * (size_t)taps * 2 * LANES;
             const double *of_places = turning->places + m * 4 * LANES;

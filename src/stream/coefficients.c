@@ -322,6 +322,8 @@ assemble(coefficient_reader *r)
         p->scale.offset = offset;
         coef->scale[coef->n_scales] = p->scale;
         memcpy(coef->w + 2 * offset, p->w, 2 * p->n * sizeof *p->w);
+        free(p->w);                     /* now, as all of them twice may be too much */
+        p->w = NULL;
         offset += p->n;
     }
     return SS_OK;

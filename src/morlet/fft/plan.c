@@ -233,6 +233,33 @@ interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int d
         + (double)scale->n * ((dense ? COST_DENSE : COST_PLACE) + tap);
 }
 
+/* Interpolation between the number of points that is cheapest, twice as many as the circle has or fewer,
+ * if it costs less than best; the least cost. */
+static double
+choose_points(struct fft *f, const ss_morlet *plan, size_t i, double terms, double best)
+{
+    route *r = &f->route[i];
+    const level *lev = &f->level[r->level];
+    size_t most = 2 * lev->points;
+    int dense = plan->opts.dense;
+    for (int o = 0; o < ODD_PARTS; o++)
+        for (size_t part = odd_part[o]; part <= most; part *= 2) {
+            size_t points = most / part, phases = part / 2 * lev->samples;
+            if (most % part != 0 || points > INT_MAX || points < 8
+                || (dense && (part % 2 != 0 || phases > DENSE_PHASES_MAX)))
+                continue;
+            if ((double)points * EDGE_MAX * 2 < terms)
+                break;
+            double cost = interpolation_cost(f, lev, &plan->scale[i], dense, points);
+            if (cost < best) {
+                best = cost;
+                r->kind = dense ? DENSE : ANYWHERE;
+                r->length = points;
+            }
+        }
+    return best;
+}
+
 /* Choose how a scale is computed on its level; its cost. */
 static double
 choose_route(struct fft *f, const ss_morlet *plan, size_t i)
@@ -240,12 +267,12 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
     route *r = &f->route[i];
     const ss_scale *scale = &plan->scale[i];
     const level *lev = &f->level[r->level];
-    int dense = plan->opts.dense;
     if (lev->points == 0)
         return INFINITY;
     band fine = band_of(f, lev, scale->a, f->half[1]);
     double best = INFINITY, terms = (double)(fine.hi - fine.lo) + 1;
-    size_t length = lattice_length(f, lev, scale, plan->opts.accuracy, plan->window && !dense);
+    size_t length = lattice_length(f, lev, scale, plan->opts.accuracy,
+                                   plan->window && !plan->opts.dense);
     if (terms > (double)lev->points)
         return best;
     if (length > 0) {
@@ -254,23 +281,15 @@ choose_route(struct fft *f, const ss_morlet *plan, size_t i)
         double half = f->half[0] / f->half[1];
         best = inverse_cost(length) + COST_TERM * terms * half + COST_DENSE * (double)scale->n;
     }
-    for (int o = 0; o < ODD_PARTS; o++)     /* twice as many points as the circle has, or fewer */
-        for (size_t two = 1; 2 * lev->points >= two * odd_part[o]; two *= 2) {
-            size_t part = two * odd_part[o], phases = part / 2 * lev->samples;
-            size_t points = 2 * lev->points / part;
-            if (2 * lev->points % part != 0 || points > INT_MAX || points < 8
-                || (dense && (part % 2 != 0 || phases > DENSE_PHASES_MAX)))
-                continue;
-            if ((double)points * EDGE_MAX * 2 < terms)
-                break;
-            double cost = interpolation_cost(f, lev, scale, dense, points);
-            if (cost < best) {
-                best = cost;
-                r->kind = dense ? DENSE : ANYWHERE;
-                r->length = points;
-            }
-        }
-    return best;
+    return choose_points(f, plan, i, terms, best);
+}
+
+/* The spectrum of a level. */
+static double
+forward_cost(const struct fft *f, const level *lev)
+{
+    double spreading = lev->samples > 1 ? (double)f->n * SPREAD_TAPS * COST_DENSE_TAP : 0;
+    return inverse_cost(lev->points) / 2 + spreading;
 }
 
 /* Routes of all scales; by AUTO those only where they are cheaper, the spectra included. */
@@ -296,8 +315,7 @@ choose_routes(struct fft *f, const ss_morlet *plan)
         f->cost += cost;
     }
     for (int l = 0; l < f->levels; l++) {
-        double forward = inverse_cost(f->level[l].points) / 2
-            + (f->level[l].samples > 1 ? (double)f->n * SPREAD_TAPS * COST_DENSE_TAP : 0);
+        double forward = forward_cost(f, &f->level[l]);
         gain[l] -= forward;
         f->cost += forward;
     }
