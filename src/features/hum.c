@@ -21,10 +21,12 @@
 #include "morlet/fft/real.h"
 
 #define BAND 0.5                /* of the frequency, to either side */
+#define BEYOND 0.1              /* the same, of harmonics that the window brings into the band */
 #define ABOVE 10.0              /* a line's power re all others' */
 #define REACH 4.0               /* bins about a line that it may have filled */
 #define CLEAR 0.1               /* of a line's power, in free bins: with less it is not measured well */
 #define SEEN 0.001              /* the same, for it to be looked for */
+#define FAINT 1e-3              /* of the strongest harmonic: a line that is no more disturbs no fit */
 enum { LINES = 3, FEWEST = 6, FREE = 16, STRONGEST = 16 };
 enum { LANES = 4 };
 enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
@@ -126,7 +128,7 @@ static ss_status
 zoom_in(zoomed *zoom, const double *x, size_t n, double f)
 {
     size_t size = power_of_two((double)n), middle = (size_t)(f * (double)size);
-    size_t half = (size_t)(BAND * f * (double)size), few = power_of_two(2. * (double)half + 1);
+    size_t half = (size_t)((BAND + BEYOND) * f * (double)size), few = power_of_two(2. * (double)half + 1);
     double *r = calloc(size + 2, sizeof *r);
     zoom->z = calloc(few + LANES, sizeof *zoom->z);
     if (r != NULL)
@@ -295,9 +297,11 @@ static void
 find_lines(comb *c)
 {
     size_t kept = 0, n_free = 0;
-    double weakest = INFINITY, rest;
-    for (size_t i = 0; i < c->n; i++)
+    double weakest = INFINITY, rest, least = 0;
+    for (size_t i = 0; i < c->n; i++) {
         n_free += (size_t)is_free(c, i);
+        least = fmax(least, SEEN * FAINT * FAINT * power(c->bin[i]));
+    }
     size_t at = strongest(c, &rest);
     while (n_free >= FREE && c->n_lines < LINES && at < c->n) {
         line found = c->line[c->n_lines++] = measure(c, at);
@@ -305,7 +309,7 @@ find_lines(comb *c)
             c->bin[i] -= found.amplitude * shape((double)(c->first + i) - found.at);
         weakest = fmin(weakest, rest);
         at = strongest(c, &rest);
-        if (rest * ABOVE < weakest)
+        if (rest * ABOVE < weakest && weakest > least)
             kept = c->n_lines;
     }
     c->n_lines = kept;
