@@ -155,7 +155,12 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
         return c;
     c.likeness = peak_correlation(coarse, i, rough, m);
     c.symmetry = correlation(coarse, i, rough / 2, m);
-    size_t lag = refine(fine, first, whole, rough * q, q);
+    size_t lag = refine(fine, first, whole, rough * q, q), likely = (size_t)(period + 0.5);
+    if (first + likely + whole + 2 <= fine->n) {        /* averages do not see what rings in them */
+        likely = refine(fine, first, whole, likely, q);
+        if (relative(fine, first, likely, whole) < relative(fine, first, lag, whole))
+            lag = likely;
+    }
     if (lag < 3 || first + lag + whole + 2 > fine->n)
         return c;
     double d[5];
