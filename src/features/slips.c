@@ -9,6 +9,7 @@
 #define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
 #define LATEST 32.0             /* behind a window, see rings_on */
+#define LOUDER 1.5              /* than what the fit leaves: it rings on */
 
 /* --- micro-slips too weak for any one window ----------------------------------------------- */
 
@@ -221,7 +222,7 @@ tail_of(fitter *k, ss_window win, double late_by, size_t limit)
     return (tail){ mean * exp(-2 * k->fit.s * apart), late };
 }
 
-/* Is there an oscillation, as k->fit has it, of more than twice the amplitude that is left? */
+/* Is there an oscillation, as k->fit has it, of more than LOUDER times the amplitude that is left? */
 static int
 rings_there(fitter *k, tail behind)
 {
@@ -229,7 +230,8 @@ rings_there(fitter *k, tail behind)
     double m = (double)ss_window_length(behind.at);
     int is_one = fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss)
         || ss_sticks_belong(k, fitted.rss, ss_window_length(behind.at) - k->fit.columns);
-    return is_one && fitted.ring > 4 * m * behind.left + k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+    return is_one && fitted.ring > LOUDER * LOUDER * m * behind.left
+        + k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }
 
 /* Does it ring, or hum at a frequency near, behind more than half of the windows? */
