@@ -5,7 +5,7 @@
  * with sticks of three periods of the contact and more, or of .2 to 2 periods, or of three and more with
  * a second forcing of another frequency.  Each is read as it is and under other conditions; a row a
  * condition: how many have a number, and of these, the share with the truth within 1 and 2 standard
- * errors, and beyond 5, for total stiffness and damping ratio.
+ * errors, and beyond 5, for total stiffness, damping ratio and what repeats.
  * Exits 1 where a share misses what is aimed at (within 2: 88 %, beyond 5: 1 %, numbers: 90 % where
  * sticks are long and the signal is clean) by more than chance, 2 binomial standard deviations.
  * usage: cover_features [DRAWS [FIRST [CONDITION]]]
@@ -285,8 +285,10 @@ take_draw(unsigned long number, stick_kind kind)
 
 /* --- the count ------------------------------------------------------------------------------- */
 
+enum { KNOWN = 3 };             /* total stiffness, damping ratio, repetition frequency */
+
 typedef struct tally {
-    int n, answers, of[2], within[2][2], beyond[2];
+    int n, answers, of[KNOWN], within[KNOWN][2], beyond[KNOWN];
 } tally;
 
 static void
@@ -329,11 +331,15 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
     double total = d->scene.stiffness + d->scene.contact_stiffness;
     compare(t, 0, f->total_stiffness, total);
     compare(t, 1, f->damping_ratio, d->ratio);
+    if (c->kind != TWICE)
+        compare(t, 2, f->repetition_frequency, d->scene.base_frequency);
     if (verbose) {
         double K = f->total_stiffness.value / total - 1, z = f->damping_ratio.value / d->ratio - 1;
-        fprintf(stderr, "%lu\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tK %.3g (%.2f) z %.3g (%.2f)\t%s | %s\n",
+        double r = f->repetition_frequency.value / d->scene.base_frequency - 1;
+        fprintf(stderr, "%lu\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tK %.3g (%.2f) z %.3g (%.2f) r %.3g (%.2f)\t%s | %s\n",
                 d->number, d->f, d->ratio, d->f / d->scene.base_frequency, d->scene.rate / d->f, d->longest,
                 n, K, K * total / f->total_stiffness.error, z, z * d->ratio / f->damping_ratio.error,
+                r, r * d->scene.base_frequency / f->repetition_frequency.error,
                 f->why_ringing != NULL ? f->why_ringing : "", f->why_slips != NULL ? f->why_slips : "");
     }
     ss_features_free(f);
@@ -386,14 +392,15 @@ main(int argc, char *argv[])
         return 2;
     }
     printf("# condition draws numbers/%% K_within_1/%% K_within_2/%% K_beyond_5/%% zeta_within_1/%% "
-           "zeta_within_2/%% zeta_beyond_5/%%\n");
+           "zeta_within_2/%% zeta_beyond_5/%% repetition_within_1/%% repetition_within_2/%% "
+           "repetition_beyond_5/%%\n");
     for (size_t c = 0; c < CONDITIONS; c++) {
         const tally *t = &all[c];
         if (t->n == 0)
             continue;
         printf("%s\t%d\t%.0f", conditions[c].name, t->n, share(t->answers, t->n));
         errors += conditions[c].must_answer && misses(t->answers, t->n, 0.9, 0);
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < KNOWN; k++) {
             printf("\t%.0f\t%.0f\t%.0f", share(t->within[k][0], t->of[k]),
                    share(t->within[k][1], t->of[k]), share(t->beyond[k], t->of[k]));
             errors += misses(t->within[k][1], t->of[k], 0.88, 0) + misses(t->beyond[k], t->of[k], 0.01, 1);

@@ -32,6 +32,23 @@ ss-sim -s mass=0.0404804 -s stiffness=2430.98 -s friction=0.10326 -s base_amplit
     -s duration=1.66502 -s rate=3832.29 compliant-light | ss-features --mass 0.0404804 > found
 covers total_stiffness 176558.98 < found
 covers damping_ratio 0.00479036 < found
+# a period of many oscillations, which ring on from cycle to cycle
+ss-sim -s mass=0.0183769 -s stiffness=436.161 -s contact_stiffness=1.10340e+07 -s contact_damping=6.98938 \
+    -s friction=0.0116451 -s base_amplitude=2.75508e-05 -s base_frequency=13.00775 -s settle=2.30632 \
+    -s duration=0.691895 -s rate=62399 compliant-light | ss-features --mass 0.0183769 > found
+covers repetition_frequency 13.00775 < found
+covers total_stiffness 11034436.16 < found
+# nothing hums in a simulated signal, however little it has between its harmonics
+ss-sim -s mass=155.296578 -s stiffness=20186805 -s contact_stiffness=2.4542848e+09 -s contact_damping=13182.508 \
+    -s friction=122.18115 -s base_amplitude=1.3615457e-05 -s base_frequency=12.29883 -s settle=2.43925636 \
+    -s duration=0.73177691 -s rate=20329.673 compliant-light | ss-features --mass 155.296578 > found
+covers total_stiffness 2474471605 < found
+# a train of micro-slips before a stick, in noise of a displacement: the contact rings on behind it
+ss-sim -s mass=103.576 -s stiffness=12013.1 -s contact_stiffness=2.97592e+06 -s contact_damping=227.569 \
+    -s friction=0.405635 -s base_amplitude=6.21477e-05 -s base_frequency=0.433794 -s settle=69.1572 \
+    -s duration=20.7472 -s rate=865.017 compliant-light | ss-noise --snr 80 --seed 65 > noisy
+ss-features --column x --mass 103.576 noisy > found
+none damping_ratio < found
 # what repeats, with the drift of a start that has not settled, and exactly
 ss-sim compliant-light | ss-features | covers repetition_frequency 2.5
 ss-signal sine | ss-features | covers repetition_frequency 10
