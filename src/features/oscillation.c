@@ -117,15 +117,15 @@ count_crossings(const search *s, const ss_window *window, size_t n, double f, si
 static const char trains[] = "what recurs is a train of micro-slips, once a period of the oscillation";
 
 /* Why what was fitted to used of n transitions is no ringing at about omega radians a sample; NULL if
- * it is.  What fewer than half of them show is picked by the fit itself. */
+ * it is.  What fewer than half of them show, and not every cycle does, is picked by the fit itself. */
 static const char *
-judge_fit(const ss_value all[2], double omega, size_t n, size_t used, size_t crossed)
+judge_fit(const ss_value all[2], double omega, size_t n, size_t cycles, size_t used, size_t crossed)
 {
     if (isnan(all[0].value) || used < FEW || fabs(log2(all[0].value / omega)) > NEAR)
         return "what recurs lasts under 2 periods or is no damped oscillation";
     if (isinf(all[0].error))
         return trains;
-    if (2 * used < n)
+    if (2 * used < n && used < cycles)
         return "fewer than half of the transitions last 2 periods as one oscillation";
     if (2 * crossed > used)
         return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
@@ -148,7 +148,7 @@ fit_once(const search *s, const size_t *anchor, size_t n, double f, const ss_win
     if (st == SS_OK)
         st = count_crossings(s, window, n, f, &used, &crossed);
     if (st == SS_OK)
-        *why = judge_fit(all, turn * f, n, used, crossed);
+        *why = judge_fit(all, turn * f, n, isnan(forcing) ? n : s->cycles.n, used, crossed);
     return st;
 }
 
@@ -226,7 +226,7 @@ ss_oscillation_fit(search *s, const double *about, double f, int singly, ss_wind
                 : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
     }
     if (st == SS_OK && singly)
-        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, n, 0);
+        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, n, n, 0);
     if (st == SS_OK && hum == SS_HUM_HIDDEN)
         out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
     if (st == SS_OK && out->why_ringing != NULL)
