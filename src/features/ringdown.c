@@ -9,6 +9,7 @@
  * says how well w and s are known. */
 #include "features/ringdown.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -115,6 +116,20 @@ fit_shared(fitter *k, const ss_window *window, size_t n, double tol, int *ok)
     return *ok ? ss_sticks_noise(k, window, n) : SS_OK;
 }
 
+/* Is the oscillation in the windows, in the mean, more than what noise makes of itself there? */
+static int
+stands_out(fitter *k, const ss_window *window, size_t n)
+{
+    double ring = 0;
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0) {
+            ring += ss_varpro_project(&k->fit, window[i]).ring;
+            used++;
+        }
+    return ring > (double)used * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+}
+
 static ss_status
 fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
@@ -154,7 +169,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
     int is_on;
     st = ss_slips_ring_on(k, window, n, &is_on);
     k->is_train = ss_slips_recur(k, window, n);
-    if (st == SS_OK && is_on) {
+    if (st == SS_OK && (is_on || !stands_out(k, window, n))) {
         for (size_t i = 0; i < n; i++)
             window[i].end = window[i].first;
         return SS_OK;
