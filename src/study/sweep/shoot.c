@@ -7,6 +7,7 @@
 enum { NEWTON_STEPS = 20 };
 /* The part of a distance by which a motion may miss what the derivative at its limit says. */
 #define NONLINEAR 0.3
+enum { REPETITIONS = 4 };
 
 /* --- Newton's method ----------------------------------------------------------------------- */
 
@@ -72,31 +73,37 @@ at_last(const tangent *t, const double difference[D_MOST], double left[D_MOST])
     times(&power, difference, left);
 }
 
-/* Whether the motion from a state goes, over so many cycles, to the periodic one as its derivative says:
- * otherwise that is another motion than the one which is approached, or none is. */
+/* Whether the motion from a state goes, in some repetitions of so many cycles, towards the periodic one as
+ * its derivative says: otherwise that is another motion than the one which is approached, or none is.  One
+ * repetition would not do: a chaotic motion comes near many that it leaves again. */
 static ss_status
 is_approached(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
 {
     double unit[D_MOST], centre[D_MOST], before[D_MOST], after[D_MOST], expected[D_MOST], left[D_MOST];
-    double far = 0, off = 0, rest = 0;
+    double rest = 0;
     ss_status st = ss_finder_begin_at(f, from);
-    if (st == SS_OK)
-        st = ss_finder_go(f, cycles, NULL, NULL);
     ss_finder_coordinate_units(f, unit);
     ss_finder_coordinates(at, centre);
     ss_finder_coordinates(from, before);
-    ss_finder_coordinates(&f->w.m, after);
     for (int i = 0; i < D_MOST; i++)
         before[i] -= centre[i];
-    times(t, before, expected);
     at_last(t, before, left);
-    for (int i = 0; i < D_MOST; i++) {
-        off = fmax(off, fabs(after[i] - centre[i] - expected[i]) / unit[i]);
-        far = fmax(far, fabs(before[i]) / unit[i]);
+    for (int i = 0; i < D_MOST; i++)
         rest = fmax(rest, fabs(left[i]) / unit[i]);
+    *yes = from->now.mode == at->now.mode && rest <= f->opts->tol;
+    for (int n = 0; st == SS_OK && *yes && n < REPETITIONS; n++) {
+        double far = 0, off = 0;
+        st = ss_finder_go(f, cycles, NULL, NULL);
+        times(t, before, expected);
+        ss_finder_coordinates(&f->w.m, after);
+        for (int i = 0; i < D_MOST; i++) {
+            after[i] -= centre[i];
+            off = fmax(off, fabs(after[i] - expected[i]) / unit[i]);
+            far = fmax(far, fabs(before[i]) / unit[i]);
+            before[i] = after[i];
+        }
+        *yes = f->w.m.now.mode == at->now.mode && off <= NONLINEAR * far + f->opts->tol;
     }
-    *yes = from->now.mode == at->now.mode && off <= NONLINEAR * far + f->opts->tol
-        && rest <= f->opts->tol;
     return st;
 }
 
