@@ -21,14 +21,6 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->mode = m->mode;
 }
 
-static void
-free_differences(const state *m, int is_free[D_MOST])
-{
-    is_free[D_REF] = 0;
-    is_free[D_Q] = 1;
-    is_free[D_V] = m->mode != 0;
-}
-
 /* A stick forgets v and the time at which it began, and it ends later where x is further on: then v is
  * behind by what the drop of the friction has done since. */
 static void
@@ -44,20 +36,7 @@ cross(const state *m, int mode, const double q[], const double before[], const d
             d[D_V][i] = -after[1] * s->stiffness * d[D_Q][i] / base_force_rate(m, m->u);
 }
 
-static int
-move(state *m, const double d[D_MOST])
-{
-    double rates[MAX_DIM], slope;
-    m->q[0] += d[D_Q];
-    m->q[1] += d[D_V];
-    double drive = base_force(m, m->u);
-    if (m->mode == 0)
-        return fabs(ss_stick_force(m, drive, m->q[0])) <= static_friction(m->scene);
-    ss_linear_rates(m, drive, m->q, rates);
-    return ss_linear_slip_guard(m, m->q, rates, &slope) > 0;
-}
-
-static const struct variation variation = { free_differences, cross, move };
+static const struct variation variation = { ss_stick_free, cross, ss_stick_move };
 
 const struct model ss_coulomb_model = {
     .name = "coulomb",

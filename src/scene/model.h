@@ -333,5 +333,7 @@ double ss_stick_force(const state *m, double drive, double x);     /* the load o
 int ss_stick_start(state *m);
 int ss_stick_still(const state *m, double *u_end);
 int ss_stick_next(state *m, ss_event *e);
+void ss_stick_free(const state *m, int is_free[D_MOST]);           /* of struct variation */
+int ss_stick_move(state *m, const double d[D_MOST]);
 
 #endif

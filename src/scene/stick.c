@@ -171,3 +171,25 @@ ss_stick_next(state *m, ss_event *e)
     return now != before;               /* else v has touched 0 and keeps its sign */
 }
 
+/* --- neighbouring states ------------------------------------------------------------------- */
+
+void
+ss_stick_free(const state *m, int is_free[D_MOST])
+{
+    is_free[D_REF] = 0;
+    is_free[D_Q] = 1;
+    is_free[D_V] = m->mode != 0;
+}
+
+int
+ss_stick_move(state *m, const double d[D_MOST])
+{
+    double rates[MAX_DIM], slope;
+    m->q[0] += d[D_Q];
+    m->q[1] += d[D_V];
+    double drive = base_force(m, m->u);
+    if (m->mode == 0)
+        return fabs(ss_stick_force(m, drive, m->q[0])) <= static_friction(m->scene);
+    m->model->rates(m, drive, m->q, rates);
+    return m->model->guard(m, m->q, rates, &slope) > 0;
+}

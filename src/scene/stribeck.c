@@ -99,6 +99,8 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->mode = m->mode;
 }
 
+static const struct variation variation = { .free = ss_stick_free, .move = ss_stick_move };
+
 const struct model ss_stribeck_model = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -106,5 +108,5 @@ const struct model ss_stribeck_model = {
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight, .rates = rates,
     .jacobian = jacobian, .series = series, .guard = ss_linear_slip_guard, .still = ss_stick_still,
-    .next = ss_stick_next, .sample = sample
+    .next = ss_stick_next, .sample = sample, .variation = &variation
 };
