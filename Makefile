@@ -155,7 +155,7 @@ WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc 
 $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \
-	$(BUILD)/tests/test_rigs: $(BUILD)/tests/oracle.o
+	$(BUILD)/tests/test_rigs $(BUILD)/tests/test_chaos: $(BUILD)/tests/oracle.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o $(STATIC)

@@ -381,7 +381,7 @@ sweeps_refuse_null(void **state)
     ss_error e = { 0 };
     FILE *in = tmpfile();
     ss_axis axis = { .n = 0 };
-    ss_steady steady = { { 0 } };
+    ss_steady steady = { .n_strobes = 0 };
     ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = &axis, .n_axes = 1, .shards = 1,
                            .threads = 1, .sink = no_rows }, no_axis = opts, no_sink = opts;
     size_t n;

@@ -40,7 +40,7 @@ steady_of(const ss_scene *scene)
     ss_error err = { 0 };
     opts.tol = 1e-12;
     opts.measures = BIT(SS_STOPS) | BIT(SS_STICK_FRACTION) | BIT(SS_AMPLITUDE) | BIT(SS_X_MAX)
-        | BIT(SS_PERIOD) | BIT(SS_FLOQUET);
+        | BIT(SS_PERIOD) | BIT(SS_FLOQUET) | BIT(SS_LYAPUNOV);
     if (ss_steady_find(&out, scene, &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     return out;
@@ -240,6 +240,36 @@ unsymmetric_motions_come_in_pairs(void **state)
     }
 }
 
+/* --- the way to chaos: the rig of Csernak and Licsko (2021) -------------------------------------- */
+
+static void
+chaos_begins_with_a_broken_symmetry(void **state)
+{
+    ss_scene s = read_shipped_named("chaos");
+    two_stops q = { .r = .46L, .f_k = s.friction, .f_s = s.static_friction };
+    (void)state;
+    long double a = symmetric(&q, 1.76L), slope = slope_at(&q, a), low = .46L, high = .47L;
+    s.base_frequency = .46;
+    ss_steady at = steady_of(&s);
+    near("amplitude", at.value[SS_AMPLITUDE], (double)a, 1e-13);
+    near("floquet", at.value[SS_FLOQUET], (double)(slope * slope), 1e-9);
+    near("lyapunov", at.value[SS_LYAPUNOV], (double)(q.r * logl(slope * slope)), 1e-9);
+    for (int i = 0; i < 40; i++) {
+        q.r = (low + high) / 2;
+        a = symmetric(&q, a);
+        if (slope_at(&q, a) > -1)
+            low = q.r;
+        else
+            high = q.r;
+    }
+    near("r", (double)low, .461652, 5e-7);
+    for (int side = -1; side <= 1; side += 2) {
+        s.base_frequency = (double)low + side * 1e-4;
+        at = steady_of(&s);
+        assert_int_equal(at.value[SS_X_MAX] - at.value[SS_AMPLITUDE] > 1e-3, side > 0);
+    }
+}
+
 /* --- Csernak, Stepan and Shaw (2007): at half the natural frequency --------------------------- */
 
 /* A motion that turns at x0 when tau = 0 slips as V cos tau + f_k + (x0 - V - f_k) cos 2 tau, stands at
@@ -335,6 +365,7 @@ main(void)
         cmocka_unit_test(stops_come_in_the_published_numbers),
         cmocka_unit_test(symmetry_breaks),
         cmocka_unit_test(unsymmetric_motions_come_in_pairs),
+        cmocka_unit_test(chaos_begins_with_a_broken_symmetry),
         cmocka_unit_test(motions_stand_side_by_side),
         cmocka_unit_test(free_decay),
         cmocka_unit_test(pulled_slider),

@@ -130,7 +130,7 @@ loads_a_shipped_scene_by_its_name_and_a_file_by_its_path(void **state)
     assert_memory_equal(&a, &b, sizeof a);
     unlink(path);
     snprintf(wanted, sizeof wanted, "%s: no such file, and the shipped scenes are compliant-heavy, "
-             "compliant-light, coulomb, state-variable, den-hartog-stops, den-hartog, free-decay, "
+             "compliant-light, coulomb, state-variable, chaos, den-hartog-stops, den-hartog, free-decay, "
              "leine, pulled-slider, shaw, subharmonic", path);
     assert_int_equal(ss_scene_load(&b, path, NULL, 0, &err), SS_EIO);
     assert_string_equal(err.text, wanted);

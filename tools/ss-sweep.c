@@ -13,14 +13,14 @@ static const char usage[] =
 "                        (repeatable; the last varies fastest)\n"
 "  -m, --measure=LIST    of stops,stick,amplitude,x_max,v_max,a_max,energy,\n"
 "                        period,cycles,microslips,transition,x_phase,v_phase,\n"
-"                        floquet,floquet2,floquet_angle,cycle_time,\n"
-"                        model_error_x|v|a|f and these with _rms (default: stops\n"
-"                        ... period without x_max, where there are such)\n"
+"                        floquet,floquet2,floquet_angle,cycle_time,lyapunov,\n"
+"                        lyapunov_error,model_error_x|v|a|f and these with _rms\n"
 "  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
 "      --simulate        find the period by simulation alone, see the manual\n"
 "      --shoot           find a period by Newton's method at once\n"
 "  -t, --tol=TOL         how near to periodic, see the manual (default 1e-9)\n"
 "      --max-period=N    longest period, in cycles (8)\n"
+"      --strobe=N        a row for each cycle of the period, N of an aperiodic motion\n"
 "      --max-cycles=N    cycles after which a motion is aperiodic (10000)\n"
 "      --max-steps=N     integration steps of a point (1e7)\n"
 "      --settle-cycles=N simulate N cycles instead of looking for the limit\n"
@@ -136,7 +136,7 @@ shoot(const tool_option *o, char *text)
 static void
 parse(request *req, int argc, char *argv[])
 {
-    const ss_range periods = { 1, SS_PERIOD_MAX };
+    const ss_range periods = { 1, SS_PERIOD_MAX }, strobes = { 1, SS_STROBE_MAX };
     ss_steady_opts *steady = &req->opts.steady;
     const tool_option options[] = {
         TOOL_VALUE('y', "vary", add_axis, req), TOOL_VALUE('m', "measure", set_measures, req),
@@ -144,6 +144,7 @@ parse(request *req, int argc, char *argv[])
         TOOL_CALL(0, "shoot", shoot, &steady->search),
         TOOL_NUMBER('t', "tol", &steady->tol, ss_steady_tolerances),
         TOOL_WHOLE(0, "max-period", &steady->max_period, periods),
+        TOOL_WHOLE(0, "strobe", &steady->strobe, strobes),
         TOOL_COUNT(0, "max-cycles", &steady->max_cycles), TOOL_COUNT(0, "max-steps", &steady->max_steps),
         TOOL_COUNT(0, "settle-cycles", &steady->settle), TOOL_METHOD(0, &steady->method),
         TOOL_THREADS('j', &req->opts.threads), TOOL_VALUE(0, "shard", set_shard, &req->opts),

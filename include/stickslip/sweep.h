@@ -38,6 +38,9 @@ typedef enum ss_measure {
     SS_MODEL_ERROR_V, SS_MODEL_ERROR_V_RMS,     /* (ss_scene_simpler: Coulomb's) in its place: the */
     SS_MODEL_ERROR_A, SS_MODEL_ERROR_A_RMS,     /* largest and the rms error of x - U t, v, a and f */
     SS_MODEL_ERROR_F, SS_MODEL_ERROR_F_RMS,     /* over the scene's largest value */
+    SS_LYAPUNOV,        /* largest Lyapunov exponent [1/s]: the rate at which neighbouring motions part, or
+                           if below 0 come together, a shift in time aside */
+    SS_LYAPUNOV_ERROR,  /* its standard error; 0 of a periodic motion, whose multiplier gives it */
     SS_MEASURES
 } ss_measure;
 
@@ -60,6 +63,8 @@ typedef struct ss_steady_opts {
     unsigned long max_cycles;   /* > 0: a motion without a period by then is aperiodic; without forcing,
                                    one without a stick for so many own periods slides on */
     unsigned long settle;       /* > 0: simulate so many cycles instead of searching for the limit */
+    int strobe;                 /* starts of cycles that are wanted of a motion without a period, at most
+                                   SS_STROBE_MAX; of a periodic one, all of its period; 0: none */
     ss_search search;
     const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
                                    else as ss_sim_run chooses */
@@ -67,11 +72,19 @@ typedef struct ss_steady_opts {
                                    each of them; and in a cycle after a tenth of them,
                                    10^6 at least, where the tolerance forces short steps */
 } ss_steady_opts;
-enum { SS_PERIOD_MAX = 64 };
+enum { SS_PERIOD_MAX = 64, SS_STROBE_MAX = 1000 };
 extern const ss_range ss_steady_tolerances;     /* of tol */
 extern const ss_steady_opts ss_steady_defaults; /* 1e-9, 8, 10000, 0, simulation, 10^7 steps */
 
+/* A point of the stroboscopic map. */
+typedef struct ss_strobe {
+    double x, v;                /* x - U t [m] and v [m/s] at the start of a cycle */
+} ss_strobe;
+
 typedef struct ss_steady {
+    ss_strobe *strobe;          /* the caller's room, for the larger of strobe and max_period of opts where
+                                   they are wanted */
+    size_t n_strobes;
     double value[SS_MEASURES];  /* NaN for a measure that is not wanted or absent */
 } ss_steady;
 
@@ -85,7 +98,12 @@ typedef struct ss_steady {
  * Newton's last step and residual are at most tol.  Settle, duration and rate of the scene do not
  * matter.
  *
- * Without forcing, x is what differs at an onset; shooting and multipliers need the closed form then.
+ * Without forcing, x is what differs at an onset; shooting, multipliers and exponents need the closed form
+ * then.
+ *
+ * The exponent of a periodic motion is that of its largest multiplier, and is absent where rounding hides
+ * this, as where a stick ends every difference.  That of another is a mean over max_cycles (or settle)
+ * cycles more (Benettin et al. 1980), its error the scatter among 20 parts of them.
  *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
  * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the
@@ -161,6 +179,7 @@ typedef struct ss_sweep_text {
 /* All that the rows depend on and nothing else, to be freed with free(): files with the same header are
  * parts of the same sweep.  SS_EINVAL: something is missing, or the format holds numbers only. */
 ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep);
+/* One row, or where strobe is wanted a row for each start of a cycle: x_phase and v_phase are those of it. */
 ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out);
 /* How far a file of such rows has come, which may have been cut off anywhere: *rows whole ones of the
  * shard of opts, which is the first that is wanted then, and they end at byte *end, from which on to

@@ -63,6 +63,8 @@ write_options(struct rows *rows, const ss_steady_opts *s, ss_model model)
     else
         ss_rows_note(rows, "max_cycles: %lu", s->max_cycles);
     ss_rows_note(rows, "max_period: %d", s->max_period);
+    if (s->strobe > 0)
+        ss_rows_note(rows, "strobe: %d", s->strobe);
     ss_rows_note(rows, "max_steps: %lu", s->max_steps);
     ss_rows_note(rows, "search: %s", (unsigned)s->search < 3 ? search[s->search] : "");
     ss_rows_note(rows, "method: %s", s->method != NULL ? s->method
@@ -132,6 +134,27 @@ ss_sweep_header(char **out, const ss_sweep_text *sweep)
     return st;
 }
 
+/* strobe: the start of the cycle that the row stands for; NULL: of the first one. */
+static void
+write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row, const ss_strobe *strobe)
+{
+    ss_rows_count(rows, row->index);
+    for (size_t i = 0; i < sweep->opts->n_axes; i++)
+        ss_rows_number(rows, row->vary[i]);
+    for (size_t i = 0; i < sweep->n_measures; i++) {
+        ss_measure m = sweep->measure[i];
+        double value = row->steady.value[m];
+        if (strobe != NULL && (m == SS_X_PHASE || m == SS_V_PHASE))
+            value = m == SS_X_PHASE ? strobe->x : strobe->v;
+        if (m == SS_PERIOD && value == 0)
+            ss_rows_word(rows, "aperiodic");
+        else
+            ss_rows_number(rows, value);
+    }
+    ss_rows_word(rows, row->reason);
+    ss_rows_end(rows);
+}
+
 ss_status
 ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out)
 {
@@ -139,18 +162,11 @@ ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *ou
         || ss_format_table(sweep->format)->separator == '\0')
         return SS_EINVAL;
     struct rows rows = { .out = out, .format = ss_format_table(sweep->format) };
-    ss_rows_count(&rows, row->index);
-    for (size_t i = 0; i < sweep->opts->n_axes; i++)
-        ss_rows_number(&rows, row->vary[i]);
-    for (size_t i = 0; i < sweep->n_measures; i++) {
-        double value = row->steady.value[sweep->measure[i]];
-        if (sweep->measure[i] == SS_PERIOD && value == 0)
-            ss_rows_word(&rows, "aperiodic");
-        else
-            ss_rows_number(&rows, value);
-    }
-    ss_rows_word(&rows, row->reason);
-    ss_rows_end(&rows);
+    size_t n = sweep->opts->steady.strobe > 0 ? row->steady.n_strobes : 0;
+    if (n == 0)
+        write_row(&rows, sweep, row, NULL);
+    for (size_t i = 0; i < n; i++)
+        write_row(&rows, sweep, row, &row->steady.strobe[i]);
     return ferror(out) ? SS_EIO : SS_OK;
 }
 
@@ -181,19 +197,30 @@ has_header(FILE *in, const char *header, char *start, size_t *got)
     return memcmp(start, header, *got) == 0;
 }
 
-/* Whole rows, in the order in which they must come. */
+/* Whole rows, in the order in which they must come.  Of a point with several, the last in the file, there
+ * may be more: it is left out. */
 static ss_status
 count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t *rows, long *end,
            ss_error *err)
 {
     const ss_sweep_opts *opts = sweep->opts;
     char line[64], *behind, separator = ss_format_table(sweep->format)->separator;
-    for (long n; (n = read_line(in, line, sizeof line)) > 0; ++*rows, *end += n) {
-        size_t due = opts->shard + *rows * opts->shards, index = strtoul(line, &behind, 10);
+    size_t points = 0;
+    long at = *end;
+    for (long n; (n = read_line(in, line, sizeof line)) > 0; at += n) {
+        size_t due = opts->shard + points * opts->shards, index = strtoul(line, &behind, 10);
+        if (opts->steady.strobe > 0 && points > 0 && index == due - opts->shards)
+            continue;
         if (behind == line || *behind != separator || index != due)
             return ss_fail(err, SS_EDATA, "%s: row %zu is '%.*s', but point %zu is due: another sweep "
-                           "or shard", name, *rows + 1,
+                           "or shard", name, points + 1,
                            (int)strcspn(line, (char[]){ separator, '\0' }), line, due);
+        *rows = points++;
+        *end = at;
+    }
+    if (opts->steady.strobe == 0) {
+        *rows = points;
+        *end = at;
     }
     return SS_OK;
 }

@@ -51,6 +51,8 @@ ss_status ss_finder_return(finder *f, int most, double tol, int *period);
 
 #define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
 
+#define LYAPUNOV (1u << SS_LYAPUNOV | 1u << SS_LYAPUNOV_ERROR)
+
 /* A state where a cycle begins or ends, and the units of its numbers. */
 void ss_finder_coordinates(const motion *m, double c[D_MOST]);
 void ss_finder_coordinate_units(const finder *f, double unit[D_MOST]);
@@ -63,6 +65,9 @@ typedef enum derivative_use {
     NEWTON, MULTIPLIERS                 /* which want more digits where there is no closed form */
 } derivative_use;
 ss_status ss_finder_derive(finder *f, int cycles, derivative_use use, tangent *t);
+/* lyapunov.c: the exponent over so many cycles from here on, and its standard error; NaN where a cycle has
+ * no derivative. */
+ss_status ss_finder_exponent(finder *f, unsigned long cycles, double *exponent, double *error);
 /* Measure so many cycles from here on; period 0 if they do not close. */
 ss_status ss_finder_measure(finder *f, int cycles, int period, ss_steady *out);
 

@@ -66,6 +66,8 @@ static const struct {
     [SS_MODEL_ERROR_A_RMS] = { "model_error_a_rms", "", has_limit },
     [SS_MODEL_ERROR_F] = { "model_error_f", "", has_limit },
     [SS_MODEL_ERROR_F_RMS] = { "model_error_f_rms", "", has_limit },
+    [SS_LYAPUNOV] = { "lyapunov", "1/s", differs },
+    [SS_LYAPUNOV_ERROR] = { "lyapunov_error", "1/s", differs },
 };
 
 const char *
@@ -110,6 +112,8 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
         return ss_fail(err, SS_EINVAL, "the longest period is 1 ... %d cycles", SS_PERIOD_MAX);
     if (opts->max_cycles < 1)
         return ss_fail(err, SS_EINVAL, "no cycles to look for a period in");
+    if (opts->strobe < 0 || opts->strobe > SS_STROBE_MAX)
+        return ss_fail(err, SS_EINVAL, "starts of cycles: 1 ... %d", SS_STROBE_MAX);
     if (!known || (exact && !m->linear))
         return ss_fail(err, SS_EINVAL, "no method '%s' for model %s", method, m->name);
     if (opts->search < SS_SEARCH_AUTO || opts->search > SS_SEARCH_SHOOT)
@@ -228,6 +232,7 @@ complete(const finder *f, const ss_steady *out)
         if ((o->measures & 1u << i) && isnan(out->value[i]))
             return ss_fail(f->err, SS_EDATA, i == SS_TRANSITION
                            ? "%s: no oscillation, a has no three extrema in one"
+                           : i == SS_LYAPUNOV ? "%s: neighbouring motions become one, within rounding"
                            : "%s: not a number",
                            measure[i].name);
     return SS_OK;
@@ -237,7 +242,7 @@ complete(const finder *f, const ss_steady *out)
 static ss_status
 check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
 {
-    int asks = opts->search == SS_SEARCH_SHOOT || (opts->measures & FLOQUET);
+    int asks = opts->search == SS_SEARCH_SHOOT || (opts->measures & (FLOQUET | LYAPUNOV));
     if (scene->base_frequency > 0 && isfinite(1 / scene->base_frequency))
         return SS_OK;
     if (scene->base_frequency > 0)
@@ -254,19 +259,20 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
     if (opts->measures & MODEL_ERRORS)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, two models have no common phase");
     if (asks && !can_shoot(scene, opts))
-        return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting and multipliers need "
-                       "method %s", EXACT);
+        return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
+                       "exponents need method %s", EXACT);
     return SS_OK;
 }
 
 ss_status
 ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
 {
-    if (out == NULL || scene == NULL || opts == NULL)
+    if (out == NULL || scene == NULL || opts == NULL || (opts->strobe > 0 && out->strobe == NULL))
         return SS_FAIL_NULL(err);
     finder f = { .scene = scene, .opts = opts, .err = err, .autonomous = scene->base_frequency == 0 };
     for (int i = 0; i < SS_MEASURES; i++)
         out->value[i] = NAN;
+    out->n_strobes = 0;
     ss_status limit = SS_OK, st = ss_scene_check(scene, err);
     if (st == SS_OK)
         st = ss_steady_check(opts, scene->model, err);

@@ -161,6 +161,7 @@ typedef struct sweep {
     size_t n, taken, sent;         /* points of the shard; the next to compute; the next for the sink */
     batch *ring;
     size_t room;
+    ss_strobe *strobe;              /* of all in the ring, NULL if none are wanted */
     double *vary;                   /* of the row for the sink */
     ss_status status;
     pthread_mutex_t lock;           /* of all from taken on; the sink is called under it */
@@ -232,6 +233,22 @@ work_on(void *user)
     free(vary);
 }
 
+/* Room in the ring, where starts of cycles are wanted. */
+static ss_status
+make_room(sweep *w)
+{
+    const ss_steady_opts *o = &w->opts->steady;
+    size_t each = (size_t)(o->strobe > o->max_period ? o->strobe : o->max_period), n = w->room * BATCH;
+    w->ring = calloc(w->room, sizeof *w->ring);
+    w->vary = calloc(w->opts->n_axes, sizeof *w->vary);
+    w->strobe = o->strobe > 0 ? calloc(n, each * sizeof *w->strobe) : NULL;
+    if (w->ring == NULL || w->vary == NULL || (o->strobe > 0 && w->strobe == NULL))
+        return SS_ENOMEM;
+    for (size_t i = 0; w->strobe != NULL && i < n; i++)
+        w->ring[i / BATCH].result[i % BATCH].steady.strobe = w->strobe + i * each;
+    return SS_OK;
+}
+
 static void
 work_together(sweep *w)
 {
@@ -255,12 +272,11 @@ ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
     ss_sweep_points(opts, &all, NULL);
     size_t of_shard = all > opts->shard ? (all - opts->shard - 1) / opts->shards + 1 : 0;
     w.n = of_shard > opts->first ? of_shard - opts->first : 0;
-    w.ring = calloc(w.room, sizeof *w.ring);
-    w.vary = calloc(opts->n_axes, sizeof *w.vary);
-    w.status = w.ring != NULL && w.vary != NULL ? SS_OK : SS_ENOMEM;
+    w.status = make_room(&w);
     if (w.status == SS_OK)
         work_together(&w);
     free(w.ring);
     free(w.vary);
+    free(w.strobe);
     return w.status == SS_ENOMEM ? ss_fail_memory(err, NULL) : w.status;
 }

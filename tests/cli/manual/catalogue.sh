@@ -4,7 +4,7 @@ rows() { grep -v '^#' | awk -F '\t' '{ for (i = 2; i < NF; i++) printf "%.6f ", 
 gaps() {        # of the events: how long each lasts, from the third on
     grep -v '^#' | awk -F '\t' 'NR > 3 { printf "%s %.6f\n", kind, $1 - t } { t = $1; kind = $2 }' | sort -u
 }
-ss-sim --list | grep -c -e hartog -e decay -e leine -e pulled -e shaw -e subharmonic
+ss-sim --list | grep -c -e chaos -e hartog -e decay -e leine -e pulled -e shaw -e subharmonic
 ss-sweep --measure stops,amplitude --vary friction=0.5:0.5:1 den-hartog | rows
 ss-sweep --measure stops,stick,amplitude,floquet --vary friction=0.9:0.9:1 den-hartog-stops | rows
 ss-sim --events pulled-slider | gaps
@@ -12,6 +12,8 @@ ss-sim --events leine | gaps
 ss-sim --events free-decay | awk -F '\t' '!/^#/ { n++; last = $3 } END { printf "%d %.6f\n", n - 1, last }'
 ss-sweep --measure stops,amplitude,x_max,x_phase,floquet --vary x0=-2:2:2 shaw | rows
 ss-sweep --measure amplitude,x_max,floquet --vary x0=1.15:1.5:8 subharmonic | rows
+ss-sweep --measure period,lyapunov,lyapunov_error --vary base_frequency=0.52:0.7:10 chaos |
+    awk -F '\t' '!/^#/ { printf "%.2f %s %.1f\n", $2, $3, $4 }'
 ss-sweep --measure stops,amplitude,x_max,floquet --vary base_frequency=0.458:0.462:5 shaw | rows
 ss-sim -c t,s pulled-slider | ss-plot -o slider.png
 ss-sim -c t,x,v leine | ss-plot --xy x,v -o leine.png
