@@ -561,7 +561,7 @@ says_what_has_no_cycle(void **state)
     opts.search = SS_SEARCH_SHOOT;
     ss_scene slider = read_slider(.1, 0);
     assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
-    assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting and multipliers need method "
+    assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting, multipliers and exponents need method "
                         "exact");
     opts = ss_steady_defaults;
     s.base_frequency = s.base_amplitude = 0;

@@ -20,7 +20,7 @@ static const char usage[] =
 "      --shoot           find a period by Newton's method at once\n"
 "  -t, --tol=TOL         how near to periodic, see the manual (default 1e-9)\n"
 "      --max-period=N    longest period, in cycles (8)\n"
-"      --strobe=N        a row for each cycle of the period, N of an aperiodic motion\n"
+"      --strobe=N        a row a cycle of the period, or for N aperiodic cycles\n"
 "      --max-cycles=N    cycles after which a motion is aperiodic (10000)\n"
 "      --max-steps=N     integration steps of a point (1e7)\n"
 "      --settle-cycles=N simulate N cycles instead of looking for the limit\n"

@@ -47,7 +47,7 @@ ss_status ss_finder_go(finder *f, int cycles, meter *r, tangent *t);
  * it is after none. */
 ss_status ss_finder_return(finder *f, int most, double tol, int *period);
 
-/* --- period.c ---------------------------------------------------------------------------------- */
+/* --- derivative.c, period.c ---------------------------------------------------------------------- */
 
 #define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
 
