@@ -15,7 +15,8 @@ static const char usage[] =
 "                       beginning of the signal on\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --map=X,Y,Z[,Z]  rows of ss-sweep over two keys: a column of few\n"
-"                       values as regions, another as lines of equal value\n"
+"                       values as regions, another as lines of equal value;\n"
+"                       X,Y[,Y...] over one key: a bifurcation diagram\n"
 "      --line=FILE      a line over the map: x and y in rows\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
@@ -68,8 +69,11 @@ set_xy(const tool_option *o, char *pair)
 
 /* --- maps ---------------------------------------------------------------------------------- */
 
+enum { MAP_COLUMNS = 8 };
+
 typedef struct map_drawing {
     ss_table *table;
+    size_t column[MAP_COLUMNS], n;
     ss_map_opts map;
 } map_drawing;
 
@@ -86,26 +90,30 @@ find_column(const ss_table *t, const char *path, const char *name, size_t length
     tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, name, list);
 }
 
-static void
-check_map(const char *names)
+/* The columns that are named; how many. */
+static size_t
+find_columns(const ss_table *t, const char *path, const char *names, size_t column[], size_t most)
 {
-    size_t commas = 0;
-    for (const char *p = names; *p != '\0'; p++)
-        commas += *p == ',';
-    if (commas < 2 || commas > 3)
-        tool_usage("--map: '%s' is not X,Y,Z or X,Y,Z,Z", names);
-}
-
-static void
-find_columns(map_drawing *d, const char *path, const char *names)
-{
-    size_t *column[] = { &d->map.x, &d->map.y, &d->map.z[0], &d->map.z[1] };
-    for (size_t i = 0; *names != '\0'; i++) {
+    size_t n = 0;
+    for (; *names != '\0'; n++) {
         size_t length = strcspn(names, ",");
-        *column[i] = find_column(d->table, path, names, length);
-        d->map.n_z = i < 2 ? 0 : i - 1;
+        if (n == most)
+            tool_usage("--map: more than %zu columns", most);
+        column[n] = find_column(t, path, names, length);
         names += length + (names[length] == ',');
     }
+    return n;
+}
+
+/* One parameter was varied, in every part of the table. */
+static int
+is_diagram(const ss_table *t)
+{
+    const char *first = ss_table_note(t, "vary");
+    for (size_t i = 0; i < t->n_notes && first != NULL; i++)
+        if (strncmp(t->note[i], "vary: ", 6) == 0 && strcmp(t->note[i] + 6, first) != 0)
+            return 0;
+    return first != NULL;
 }
 
 /* Rows of x and y; any other row breaks the line. */
@@ -142,6 +150,8 @@ static ss_status
 write_map(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const map_drawing *d = user;
+    if (is_diagram(d->table))
+        return ss_plot_diagram(out, d->table, d->column[0], d->column + 1, d->n - 1, opts, err);
     return ss_plot_map(out, d->table, &d->map, opts, err);
 }
 
@@ -149,15 +159,22 @@ static void
 draw_map(const char *path, const char *names, const char *line, const char *output,
          ss_plot_opts *opts)
 {
-    map_drawing d = { NULL, { 0 } };
+    map_drawing d = { .table = NULL };
     ss_error err = { 0 };
     FILE *in = tool_open(path);
     double *curve = line != NULL ? read_line(line, &d.map.n_curve) : NULL;
     tool_check(ss_table_read(&d.table, in, tool_input_name(path), SS_KIND_SWEEP, &err), &err);
     if (in != stdin)
         fclose(in);
-    find_columns(&d, path, names);
-    d.map.curve = curve;
+    d.n = find_columns(d.table, path, names, d.column, MAP_COLUMNS);
+    int diagram = is_diagram(d.table);
+    if (d.n < 2 || (!diagram && (d.n < 3 || d.n > 4)))
+        tool_usage("--map: '%s' is not %s", names, diagram ? "X,Y[,Y...]: one key was varied"
+                   : "X,Y,Z or X,Y,Z,Z: two keys were varied");
+    if (diagram && line != NULL)
+        tool_usage("--line needs a map over two keys");
+    d.map = (ss_map_opts){ .x = d.column[0], .y = d.column[1], .z = { d.column[2], d.column[3] },
+                           .n_z = d.n - 2, .curve = curve, .n_curve = d.map.n_curve };
     tool_note("%s: %zu points", tool_input_name(path), d.table->n);
     tool_draw(output, opts, write_map, &d);
     ss_table_free(d.table);
@@ -216,7 +233,6 @@ main(int argc, char *argv[])
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {
-        check_map(map);
         draw_map(path, map, line, output, &opts);
     } else {
         draw_signal(path, xy.n > 0 ? &xy : &wanted, xy.n > 0, over, output, &reading.opts, &opts);

@@ -101,5 +101,10 @@ typedef struct ss_map_opts {
 ss_status ss_plot_map(FILE *out, const ss_table *table, const ss_map_opts *map,
                       const ss_plot_opts *opts, ss_error *err);
 
+/* A sweep over one parameter: n columns y over x, a panel each, as points where rows of one x differ (a
+ * bifurcation diagram), else as a line.  Words as in ss_plot_map. */
+ss_status ss_plot_diagram(FILE *out, const ss_table *table, size_t x, const size_t y[], size_t n,
+                          const ss_plot_opts *opts, ss_error *err);
+
 SS_END_DECLARATIONS
 #endif

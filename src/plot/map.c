@@ -26,36 +26,10 @@ typedef struct drawn {
     size_t n;
 } drawn;
 
-/* A cell: a number, "-" for an unknown value, or the period of a motion that has none. */
-static ss_status
-read_cell(double *x, const char *cell, const char *column, size_t row, ss_error *err)
-{
-    char *end;
-    *x = ss_number_parse(cell, &end);
-    if (strcmp(cell, "-") == 0)
-        *x = NAN;
-    else if (strcmp(cell, "aperiodic") == 0)
-        *x = 0;
-    else if (end == cell || *end != '\0' || !isfinite(*x))
-        return ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", row + 1, column,
-                       cell);
-    return isnan(*x) || fabs(*x) < 1 ? SS_OK : ss_script_check(column, x, 1, err);
-}
-
 static ss_status
 read_column(drawn *d, size_t c, ss_error *err)
 {
-    const ss_table *t = d->table;
-    ss_status st = SS_OK;
-    if (c >= t->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", c + 1, t->n_columns);
-    double *value = malloc((t->n + 1) * sizeof *value);
-    if (value == NULL)
-        return ss_fail_memory(err, NULL);
-    d->column[d->n++] = (map_column){ &t->column[c], value };
-    for (size_t i = 0; st == SS_OK && i < t->n; i++)
-        st = read_cell(&value[i], t->cell[i * t->n_columns + c], t->column[c].name, i, err);
-    return st;
+    return ss_map_read_column(&d->column[d->n++], d->table, c, err);
 }
 
 static ss_status
@@ -170,17 +144,6 @@ write_axis(FILE *out, const char *name, const map_axis *a)
     fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
 }
 
-/* "base frequency / Hz" */
-static script_label
-label_of(const ss_column *column)
-{
-    script_label label;
-    ss_script_make_label(&label, column, 0, INFINITY);
-    for (size_t i = 0; i < strlen(column->name) && i < label.n; i++)
-        label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
-    return label;
-}
-
 /* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten values. */
 static int
 letters_of(const map_axis *a)
@@ -263,8 +226,8 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
 {
     ss_plot_opts titled = *opts;
     const char *scene = ss_table_note(d->table, "scene");
-    script_label x_label = label_of(d->column[0].label), y_label = label_of(d->column[1].label);
-    script_label line_label = label_of(d->column[line].label);
+    script_label x_label = ss_map_label(d->column[0].label, 0, INFINITY), y_label = ss_map_label(d->column[1].label, 0, INFINITY);
+    script_label line_label = ss_map_label(d->column[line].label, 0, INFINITY);
     if (titled.title == NULL)
         titled.title = scene != NULL ? scene : "";
     ss_status st = ss_script_begin(out, &titled, 7, err);

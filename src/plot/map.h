@@ -1,16 +1,24 @@
-/* map.h -- the grid of a map, its regions and its lines. */
+/* map.h -- columns of a sweep's rows, the grid of a map, its regions and its lines. */
 #ifndef MAP_H
 #define MAP_H
 
 #include <stddef.h>
 #include <stdio.h>
 #include <stickslip/signal.h>
+#include <stickslip/table.h>
+#include "plot/script.h"
 
 /* A column that is drawn. */
 typedef struct map_column {
     const ss_column *label;
     double *value;              /* a row each; NaN: it has none */
 } map_column;
+
+/* Column c of the rows: "-" is NaN, and "aperiodic" a period of 0; its value is to be freed even after a
+ * failure.  SS_EDATA: another word. */
+ss_status ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *err);
+/* "base frequency / Hz" of base_frequency. */
+script_label ss_map_label(const ss_column *column, int exponent, double room);
 
 /* A column's values that differ, ascending. */
 typedef struct map_axis {

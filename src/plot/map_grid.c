@@ -4,8 +4,50 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "base/sort.h"
+
+/* A cell: a number, "-" for an unknown value, or the period of a motion that has none. */
+static ss_status
+read_cell(double *x, const char *cell, const char *column, size_t row, ss_error *err)
+{
+    char *end;
+    *x = ss_number_parse(cell, &end);
+    if (strcmp(cell, "-") == 0)
+        *x = NAN;
+    else if (strcmp(cell, "aperiodic") == 0)
+        *x = 0;
+    else if (end == cell || *end != '\0' || !isfinite(*x))
+        return ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", row + 1, column,
+                       cell);
+    return isnan(*x) || fabs(*x) < 1 ? SS_OK : ss_script_check(column, x, 1, err);
+}
+
+ss_status
+ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *err)
+{
+    ss_status st = SS_OK;
+    if (c >= t->n_columns)
+        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", c + 1, t->n_columns);
+    double *value = malloc((t->n + 1) * sizeof *value);
+    if (value == NULL)
+        return ss_fail_memory(err, NULL);
+    *column = (map_column){ &t->column[c], value };
+    for (size_t i = 0; st == SS_OK && i < t->n; i++)
+        st = read_cell(&value[i], t->cell[i * t->n_columns + c], t->column[c].name, i, err);
+    return st;
+}
+
+script_label
+ss_map_label(const ss_column *column, int exponent, double room)
+{
+    script_label label;
+    ss_script_make_label(&label, column, exponent, room);
+    for (size_t i = 0; i < strlen(column->name) && i < label.n; i++)
+        label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
+    return label;
+}
 
 /* The step that varies less over the values is the grid's. */
 static int

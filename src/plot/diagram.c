@@ -1,0 +1,144 @@
+/* diagram.c -- a sweep over one parameter: columns of its rows over the key that was varied.
+ *
+ * Where the rows of a value differ, as the points of a stroboscopic map do, they are drawn as points, a
+ * bifurcation diagram; else as a line. */
+#include "plot/map.h"
+#include "plot/script.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+
+#define FIRST 4.6               /* heights of the panels [cm] */
+#define NEXT 2.2
+#define TITLE 0.6               /* above them */
+#define KEY 1.0                 /* and below */
+#define GAP 0.2                 /* between two */
+#define ROOM 8.0                /* for the label of a panel [ems] */
+enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
+
+typedef struct extent {
+    double lo, hi;
+} extent;
+
+static extent
+extent_of(const double *x, size_t n)
+{
+    extent e = { INFINITY, -INFINITY };
+    for (size_t i = 0; i < n; i++) {
+        e.lo = fmin(e.lo, x[i]);            /* of a NaN and a number, the number */
+        e.hi = fmax(e.hi, x[i]);
+    }
+    return e;
+}
+
+/* Rows of one value of the key stand together. */
+static int
+is_line(const double *x, const double *y, size_t n)
+{
+    for (size_t i = 1; i < n; i++)
+        if (x[i] == x[i - 1] && y[i] != y[i - 1] && !(isnan(y[i]) && isnan(y[i - 1])))
+            return 0;
+    return 1;
+}
+
+/* Points that would cover each other are written once. */
+static void
+write_points(FILE *out, const double *x, const double *y, size_t n, double unit, extent e)
+{
+    char seen[CELLS + 1] = { 0 };
+    int decimals = ss_script_decimals((e.hi - e.lo) / unit);
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && x[i] != x[i - 1])
+            memset(seen, 0, sizeof seen);
+        if (isnan(y[i])) {
+            putc('\n', out);                /* a line breaks */
+            continue;
+        }
+        size_t cell = e.hi > e.lo ? (size_t)((y[i] - e.lo) / (e.hi - e.lo) * CELLS) : 0;
+        if (seen[cell]++)
+            continue;
+        fprintf(out, "%.9g ", x[i]);
+        ss_script_write(out, y[i] / unit, decimals, "\n");
+    }
+}
+
+/* Panel i of all between two heights of the picture, as parts of it. */
+static void
+write_panel(FILE *out, const map_column *column, size_t i, size_t n, double bottom, double top)
+{
+    const double *x = column[0].value, *y = column[i].value;
+    extent e = extent_of(y, n);
+    int exponent = ss_script_exponent((double[]){ e.lo, e.hi }, 2), line = is_line(x, y, n);
+    double unit = pow(10, exponent);
+    script_label label = ss_map_label(column[i].label, exponent, ROOM);
+    fprintf(out, "$panel%zu << EOD\n", i);
+    write_points(out, x, y, n, unit, e);
+    fprintf(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
+    ss_script_write_side_label(out, 1, &label);
+    ss_script_write_tics(out, "ytics", (e.hi - e.lo) / unit, i == 1 ? 6 : 4);
+    fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
+            line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '#999999' lw 0.7, " : "", i,
+            line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
+}
+
+static ss_status
+write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_columns,
+              const ss_plot_opts *opts, ss_error *err)
+{
+    ss_plot_opts titled = *opts;
+    const char *scene = ss_table_note(t, "scene"), *vary = ss_table_note(t, "vary");
+    size_t letters = vary != NULL ? strlen(vary) : 0;
+    int log = letters > 4 && strcmp(vary + letters - 4, ":log") == 0;
+    extent x = extent_of(column[0].value, t->n);
+    double height = TITLE + FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, top = height - TITLE;
+    script_label x_label = ss_map_label(column[0].label, 0, INFINITY);
+    if (titled.title == NULL)
+        titled.title = scene != NULL ? scene : "";
+    ss_status st = ss_script_begin(out, &titled, height, err);
+    if (st != SS_OK)
+        return st;
+    ss_script_write_title(out, &titled, NULL, NULL);
+    fprintf(out, "colour = '#0072b2'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
+            "set border lw 0.8; set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+            "set xrange [%.9g:%.9g]%s; set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
+            "set grid xtics lc rgb '#dddddd' lt 1; set xtics format ''\n", x.lo, x.hi,
+            log ? "; set logscale x" : "");
+    for (size_t i = 1; i < n_columns; i++) {
+        double tall = i == 1 ? FIRST : NEXT;
+        if (i + 1 == n_columns) {
+            fputs("set xtics format '%g'; set xlabel ", out);
+            ss_script_write_label(out, &x_label);
+            fputs(" noenhanced offset 0,0.4\n", out);
+        }
+        write_panel(out, column, i, t->n, (top - tall) / height, top / height);
+        top -= tall + GAP;
+    }
+    fputs("unset multiplot\n", out);
+    return ss_script_end(out);
+}
+
+ss_status
+ss_plot_diagram(FILE *out, const ss_table *t, size_t x, const size_t y[], size_t n,
+                const ss_plot_opts *opts, ss_error *err)
+{
+    if (out == NULL || t == NULL || opts == NULL || (y == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    if (n < 1 || n >= COLUMNS_MAX)
+        return ss_fail(err, SS_EINVAL, "a diagram shows 1 ... %d columns", COLUMNS_MAX - 1);
+    map_column column[COLUMNS_MAX] = { { NULL, NULL } };
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i <= n; i++) {
+        st = ss_map_read_column(&column[i], t, i == 0 ? x : y[i - 1], err);
+        extent e = st == SS_OK ? extent_of(column[i].value, t->n) : (extent){ 0, 1 };
+        if (!(e.lo <= e.hi) || (i == 0 && !(e.lo < e.hi)))
+            st = ss_fail(err, SS_EINVAL, "%s has %s", column[i].label->name,
+                         i == 0 ? "one value only" : "no value to draw");
+    }
+    if (st == SS_OK)
+        st = write_diagram(out, t, column, n + 1, opts, err);
+    for (size_t i = 0; i < COLUMNS_MAX; i++)
+        free(column[i].value);
+    return st;
+}
