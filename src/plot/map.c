@@ -2,6 +2,7 @@
  *
  * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and
  * each overlaps the next row by a quarter, so that no seams show.  The lines are those of map_lines.c. */
+#include <stickslip/sweep.h>
 #include "plot/map.h"
 #include "plot/script.h"
 
@@ -57,6 +58,7 @@ border(const map_axis *a, double i)
 typedef struct regions {
     size_t column;                  /* of those drawn; 0: there are none */
     double value[REGIONS_MAX];      /* ascending */
+    int rest;                       /* the first is AT_REST */
     size_t n;
     int missing;                    /* there are points without one */
 } regions;
@@ -81,6 +83,36 @@ find_regions(regions *r, const map_grid *g, const double *column)
     }
     qsort(r->value, r->n, sizeof *r->value, ss_ascending);
     return r->n > 0;
+}
+
+/* No stop in a cycle has two reasons: the mass never moves, or it never stops. */
+#define AT_REST (-1.0)
+
+static void
+mark_rest(const drawn *d, size_t c)
+{
+    const ss_table *t = d->table;
+    size_t stick = (size_t)ss_table_column(t, ss_measure_name(SS_STICK_FRACTION));
+    size_t amplitude = (size_t)ss_table_column(t, ss_measure_name(SS_AMPLITUDE));
+    for (size_t i = 0; i < t->n; i++)
+        if (d->column[c].value[i] == 0
+            && (ss_table_number(t, i, stick) == 1 || ss_table_number(t, i, amplitude) == 0))
+            d->column[c].value[i] = AT_REST;
+}
+
+/* Lines do not show where a share of the time is all of it or none. */
+static void
+find_ends(regions *r, const map_grid *g, const map_column *column, size_t c)
+{
+    for (int end = 0; end <= 1; end++) {
+        size_t n = g->x.n * g->y.n, k = 0;
+        while (k < n && ss_map_value(g, column->value, k % g->x.n, k / g->x.n) != end)
+            k++;
+        if (k == n)
+            continue;
+        r->column = c;
+        r->value[r->n++] = end;
+    }
 }
 
 static int
@@ -165,7 +197,11 @@ write_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
     for (size_t i = 0; i < r->n; i++, comma = ", \\\n     ") {
         size_t s = r->n > 1 ? i * (REGIONS_MAX - 1) / (r->n > 5 ? r->n - 1 : 5) : 0;
         fprintf(out, "%s$region%zu using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder "
-                "lc rgb '%s' title '%.6g'", comma, i, shade[s], r->value[i]);
+                "lc rgb '%s' title ", comma, i, shade[s]);
+        if (r->rest && i == 0)
+            fputs("'rest'", out);
+        else
+            fprintf(out, "'%.6g'", r->value[i]);
     }
     if (has_lines) {
         fprintf(out, "%s$line using 1:2 with lines lw 0.7 lc rgb line_colour notitle", comma);
@@ -262,17 +298,24 @@ choose_forms(regions *r, size_t *line, const drawn *d, const map_grid *g, ss_err
 {
     for (size_t c = 2; c < d->n; c++) {
         regions found;
+        int is_stops = strcmp(d->column[c].label->name, ss_measure_name(SS_STOPS)) == 0;
+        if (is_stops)
+            mark_rest(d, c);
         int few = find_regions(&found, g, d->column[c].value);
         size_t *place = few ? &r->column : line;
         if (*place != 0)
             return ss_fail(err, SS_EINVAL, "%s and %s are both drawn as %s: a map has one of each",
                            d->column[*place].label->name, d->column[c].label->name, few ? "regions" : "lines");
+        found.rest = is_stops && found.value[0] == AT_REST;
         if (few)
             *r = found;
         else if (c == 2)
             r->missing = found.missing;
         *place = c;
     }
+    if (r->n == 0 && *line > 0
+        && strcmp(d->column[*line].label->name, ss_measure_name(SS_STICK_FRACTION)) == 0)
+        find_ends(r, g, &d->column[*line], *line);
     return SS_OK;
 }
 
