@@ -554,6 +554,7 @@ plots_refuse_null(void **state)
     static const ss_trade trade;
     static const ss_table table;
     static const ss_map_opts map;
+    static const size_t y[1];
     const ss_plot_opts *const opts = &ss_plot_defaults;
     const ss_contour_opts *const contour = &ss_contour_defaults;
     ss_error e = { 0 };
@@ -580,6 +581,10 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_map(out, NULL, &map, opts, &e), &e);
     assert_refused(ss_plot_map(out, &table, NULL, opts, &e), &e);
     assert_refused(ss_plot_map(out, &table, &map, NULL, &e), &e);
+    assert_refused(ss_plot_diagram(NULL, &table, 0, y, 1, opts, &e), &e);
+    assert_refused(ss_plot_diagram(out, NULL, 0, y, 1, opts, &e), &e);
+    assert_refused(ss_plot_diagram(out, &table, 0, NULL, 1, opts, &e), &e);
+    assert_refused(ss_plot_diagram(out, &table, 0, y, 1, NULL, &e), &e);
     assert_int_equal(ftell(out), 0);
     assert_int_equal(ss_store_is_hdf5(NULL), 0);
     assert_int_equal(ss_store_has_signal(NULL), 0);

@@ -9,6 +9,8 @@
 # symmetry: where the shipped scene shaw, with static above kinetic friction, moves farther to one side than
 # to the other, by max|x| less the amplitude; from r = 1/2 on, where subharmonic has its line of motions.
 #
+# chaos: points of the stroboscopic map and the Lyapunov exponent of the shipped scene chaos over r.
+#
 # coulomb: the rms error of a if Coulomb friction takes the place of compliant-light's contact, over stiffness
 # and damping of the contact.
 set -eu
@@ -76,7 +78,12 @@ ss-sweep --threads "$THREADS" --measure model_error_a_rms,model_error_a,model_er
     --vary contact_stiffness=3e4:3e7:49:log --vary contact_damping=3:3000:37:log \
     -o "$OUT/coulomb.tsv" compliant-light
 
+ss-sweep --threads "$THREADS" --simulate --max-cycles 3000 --strobe 400 --measure x_phase,lyapunov \
+    --vary base_frequency=0.44:0.74:601 -o "$OUT/chaos.tsv" chaos
+
 for form in png pdf; do
+    ss-plot --map base_frequency,x_phase,lyapunov --title 'The way to chaos: friction at rest is four times that in motion' \
+        "$OUT/chaos.tsv" -o "$OUT/chaos.$form"
     ss-plot --map base_frequency,friction,stops,amplitude --line "$OUT/den-hartog-limit.tsv" \
         --title 'Stops a cycle, amplitude; the limit of Den Hartog' "$OUT/den-hartog.tsv" \
         -o "$OUT/den-hartog.$form"

@@ -12,7 +12,7 @@ static const char usage[] =
 "map of a sweep.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
 "      --over=FILE      draw its first column over the first panel, from the\n"
-"                       beginning of the signal on\n"
+"                       beginning of the signal on; or with --xy its X and Y\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --map=X,Y,Z[,Z]  rows of ss-sweep over two keys: a column of few\n"
 "                       values as regions, another as lines of equal value;\n"
@@ -228,8 +228,8 @@ main(int argc, char *argv[])
     reading.opts.from = reading.opts.to = 0;
     if (map != NULL && (xy.n > 0 || wanted.n > 0 || reading.given))
         tool_usage("--map excludes --xy, --column and the options of reading");
-    if (over != NULL && (map != NULL || xy.n > 0))
-        tool_usage("--over excludes --map and --xy");
+    if (over != NULL && map != NULL)
+        tool_usage("--over excludes --map");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {

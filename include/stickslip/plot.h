@@ -26,7 +26,7 @@ typedef struct ss_plot_opts {
     const char *title;          /* NULL: from the notes (scene, model); "": none */
     double from, to;            /* [s] on the source's clock, the span drawn; NaN: all of it */
     ss_plot_style style;
-    const ss_signal *over;      /* of ss_plot_signal; NULL: none */
+    const ss_signal *over;      /* of ss_plot_signal and ss_plot_xy; NULL: none */
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;
 
@@ -34,7 +34,8 @@ extern const ss_plot_opts ss_plot_defaults;
  * column of opts->over, if that is not NULL, is drawn over the first panel; it begins with the signal. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
-/* One column over another: a phase plane or a friction loop. */
+/* One column over another: a phase plane or a friction loop.  Over it are drawn the columns of opts->over of
+ * the same names, or else its first two. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 

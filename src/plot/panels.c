@@ -130,14 +130,12 @@ range(const double *x, size_t n, double unit)
 
 /* A point nearer than half a pixel to the last one written is left out. */
 static void
-write_path(FILE *out, const double *x, const double *y, size_t n, double x_unit, double y_unit)
+write_path(FILE *out, const char *name, const double *x, const double *y, size_t n, double x_unit, double y_unit)
 {
     double x_range = range(x, n, x_unit), y_range = range(y, n, y_unit);
-    ss_script_write_tics(out, "xtics", x_range, 6);
-    ss_script_write_tics(out, "ytics", y_range, 6);
     double near_x = x_range / (2 * SCRIPT_COLUMNS), near_y = y_range / (2 * SCRIPT_COLUMNS);
     size_t last = 0;
-    fputs("$path << EOD\n", out);
+    fprintf(out, "%s << EOD\n", name);
     for (size_t i = 0; i < n; i++) {
         if (i > 0 && i + 1 < n && fabs(x[i] - x[last]) / x_unit <= near_x
             && fabs(y[i] - y[last]) / y_unit <= near_y)
@@ -147,6 +145,26 @@ write_path(FILE *out, const double *x, const double *y, size_t n, double x_unit,
         last = i;
     }
     fputs("EOD\n", out);
+}
+
+/* The columns of opts->over that have these names, else its first two. */
+static ss_status
+find_over(const double *over[2], const ss_plot_opts *opts, const ss_column *x, const ss_column *y, ss_error *err)
+{
+    if (opts->over == NULL)
+        return SS_OK;
+    const ss_header *head = opts->over->head;
+    int found[2] = { ss_header_column(head, x->name), ss_header_column(head, y->name) };
+    if (found[0] < 0 || found[1] < 0)
+        found[1] = (found[0] = 0) + 1;
+    if (head->n_columns < 2)
+        return ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", x->name, y->name);
+    ss_status st = SS_OK;
+    for (int i = 0; st == SS_OK && i < 2; i++) {
+        over[i] = opts->over->values + (size_t)found[i] * opts->over->n;
+        st = ss_script_check(head->column[found[i]].name, over[i], opts->over->n, err);
+    }
+    return st;
 }
 
 ss_status
@@ -164,10 +182,12 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     if (status != SS_OK)
         return status;
     const double *of_x = signal->values + x * signal->n + span.first;
-    const double *of_y = signal->values + y * signal->n + span.first;
+    const double *of_y = signal->values + y * signal->n + span.first, *over[2] = { NULL, NULL };
     status = ss_script_check(head->column[x].name, of_x, span.n, err);
     if (status == SS_OK)
         status = ss_script_check(head->column[y].name, of_y, span.n, err);
+    if (status == SS_OK)
+        status = find_over(over, opts, &head->column[x], &head->column[y], err);
     if (status == SS_OK)
         status = ss_script_begin(out, opts, 6.5, err);
     if (status != SS_OK)
@@ -184,12 +204,20 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     putc('\n', out);
     ss_script_write_side_label(out, 1, &y_label);
     fputs("colour = '#0072b2'\n", out);
-    write_path(out, of_x, of_y, span.n, pow(10, exponent[0]), pow(10, exponent[1]));
+    double unit[2] = { pow(10, exponent[0]), pow(10, exponent[1]) };
+    ss_script_write_tics(out, "xtics", range(of_x, span.n, unit[0]), 6);
+    ss_script_write_tics(out, "ytics", range(of_y, span.n, unit[1]), 6);
+    write_path(out, "$path", of_x, of_y, span.n, unit[0], unit[1]);
+    if (opts->over != NULL) {
+        fputs("over = '#d55e00'\n", out);
+        write_path(out, "$over", over[0], over[1], opts->over->n, unit[0], unit[1]);
+    }
     fputs("unset key\n"
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
           "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
           "set tics nomirror out scale 0.6; set border lw 0.8\n"
-          "plot $path using 1:2 with lines lw 1 lc rgb colour\n", out);
+          "plot $path using 1:2 with lines lw 1 lc rgb colour", out);
+    fputs(opts->over != NULL ? ", $over using 1:2 with lines lw 1 lc rgb over\n" : "\n", out);
     return ss_script_end(out);
 }

@@ -4,8 +4,16 @@ for p in gnuplot awk; do command -v $p > /dev/null || { echo "no $p"; exit 77; }
 GNUTERM=dumb
 export GNUTERM
 mkdir bin
-command -v parallel > /dev/null ||
-    printf '#!/bin/sh\nfor i in 1 2 3 4; do eval "$(echo "${*%% :::*}" | sed "s/{}/$i/g")"; done\n' > bin/parallel
+# As much of GNU parallel as the examples need: -j, {} and {/}, jobs behind ::: or on standard input.
+command -v parallel > /dev/null || cat > bin/parallel << 'EOF'
+#!/bin/sh
+[ "$1" != -j ] || shift 2
+all=$*
+command=${all%% :::*}
+case $all in *' ::: '*) printf '%s\n' ${all##*::: } ;; *) cat ;; esac | while read -r job; do
+    eval "$(echo "$command" | sed "s|{}|$job|g; s|{/}|${job##*/}|g")" < /dev/null || exit
+done
+EOF
 python3 -c 'import numpy' 2> /dev/null || printf '#!/bin/sh\n' > bin/python3
 command -v h5dump > /dev/null || printf '#!/bin/sh\n' > bin/h5dump
 # shellcheck disable=SC2016  # for the script written
@@ -48,7 +56,6 @@ for page in "$SRC"/man/*.[157]; do
         sed 's/\\e/\\/g' > text
     case $page in
     *-scene.5) ss-sim - < text > record && [ -s record ] ;;
-    *-sweep.7) [ ! -s text ] ;;
     *)         grep -v -e '^# ' -e '^w = ' -e '^abs(' text | try "$(basename "$page")" ;;
     esac
 done

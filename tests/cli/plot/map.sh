@@ -19,6 +19,19 @@ if command -v gnuplot > /dev/null; then
     test -s a.svg
     draw --map stiffness,mass,stops b.tsv -o b.svg && test -s b.svg
 fi
+# what never moves is not what never stops; of the share alone the ends are seen
+for z in stops,amplitude stops stick; do
+    ss-sweep --shoot -m stops,stick,amplitude --vary base_frequency=0.8:1.2:5 --vary friction=0.2:1.2:11 den-hartog -o c.tsv
+    draw --map base_frequency,friction,$z c.tsv | grep -o "title '[^']*'"
+done
+# over one key: points of the strobe, and under them a line that is broken where there is no value
+ss-sweep --simulate --strobe 4 --max-cycles 100 -m x_phase,period,floquet --vary base_frequency=0.52:0.7:4 chaos -o d.tsv
+draw --map base_frequency,x_phase,floquet d.tsv -o d.gp
+sed -n '/^\$panel2/,/^EOD/p; /^plot/p' d.gp | sed 's/\(\.[0-9][0-9]\)[0-9]*/\1/g' | uniq
+sed -n '/^\$panel1/,/^EOD/p' d.gp | awk 'NF == 2 { n[$1]++ } END { for (r in n) print r, n[r] }' | sort -n
+draw --map base_frequency d.tsv
+draw --map base_frequency,x_phase --line a.tsv d.tsv
+draw --map base_frequency,status d.tsv
 draw --map base_frequency,friction a.tsv
 draw --map base_frequency,friction,speed a.tsv
 draw --map base_frequency,friction,stops,period a.tsv

@@ -6,5 +6,11 @@ sed -n '/^\$over/,/^EOD/p; /^plot /p' both.gp
 # without it nothing changes, but for the curve and its colour
 ss-plot one.tsv > one.gp
 sed '/^\$over/,/^EOD/d; /^over = /d; s/, \$over using.*//' both.gp | cmp - one.gp
+# over a loop: the columns of the same names, else the first two
+printf '# stickslip signal 1\n# rate: 5\n# start: 0\n# columns: t/s y/mm z/mm x/mm\n0\t4\t0\t1\n0.2\t5\t0\t2\n' > three.tsv
+for pair in x,y z,y; do
+    ss-plot --xy $pair --over three.tsv three.tsv | sed -n '/^\$over/,/^EOD/p; /^plot/p'
+done
+ss-plot --xy x,y --over three.tsv one.tsv | sed -n '/^\$over/,/^EOD/p'
 ss-plot --over two.tsv --xy x,y one.tsv || echo $?
 ss-plot --over absent.tsv one.tsv > /dev/null || echo $?
