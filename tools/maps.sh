@@ -78,12 +78,12 @@ ss-sweep --threads "$THREADS" --measure model_error_a_rms,model_error_a,model_er
     --vary contact_stiffness=3e4:3e7:49:log --vary contact_damping=3:3000:37:log \
     -o "$OUT/coulomb.tsv" compliant-light
 
-ss-sweep --threads "$THREADS" --simulate --max-cycles 3000 --strobe 400 --measure x_phase,lyapunov \
+ss-sweep --threads "$THREADS" --simulate --max-cycles 3000 --strobe 150 --measure x_phase,lyapunov \
     --vary base_frequency=0.44:0.74:601 -o "$OUT/chaos.tsv" chaos
 
 for form in png pdf; do
-    ss-plot --map base_frequency,x_phase,lyapunov --title 'The way to chaos: friction at rest is four times that in motion' \
-        "$OUT/chaos.tsv" -o "$OUT/chaos.$form"
+    ss-plot --map base_frequency,x_phase,lyapunov --title 'The way to chaos, f_s = 4 f_k' "$OUT/chaos.tsv" \
+        -o "$OUT/chaos.$form"
     ss-plot --map base_frequency,friction,stops,amplitude --line "$OUT/den-hartog-limit.tsv" \
         --title 'Stops a cycle, amplitude; the limit of Den Hartog' "$OUT/den-hartog.tsv" \
         -o "$OUT/den-hartog.$form"
