@@ -16,7 +16,7 @@ $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" $IN
 $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" -c -o rows.o "$SRC/src/stream/sweep.c"
 # what is linked first takes the place of the library's own
 # shellcheck disable=SC2086
-$CCLD -o ss-sweep ./*.o "$BUILD/tools/common.o" "$BUILD/tools/files.o" "$BUILD/tools/output.o" "$BUILD/libstickslip.a" $LIBS
+$CCLD -o ss-sweep ./*.o "$BUILD/tools/common.o" "$BUILD/tools/files.o" "$BUILD/tools/options.o" "$BUILD/tools/output.o" "$BUILD/tools/reading.o" "$BUILD/libstickslip.a" $LIBS
 ./ss-sweep --vary friction=0.5:1:2 --measure stick,slip coulomb | awk -F '\t' '!/^#/ { print ($3 > 0), $3 + $4 }'
 ./ss-sweep --vary friction=0.5:1:2 --measure slip coulomb | grep '^# columns'
 ./ss-sweep --vary friction=0.5:1:2 --measure slip state-variable || echo "exit $?"
