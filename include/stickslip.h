@@ -18,6 +18,7 @@
 #include <stickslip/trade.h>
 #include <stickslip/sweep.h>
 #include <stickslip/signal.h>
+#include <stickslip/spectrum.h>
 #include <stickslip/morlet.h>
 #include <stickslip/features.h>
 #include <stickslip/spikes.h>
@@ -26,6 +27,7 @@
 #include <stickslip/load.h>
 #include <stickslip/overlay.h>
 #include <stickslip/table.h>
+#include <stickslip/overview.h>
 #include <stickslip/plot.h>
 
 #endif

@@ -70,6 +70,16 @@ def from_xy(strings):
     return run("ss-plot", "--xy", "1,2", stdin=stream(strings))
 
 
+def from_spectrum(strings):
+    return run("ss-plot", "--spectrum", "--db", stdin=stream(strings))
+
+
+def from_recording(strings):
+    with open("signal.tsv", "wb") as out:
+        out.write(stream(strings))
+    return run("ss-contour", "--column", "1", "--fmin", "20", "signal.tsv")
+
+
 def from_au(strings):
     return run("ss-plot", stdin=run("ss-cat", "--format", "au", stdin=stream(strings)) or b"")
 
@@ -171,7 +181,7 @@ def check_picture(file, title):
 def main():
     count, seed = int(sys.argv[1]), int(sys.argv[2])
     rng, used, scripts = random.Random(seed), 0, []
-    places = [from_stream, from_xy, from_au, from_hdf5, from_csv, from_contour, from_map, from_scene,
+    places = [from_stream, from_xy, from_spectrum, from_recording, from_au, from_hdf5, from_csv, from_contour, from_map, from_scene,
               from_file]
     drawn = dict.fromkeys(places, 0)
     os.environ["GNUTERM"] = f"dumb; system '{CANARY}'"

@@ -597,8 +597,29 @@ plots(int variant)
     case 1: return ss_plot_xy(scrap, signal, 0, 1, &ss_plot_defaults, &err);
     case 2: return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
     case 3: return ss_plot_map(scrap, sweep, &map, &ss_plot_defaults, &err);
+    case 5: return ss_plot_spectrum(scrap, signal, NULL, 0, 0, 1, &ss_plot_defaults, &err);
+    case 6: contour.fill = contour.ridge = 1;
+            return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
     }
     return ss_plot_trade(scrap, trade, &ss_plot_defaults, &err);
+}
+
+static ss_status
+overviews(int variant)
+{
+    ss_overview *overview;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)variant;
+    opts.voices = 2;
+    opts.fmin = signal->head->rate / 10;
+    ss_status st = ss_overview_new(&overview, signal->head, 0, &opts, &err);
+    if (st != SS_OK)
+        return st;
+    st = ss_overview_push(overview, signal->values, signal->n, &err);
+    if (st == SS_OK)
+        st = ss_overview_end(overview, &err);
+    ss_overview_free(overview);
+    return st;
 }
 
 static ss_status
@@ -683,7 +704,8 @@ static const struct row {
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading sweeps", read_sweeps, 1, 100 },
-    { "reading tables", read_tables, 1, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 5, 30 },
+    { "reading tables", read_tables, 1, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 7, 30 },
+    { "overviews", overviews, 1, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
     { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },
 };

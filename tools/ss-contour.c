@@ -1,16 +1,18 @@
-/* ss-contour.c -- contours of wavelet coefficients over time and frequency. */
+/* ss-contour.c -- contours of wavelet coefficients, or of a recording, over time and frequency. */
 #include "options.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static const char usage[] =
 "usage: ss-contour [options] [FILE] | gnuplot -p\n"
-"Draw wavelet coefficients: contours of |W| in dB below the largest, over time\n"
-"and frequency, below the signal if the HDF5 file has it.\n"
+"Draw contours of |W| in dB below the largest, over time and frequency, below the\n"
+"signal: of coefficients, or of a recording, transformed as it is read.\n"
 "      --levels=N       contour lines (18)\n"
-"      --span=DB        their range below the largest |W| (80, or to the noise)\n"
+"      --span=DB        their range below the largest |W| (80, or down to noise)\n"
 "      --fill           colours between the lines, too\n"
 "      --palette=NAME   viridis, cividis, plasma, inferno, magma or grey\n"
 "      --ridge          mark at each time the frequencies where |W| is largest\n"
@@ -30,6 +32,7 @@ TOOL_READING_USAGE
 typedef struct drawing {
     ss_coefficients *own;       /* all in memory, or else a file that has them */
     ss_store_reader *reader;
+    ss_overview *overview;      /* of a recording */
     const ss_coefficients *coefficients;
     ss_contour_opts opts;
     double *event;
@@ -51,16 +54,121 @@ read_scale(size_t i, double *w, void *user, ss_error *err)
     return ss_store_reader_scale(user, i, w, err);
 }
 
+/* --- a recording, in one pass -------------------------------------------------------------- */
+
+/* A frequency that any recording of use has some cycles of, if its length is not known. */
+#define LOWEST 5e-4             /* of the rate */
+
 static void
-open_coefficients(drawing *d, const char *path)
+open_overview(drawing *d, const ss_header *head, const char *path, const char *column)
+{
+    ss_error err = { 0 };
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
+    opts.fmax = d->opts.fmax;
+    tool_check(ss_overview_new(&d->overview, head, tool_column(head, path, column), &opts, &err), &err);
+}
+
+static void
+push(drawing *d, const double *x, size_t n, const char *path)
+{
+    ss_error err = { 0 };
+    ss_status st = ss_overview_push(d->overview, x, n, &err);
+    if (st != SS_OK)
+        tool_die("%s: %s", path, err.text);
+}
+
+static void
+follow(drawing *d, ss_reader *reader, FILE *in, const char *path, const char *column)
+{
+    enum { PIECE = 8192 };
+    const ss_header *head = ss_reader_header(reader);
+    size_t columns = head->n_columns, at = tool_column(head, path, column), n = 1;
+    double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
+    struct stat st;
+    ss_error err = { 0 };
+    if (rows == NULL || x == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    double size = fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
+    while (n > 0) {
+        tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
+        for (size_t i = 0; i < n; i++)
+            x[i] = rows[i * columns + at];
+        push(d, x, n, path);
+        tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
+    }
+    free(rows);
+    free(x);
+}
+
+static void
+end_overview(drawing *d, const char *path)
+{
+    ss_error err = { 0 };
+    ss_status st = ss_overview_end(d->overview, &err);
+    if (st != SS_OK)
+        tool_die("%s: %s", path, err.text);
+    d->coefficients = ss_overview_coefficients(d->overview);
+    d->opts.signal = ss_overview_signal(d->overview);
+    d->opts.top = ss_overview_top(d->overview);
+    if (isnan(d->opts.noise))
+        d->opts.noise = ss_overview_noise(d->overview);
+    d->opts.fmin = d->opts.fmax = 0;
+}
+
+/* 1 if a file that can be read twice holds a signal. */
+static int
+draw_recording(drawing *d, const char *path, const char *column)
+{
+    ss_error err = { 0 };
+    ss_reader *reader;
+    struct stat s;
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
+        return 0;
+    FILE *in = tool_open(path);
+    ss_status st = ss_reader_new(&reader, in, path, &d->reading.opts, &err);
+    if (st == SS_EKIND || (st == SS_EDATA && s.st_size == 0)) {
+        fclose(in);
+        return 0;
+    }
+    tool_check(st, &err);
+    open_overview(d, ss_reader_header(reader), path, column);
+    follow(d, reader, in, path, column);
+    ss_reader_free(reader);
+    fclose(in);
+    end_overview(d, path);
+    return 1;
+}
+
+/* A signal in HDF5, which is read whole. */
+static void
+draw_signal(drawing *d, const char *path, const char *column)
+{
+    ss_signal *signal = tool_read_signal(path, &d->reading.opts);
+    open_overview(d, signal->head, path, column);
+    push(d, signal->values + tool_column(signal->head, path, column) * signal->n, signal->n, path);
+    ss_signal_free(signal);
+    end_overview(d, path);
+}
+
+/* --- coefficients -------------------------------------------------------------------------- */
+
+static void
+open_input(drawing *d, const char *path, const char *column)
 {
     ss_error err = { 0 };
     d->opts.progress = (ss_progress){ tool_progress, d };
     if (!tool_is_hdf5(path)) {
-        d->coefficients = d->own = tool_read_coefficients(path);
+        if (!draw_recording(d, path, column))
+            d->coefficients = d->own = tool_read_coefficients(path);
         return;
     }
-    tool_check(ss_store_reader_new(&d->reader, tool_reads(path), &err), &err);
+    ss_status st = ss_store_reader_new(&d->reader, tool_reads(path), &err);
+    if (st == SS_EKIND) {
+        draw_signal(d, path, column);
+        return;
+    }
+    tool_check(st, &err);
     d->coefficients = ss_store_reader_grid(d->reader);
     d->opts.source = read_scale;
     d->opts.source_user = d->reader;
@@ -156,15 +264,17 @@ main(int argc, char *argv[])
         tool_usage("--fmin does not lie below --fmax");
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
     tool_reading_end(&d.reading, column);
-    opts.from = d.reading.from;         /* the lines go on to the border */
-    opts.to = d.reading.to;
-    d.reading.opts.from = d.reading.opts.to = 0;
     if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events)
         + is_stdin(features) > 1)
         tool_usage("standard input can be read only once");
-    open_coefficients(&d, path);
-    ss_signal *signal = find_signal(&d, path, signal_path, column);
-    if (column != NULL && signal == NULL)
+    open_input(&d, path, column);
+    if (d.overview != NULL && signal_path != NULL)
+        tool_usage("--signal is for coefficients; %s is a signal", path);
+    opts.from = d.reading.from;         /* the lines go on to the border */
+    opts.to = d.reading.to;
+    d.reading.opts.from = d.reading.opts.to = 0;
+    ss_signal *signal = d.overview == NULL ? find_signal(&d, path, signal_path, column) : NULL;
+    if (column != NULL && d.opts.signal == NULL)
         tool_usage("--column needs a signal; give one with --signal");
     if (events != NULL)
         read_events(&d, events);
@@ -181,6 +291,7 @@ main(int argc, char *argv[])
     ss_signal_free(signal);
     ss_coefficients_free(d.own);
     ss_store_reader_free(d.reader);
+    ss_overview_free(d.overview);
     tool_end();
     return 0;
 }

@@ -18,20 +18,22 @@ static const char usage[] =
 "                       values as regions, another as lines of equal value;\n"
 "                       X,Y[,Y...] over one key: a bifurcation diagram\n"
 "      --line=FILE      a line over the map: x and y in rows\n"
+"      --spectrum       the power spectral density of each column, by Welch\n"
+"      --resolution=HZ  its resolution (that of seven segments or more); --db: in dB\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
 "                       default: the script on standard output\n"
-"  -q, --quiet          no warnings\n"
-"  -v, --verbose        report the input\n"
-"  -h, --help           show this text and exit\n"
-"      --version        show the version and exit\n";
+"  -q, --quiet          no warnings; -v, --verbose: report the input\n"
+"  -h, --help           show this text; --version: show the version\n";
 
 typedef struct drawing {
     const ss_signal *signal;
     size_t *column, n;          /* panels; or with xy the two columns */
     int xy;
+    int spectrum, decibels;
+    double resolution;          /* [Hz]; 0: the default */
 } drawing;
 
 static ss_status
@@ -40,6 +42,8 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     const drawing *d = user;
     if (d->xy)
         return ss_plot_xy(out, d->signal, d->column[0], d->column[1], opts, err);
+    if (d->spectrum)
+        return ss_plot_spectrum(out, d->signal, d->column, d->n, d->resolution, d->decibels, opts, err);
     return ss_plot_signal(out, d->signal, d->column, d->n, opts, err);
 }
 
@@ -183,13 +187,15 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
 
 /* --- the whole ----------------------------------------------------------------------------- */
 
-/* Draw the named columns of a signal, or all, or one over another. */
+/* Draw the named columns of a signal, or all, or one over another, in the form of d. */
 static void
-draw_signal(const char *path, const tool_texts *name, int xy, const char *over, const char *output,
+draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *output,
             const ss_read_opts *reading, ss_plot_opts *opts)
 {
     ss_signal *signal = tool_read_signal(path, reading);
-    drawing d = { signal, malloc((name->n + 1) * sizeof *d.column), name->n, xy };
+    d.signal = signal;
+    d.column = malloc((name->n + 1) * sizeof *d.column);
+    d.n = name->n;
     if (d.column == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < d.n; i++)
@@ -211,7 +217,10 @@ main(int argc, char *argv[])
     tool_reading reading = { .rate_letter = 'r' };
     const char *output = NULL, *over = NULL, *map = NULL, *line = NULL;
     tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
+    drawing d = { .signal = NULL };
     const tool_option options[] = {
+        TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &d.decibels),
+        TOOL_NUMBER(0, "resolution", &d.resolution, ((ss_range){ 1e-300, 1e300 })),
         TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
         TOOL_TEXT(0, "over", &over), TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
         TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
@@ -230,12 +239,17 @@ main(int argc, char *argv[])
         tool_usage("--map excludes --xy, --column and the options of reading");
     if (over != NULL && map != NULL)
         tool_usage("--over excludes --map");
+    d.xy = xy.n > 0;
+    if (d.spectrum && (map != NULL || d.xy || over != NULL))
+        tool_usage("--spectrum excludes --map, --xy and --over");
+    if ((d.decibels || d.resolution > 0) && !d.spectrum)
+        tool_usage("--db and --resolution need --spectrum");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {
         draw_map(path, map, line, output, &opts);
     } else {
-        draw_signal(path, xy.n > 0 ? &xy : &wanted, xy.n > 0, over, output, &reading.opts, &opts);
+        draw_signal(path, d.xy ? &xy : &wanted, d, over, output, &reading.opts, &opts);
     }
     free(wanted.text);
     free(xy.text);

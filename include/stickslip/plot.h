@@ -39,11 +39,17 @@ ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
+/* The power spectral density of columns, as ss_spectrum_new has it of the span drawn, a panel each; n = 0 for
+ * all.  decibels: 1: in dB re 1 unit^2/Hz. */
+ss_status ss_plot_spectrum(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
+                           double resolution, int decibels, const ss_plot_opts *opts, ss_error *err);
+
 typedef struct ss_contour_opts {
     int levels;                 /* contour lines */
     double span;                /* [dB] that they span below the largest |W|, at most */
     double noise;               /* |W| at which noise begins, and the lines end, though not above 10 dB
                                    below the largest; NaN: measured, see below; 0: they span all of span */
+    double top;                 /* |W| of 0 dB; 0: the largest outside the cone of influence */
     const char *palette;        /* one of ss_palette_name; NULL: viridis */
     int fill;                   /* 1: colours between the lines, too */
     int ridge;                  /* 1: the ridges are marked, see below */
@@ -69,8 +75,8 @@ const char *ss_palette_name(size_t i);
  * noise gives it, exp(-|W|^2/s^2) being the share above |W|: where the ratios of its 10, 25 and 50 %
  * quantiles are those of this law within 1 dB, with at least 100 wavelets' lengths of it.  s is found
  * from the 25 % quantile: within 0.5 dB where all is noise, up to 2 dB too high where events last for
- * 30 % of the time.  With an octave of such scales or more, noise begins 9.64 dB above the s that nine of
- * ten of them do not exceed: one in ten thousand of its |W| is larger.
+ * 30 % of the time.  With an octave of such scales or more, noise begins at sqrt(ln N) times the s that nine
+ * of ten of them do not exceed: the largest of N independent |W|, as many as the map has, is about there.
  *
  * A ridge point is a maximum of |W| over the scales at one time, outside the cone, 3 dB above the saddles
  * beside it and above the lowest line.  Where a steady oscillation has it, it lies at the label

@@ -2,6 +2,7 @@
  * axes and cone of influence. */
 #include "plot/contour_marks.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -199,8 +200,9 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
         st = ss_range_check(contour->span, ss_contour_spans, "span [dB]", err);
     if (st != SS_OK)
         return st;
-    if (contour->noise < 0 || isinf(contour->noise) || !(contour->fmin >= 0) || !(contour->fmax >= 0))
-        return ss_fail(err, SS_EINVAL, "noise, fmin or fmax is negative or not finite");
+    if (contour->noise < 0 || isinf(contour->noise) || !(contour->top >= 0 && contour->top <= DBL_MAX)
+        || !(contour->fmin >= 0) || !(contour->fmax >= 0))
+        return ss_fail(err, SS_EINVAL, "noise, top, fmin or fmax is negative or not finite");
     if (contour->palette != NULL && !ss_palette_is_known(contour->palette))
         return ss_fail(err, SS_EINVAL, "no palette '%.40s'", contour->palette);
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)

@@ -53,7 +53,7 @@ survey(filling *f, size_t i, const double *w)
         if (!isfinite(level))
             return 0;
         f->anywhere = fmax(f->anywhere, level);
-        if ((f->noise == NULL && level <= f->outside) || ss_coefficients_edge(f->c, i, k))
+        if ((f->noise == NULL && (f->contour->top > 0 || level <= f->outside)) || ss_coefficients_edge(f->c, i, k))
             continue;
         f->outside = fmax(f->outside, level);
         if (f->noise != NULL)
@@ -99,7 +99,7 @@ fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
 static void
 set_levels(contour_map *map, const filling *f)
 {
-    double max = f->outside >= 0 ? f->outside : f->anywhere;
+    double max = f->contour->top > 0 ? f->contour->top : f->outside >= 0 ? f->outside : f->anywhere;
     double noise = f->noise != NULL ? ss_noise_level(f->noise, f->c->scale) : f->contour->noise;
     for (size_t i = 0; i < map->rows * (CONTOUR_COLUMNS + 1); i++)
         map->level[i] = max > 0 && map->level[i] > 0

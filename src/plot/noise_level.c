@@ -20,7 +20,7 @@ enum { ORDERS = 1024, PART_BITS = 3, BINS = ORDERS << PART_BITS };
 #define RATIO_OFF 1.0           /* [dB] that a ratio of quantiles may be off */
 #define LENGTHS 100.0           /* independent coefficients that this takes */
 #define SHARE 0.9               /* of the scales, at which noise is no higher */
-#define RARE 1e-4               /* share of the noise that is higher than where it begins */
+#define APART 2.0               /* scales an octave whose noise is independent */
 
 struct noise_level {
     size_t n_scales;
@@ -79,17 +79,29 @@ quantile(const uint64_t *count, double total, double part)
     return start_of(bin) + left / (double)count[bin] * (start_of(bin + 1) - start_of(bin));
 }
 
-/* s^2 of a scale's noise; 0 if it shows none. */
+/* Coefficients of a scale. */
 static double
-power_of(const uint64_t *count, const ss_scale *scale)
+total_of(const uint64_t *count)
 {
-    static const double part[3] = { 0.1, 0.25, 0.5 };
-    double total = 0, q[3];
+    double total = 0;
     for (size_t i = 0; i < BINS; i++)
         total += (double)count[i];
-    double length = 2 * sqrt(M_PI) * scale->a;          /* over which |W|^2 of noise is correlated */
-    if (!(total * scale->b_num / scale->b_den >= LENGTHS * length))
-        return 0;
+    return total;
+}
+
+/* In lengths of the wavelet: noise is independent over so many. */
+static double
+lengths_of(double total, const ss_scale *scale)
+{
+    return total * scale->b_num / scale->b_den / (2 * sqrt(M_PI) * scale->a);
+}
+
+/* s^2 of a scale's noise; 0 if it shows none. */
+static double
+power_of(const uint64_t *count, double total)
+{
+    static const double part[3] = { 0.1, 0.25, 0.5 };
+    double q[3];
     for (int i = 0; i < 3; i++)
         q[i] = quantile(count, total, part[i]);
     for (int i = 1; i < 3; i++)
@@ -102,13 +114,17 @@ double
 ss_noise_level(noise_level *noise, const ss_scale *scale)
 {
     size_t n = noise->n_scales, found = 0;
-    double *power = noise->power;
-    for (size_t i = 0; i < n; i++)
-        if ((power[found] = power_of(noise->count + i * BINS, &scale[i])) > 0)
+    double *power = noise->power, independent = 0;
+    double step = log2(scale[n - 1].f / scale[0].f) / (double)(n - 1);         /* octaves */
+    for (size_t i = 0; i < n; i++) {
+        const uint64_t *count = noise->count + i * BINS;
+        double total = total_of(count), lengths = lengths_of(total, &scale[i]);
+        independent += APART * step * lengths;
+        if (lengths >= LENGTHS && (power[found] = power_of(count, total)) > 0)
             found++;
-    double octaves = log2(scale[n - 1].f / scale[0].f) * (double)found / (double)(n - 1);
-    if (found == 0 || octaves < 1)
+    }
+    if (found == 0 || (double)found * step < 1)
         return 0;
     qsort(power, found, sizeof *power, ss_ascending);
-    return sqrt(power[(size_t)(SHARE * (double)(found - 1))] * -log(RARE));
+    return sqrt(power[(size_t)(SHARE * (double)(found - 1))] * log(independent));
 }

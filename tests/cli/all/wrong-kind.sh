@@ -43,10 +43,11 @@ for tool in ss-features ss-morlet ss-plot ss-rank ss-trade 'ss-noise --snr 20'; 
     refused $tool coefficients.tsv
 done
 refused ss-contour --signal my.scene coefficients.h5
-for tool in ss-contour 'ss-morlet --inverse'; do
-    for file in signal.tsv signal.au signal.h5 features.tsv plot.png sound.wav hello.txt empty; do
-        refused $tool $file
-    done
+for file in features.tsv plot.png sound.wav hello.txt empty; do
+    refused ss-contour $file
+done
+for file in signal.tsv signal.au signal.h5 features.tsv plot.png sound.wav hello.txt empty; do
+    refused ss-morlet --inverse $file
 done
 for tool in ss-sim 'ss-sweep --vary mass=1:2:3' 'ss-rank signal.tsv'; do
     for file in signal.tsv signal.au signal.h5 coefficients.tsv plot.gp plot.png table.csv \

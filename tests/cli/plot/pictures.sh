@@ -6,6 +6,8 @@ ss-morlet run.tsv -o run.h5
 ss-morlet run.tsv > run.coef
 for form in png svg pdf; do
     ss-plot run.tsv -o panels.$form
+    ss-plot --spectrum -c a -c x run.tsv -o spectrum.$form
+    ss-contour --from 0.2 --fmin 5 run.tsv -o recording.$form
     ss-plot --xy x,f --from 1 run.h5 -o loop.$form
     ss-contour run.h5 --events events -o contour.$form
     ss-contour --signal run.tsv --column v --from 1 --to 1.5 - < run.coef -o zoom.$form

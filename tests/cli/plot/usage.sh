@@ -1,7 +1,8 @@
 # Wrong usage is exit 2, wrong data exit 1, each with a line.
 ss-sim -o run.tsv coulomb
 ss-morlet --dyadic run.tsv -o run.h5
-for options in '-o a.gif' '--xy x' '--xy x,' '--xy x,f -c a' '--from x' 'one two' '--nonsense'; do
+for options in '-o a.gif' '--xy x' '--xy x,' '--xy x,f -c a' '--from x' 'one two' '--nonsense' '--db' \
+    '--spectrum --xy x,f' '--resolution 0 --spectrum'; do
     # shellcheck disable=SC2086  # several words
     ss-plot $options > /dev/null || echo $?
 done
@@ -15,7 +16,8 @@ ss-plot -c force run.tsv || echo $?
 ss-plot --xy t,a run.tsv || echo $?
 ss-plot -c t run.tsv || echo $?
 ss-plot absent.tsv || echo $?
-ss-contour run.tsv || echo $?
+ss-contour --signal run.tsv run.tsv || echo $?
+ss-plot --spectrum --resolution 1e-9 run.tsv || echo $?
 ss-contour --signal run.tsv --column force run.h5 || echo $?
 printf '# stickslip events 1\nsoon\n' | ss-contour --events - run.h5 || echo $?
 ss-contour --events run.tsv run.h5 || echo $?

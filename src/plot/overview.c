@@ -1,0 +1,311 @@
+/* overview.c -- a recording of any length in one pass, thinned to what a picture shows of it.
+ *
+ * A row of blocks holds the largest of as many values each, a power of 2; when all its blocks are full, each
+ * two become one, and blocks are twice as long from there on. */
+#include <stickslip/overview.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "morlet/wavelet.h"
+#include "plot/noise_level.h"
+
+enum { BLOCKS = 4096 };
+
+/* The largest of each block; or of samples the smallest and the largest, in the order of their times. */
+typedef struct row {
+    size_t length;              /* values a block */
+    size_t n;                   /* values so far */
+    double *most;               /* BLOCKS */
+    double *least;              /* BLOCKS; NULL: not wanted */
+    unsigned char *falls;       /* BLOCKS; 1: the largest comes before the smallest */
+} row;
+
+struct ss_overview {
+    ss_header *head;            /* of the signal */
+    size_t column;
+    ss_morlet_opts opts;
+    ss_stream *stream;
+    ss_span *gap;
+    size_t n_gaps;
+    row samples, *scale;        /* one of each scale */
+    noise_level *noise;
+    double top, noise_begins;
+    ss_coefficients result;
+    ss_signal *signal;
+};
+
+/* --- rows of blocks ------------------------------------------------------------------------ */
+
+static int
+make_row(row *r, int both)
+{
+    r->length = 1;
+    r->most = malloc(BLOCKS * sizeof *r->most);
+    r->least = both ? malloc(BLOCKS * sizeof *r->least) : NULL;
+    r->falls = both ? calloc(BLOCKS, 1) : NULL;
+    return r->most != NULL && (!both || (r->least != NULL && r->falls != NULL));
+}
+
+static void
+free_row(row *r)
+{
+    free(r->most);
+    free(r->least);
+    free(r->falls);
+}
+
+static void
+halve(row *r)
+{
+    for (size_t i = 0; i < BLOCKS / 2; i++) {
+        size_t a = 2 * i, b = a + 1, high = r->most[b] > r->most[a] ? b : a;
+        if (r->least != NULL) {
+            size_t low = r->least[b] < r->least[a] ? b : a;
+            r->falls[i] = high != low ? high < low : r->falls[high];
+            r->least[i] = r->least[low];
+        }
+        r->most[i] = r->most[high];
+    }
+    r->length *= 2;
+}
+
+/* Add m values, which all lie in the block that they begin in. */
+static void
+add_to_block(row *r, const double *x, size_t m)
+{
+    size_t i = r->n / r->length, high = 0, low = 0;
+    int first = r->n % r->length == 0;
+    for (size_t k = 1; k < m; k++)
+        high = x[k] > x[high] ? k : high;
+    for (size_t k = 1; r->least != NULL && k < m; k++)
+        low = x[k] < x[low] ? k : low;
+    int higher = first || x[high] > r->most[i];
+    if (r->least != NULL) {
+        int lower = first || x[low] < r->least[i];
+        if (higher || lower)
+            r->falls[i] = higher && lower ? high < low : lower;
+        r->least[i] = lower ? x[low] : r->least[i];
+    }
+    r->most[i] = higher ? x[high] : r->most[i];
+    r->n += m;
+}
+
+static void
+add(row *r, const double *x, size_t n)
+{
+    for (size_t k = 0, m; k < n; k += m) {
+        if (r->n == BLOCKS * r->length)
+            halve(r);
+        size_t room = r->length - r->n % r->length;
+        m = room < n - k ? room : n - k;
+        add_to_block(r, x + k, m);
+    }
+}
+
+static size_t
+blocks(const row *r)
+{
+    return (r->n + r->length - 1) / r->length;
+}
+
+/* --- as coefficients come ------------------------------------------------------------------ */
+
+/* |W|; squares overflow and underflow where hypot does not, which takes longer. */
+static double
+magnitude(double re, double im)
+{
+    double power = re * re + im * im;
+    return power > 1e-280 && power < 1e280 ? sqrt(power) : hypot(re, im);
+}
+
+/* Is a translation in the cone of influence? */
+static int
+is_edge(const ss_overview *o, const ss_scale *scale, size_t k, size_t samples)
+{
+    return wavelet_edge(scale, k, samples, o->head->rate, o->head->start, o->gap, o->n_gaps);
+}
+
+/* A sink.  What lies between two translations outside the cone is outside, too, where there are no gaps. */
+static int
+take_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
+{
+    enum { PIECE = 512 };
+    ss_overview *o = user;
+    size_t i = (size_t)(scale - ss_stream_scale(o->stream, 0));
+    double level[PIECE];
+    for (size_t at = 0, m; at < n; at += m) {
+        m = n - at < PIECE ? n - at : PIECE;
+        for (size_t k = 0; k < m; k++)
+            level[k] = magnitude(w[2 * (at + k)], w[2 * (at + k) + 1]);
+        add(&o->scale[i], level, m);
+        int inside = o->n_gaps == 0 && !is_edge(o, scale, first + at, samples)
+            && !is_edge(o, scale, first + at + m - 1, samples);
+        for (size_t k = 0; k < m; k++)
+            if (inside || !is_edge(o, scale, first + at + k, samples)) {
+                o->top = level[k] > o->top ? level[k] : o->top;
+                ss_noise_level_add(o->noise, i, level[k] * level[k]);
+            }
+    }
+    return 0;
+}
+
+ss_status
+ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const ss_morlet_opts *opts,
+                ss_error *err)
+{
+    if (out == NULL || head == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    if (column >= head->n_columns)
+        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1, head->n_columns);
+    ss_overview *o = *out = calloc(1, sizeof *o);
+    if (o == NULL)
+        return ss_fail_memory(err, NULL);
+    o->column = column;
+    o->opts = *opts;
+    ss_status st = ss_stream_new(&o->stream, head->rate, opts, take_rows, o, err);
+    size_t scales = st == SS_OK ? ss_stream_scales(o->stream) : 0;
+    if (st == SS_OK)
+        st = ss_header_gaps(&o->gap, &o->n_gaps, head);
+    int made = st == SS_OK && (o->head = ss_header_copy(head)) != NULL
+        && (o->noise = ss_noise_level_new(scales)) != NULL
+        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && make_row(&o->samples, 1);
+    for (size_t i = 0; made && i < scales; i++)
+        made = make_row(&o->scale[i], 0);
+    if (made)
+        return SS_OK;
+    ss_overview_free(o);
+    *out = NULL;
+    return st == SS_OK || st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}
+
+ss_status
+ss_overview_push(ss_overview *o, const double *x, size_t n, ss_error *err)
+{
+    if (o == NULL || (x == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_stream_push(o->stream, x, n, err);
+    if (st == SS_OK)
+        add(&o->samples, x, n);
+    return st;
+}
+
+/* --- at the end ---------------------------------------------------------------------------- */
+
+static ss_status
+make_signal(ss_overview *o)
+{
+    const row *r = &o->samples;
+    ss_header *head;
+    size_t a_block = r->length > 1 ? 2 : 1;
+    ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0);
+    if (st != SS_OK)
+        return st;
+    head->rate = o->head->rate * (double)a_block / (double)r->length;
+    st = ss_signal_new(&o->signal, head, a_block * blocks(r));
+    ss_header_free(head);
+    for (size_t i = 0; st == SS_OK && i < blocks(r); i++) {
+        double *x = o->signal->values + a_block * i;
+        x[0] = r->falls[i] ? r->most[i] : r->least[i];
+        x[a_block - 1] = r->falls[i] || a_block == 1 ? r->least[i] : r->most[i];
+    }
+    return st;
+}
+
+/* Scales that are longer than the cone of influence leaves something of are left out. */
+static ss_status
+make_coefficients(ss_overview *o)
+{
+    ss_coefficients *c = &o->result;
+    size_t scales = ss_stream_scales(o->stream), first = 0, total = 0;
+    const ss_scale *scale = ss_stream_scale(o->stream, 0);
+    c->n = ss_stream_samples(o->stream);
+    c->center = o->opts.center;
+    c->gap = o->gap;
+    c->n_gaps = o->n_gaps;
+    while (first < scales && 2 * wavelet_cone(scale[first].a) > (double)c->n / o->head->rate)
+        first++;
+    c->n_scales = scales - first;
+    if (c->n_scales < 2)
+        return SS_EDATA;
+    for (size_t i = first; i < scales; i++)
+        total += blocks(&o->scale[i]);
+    c->scale = malloc(c->n_scales * sizeof *c->scale);
+    c->w = calloc(2 * total, sizeof *c->w);
+    if (c->scale == NULL || c->w == NULL)
+        return SS_ENOMEM;
+    double *w = c->w;
+    for (size_t i = first; i < scales; i++) {
+        const row *r = &o->scale[i];
+        c->scale[i - first] = scale[i];
+        c->scale[i - first].b_num *= (double)r->length;
+        c->scale[i - first].n = blocks(r);
+        c->scale[i - first].offset = (size_t)(w - c->w) / 2;
+        for (size_t k = 0; k < blocks(r); k++, w += 2)
+            w[0] = r->most[k];
+    }
+    return ss_coefficients_header(&c->head, o->head, o->column, c->n, &o->opts);
+}
+
+ss_status
+ss_overview_end(ss_overview *o, ss_error *err)
+{
+    if (o == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_stream_end(o->stream, err);
+    if (st != SS_OK)
+        return st;
+    o->noise_begins = ss_noise_level(o->noise, ss_stream_scale(o->stream, 0));
+    st = make_coefficients(o);
+    if (st == SS_EDATA)
+        return ss_fail(err, SS_EDATA, "%zu samples are too few: less than two scales have translations outside "
+                       "the cone of influence", ss_stream_samples(o->stream));
+    if (st == SS_OK)
+        st = make_signal(o);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}
+
+const ss_coefficients *
+ss_overview_coefficients(const ss_overview *o)
+{
+    return o != NULL && o->signal != NULL ? &o->result : NULL;
+}
+
+const ss_signal *
+ss_overview_signal(const ss_overview *o)
+{
+    return o != NULL ? o->signal : NULL;
+}
+
+double
+ss_overview_top(const ss_overview *o)
+{
+    return o != NULL ? o->top : 0;
+}
+
+double
+ss_overview_noise(const ss_overview *o)
+{
+    return o != NULL ? o->noise_begins : 0;
+}
+
+void
+ss_overview_free(ss_overview *o)
+{
+    if (o == NULL)
+        return;
+    for (size_t i = 0; o->scale != NULL && i < ss_stream_scales(o->stream); i++)
+        free_row(&o->scale[i]);
+    free(o->scale);
+    free_row(&o->samples);
+    ss_noise_level_free(o->noise);
+    ss_stream_free(o->stream);
+    free(o->gap);
+    ss_header_free(o->result.head);
+    free(o->result.scale);
+    free(o->result.w);
+    ss_signal_free(o->signal);
+    ss_header_free(o->head);
+    free(o);
+}

@@ -1,0 +1,134 @@
+/* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel each. */
+#include "plot/script.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip/spectrum.h>
+#include "base/error.h"
+
+#define PANEL 3.4               /* height of one panel [cm] */
+#define TITLE 0.6               /* height above the panels [cm] */
+#define BELOW 1.0               /* and below them */
+#define ROOM 12.0               /* for the label of a panel [ems] */
+
+static const char layout[] =
+    "set multiplot\n"
+    "set lmargin at screen 0.2; set rmargin at screen 0.95\n"
+    "set logscale x; set xrange [from:to]; set format x ''\n"
+    "set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
+    "set grid xtics lc rgb '#dddddd' lt 1\n";
+
+/* "unit^2/Hz", of the unit in brackets if it has an operator. */
+static void
+label_of(script_label *label, const ss_column *column, int decibels)
+{
+    char unit[256];
+    int brackets = strpbrk(column->unit, "/ *^") != NULL;
+    snprintf(unit, sizeof unit, "%s%s%.200s%s%s/Hz", decibels ? "dB re " : "", brackets ? "(" : "",
+             column->unit[0] != '\0' ? column->unit : "1", brackets ? ")" : "",
+             column->unit[0] != '\0' ? "^2" : "");
+    ss_script_make_label(label, &(ss_column){ column->name, unit }, 0, ROOM);
+}
+
+static void
+write_density(FILE *out, const ss_spectrum *s, size_t k, int decibels)
+{
+    if (s->density[k] > 0)
+        fprintf(out, "%.7g %.6g\n", (double)k * s->step, decibels ? 10 * log10(s->density[k]) : s->density[k]);
+}
+
+/* $panel: the least and the most of each column of pixels, in the order of frequency. */
+static void
+write_densities(FILE *out, size_t panel, const ss_spectrum *s, int decibels)
+{
+    double columns = SCRIPT_COLUMNS / log((double)s->n);
+    fprintf(out, "$panel%zu << EOD\n", panel);
+    for (size_t k = 1, low, high; k < s->n;) {
+        double column = floor(columns * log((double)k));
+        for (low = high = k; k < s->n && floor(columns * log((double)k)) == column; k++) {
+            low = s->density[k] < s->density[low] ? k : low;
+            high = s->density[k] > s->density[high] ? k : high;
+        }
+        write_density(out, s, low < high ? low : high, decibels);
+        if (low != high)
+            write_density(out, s, low < high ? high : low, decibels);
+    }
+    fputs("EOD\n", out);
+}
+
+/* One panel of n; the lowest has the labels of frequency. */
+static void
+plot_panel(FILE *out, const script_label *label, size_t i, size_t n)
+{
+    if (i == n)
+        fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
+              "noenhanced offset 0,0.5\n", out);
+    fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel + "
+            "0.08*panel*(%zu)\nunset label 1; ", i - 1, i, (size_t)(i < n));
+    ss_script_write_side_label(out, 1, label);
+    fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
+    if (i == 1)
+        fputs("unset title\n", out);
+}
+
+static ss_status
+write_script(FILE *out, const ss_signal *signal, const size_t column[], size_t n, ss_spectrum *const *spectrum,
+             int decibels, const ss_plot_opts *opts, ss_error *err)
+{
+    double height = TITLE + BELOW + PANEL * (double)n;
+    const ss_spectrum *s = spectrum[0];
+    ss_status st = ss_script_begin(out, opts, height, err);
+    if (st != SS_OK)
+        return st;
+    ss_script_write_title(out, opts, signal->head, NULL);
+    fprintf(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
+            s->step, (double)(s->n - 1) * s->step, s->resolution, s->segments);
+    fputs("colour = '#0072b2'\n", out);
+    for (size_t i = 0; i < n; i++)
+        write_densities(out, i + 1, spectrum[i], decibels);
+    fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - TITLE / height, n);
+    fputs(layout, out);
+    fputs(decibels ? "" : "set logscale y; set format y '%.0e'\n", out);
+    for (size_t i = 1; i <= n; i++) {
+        script_label label;
+        label_of(&label, &signal->head->column[column[i - 1]], decibels);
+        plot_panel(out, &label, i, n);
+    }
+    fputs("unset multiplot\n", out);
+    return ss_script_end(out);
+}
+
+ss_status
+ss_plot_spectrum(FILE *out, const ss_signal *signal, const size_t column[], size_t n, double resolution,
+                 int decibels, const ss_plot_opts *opts, ss_error *err)
+{
+    if (out == NULL || signal == NULL || opts == NULL || (column == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    script_span span;
+    size_t panels = n > 0 ? n : signal->head->n_columns;
+    ss_status st = ss_script_find_span(&span, signal->head, signal->n, opts, err);
+    if (st != SS_OK)
+        return st;
+    if (panels == 0)
+        return ss_fail(err, SS_EINVAL, "no columns to draw");
+    size_t *of = malloc(panels * sizeof *of);
+    ss_spectrum **spectrum = calloc(panels, sizeof *spectrum);
+    if (of == NULL || spectrum == NULL)
+        st = ss_fail_memory(err, NULL);
+    for (size_t i = 0; st == SS_OK && i < panels; i++) {
+        of[i] = n > 0 ? column[i] : i;
+        if (of[i] >= signal->head->n_columns)
+            st = ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", of[i] + 1, signal->head->n_columns);
+        else
+            st = ss_spectrum_new(&spectrum[i], signal->values + of[i] * signal->n + span.first, span.n,
+                                 signal->head->rate, resolution, err);
+    }
+    if (st == SS_OK)
+        st = write_script(out, signal, of, panels, spectrum, decibels, opts, err);
+    for (size_t i = 0; spectrum != NULL && i < panels; i++)
+        ss_spectrum_free(spectrum[i]);
+    free(spectrum);
+    free(of);
+    return st;
+}

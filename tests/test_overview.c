@@ -1,0 +1,177 @@
+/* test_overview.c -- a recording in one pass: nothing that a picture shows is lost by thinning. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip.h>
+
+/* Noise, with a drop to half in the middle, far from 0, so that the ends are high. */
+static ss_signal *
+record(double duration)
+{
+    ss_signal *signal;
+    ss_wave_opts opts = ss_wave_defaults;
+    opts.duration = duration;
+    opts.rate = 1000;
+    assert_int_equal(ss_wave_new(&signal, SS_NOISE, &opts, NULL), SS_OK);
+    for (size_t i = 0; i < signal->n; i++)
+        signal->values[i] += i < signal->n / 2 ? 60 : 30;
+    return signal;
+}
+
+static ss_morlet_opts
+grid(void)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.fmin = 2;
+    opts.voices = 8;
+    return opts;
+}
+
+static ss_overview *
+look_at(const ss_signal *signal, const ss_morlet_opts *opts, size_t piece)
+{
+    ss_overview *o;
+    ss_error err = { 0 };
+    assert_int_equal(ss_overview_new(&o, signal->head, 0, opts, &err), SS_OK);
+    for (size_t i = 0; i < signal->n; i += piece)
+        assert_int_equal(ss_overview_push(o, signal->values + i, piece < signal->n - i ? piece : signal->n - i,
+                                          &err), SS_OK);
+    if (ss_overview_end(o, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return o;
+}
+
+/* Each block has the largest of its translations, as the transform of the whole record has them within twice
+ * its accuracy, and there is no other translation. */
+static void
+blocks_have_the_largest_of_their_translations(void **state)
+{
+    const ss_morlet_opts opts = grid();
+    (void)state;
+    for (double duration = 6; duration < 100; duration *= 12) {
+        ss_signal *signal = record(duration);
+        ss_overview *o = look_at(signal, &opts, 777);
+        const ss_coefficients *few = ss_overview_coefficients(o);
+        ss_coefficients *all;
+        assert_int_equal(ss_morlet_transform(&all, signal, 0, &opts, NULL), SS_OK);
+        assert_int_equal(few->n_scales, all->n_scales);
+        assert_int_equal(few->n, all->n);
+        for (size_t i = 0; i < all->n_scales; i++) {
+            const ss_scale *s = &all->scale[i], *block = &few->scale[i];
+            size_t length = (size_t)(block->b_num / s->b_num + 0.5);
+            double most = 0;
+            assert_true(block->n <= 4096 && block->n == (s->n + length - 1) / length && block->f == s->f);
+            assert_true(length == 1 || block->n > 2048);
+            for (size_t k = 0; k < s->n; k++)
+                most = fmax(most, hypot(all->w[2 * (s->offset + k)], all->w[2 * (s->offset + k) + 1]));
+            for (size_t k = 0; k < block->n; k++) {
+                double largest = 0, found = few->w[2 * (block->offset + k)];
+                for (size_t l = k * length; l < (k + 1) * length && l < s->n; l++)
+                    largest = fmax(largest, hypot(all->w[2 * (s->offset + l)], all->w[2 * (s->offset + l) + 1]));
+                if (!(fabs(found - largest) <= 2e-6 * most) || few->w[2 * (block->offset + k) + 1] != 0)
+                    fail_msg("%g Hz, block %zu of %zu: %g is not %g", s->f, k, length, found, largest);
+            }
+        }
+        assert_true(fabs(ss_overview_top(o) / ss_coefficients_max(all) - 1) <= 2e-6);
+        ss_coefficients_free(all);
+        ss_overview_free(o);
+        ss_signal_free(signal);
+    }
+}
+
+/* The drop of one sample, the two extremes, and the times, within a block. */
+static void
+the_signal_keeps_its_extremes_and_times(void **state)
+{
+    const ss_morlet_opts opts = grid();
+    ss_signal *signal = record(100);
+    (void)state;
+    signal->values[70001] = -500;
+    signal->values[70002] = 900;
+    ss_overview *o = look_at(signal, &opts, 8192);
+    const ss_signal *few = ss_overview_signal(o);
+    assert_true(few->n <= 8192 && few->n > 4096);
+    double step = 1 / few->head->rate, most = -DBL_MAX, least = DBL_MAX, t_most = 0, t_least = 0;
+    for (size_t i = 0; i < few->n; i++) {
+        double x = few->values[i];
+        t_most = x > most ? (double)i * step : t_most, most = fmax(most, x);
+        t_least = x < least ? (double)i * step : t_least, least = fmin(least, x);
+    }
+    assert_true(most == 900 && least == -500 && t_least < t_most);
+    assert_true(fabs(t_most - 70.002) <= 100.0 / 2000 && fabs(t_least - 70.001) <= 100.0 / 2000);
+    ss_overview_free(o);
+    signal->n = 3000;
+    o = look_at(signal, &opts, 1);
+    few = ss_overview_signal(o);
+    assert_int_equal(few->n, 3000);
+    assert_memory_equal(few->values, signal->values, 3000 * sizeof *few->values);
+    ss_overview_free(o);
+    ss_signal_free(signal);
+}
+
+/* The same pieces or not, the same numbers; and noise as the whole map has it. */
+static void
+pieces_do_not_matter_and_noise_is_measured(void **state)
+{
+    const ss_morlet_opts opts = grid();
+    ss_signal *signal = record(60);
+    ss_overview *o = look_at(signal, &opts, 100), *whole = look_at(signal, &opts, signal->n);
+    const ss_coefficients *a = ss_overview_coefficients(o), *b = ss_overview_coefficients(whole);
+    const ss_scale *last = &a->scale[a->n_scales - 1];
+    double independent = 0, truth;              /* |W|, 2 sqrt(pi) a and half an octave apart */
+    (void)state;
+    assert_memory_equal(a->w, b->w, 2 * (last->offset + last->n) * sizeof *a->w);
+    assert_true(ss_overview_noise(o) == ss_overview_noise(whole));
+    for (size_t i = 0; i < a->n_scales; i++)
+        independent += 60 / (2 * sqrt(M_PI) * a->scale[i].a) / 8 * 2;
+    truth = sqrt(log(independent) / 1000);      /* the largest of white noise of 1 */
+    if (!(fabs(20 * log10(ss_overview_noise(o) / truth)) <= 1))
+        fail_msg("noise at %g, not %g", ss_overview_noise(o), truth);
+    ss_overview_free(whole);
+    ss_overview_free(o);
+    ss_signal_free(signal);
+}
+
+static void
+what_is_too_short_or_wrong_is_refused(void **state)
+{
+    const ss_morlet_opts opts = grid();
+    ss_signal *signal = record(1);
+    ss_morlet_opts none = ss_morlet_defaults;
+    ss_overview *o = NULL;
+    ss_error err = { 0 };
+    (void)state;
+    assert_int_equal(ss_overview_new(&o, signal->head, 1, &opts, &err), SS_EINVAL);
+    assert_int_equal(ss_overview_new(&o, signal->head, 0, &none, &err), SS_EINVAL);
+    assert_null(o);
+    assert_int_equal(ss_overview_new(&o, signal->head, 0, &opts, &err), SS_OK);
+    signal->values[1] = NAN;
+    assert_int_equal(ss_overview_push(o, signal->values, 2, &err), SS_EINVAL);
+    ss_overview_free(o);
+    assert_int_equal(ss_overview_new(&o, signal->head, 0, &opts, &err), SS_OK);
+    assert_int_equal(ss_overview_push(o, signal->values, 1, &err), SS_OK);
+    assert_int_equal(ss_overview_end(o, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "1 samples are too few"));
+    assert_null(ss_overview_coefficients(o));
+    ss_overview_free(o);
+    ss_signal_free(signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_have_the_largest_of_their_translations),
+        cmocka_unit_test(the_signal_keeps_its_extremes_and_times),
+        cmocka_unit_test(pieces_do_not_matter_and_noise_is_measured),
+        cmocka_unit_test(what_is_too_short_or_wrong_is_refused),
+    };
+    return cmocka_run_group_tests_name("overview", tests, NULL, NULL);
+}
