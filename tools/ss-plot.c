@@ -19,7 +19,8 @@ static const char usage[] =
 "                       X,Y[,Y...] over one key: a bifurcation diagram\n"
 "      --line=FILE      a line over the map: x and y in rows\n"
 "      --spectrum       the power spectral density of each column, by Welch\n"
-"      --resolution=HZ  its resolution (that of seven segments or more); --db: in dB\n"
+"      --resolution=HZ  its resolution; the default is of seven segments or more\n"
+"      --db             in dB re 1 unit^2/Hz\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
