@@ -5,10 +5,15 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 
-/* Write the text to *err, unless err is NULL, and return the status: return ss_fail(...). */
+/* A function with the arguments of printf: the numbers of the format and of the first value. */
 #if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
+#define SS_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define SS_PRINTF(text, first)
 #endif
+
+/* Write the text to *err, unless err is NULL, and return the status: return ss_fail(...). */
+SS_PRINTF(3, 4)
 ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);
 /* SS_EINVAL: a pointer that must not be NULL is. */
 #define SS_FAIL_NULL(err) ss_fail(err, SS_EINVAL, "an argument is NULL")

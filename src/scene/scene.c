@@ -7,11 +7,9 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <stickslip/signal.h>
 #include "base/error.h"
 #include "scene/model.h"
 
@@ -90,9 +88,14 @@ struct key_origin {
     long line;                  /* 0: not given, > 0: line of the file, < 0: setting */
 };
 
-static ss_status
-fail_at(struct key_origin at, ss_error *err, const char *text)
+SS_PRINTF(3, 4) static ss_status
+fail_at(struct key_origin at, ss_error *err, const char *format, ...)
 {
+    char text[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
     if (at.line < 0)
         return ss_fail(err, SS_EINVAL, "%s", text);
     return ss_fail(err, SS_EDATA, "%s:%ld: %s", at.name, at.line, text);
@@ -111,48 +114,46 @@ static ss_status
 set_text(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at,
          ss_error *err)
 {
-    char message[128];
     const char *wrong = *value == '\0' ? "is empty" : strlen(value) >= k->room ? "is too long"
         : k->range == PATH && leaves_folder(value)
         ? "leads out of the scene's folder; a file there or below is meant" : NULL;
-    if (wrong == NULL) {
-        strcpy(text_of(scene, k), value);
-        return SS_OK;
+    if (wrong != NULL)
+        return fail_at(at, err, "%s %s", k->name, wrong);
+    strcpy(text_of(scene, k), value);
+    return SS_OK;
+}
+
+static ss_status
+set_word(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at, ss_error *err)
+{
+    char words[256] = "";
+    const char *word;
+    for (int i = 0; (word = k->word(i)) != NULL; i++) {
+        if (strcmp(value, word) == 0) {
+            *word_of(scene, k) = i;
+            return SS_OK;
+        }
+        size_t length = strlen(words);
+        snprintf(words + length, sizeof words - length, "%s %s", i ? "," : "", word);
     }
-    snprintf(message, sizeof message, "%s %s", k->name, wrong);
-    return fail_at(at, err, message);
+    return fail_at(at, err, "%s is '%.64s', but must be one of%s", k->name, value, words);
 }
 
 static ss_status
 set_value(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at,
           ss_error *err)
 {
-    char text[256], *end;
-    if (k->word != NULL) {
-        const char *word;
-        snprintf(text, sizeof text, "%s is '%.64s', but must be one of", k->name, value);
-        for (int i = 0; (word = k->word(i)) != NULL; i++) {
-            if (strcmp(value, word) == 0) {
-                *word_of(scene, k) = i;
-                return SS_OK;
-            }
-            size_t length = strlen(text);
-            snprintf(text + length, sizeof text - length, "%s %s", i ? "," : "", word);
-        }
-        return fail_at(at, err, text);
-    }
+    char *end;
+    if (k->word != NULL)
+        return set_word(scene, k, value, at, err);
     if (k->room > 0)
         return set_text(scene, k, value, at, err);
     double x = ss_number_parse(value, &end);
-    if (end == value || *end != '\0') {
-        snprintf(text, sizeof text, "%s is '%.64s', but must be a number", k->name, value);
-        return fail_at(at, err, text);
-    }
-    if (!in_range(k, x)) {
-        snprintf(text, sizeof text, "%s = %.64s is out of range, it must be %s", k->name, value,
-                 range_text(k));
-        return fail_at(at, err, text);
-    }
+    if (end == value || *end != '\0')
+        return fail_at(at, err, "%s is '%.64s', but must be a number", k->name, value);
+    if (!in_range(k, x))
+        return fail_at(at, err, "%s = %.64s is out of range, it must be %s", k->name, value,
+                       range_text(k));
     *number_of(scene, k) = x;
     return SS_OK;
 }
@@ -216,12 +217,9 @@ fail_unknown(const char *name, struct key_origin at, ss_error *err)
 {
     const char *best = nearest_key(name);
     size_t length = strlen(name), off = distance(name, best);
-    char text[256];
     if (off < length && off <= (length / 3 > 2 ? length / 3 : 2))
-        snprintf(text, sizeof text, "unknown key '%.64s'; the nearest is '%s'", name, best);
-    else
-        snprintf(text, sizeof text, "unknown key '%.64s'", name);
-    return fail_at(at, err, text);
+        return fail_at(at, err, "unknown key '%.64s'; the nearest is '%s'", name, best);
+    return fail_at(at, err, "unknown key '%.64s'", name);
 }
 
 double *
@@ -274,11 +272,9 @@ line_of(given *g, const scene_key *k)
 static ss_status
 read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_error *err)
 {
-    char message[256], *equals = strchr(text, '=');
-    if (equals == NULL) {
-        snprintf(message, sizeof message, "expected 'key = value', found '%.64s'", trim(text));
-        return fail_at(at, err, message);
-    }
+    char *equals = strchr(text, '=');
+    if (equals == NULL)
+        return fail_at(at, err, "expected 'key = value', found '%.64s'", trim(text));
     *equals = '\0';
     char *name = trim(text);
     const scene_key *k = find_key(name);
@@ -287,11 +283,10 @@ read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_err
     long *seen = line_of(g, k);
     if (at.line < 0 && *seen > 0)
         *seen = 0;                      /* a setting replaces the file's line */
-    if (*seen != 0) {
-        snprintf(message, sizeof message, at.line < 0 ? "repeated key '%s'"
-                 : "repeated key '%s', first given on line %ld", name, *seen);
-        return fail_at(at, err, message);
-    }
+    if (*seen < 0)
+        return fail_at(at, err, "repeated key '%s'", name);
+    if (*seen > 0)
+        return fail_at(at, err, "repeated key '%s', first given on line %ld", name, *seen);
     *seen = at.line;
     return set_value(scene, k, trim(equals + 1), at, err);
 }
@@ -307,12 +302,10 @@ check_foreign(const struct model *model, given *g, struct key_origin last, ss_er
             struct key_origin at = { last.name, *line_of(g, k) };
             if (at.line == 0 || ss_key_of_field(model, k->offset) != NULL)
                 continue;
-            char text[256];
-            snprintf(text, sizeof text, "model %s has no key '%s'", model->name, k->name);
             /* a model chosen by a setting makes the file's keys wrong, not the file */
             if (*line_of(g, find_key("model")) < 0)
                 at.line = -1;
-            return fail_at(at, err, text);
+            return fail_at(at, err, "model %s has no key '%s'", model->name, k->name);
         }
     return SS_OK;
 }
@@ -342,21 +335,16 @@ static ss_status
 check_keys(const ss_scene *scene, given *g, struct key_origin last, ss_error *err)
 {
     const struct model *model = ss_model_of(scene);
-    const scene_key *k;
     if (*line_of(g, find_key("model")) == 0)
         return fail_at(last, err, "missing key 'model'");
     ss_status st = check_foreign(model, g, last, err);
     if (st != SS_OK)
         return st;
-    if ((k = missing_key(model, g)) != NULL) {
-        char text[256];
-        if (k->required == FORCING)
-            snprintf(text, sizeof text, "missing key '%s': the base moves by it", k->name);
-        else
-            snprintf(text, sizeof text, "missing key '%s', which model %s needs", k->name,
-                     model->name);
-        return fail_at(last, err, text);
-    }
+    const scene_key *k = missing_key(model, g);
+    if (k != NULL && k->required == FORCING)
+        return fail_at(last, err, "missing key '%s': the base moves by it", k->name);
+    if (k != NULL)
+        return fail_at(last, err, "missing key '%s', which model %s needs", k->name, model->name);
     long file = *line_of(g, find_key("base_file"));
     if (file != 0 && scene->base_amplitude != 0)
         return fail_at((struct key_origin){ last.name, file }, err, BASES);
@@ -431,69 +419,6 @@ ss_status
 ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err)
 {
     return ss_scene_read_set(scene, in, name, NULL, 0, err);
-}
-
-static const ss_shipped_scene *const shipped_lists[] = { ss_shipped_scenes, ss_catalogue_scenes };
-enum { SHIPPED_LISTS = sizeof shipped_lists / sizeof *shipped_lists };
-
-static const ss_shipped_scene *
-find_shipped(const char *name)
-{
-    for (int i = 0; i < SHIPPED_LISTS; i++)
-        for (const ss_shipped_scene *s = shipped_lists[i]; s->name != NULL; s++)
-            if (strcmp(s->name, name) == 0)
-                return s;
-    return NULL;
-}
-
-static void
-fail_absent(const char *path, ss_error *err)
-{
-    char names[256] = "";
-    for (int i = 0; i < SHIPPED_LISTS; i++)
-        for (const ss_shipped_scene *s = shipped_lists[i]; s->name != NULL; s++)
-            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
-                     *names == '\0' ? "" : ", ", s->name);
-    ss_fail(err, SS_EIO, "%s: no such file, and the shipped scenes are %s", path, names);
-}
-
-/* The text of a shipped scene, a file, or NULL with the reason in err. */
-static FILE *
-open_scene(const char *path, ss_error *err)
-{
-    const ss_shipped_scene *shipped = find_shipped(path);
-    if (shipped != NULL) {
-        FILE *text = fmemopen((void *)shipped->text, strlen(shipped->text), "r");
-        if (text == NULL)
-            ss_fail_errno(err, path, errno);
-        return text;
-    }
-    FILE *in = fopen(path, "rb");
-    int why = errno;
-    struct stat st;
-    if (in != NULL && fstat(fileno(in), &st) == 0 && !S_ISDIR(st.st_mode))
-        return in;
-    if (in != NULL)
-        fclose(in);
-    if (in != NULL || why != ENOENT)
-        ss_fail_errno(err, path, in != NULL ? EISDIR : why);
-    else
-        fail_absent(path, err);
-    return NULL;
-}
-
-ss_status
-ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], size_t n,
-              ss_error *err)
-{
-    if (scene == NULL || path == NULL || (settings == NULL && n > 0))
-        return SS_FAIL_NULL(err);
-    FILE *in = open_scene(path, err);
-    if (in == NULL)
-        return SS_EIO;
-    ss_status st = ss_scene_read_set(scene, in, path, settings, n, err);
-    fclose(in);
-    return st;
 }
 
 ss_status

@@ -36,9 +36,7 @@ typedef struct coefficient_reader {
 enum { LARGEST_M = 500 };       /* |log2 a| */
 
 /* SS_EDATA, and what is wrong with the current line of text, or row of AU. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
+SS_PRINTF(2, 3)
 static ss_status
 refuse(const coefficient_reader *r, const char *format, ...)
 {

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stickslip/signal.h>
+#include "base/error.h"
 #include "stream/clock.h"
 #include "stream/input.h"
 #include "stream/reader.h"
@@ -77,9 +78,7 @@ struct table {
 
 ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
 /* Pass a warning to the caller's function, if there is one. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
+SS_PRINTF(3, 4)
 void ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...);
 
 /* Hand the rows of a table, whose names and values are complete, to the reader: with a clock, without

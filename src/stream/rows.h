@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stickslip/number.h>
+#include "base/error.h"
 #include "stream/format.h"
 
 struct rows {
@@ -16,9 +17,7 @@ struct rows {
 /* Write the first line of text of this kind.  SS_EINVAL: the format has no words. */
 ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind);
 /* A line "# key: value", in a format that has notes. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
+SS_PRINTF(2, 3)
 void ss_rows_note(struct rows *rows, const char *text, ...);
 /* The notes of a header, without those whose key begins with except, which may be NULL. */
 void ss_rows_notes(struct rows *rows, const ss_header *head, const char *except);
