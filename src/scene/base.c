@@ -39,7 +39,7 @@ ss_base_new(ss_base **out, const ss_signal *signal, size_t column, ss_error *err
         return ss_fail(err, SS_EDATA, "%zu samples are no base: a spline needs 3", signal->n);
     ss_base *b = calloc(1, sizeof *b);
     if (b == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     *b = (ss_base){ .start = signal->head->start, .rate = signal->head->rate, .n = signal->n,
                     .z = malloc(signal->n * sizeof *b->z),
                     .bend = malloc(signal->n * sizeof *b->bend) };
@@ -49,7 +49,7 @@ ss_base_new(ss_base **out, const ss_signal *signal, size_t column, ss_error *err
     }
     if (b->z == NULL || b->bend == NULL || !bend_spline(b)) {
         ss_base_free(b);
-        return ss_fail(err, SS_ENOMEM, "%s", ss_strerror(SS_ENOMEM));
+        return ss_fail_memory(err, NULL);
     }
     *out = b;
     return SS_OK;

@@ -158,22 +158,27 @@ static int
 next(state *m, ss_event *e)
 {
     double x = m->x_ref + m->q[0], v = m->q[1];
-    if (m->mode == 0 && only_touches(m))
+    int before = m->mode;
+    if (before == 0 && only_touches(m))
         return 0;
-    if (m->mode == 0) {
+    if (before == 0) {
         ss_linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;
-        e->direction = m->mode;
     } else if (deflection_limit(m) == 0) {      /* no stick without friction: v passes through 0 */
         ss_linear_slip(m, x, 0, -m->mode);
         e->kind = SS_REVERSE;
-        e->direction = m->mode;
     } else {
         e->kind = SS_STICK;
-        e->direction = m->mode;
-        microstick(m, x, m->mode * deflection_in_slip(m));
+        microstick(m, x, before * deflection_in_slip(m));
     }
+    e->direction = m->mode != 0 ? m->mode : before;
     return 1;
+}
+
+static double
+deflection(const state *m, const double q[])
+{
+    return m->mode == 0 ? q[0] : m->mode * deflection_in_slip(m);
 }
 
 static void
@@ -184,22 +189,16 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->v = q[1];
     s->a = dqdt[1];
     s->mode = m->mode;
-    s->y = m->mode == 0 ? q[0] : m->mode * deflection_in_slip(m);
+    s->y = deflection(m, q);
     s->f = m->mode == 0 ? m->scene->contact_stiffness * q[0] + m->scene->contact_damping * q[1]
         : m->f0;
-}
-
-static double
-deflection(const state *m)
-{
-    return m->mode == 0 ? m->q[0] : m->mode * deflection_in_slip(m);
 }
 
 static double
 memory(const state *m, double *unit)
 {
     *unit = deflection_limit(m);
-    return deflection(m);
+    return deflection(m, m->q);
 }
 
 static int

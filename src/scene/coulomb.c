@@ -9,18 +9,6 @@ ss_to_coulomb(ss_scene *scene)
     scene->model = SS_COULOMB;
 }
 
-static void
-sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
-{
-    int still = m->mode == 0;
-    s->x = q[0];
-    s->v = q[1];
-    s->a = still ? 0 : dqdt[1];
-    s->f = still ? ss_stick_force(m, drive, q[0]) : m->f0;
-    s->y = 0;
-    s->mode = m->mode;
-}
-
 /* A stick forgets v and the time at which it began, and it ends later where x is further on: then v is
  * behind by what the drop of the friction has done since. */
 static void
@@ -45,6 +33,7 @@ const struct model ss_coulomb_model = {
     .start = ss_stick_start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives,
     .series = ss_linear_series,
-    .guard = ss_linear_slip_guard, .still = ss_stick_still, .next = ss_stick_next, .sample = sample,
+    .guard = ss_linear_slip_guard, .still = ss_stick_still, .next = ss_stick_next,
+    .sample = ss_stick_sample,
     .variation = &variation
 };

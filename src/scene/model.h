@@ -333,6 +333,8 @@ double ss_stick_force(const state *m, double drive, double x);     /* the load o
 int ss_stick_start(state *m);
 int ss_stick_still(const state *m, double *u_end);
 int ss_stick_next(state *m, ss_event *e);
+/* f in slip is f0. */
+void ss_stick_sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s);
 void ss_stick_free(const state *m, int is_free[D_MOST]);           /* of struct variation */
 int ss_stick_move(state *m, const double d[D_MOST]);
 

@@ -24,10 +24,20 @@ steepness(const ss_scene *s)
     return X > 0 ? s->alpha * X * own_frequency(s) : NAN;
 }
 
+/* theta' = -rate (theta - goal tanh(alpha v)). */
+static void
+law(const ss_scene *s, double *rate, double *goal)
+{
+    int literal = s->law == SS_LAW_LITERAL;
+    *rate = literal ? s->gamma * s->friction : s->gamma;
+    *goal = literal ? 1 : s->friction;
+}
+
 static double
 relaxation(const ss_scene *s)
 {
-    double rate = s->law == SS_LAW_LITERAL ? s->gamma * s->friction : s->gamma;
+    double rate, goal;
+    law(s, &rate, &goal);
     return rate / own_frequency(s);
 }
 
@@ -36,14 +46,11 @@ static const ss_scene_range ranges[] = {
     { "gamma/omega_n", "1", 1e-2, 1e8, 0, relaxation },
 };
 
-/* The scaled law of f_k = 1 N and gamma f_k in place of gamma is the literal one. */
+/* The scaled law of the same rate and goal. */
 static void
 normalise(ss_scene *s)
 {
-    if (s->law != SS_LAW_LITERAL)
-        return;
-    s->gamma *= s->friction;
-    s->friction = 1;
+    law(s, &s->gamma, &s->friction);
     s->law = SS_LAW_SCALED;
 }
 
@@ -65,15 +72,6 @@ start(state *m)
     m->q[1] = m->scene->v0 - m->scene->surface_velocity;
     m->q[2] = 0;
     return 0;
-}
-
-/* theta' = -rate (theta - goal tanh(alpha v)). */
-static void
-law(const ss_scene *s, double *rate, double *goal)
-{
-    int literal = s->law == SS_LAW_LITERAL;
-    *rate = literal ? s->gamma * s->friction : s->gamma;
-    *goal = literal ? 1 : s->friction;
 }
 
 /* The steps follow the tolerance; only base and spring cap them. */

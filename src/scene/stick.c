@@ -193,3 +193,15 @@ ss_stick_move(state *m, const double d[D_MOST])
     m->model->rates(m, drive, m->q, rates);
     return m->model->guard(m, m->q, rates, &slope) > 0;
 }
+
+void
+ss_stick_sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+{
+    int still = m->mode == 0;
+    s->x = q[0];
+    s->v = q[1];
+    s->a = still ? 0 : dqdt[1];
+    s->f = still ? ss_stick_force(m, drive, q[0]) : m->f0;
+    s->y = 0;
+    s->mode = m->mode;
+}

@@ -90,13 +90,9 @@ static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     double slope;
-    int still = m->mode == 0;
-    s->x = q[0];
-    s->v = q[1];
-    s->a = still ? 0 : dqdt[1];
-    s->f = still ? ss_stick_force(m, drive, q[0]) : friction_at(m, q[1], &slope);
-    s->y = 0;
-    s->mode = m->mode;
+    ss_stick_sample(m, drive, q, dqdt, s);
+    if (m->mode != 0)
+        s->f = friction_at(m, q[1], &slope);
 }
 
 static const struct variation variation = { .free = ss_stick_free, .move = ss_stick_move };
@@ -106,7 +102,7 @@ const struct model ss_stribeck_model = {
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
-    .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight, .rates = rates,
-    .jacobian = jacobian, .series = series, .guard = ss_linear_slip_guard, .still = ss_stick_still,
-    .next = ss_stick_next, .sample = sample, .variation = &variation
+    .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
+    .rates = rates, .jacobian = jacobian, .series = series, .guard = ss_linear_slip_guard,
+    .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &variation
 };
