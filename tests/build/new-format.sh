@@ -79,7 +79,7 @@ for file in "$SRC"/src/stream/*.c src/stream/fish.c; do
 done
 for tool in cat features morlet plot noise rank trade sim signal sweep; do
     # shellcheck disable=SC2086
-    $CCLD -o "bin/ss-$tool" "$BUILD/tools/ss-$tool.o" "$BUILD/tools/common.o" "$BUILD/tools/files.o" "$BUILD/tools/output.o" "$BUILD/tools/reading.o" ./*.o "$BUILD/libstickslip.a" $LIBS
+    $CCLD -o "bin/ss-$tool" "$BUILD/tools/ss-$tool.o" "$BUILD/tools/common.o" "$BUILD/tools/files.o" "$BUILD/tools/options.o" "$BUILD/tools/output.o" "$BUILD/tools/reading.o" ./*.o "$BUILD/libstickslip.a" $LIBS
 done
 PATH=$PWD/bin:$PATH
 
