@@ -457,21 +457,24 @@ drop_columns(struct table *t)
             t->value[to++] = t->value[i * t->n_columns + t->kept[c]];
 }
 
-/* Read rows again, as many as fit into a piece. */
+/* Read rows again, as many as fit into a piece.  Rows that a recorder has appended since are not read. */
 static ss_status
 read_piece(ss_reader *reader, struct table *t, ss_error *err)
 {
     enum { PIECE = 4096 };
-    char *line = "";
+    char *line;
     int comment;
     ss_status st = SS_OK;
     t->value = reader->values;
     t->n_rows = 0;
-    while (st == SS_OK && t->n_rows < PIECE && (st = next_line(t, &line, &comment, err)) == SS_OK && line != NULL)
-        if (!comment)
+    while (st == SS_OK && t->n_rows < PIECE && t->n_rows < t->left
+           && (st = next_line(t, &line, &comment, err)) == SS_OK) {
+        if (line == NULL)
+            st = ss_fail(err, SS_EDATA, "%s:%lu: the file has become shorter while it was read", t->in->name,
+                         t->in->line);
+        else if (!comment)
             st = append_row(t, line, err);
-    if (st == SS_OK && (t->n_rows > t->left || (line == NULL && t->n_rows < t->left)))
-        st = ss_fail(err, SS_EDATA, "%s:%lu: the file has changed while it was read", t->in->name, t->in->line);
+    }
     t->left -= t->n_rows;
     drop_columns(t);
     reader->values = t->value;

@@ -72,7 +72,7 @@ struct table {
     size_t n_rows, room;
     size_t *kept, n_kept;       /* the columns of the signal */
     int twice;                  /* value has the first rows only; the others are read again */
-    uint64_t left;              /* the number of these */
+    uint64_t left;              /* the number of these that are still to be read */
     clock_fit fit;              /* of all stamps of such a table */
 };
 

@@ -206,6 +206,7 @@ find_increment(struct table *t)
     char *above = line_above(t, 1), *last = line_above(t, 0);
     char *words = strdup(above != NULL ? above : ""), *numbers = NULL;
     size_t start = NONE, increment = NONE;
+    struct counted counted = { 0, 0, 1 };
     size_t n = words != NULL ? ss_delimited_split(t, words, t->separator) : NONE;
     for (size_t i = t->n_columns; n != NONE && i < n; i++) {
         start = strcasecmp(t->cell[i], "Start") == 0 ? i : start;
@@ -215,11 +216,12 @@ find_increment(struct table *t)
         numbers = strdup(last);
         n = numbers != NULL ? ss_delimited_split(t, numbers, t->separator) : NONE;
         if (n != NONE && start < n && increment < n
-            && ss_cell_read(t->cell[start], t->separator, &t->counted.origin) == CELL_NUMBER
-            && ss_cell_read(t->cell[increment], t->separator, &t->counted.increment) == CELL_NUMBER) {
+            && ss_cell_read(t->cell[start], t->separator, &counted.origin) == CELL_NUMBER
+            && ss_cell_read(t->cell[increment], t->separator, &counted.increment) == CELL_NUMBER) {
             cut(above, t->n_columns, t->separator);
             cut(last, t->n_columns, t->separator);
-            t->counted.numbered = 1;
+            if (counted.increment > 0)
+                t->counted = counted;
         }
     }
     free(words);
