@@ -57,8 +57,9 @@ write_points(FILE *out, const double *x, const double *y, size_t n, double unit,
             continue;
         }
         size_t cell = e.hi > e.lo ? (size_t)((y[i] - e.lo) / (e.hi - e.lo) * CELLS) : 0;
-        if (seen[cell]++)
+        if (seen[cell])
             continue;
+        seen[cell] = 1;
         fprintf(out, "%.9g ", x[i]);
         ss_script_write(out, y[i] / unit, decimals, "\n");
     }

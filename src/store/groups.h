@@ -67,7 +67,4 @@ ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file);
 ss_status ss_wavelet_reader_scale(wavelet_reader *r, size_t i, double *w);
 void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
 
-/* As ss_store_read_coefficients, for an open file. */
-ss_status ss_h5_read_coefficients(ss_coefficients **out, h5_file *file);
-
 #endif

@@ -131,15 +131,22 @@ ss_store_reader_free(ss_store_reader *r)
 ss_status
 ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
-    h5_file file = { .id = -1, .path = path, .err = err };
-    ss_status status;
-    if (out == NULL || path == NULL)
+    ss_store_reader *r;
+    if (out == NULL)
         return SS_FAIL_NULL(err);
-    QUIETLY(
-        status = ss_h5_open(&file);
-        if (status == SS_OK)
-            status = ss_h5_read_coefficients(out, &file);
-        status = finish(&file, status);
-    );
+    ss_status status = ss_store_reader_new(&r, path, err);
+    if (status != SS_OK)
+        return status;
+    ss_coefficients *c = r->wavelet.grid;
+    c->w = malloc(2 * r->wavelet.total * sizeof *c->w);
+    if (c->w == NULL)
+        status = ss_fail_memory(err, path);
+    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
+        status = ss_store_reader_scale(r, i, c->w + 2 * c->scale[i].offset, err);
+    if (status == SS_OK) {
+        *out = c;
+        r->wavelet.grid = NULL;
+    }
+    ss_store_reader_free(r);
     return status;
 }

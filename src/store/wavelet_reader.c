@@ -255,21 +255,3 @@ ss_wavelet_reader_close(wavelet_reader *r)
     ss_coefficients_free(r->grid);
     free(r->row);
 }
-
-ss_status
-ss_h5_read_coefficients(ss_coefficients **out, h5_file *file)
-{
-    wavelet_reader r = { .file = file };
-    ss_status status = ss_wavelet_reader_open(&r, file);
-    ss_coefficients *c = r.grid;
-    if (status == SS_OK && (c->w = malloc(2 * r.total * sizeof *c->w)) == NULL)
-        status = SS_ENOMEM;
-    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
-        status = ss_wavelet_reader_scale(&r, i, c->w + 2 * c->scale[i].offset);
-    if (status == SS_OK) {
-        *out = c;
-        r.grid = NULL;
-    }
-    ss_wavelet_reader_close(&r);
-    return status;
-}

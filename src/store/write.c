@@ -36,26 +36,18 @@ write_notes(h5_file *file, const ss_header *head)
     return SS_OK;
 }
 
+/* Make the file; write the notes and keep the clock, which hold for all that follows. */
 static ss_status
-new_writer(ss_store_writer **out, const char *path)
+begin(ss_store_writer **out, const char *path, const ss_header *head)
 {
     ss_store_writer *w = *out = calloc(1, sizeof *w);
     if (w == NULL)
         return SS_ENOMEM;
     w->pieces.file = &w->output.file;
-    return ss_h5_output_open(&w->output, path);
-}
-
-/* Notes, and the clock of all that follows. */
-static ss_status
-begin(ss_store_writer **out, const char *path, const ss_header *head)
-{
-    ss_status st = new_writer(out, path);
-    if (st != SS_OK)
-        return st;
-    (*out)->pieces.rate = head != NULL ? head->rate : 1;
-    (*out)->pieces.start = head != NULL ? head->start : 0;
-    return write_notes(&(*out)->output.file, head);
+    w->pieces.rate = head != NULL ? head->rate : 1;
+    w->pieces.start = head != NULL ? head->start : 0;
+    ss_status st = ss_h5_output_open(&w->output, path);
+    return st == SS_OK ? write_notes(&w->output.file, head) : st;
 }
 
 static ss_status

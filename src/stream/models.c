@@ -10,13 +10,6 @@
 enum { DIGITS = 3 };
 
 static void
-write_rounded(struct rows *rows, double x)
-{
-    char text[SS_NUMBER_MAX];
-    ss_rows_word(rows, ss_number_rounded(text, x, DIGITS));
-}
-
-static void
 write_row(struct rows *rows, const ss_models_row *row, double unit)
 {
     int measured = row->status == SS_OK, counted = measured && ss_model_has_events(row->scene.model);
@@ -26,8 +19,8 @@ write_row(struct rows *rows, const ss_models_row *row, double unit)
             ss_rows_number(rows, !counted ? NAN
                            : (double)(i == SS_COMPARED_EVENTS ? row->events : row->microslips));
         else
-            write_rounded(rows, measured ? row->error[i] : NAN);
-    write_rounded(rows, measured ? row->seconds / unit : NAN);
+            ss_rows_rounded(rows, measured ? row->error[i] : NAN, DIGITS);
+    ss_rows_rounded(rows, measured ? row->seconds / unit : NAN, DIGITS);
 }
 
 static void

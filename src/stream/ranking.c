@@ -8,13 +8,6 @@
 
 enum { DIGITS = 4 };            /* more than a criterion deserves */
 
-static void
-write_rounded(struct rows *rows, double x)
-{
-    char text[SS_NUMBER_MAX];
-    ss_rows_word(rows, ss_number_rounded(text, x, DIGITS));
-}
-
 /* --- notes --------------------------------------------------------------------------------- */
 
 /* A part of the signal's power in per cent, with two digits of the rest: 99.98. */
@@ -140,10 +133,10 @@ write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *s
     else
         ss_rows_number(rows, NAN);
     ss_rows_word(rows, scene[row->scene]);
-    write_rounded(rows, compared ? row->total : NAN);
+    ss_rows_rounded(rows, compared ? row->total : NAN, DIGITS);
     for (int k = 0; k < SS_CRITERIA; k++) {
-        write_rounded(rows, compared ? row->value[k] : NAN);
-        write_rounded(rows, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN);
+        ss_rows_rounded(rows, compared ? row->value[k] : NAN, DIGITS);
+        ss_rows_rounded(rows, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
     }
     ss_rows_end(rows);
 }

@@ -91,6 +91,13 @@ ss_rows_number(struct rows *rows, double x)
 }
 
 void
+ss_rows_rounded(struct rows *rows, double x, int digits)
+{
+    char text[SS_NUMBER_MAX];
+    ss_rows_word(rows, ss_number_rounded(text, x, digits));
+}
+
+void
 ss_rows_end(struct rows *rows)
 {
     fputc('\n', rows->out);

@@ -30,6 +30,7 @@ void ss_rows_columns(struct rows *rows, const char *const label[][2], size_t n);
 void ss_rows_word(struct rows *rows, const char *word);
 void ss_rows_count(struct rows *rows, size_t n);
 void ss_rows_number(struct rows *rows, double x);      /* "-" for NaN */
+void ss_rows_rounded(struct rows *rows, double x, int digits);
 void ss_rows_end(struct rows *rows);
 
 /* A number as a cell or a note shows it: "-" for NaN.  Returns text. */

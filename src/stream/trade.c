@@ -8,13 +8,6 @@
 enum { DIGITS = 3 };            /* of a measurement these are plenty */
 
 static void
-write_rounded(struct rows *rows, double x)
-{
-    char text[SS_NUMBER_MAX];
-    ss_rows_word(rows, ss_number_rounded(text, x, DIGITS));
-}
-
-static void
 write_count(struct rows *rows, size_t n, int known)
 {
     if (known)
@@ -28,17 +21,17 @@ write_row(struct rows *rows, const ss_trade_row *row, int transform, double fast
 {
     int measured = row->status == SS_OK, estimated = row->status == SS_EBUDGET;
     ss_rows_word(rows, row->method);
-    write_rounded(rows, row->tol > 0 ? row->tol : NAN);
-    write_rounded(rows, measured ? row->error_x : NAN);
+    ss_rows_rounded(rows, row->tol > 0 ? row->tol : NAN, DIGITS);
+    ss_rows_rounded(rows, measured ? row->error_x : NAN, DIGITS);
     if (!transform) {
-        write_rounded(rows, measured ? row->error_a : NAN);
-        write_rounded(rows, measured ? row->error_t : NAN);
+        ss_rows_rounded(rows, measured ? row->error_a : NAN, DIGITS);
+        ss_rows_rounded(rows, measured ? row->error_t : NAN, DIGITS);
         write_count(rows, row->missed, measured);
         write_count(rows, row->invented, measured);
         write_count(rows, row->rhs, measured);
         write_count(rows, row->steps, measured);
     }
-    write_rounded(rows, measured || estimated ? row->seconds / fastest : NAN);
+    ss_rows_rounded(rows, measured || estimated ? row->seconds / fastest : NAN, DIGITS);
     ss_rows_count(rows, (size_t)row->frontier);
     ss_rows_word(rows, measured ? "measured" : estimated ? "estimated" : "refused");
     ss_rows_end(rows);

@@ -1,5 +1,6 @@
 /* fuzz_hdf5.c -- HDF5 files, through the file image interface: as signals, as the arrays of others,
  * as coefficients. */
+#include <stdlib.h>
 #include "store/groups.h"
 #include "fuzz.h"
 
@@ -42,12 +43,17 @@ read_signal(h5_file *file, const char *dataset, const ss_read_opts *opts)
 static void
 read_coefficients(h5_file *file)
 {
-    ss_coefficients *c = NULL;
+    wavelet_reader reader = { .file = file };
     begin(file);
-    ss_status status = ss_h5_read_coefficients(&c, file);
+    ss_status status = ss_wavelet_reader_open(&reader, file);
+    const ss_coefficients *c = reader.grid;
+    double *w = status == SS_OK ? malloc(2 * reader.total * sizeof *w) : NULL;
+    for (size_t i = 0; w != NULL && status == SS_OK && i < c->n_scales; i++)
+        status = ss_wavelet_reader_scale(&reader, i, w + 2 * c->scale[i].offset);
     if (status != SS_OK && status != SS_ENOMEM)
         fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
-    ss_coefficients_free(c);
+    free(w);
+    ss_wavelet_reader_close(&reader);
 }
 
 int
