@@ -108,9 +108,6 @@ FILE *tool_output_kept(const char *path);
 /* Go on writing at this offset; what lies behind it is dropped. */
 void tool_cut(FILE *out, long offset);
 
-/* The value of --format: a format of streams; _of_words: one that holds words. */
-tool_kind tool_format(const char *text);
-tool_kind tool_format_of_words(const char *text);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
@@ -118,9 +115,6 @@ void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind
  * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
 void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
-
-/* The value of --style: paper or screen. */
-ss_plot_style tool_style(const char *text);
 
 /* --- long work ----------------------------------------------------------------------------- */
 

@@ -35,12 +35,6 @@ tool_number(const char *option, const char *text, double lo, double hi)
     return x;
 }
 
-double
-tool_number_in(const char *option, const char *text, ss_range range)
-{
-    return tool_number(option, text, range.from, range.to);
-}
-
 long
 tool_integer(const char *option, const char *text, long lo, long hi)
 {
@@ -77,8 +71,7 @@ tool_choice(const char *option, const char *text, const char *const choice[])
     for (int i = 0; choice[i] != NULL; i++) {
         if (strcmp(text, choice[i]) == 0)
             return i;
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
-                 choice[i]);
+        tool_list(list, sizeof list, choice[i]);
     }
     tool_usage("%s: '%s' is none of %s", option, text, list);
 }
@@ -120,7 +113,7 @@ tool_set_texts(const tool_option *o, char *text)
 void
 tool_set_number(const tool_option *o, char *text)
 {
-    *(double *)o->to = tool_number_in(dashed(o), text, o->range);
+    *(double *)o->to = tool_number(dashed(o), text, o->range.from, o->range.to);
 }
 
 void
@@ -135,24 +128,14 @@ tool_set_count(const tool_option *o, char *text)
     *(unsigned long *)o->to = (unsigned long)tool_integer(dashed(o), text, 1, LONG_MAX);
 }
 
+const char *const tool_styles[] = { "paper", "screen", NULL };  /* in the order of ss_plot_style */
+
 /* An enumeration has the size of int, whatever its sign. */
 void
 tool_set_choice(const tool_option *o, char *text)
 {
     int i = tool_choice(dashed(o), text, o->word);
     memcpy(o->to, &i, sizeof i);
-}
-
-void
-tool_set_format(const tool_option *o, char *text)
-{
-    *(tool_kind *)o->to = tool_format(text);
-}
-
-void
-tool_set_format_of_words(const tool_option *o, char *text)
-{
-    *(tool_kind *)o->to = tool_format_of_words(text);
 }
 
 void
@@ -163,12 +146,6 @@ tool_set_name(const tool_option *o, char *text)
     for (size_t i = 0; i < MOST && o->known(i) != NULL; i++)
         name[i] = o->known(i);
     *(const char **)o->to = name[tool_choice(dashed(o), text, name)];
-}
-
-void
-tool_set_style(const tool_option *o, char *text)
-{
-    *(ss_plot_style *)o->to = tool_style(text);
 }
 
 static void

@@ -51,7 +51,7 @@ struct tool_option {
 #define TOOL_FORMAT(to) TOOL_VALUE(0, "format", tool_set_format, TOOL_TO(tool_kind, to))
 #define TOOL_FORMAT_OF_WORDS(to) TOOL_VALUE(0, "format", tool_set_format_of_words, TOOL_TO(tool_kind, to))
 #define TOOL_METHOD(letter, to) TOOL_NAME(letter, "method", to, ss_sim_method_name)
-#define TOOL_STYLE(to) TOOL_VALUE(0, "style", tool_set_style, TOOL_TO(ss_plot_style, to))
+#define TOOL_STYLE(to) TOOL_CHOICE(0, "style", TOOL_TO(ss_plot_style, to), tool_styles)
 #define TOOL_THREADS(letter, to) TOOL_WHOLE(letter, "threads", to, ((ss_range){ 1, SS_THREADS_MAX }))
 
 void tool_set_flag(const tool_option *option, char *text);
@@ -61,14 +61,13 @@ void tool_set_number(const tool_option *option, char *text);
 void tool_set_whole(const tool_option *option, char *text);
 void tool_set_count(const tool_option *option, char *text);
 void tool_set_choice(const tool_option *option, char *text);
-void tool_set_format(const tool_option *option, char *text);
-void tool_set_format_of_words(const tool_option *option, char *text);
 void tool_set_name(const tool_option *option, char *text);
-void tool_set_style(const tool_option *option, char *text);
+void tool_set_format(const tool_option *option, char *text);            /* in output.c */
+void tool_set_format_of_words(const tool_option *option, char *text);
+extern const char *const tool_styles[];
 
 /* Values in the functions of a tool, which give the row's name; wrong ones are wrong usage. */
 double tool_number(const char *option, const char *text, double lo, double hi);
-double tool_number_in(const char *option, const char *text, ss_range range);
 long tool_integer(const char *option, const char *text, long lo, long hi);
 /* Two numbers "A:B", lo <= A <= B <= hi; form is what the message says is wanted. */
 void tool_pair(const char *option, const char *text, const char *form, double lo, double hi,

@@ -46,8 +46,8 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
 }
 
 /* The value of --format, among the formats that hold words, or all. */
-static tool_kind
-choose_format(const char *text, int words)
+static void
+set_format(const tool_option *o, const char *text, int words)
 {
     enum { MOST = 32 };
     const char *name[MOST + 1] = { NULL };
@@ -56,19 +56,19 @@ choose_format(const char *text, int words)
         if (ss_format_find(&format, ss_format_name(i)) && (!words || ss_format_has_words(format)))
             name[n++] = ss_format_name(i);
     ss_format_find(&format, name[tool_choice("--format", text, name)]);
-    return (tool_kind)(TOOL_STREAM + format);
+    *(tool_kind *)o->to = (tool_kind)(TOOL_STREAM + format);
 }
 
-tool_kind
-tool_format(const char *text)
+void
+tool_set_format(const tool_option *o, char *text)
 {
-    return choose_format(text, 0);
+    set_format(o, text, 0);
 }
 
-tool_kind
-tool_format_of_words(const char *text)
+void
+tool_set_format_of_words(const tool_option *o, char *text)
 {
-    return choose_format(text, 1);
+    set_format(o, text, 1);
 }
 
 void
@@ -194,13 +194,6 @@ run_gnuplot(FILE *script, FILE *out)
     fix_date(drawn, n);
     fwrite(drawn, 1, n, out);       /* tool_end looks for errors */
     free(drawn);
-}
-
-ss_plot_style
-tool_style(const char *text)
-{
-    static const char *const style[] = { "paper", "screen", NULL };
-    return tool_choice("--style", text, style) == 0 ? SS_PAPER : SS_SCREEN;
 }
 
 void

@@ -383,7 +383,7 @@ static void
 transform_stream(const request *req, const char *path)
 {
     flow f = { .text = NULL };
-    ss_error err;
+    ss_error err = { 0 };
     ss_reader *reader;
     if (tool_is_hdf5(path) || req->reading.opts.resample > 0) {     /* not read row by row */
         ss_signal *signal = tool_read_signal(path, &req->reading.opts);
