@@ -30,6 +30,8 @@ TOOL_READING_USAGE
 "  -h, --help           show this text; --version: show the version\n";
 
 typedef struct drawing {
+    const char *path, *output;
+    const char *signal_path, *column, *events, *features;       /* NULL: not given */
     ss_coefficients *own;       /* all in memory, or else a file that has them */
     ss_store_reader *reader;
     ss_overview *overview;      /* of a recording */
@@ -59,31 +61,60 @@ read_scale(size_t i, double *w, void *user, ss_error *err)
 /* A frequency that any recording of use has some cycles of, if its length is not known. */
 #define LOWEST 5e-4             /* of the rate */
 
-static void
-open_overview(drawing *d, const ss_header *head, const char *path, const char *column)
+/* Begin with the column asked for, or "a", or the only one; returns its index. */
+static size_t
+open_overview(drawing *d, const ss_header *head)
 {
     ss_error err = { 0 };
     ss_morlet_opts opts = ss_morlet_defaults;
+    size_t column = tool_column(head, d->path, d->column);
     opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
     opts.fmax = d->opts.fmax;
-    tool_check(ss_overview_new(&d->overview, head, tool_column(head, path, column), &opts, &err), &err);
+    tool_check(ss_overview_new(&d->overview, head, column, &opts, &err), &err);
+    return column;
 }
 
 static void
-push(drawing *d, const double *x, size_t n, const char *path)
+push(drawing *d, const double *x, size_t n)
 {
     ss_error err = { 0 };
     ss_status st = ss_overview_push(d->overview, x, n, &err);
     if (st != SS_OK)
-        tool_die("%s: %s", path, err.text);
+        tool_die("%s: %s", d->path, err.text);
 }
 
 static void
-follow(drawing *d, ss_reader *reader, FILE *in, const char *path, const char *column)
+end_overview(drawing *d)
+{
+    ss_error err = { 0 };
+    ss_status st = ss_overview_end(d->overview, &err);
+    if (st != SS_OK)
+        tool_die("%s: %s", d->path, err.text);
+    d->coefficients = ss_overview_coefficients(d->overview);
+    d->opts.signal = ss_overview_signal(d->overview);
+    d->opts.top = ss_overview_top(d->overview);
+    if (isnan(d->opts.noise))
+        d->opts.noise = ss_overview_noise(d->overview);
+    d->opts.fmin = d->opts.fmax = 0;
+}
+
+/* A signal that is held whole: HDF5 is not read piece by piece, nor can a piece be resampled. */
+static void
+draw_whole(drawing *d)
+{
+    ss_signal *signal = tool_read_signal(d->path, &d->reading.opts);
+    size_t column = open_overview(d, signal->head);
+    push(d, signal->values + column * signal->n, signal->n);
+    ss_signal_free(signal);
+    end_overview(d);
+}
+
+static void
+draw_rows(drawing *d, ss_reader *reader, FILE *in)
 {
     enum { PIECE = 8192 };
     const ss_header *head = ss_reader_header(reader);
-    size_t columns = head->n_columns, at = tool_column(head, path, column), n = 1;
+    size_t columns = head->n_columns, column = open_overview(d, head), n = 1;
     double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
     struct stat st;
     ss_error err = { 0 };
@@ -93,79 +124,53 @@ follow(drawing *d, ss_reader *reader, FILE *in, const char *path, const char *co
     while (n > 0) {
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         for (size_t i = 0; i < n; i++)
-            x[i] = rows[i * columns + at];
-        push(d, x, n, path);
+            x[i] = rows[i * columns + column];
+        push(d, x, n);
         tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
     }
     free(rows);
     free(x);
-}
-
-static void
-end_overview(drawing *d, const char *path)
-{
-    ss_error err = { 0 };
-    ss_status st = ss_overview_end(d->overview, &err);
-    if (st != SS_OK)
-        tool_die("%s: %s", path, err.text);
-    d->coefficients = ss_overview_coefficients(d->overview);
-    d->opts.signal = ss_overview_signal(d->overview);
-    d->opts.top = ss_overview_top(d->overview);
-    if (isnan(d->opts.noise))
-        d->opts.noise = ss_overview_noise(d->overview);
-    d->opts.fmin = d->opts.fmax = 0;
+    end_overview(d);
 }
 
 /* 1 if a file that can be read twice holds a signal. */
 static int
-draw_recording(drawing *d, const char *path, const char *column)
+draw_recording(drawing *d)
 {
     ss_error err = { 0 };
-    ss_reader *reader;
+    ss_reader *reader = NULL;
     struct stat s;
-    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
+    if (stat(d->path, &s) != 0 || !S_ISREG(s.st_mode))
         return 0;
-    FILE *in = tool_open(path);
-    ss_status st = ss_reader_new(&reader, in, path, &d->reading.opts, &err);
-    if (st == SS_EKIND || (st == SS_EDATA && s.st_size == 0)) {
-        fclose(in);
-        return 0;
-    }
-    tool_check(st, &err);
-    open_overview(d, ss_reader_header(reader), path, column);
-    follow(d, reader, in, path, column);
+    FILE *in = tool_open(d->path);
+    ss_status st = ss_reader_new(&reader, in, d->path, &d->reading.opts, &err);
+    int is_signal = st != SS_EKIND && !(st == SS_EDATA && s.st_size == 0);
+    if (is_signal)
+        tool_check(st, &err);
+    if (is_signal && d->reading.opts.resample > 0)
+        draw_whole(d);
+    else if (is_signal)
+        draw_rows(d, reader, in);
     ss_reader_free(reader);
     fclose(in);
-    end_overview(d, path);
-    return 1;
-}
-
-/* A signal in HDF5, which is read whole. */
-static void
-draw_signal(drawing *d, const char *path, const char *column)
-{
-    ss_signal *signal = tool_read_signal(path, &d->reading.opts);
-    open_overview(d, signal->head, path, column);
-    push(d, signal->values + tool_column(signal->head, path, column) * signal->n, signal->n, path);
-    ss_signal_free(signal);
-    end_overview(d, path);
+    return is_signal;
 }
 
 /* --- coefficients -------------------------------------------------------------------------- */
 
 static void
-open_input(drawing *d, const char *path, const char *column)
+open_input(drawing *d)
 {
     ss_error err = { 0 };
     d->opts.progress = (ss_progress){ tool_progress, d };
-    if (!tool_is_hdf5(path)) {
-        if (!draw_recording(d, path, column))
-            d->coefficients = d->own = tool_read_coefficients(path);
+    if (!tool_is_hdf5(d->path)) {
+        if (!draw_recording(d))
+            d->coefficients = d->own = tool_read_coefficients(d->path);
         return;
     }
-    ss_status st = ss_store_reader_new(&d->reader, tool_reads(path), &err);
+    ss_status st = ss_store_reader_new(&d->reader, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
-        draw_signal(d, path, column);
+        draw_whole(d);
         return;
     }
     tool_check(st, &err);
@@ -191,47 +196,51 @@ compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients 
 
 /* The signal for panel (a): the one asked for, or the one that an HDF5 file has, or none. */
 static ss_signal *
-find_signal(drawing *d, const char *path, const char *signal_path, const char *column)
+find_signal(drawing *d)
 {
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
-    if (signal_path != NULL)
-        compare_clocks(signal = tool_read_signal(signal_path, &d->reading.opts), signal_path, d->coefficients);
-    else if (tool_is_hdf5(path) && ss_store_has_signal(path))
-        signal = tool_read_signal(signal_path = path, NULL);
+    const char *path = d->signal_path, *column = d->column;
+    if (path != NULL)
+        compare_clocks(signal = tool_read_signal(path, &d->reading.opts), path, d->coefficients);
+    else if (tool_is_hdf5(d->path) && ss_store_has_signal(d->path))
+        signal = tool_read_signal(path = d->path, NULL);
     if (signal == NULL)
         return NULL;
     if (column == NULL && head->n_columns > 0
         && ss_header_column(signal->head, head->column[0].name) >= 0)
         column = head->column[0].name;
     d->opts.signal = signal;
-    d->opts.column = tool_column(signal->head, signal_path, column);
+    d->opts.column = tool_column(signal->head, path, column);
     return signal;
 }
 
 /* --- times in files ------------------------------------------------------------------------ */
 
 static void
-read_events(drawing *d, const char *path)
+read_events(drawing *d)
 {
     ss_error err = { 0 };
-    FILE *in = tool_open(path);
-    tool_check(ss_event_times_read(&d->event, &d->opts.n_events, in, tool_input_name(path), &err), &err);
+    FILE *in = tool_open(d->events);
+    tool_check(ss_event_times_read(&d->event, &d->opts.n_events, in, tool_input_name(d->events), &err),
+               &err);
     if (in != stdin)
         fclose(in);
     d->opts.event = d->event;
 }
 
 static void
-read_features(drawing *d, const char *path)
+read_features(drawing *d)
 {
     ss_error err = { 0 };
-    FILE *in = tool_open(path);
-    tool_check(ss_overlay_read(&d->overlay, in, tool_input_name(path), &err), &err);
+    FILE *in = tool_open(d->features);
+    tool_check(ss_overlay_read(&d->overlay, in, tool_input_name(d->features), &err), &err);
     if (in != stdin)
         fclose(in);
     d->opts.overlay = d->overlay;
 }
+
+/* --- the whole ----------------------------------------------------------------------------- */
 
 static int
 is_stdin(const char *path)
@@ -239,52 +248,63 @@ is_stdin(const char *path)
     return path != NULL && strcmp(path, "-") == 0;
 }
 
+static void
+parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
+{
+    const tool_option options[] = {
+        TOOL_WHOLE(0, "levels", &d->opts.levels, ss_contour_levels),
+        TOOL_NUMBER(0, "span", &d->opts.span, ss_contour_spans), TOOL_FLAG(0, "fill", &d->opts.fill),
+        TOOL_NAME(0, "palette", &d->opts.palette, ss_palette_name),
+        TOOL_FLAG(0, "ridge", &d->opts.ridge),
+        TOOL_NUMBER(0, "fmin", &d->opts.fmin, ss_morlet_ranges.frequency),
+        TOOL_NUMBER(0, "fmax", &d->opts.fmax, ss_morlet_ranges.frequency),
+        TOOL_TEXT(0, "signal", &d->signal_path), TOOL_TEXT('c', "column", &d->column),
+        TOOL_TEXT(0, "events", &d->events), TOOL_TEXT(0, "features", &d->features),
+        TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output) };
+    d->path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &d->reading));
+    if (tool_given("span"))
+        d->opts.noise = 0;
+    if (d->opts.fmin > 0 && d->opts.fmax > 0 && d->opts.fmin >= d->opts.fmax)
+        tool_usage("--fmin does not lie below --fmax");
+    tool_output_kind(d->output, TOOL_PICTURES, TOOL_GP);
+    tool_reading_end(&d->reading, d->column);
+    if (is_stdin(d->path) + is_stdin(d->signal_path) + is_stdin(d->events) + is_stdin(d->features) > 1)
+        tool_usage("standard input can be read only once");
+}
+
+static void
+note_contents(const drawing *d)
+{
+    static const ss_overlay none;
+    const ss_overlay *o = d->overlay != NULL ? d->overlay : &none;
+    tool_note("%s: %zu scales of %zu samples, %zu events; %zu transitions, %zu maxima, "
+              "%zu spikes", tool_input_name(d->path), d->coefficients->n_scales, d->coefficients->n,
+              d->opts.n_events, o->n_spans, o->n_maxima, o->n_spikes);
+}
+
 int
 main(int argc, char *argv[])
 {
     ss_plot_opts opts = ss_plot_defaults;
     drawing d = { .opts = ss_contour_defaults };
-    const char *output = NULL, *signal_path = NULL, *column = NULL, *events = NULL;
-    const char *features = NULL;
-    const tool_option options[] = {
-        TOOL_WHOLE(0, "levels", &d.opts.levels, ss_contour_levels),
-        TOOL_NUMBER(0, "span", &d.opts.span, ss_contour_spans), TOOL_FLAG(0, "fill", &d.opts.fill),
-        TOOL_NAME(0, "palette", &d.opts.palette, ss_palette_name), TOOL_FLAG(0, "ridge", &d.opts.ridge),
-        TOOL_NUMBER(0, "fmin", &d.opts.fmin, ss_morlet_ranges.frequency),
-        TOOL_NUMBER(0, "fmax", &d.opts.fmax, ss_morlet_ranges.frequency), TOOL_TEXT(0, "signal", &signal_path),
-        TOOL_TEXT('c', "column", &column), TOOL_TEXT(0, "events", &events),
-        TOOL_TEXT(0, "features", &features), TOOL_TEXT(0, "title", &opts.title),
-        TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
 
     tool_begin(argv, "ss-contour", usage);
-    int first = TOOL_PARSE(argc, argv, options, &d.reading);
-    const char *path = tool_input(argc, argv, first);
-    d.opts.noise = tool_given("span") ? 0 : d.opts.noise;
-    if (d.opts.fmin > 0 && d.opts.fmax > 0 && d.opts.fmin >= d.opts.fmax)
-        tool_usage("--fmin does not lie below --fmax");
-    tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
-    tool_reading_end(&d.reading, column);
-    if (is_stdin(path) + is_stdin(signal_path) + is_stdin(events)
-        + is_stdin(features) > 1)
-        tool_usage("standard input can be read only once");
-    open_input(&d, path, column);
-    if (d.overview != NULL && signal_path != NULL)
-        tool_usage("--signal is for coefficients; %s is a signal", path);
+    parse(&d, &opts, argc, argv);
+    open_input(&d);
+    if (d.overview != NULL && d.signal_path != NULL)
+        tool_usage("--signal is for coefficients; %s is a signal", d.path);
     opts.from = d.reading.from;         /* the lines go on to the border */
     opts.to = d.reading.to;
     d.reading.opts.from = d.reading.opts.to = 0;
-    ss_signal *signal = d.overview == NULL ? find_signal(&d, path, signal_path, column) : NULL;
-    if (column != NULL && d.opts.signal == NULL)
+    ss_signal *signal = d.overview == NULL ? find_signal(&d) : NULL;
+    if (d.column != NULL && d.opts.signal == NULL)
         tool_usage("--column needs a signal; give one with --signal");
-    if (events != NULL)
-        read_events(&d, events);
-    if (features != NULL)
-        read_features(&d, features);
-    tool_note("%s: %zu scales of %zu samples, %zu events; %zu transitions, %zu maxima, "
-              "%zu spikes", tool_input_name(path), d.coefficients->n_scales, d.coefficients->n,
-              d.opts.n_events, d.overlay != NULL ? d.overlay->n_spans : 0,
-              d.overlay != NULL ? d.overlay->n_maxima : 0, d.overlay != NULL ? d.overlay->n_spikes : 0);
-    tool_draw(output, &opts, write_script, &d);
+    if (d.events != NULL)
+        read_events(&d);
+    if (d.features != NULL)
+        read_features(&d);
+    note_contents(&d);
+    tool_draw(d.output, &opts, write_script, &d);
     free(d.event);
     tool_reading_free(&d.reading);
     ss_overlay_free(d.overlay);
