@@ -109,9 +109,8 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     for (size_t i = 1; i < n_columns; i++) {
         double tall = i == 1 ? FIRST : NEXT;
         if (i + 1 == n_columns) {
-            fputs("set xtics format '%g'; set xlabel ", out);
-            ss_script_write_label(out, &x_label);
-            fputs(" noenhanced offset 0,0.4\n", out);
+            fputs("set xtics format '%g'; ", out);
+            ss_script_write_x_label(out, &x_label, "0,0.4");
         }
         write_panel(out, column, i, t->n, (top - tall) / height, top / height);
         top -= tall + GAP;

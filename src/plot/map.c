@@ -270,9 +270,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, &titled, NULL, line > 0 ? &line_label : NULL);
-    fputs("set xlabel ", out);
-    ss_script_write_label(out, &x_label);
-    fputs(" noenhanced offset 0,0.4\n", out);
+    ss_script_write_x_label(out, &x_label, "0,0.4");
     ss_script_write_side_label(out, 1, &y_label);
     fputs("line_colour = '#222222'; curve_colour = '#d55e00'; missing_colour = '#bbbbbb'\n"
           "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "

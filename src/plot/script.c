@@ -255,8 +255,9 @@ ss_script_make_label(script_label *l, const ss_column *column, int exponent, dou
     l->font = fmin(room / width, l->second > 0 ? 0.85 : 1);     /* two lines leave tics their room */
 }
 
-void
-ss_script_write_label(FILE *out, const script_label *l)
+/* The label as a string constant. */
+static void
+write_label(FILE *out, const script_label *l)
 {
     putc('"', out);
     write_text(out, l->text, l->second);
@@ -265,8 +266,9 @@ ss_script_write_label(FILE *out, const script_label *l)
     putc('"', out);
 }
 
-void
-ss_script_write_font(FILE *out, const script_label *l)
+/* The font of the label, after it; nothing for the usual size. */
+static void
+write_font(FILE *out, const script_label *l)
 {
     if (l->font < 1)
         fprintf(out, " font ','.(exists('font') ? sprintf('%%.1f', %.2f*word(substr(font, 6, 9), 1)) "
@@ -274,12 +276,22 @@ ss_script_write_font(FILE *out, const script_label *l)
 }
 
 void
+ss_script_write_x_label(FILE *out, const script_label *l, const char *offset)
+{
+    fputs("set xlabel ", out);
+    write_label(out, l);
+    fprintf(out, " noenhanced offset %s", offset);
+    write_font(out, l);
+    putc('\n', out);
+}
+
+void
 ss_script_write_side_label(FILE *out, int n, const script_label *l)
 {
     fprintf(out, "set label %d ", n);
-    ss_script_write_label(out, l);
+    write_label(out, l);
     fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.018" : "0.03");
-    ss_script_write_font(out, l);
+    write_font(out, l);
     putc('\n', out);
 }
 

@@ -58,14 +58,12 @@ typedef struct script_label {
 } script_label;
 void ss_script_make_label(script_label *label, const ss_column *column, int exponent,
                           double room);     /* [ems] */
-/* The label as a string constant. */
-void ss_script_write_label(FILE *out, const script_label *label);
-/* The font of the label, after it; nothing for the usual size. */
-void ss_script_write_font(FILE *out, const script_label *label);
 /* Set the title: that of opts, or else scene or model of the header, unless it is NULL; and under it
  * "lines: " and the label, unless it is NULL. */
 void ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
                            const script_label *lines);
+/* Set the label of the horizontal axis, so far below it: "0,0.3". */
+void ss_script_write_x_label(FILE *out, const script_label *label, const char *offset);
 /* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */
 void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 
