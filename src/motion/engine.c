@@ -1,6 +1,7 @@
 /* engine.c -- a step of any engine, the end of a mode within it, and the next mode. */
 #include "motion/engine.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "motion/bernstein.h"
@@ -27,11 +28,19 @@ fail_lost(const engine *e, ss_error *err)
                    e->m->origin.hi + e->m->now.u + e->h);
 }
 
-ss_status
+void
 ss_engine_begin(engine *e)
 {
     e->has_start = 0;
-    return e->type->begin(e);
+    e->type->begin(e);
+}
+
+void
+ss_engine_free(engine *e)
+{
+    if (e != NULL && e->type->release != NULL)
+        e->type->release(e);
+    free(e);
 }
 
 static void

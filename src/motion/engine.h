@@ -15,7 +15,7 @@ typedef enum reading {
 
 struct engine_type {
     /* The motion has entered a mode: forget what belonged to the last one. */
-    ss_status (*begin)(engine *e);
+    void (*begin)(engine *e);
     /* Take one step from now and fill h, q1, dq1.  The step is at most h_max long, but may be longer if
      * the guard cannot reach 0 within it. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
@@ -30,7 +30,8 @@ struct engine_type {
     int (*curve)(const engine *e, double c[][MAX_DIM]);
     /* The motion has reached the end of the step: count u from a new origin if the engine needs it. */
     void (*go_on)(engine *e);
-    void (*free)(engine *e);
+    /* Free what the engine holds besides itself.  May be NULL. */
+    void (*release)(engine *e);
 };
 
 struct engine {
@@ -52,6 +53,7 @@ struct engine {
 #define TAYLOR "taylor"
 /* An engine by its method's name, for the motion as it stands. */
 ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err);
+void ss_engine_free(engine *e);                     /* NULL is allowed */
 
 const char *ss_ode_method_name(size_t i);   /* NULL after the last */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
@@ -65,7 +67,7 @@ ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
 /* The motion has entered a mode. */
-ss_status ss_engine_begin(engine *e);
+void ss_engine_begin(engine *e);
 /* Fill start and end. */
 void ss_engine_derive(engine *e);
 /* Take a step, see struct engine_type; SS_ERANGE if the state becomes infinite or NaN. */

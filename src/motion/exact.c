@@ -145,7 +145,7 @@ bound_guard(exact *x, double omega0)
     }
 }
 
-static ss_status
+static void
 exact_begin(engine *e)
 {
     exact *x = (exact *)e;
@@ -184,7 +184,6 @@ exact_begin(engine *e)
     e->rhs++;
     double q[MAX_DIM];
     evaluate_at(x, 0, q, e->dq0);
-    return SS_OK;
 }
 
 static ss_status
@@ -301,15 +300,9 @@ exact_go_on(engine *e)
         exact_begin(e);
 }
 
-static void
-exact_free(engine *e)
-{
-    free(e);
-}
-
 static const struct engine_type exact_type = {
     .begin = exact_begin, .step = exact_step, .ahead = exact_ahead, .at = exact_at,
-    .go_on = exact_go_on, .free = exact_free
+    .go_on = exact_go_on
 };
 
 int

@@ -99,7 +99,7 @@ jacobian(double u, const double y[], double *dfdy, double dfdt[], void *params)
     return GSL_SUCCESS;
 }
 
-static ss_status
+static void
 ode_begin(engine *e)
 {
     ode *o = (ode *)e;
@@ -109,7 +109,6 @@ ode_begin(engine *e)
     const state *m = &e->m->now;
     rates(o, m->u, m->q, e->dq0);
     o->shortest = ss_step_floor(m);
-    return SS_OK;
 }
 
 static int
@@ -276,29 +275,26 @@ ode_go_on(engine *e)
     if (!((ode *)e)->multistep) {
         e->has_start &= !m->moves;          /* positions change, and the measured base */
         ss_motion_rebase(e->m);
-    } else if (m->scene->base != NULL && m->u >= m->u_knot) {
-        e->has_start = 0;
-        ss_motion_rebase(e->m);
-        ss_engine_begin(e);
-    } else if (fabs(m->ramp * m->u) > FAR * m->scene->stiffness * m->x_scale) {
+    } else if ((m->scene->base != NULL && m->u >= m->u_knot)
+               || fabs(m->ramp * m->u) > FAR * m->scene->stiffness * m->x_scale) {
         ss_motion_rebase(e->m);
         ss_engine_begin(e);
     }
 }
 
 static void
-ode_free(engine *e)
+ode_release(engine *e)
 {
     ode *o = (ode *)e;
     if (o->driver != NULL)
         gsl_odeiv2_driver_free(o->driver);
     if (o->side != NULL)
         gsl_odeiv2_step_free(o->side);
-    free(o);
 }
 
 static const struct engine_type ode_type = {
-    .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on, .free = ode_free
+    .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on,
+    .release = ode_release
 };
 
 /* GSL's methods; the address of each is known at run time only. */
@@ -357,8 +353,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
         return ss_fail_memory(err, NULL);
     o->base = (engine){ .type = &ode_type, .m = of,
                         .lands_on_samples = method[i].multistep && m->model->guard == NULL };
-    o->system = (gsl_odeiv2_system){ m->moves ? rhs_with_pull : rhs, jacobian, m->model->dim,
-                                        o };
+    o->system = (gsl_odeiv2_system){ m->moves ? rhs_with_pull : rhs, jacobian, m->model->dim, o };
     o->multistep = method[i].multistep;
     o->tol = tol;
     o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
@@ -366,8 +361,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];
     }
-    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0
-        && !m->model->linear)
+    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear)
         set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
                                                    tol, tol, 1, 0, scale);
@@ -376,7 +370,7 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
         o->side = gsl_odeiv2_step_alloc(*method[i].type, m->model->dim);
     if (o->driver == NULL || (sides && o->side == NULL)
         || (sides && gsl_odeiv2_step_set_driver(o->side, o->driver) != GSL_SUCCESS)) {
-        ode_free(&o->base);
+        ss_engine_free(&o->base);
         return ss_fail_memory(err, NULL);
     }
     *out = &o->base;

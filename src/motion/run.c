@@ -61,9 +61,8 @@ base_turns(const ss_scene *scene)
 static ss_status
 report(const sampler *r, double t)
 {
-    const ss_sim_opts *o = r->opts;
     double all = r->scene->settle + r->scene->duration;
-    return ss_progress_at(&o->progress, fmin(t / all, 1));
+    return ss_progress_at(&r->opts->progress, fmin(t / all, 1));
 }
 
 static instant
@@ -163,7 +162,9 @@ change_mode(sampler *r, engine *e, int still, double s)
     ss_status st = SS_OK;
     if (ss_engine_next_mode(e, still, s, &event))
         st = write_event(r, e->m, &event);
-    return st == SS_OK ? ss_engine_begin(e) : st;
+    if (st == SS_OK)
+        ss_engine_begin(e);
+    return st;
 }
 
 /* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
@@ -223,7 +224,7 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
     const char *what;
     const ss_scene *s = r->scene;
     double length = s->settle + s->duration, end, steps = length / ss_step_cap(m);
-    double slow = fmax(sqrt(s->stiffness / s->mass), m->omega);
+    double slow = fmax(own_frequency(s), m->omega);
     double least = length * STEPS_PER_PERIOD * slow / (2 * M_PI), most = r->work * (exact ? 10 : 1);
     if (m->model->still != NULL && m->model->still(m, &end))
         return SS_OK;
@@ -238,6 +239,28 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
                    m->omega >= slow ? "the base" : "the spring", most);
 }
 
+/* A step, up to the knot of a measured base; *h is its length, or the time to the end of the mode if
+ * that comes first. */
+static ss_status
+step(const sampler *r, engine *e, double knot, double *h, int *ends, ss_error *err)
+{
+    const motion *m = e->m;
+    double cap = fmin(ss_step_cap(&m->now), knot);
+    if (!has_budget(r, e))
+        return over_budget(r, e, cap, err);
+    if (e->lands_on_samples && r->i < r->n) {
+        double s = until_sample(r, m, r->i);
+        cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
+    }
+    ss_status st = ss_engine_step(e, cap, err);
+    if (st == SS_OK && e->steps % REPORT_STEPS == 0)
+        st = report(r, m->origin.hi + m->now.u);
+    if (st != SS_OK)
+        return st;
+    *h = e->h;
+    return ss_engine_ends_within(e, ends, h, err);
+}
+
 static ss_status
 run(sampler *r, engine *e, ss_error *err)
 {
@@ -248,47 +271,31 @@ run(sampler *r, engine *e, ss_error *err)
     int in_a_row = 0;
 
     for (;;) {
-        double h, cap = ss_step_cap(now);
+        double h, knot = r->scene->base != NULL ? now->u_knot - now->u : INFINITY;
         int still = model->still != NULL && model->still(now, &h), ends = still && isfinite(h);
         ss_status st = SS_OK;
-        double knot = r->scene->base != NULL ? now->u_knot - now->u : INFINITY;
         if (still) {
             h = ends ? h - now->u : knot;
             ss_engine_rest(e, h);
-        } else {
-            cap = fmin(cap, knot);
-            if (!has_budget(r, e))
-                return over_budget(r, e, cap, err);
-            if (e->lands_on_samples && r->i < r->n) {
-                double s = until_sample(r, m, r->i);
-                cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
-            }
-            st = ss_engine_step(e, cap, err);
-            if (st == SS_OK && e->steps % REPORT_STEPS == 0)
-                st = report(r, m->origin.hi + now->u);
-            if (st != SS_OK)
-                return st;
-            h = e->h;
-            st = ss_engine_ends_within(e, &ends, &h, err);
-            if (st != SS_OK)
-                return st;
-        }
-        st = write_samples(r, e, still, h, err);
+        } else
+            st = step(r, e, knot, &h, &ends, err);
+        if (st == SS_OK)
+            st = write_samples(r, e, still, h, err);
         if (st != SS_OK)
             return st;
         if (instant_diff(r->end, m->origin) - now->u <= h)
             return flush(r);
         lasted += h;
-        if (ends) {
-            st = change_mode(r, e, still, h);
-            if (st == SS_OK)
-                st = ss_motion_chatters(m, lasted, &in_a_row, err);
-            if (st != SS_OK)
-                return st;
-            lasted = 0;
-        } else {
+        if (!ends) {
             ss_engine_accept(e);
+            continue;
         }
+        st = change_mode(r, e, still, h);
+        if (st == SS_OK)
+            st = ss_motion_chatters(m, lasted, &in_a_row, err);
+        if (st != SS_OK)
+            return st;
+        lasted = 0;
     }
 }
 
@@ -302,7 +309,9 @@ begin(sampler *r, engine *e, int slips)
         e->events++;
         st = write_event(r, e->m, &event);
     }
-    return st == SS_OK ? ss_engine_begin(e) : st;
+    if (st == SS_OK)
+        ss_engine_begin(e);
+    return st;
 }
 
 ss_status
@@ -324,6 +333,8 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     if (scene == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_record_check(scene, err);
+    if (st == SS_OK)
+        st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err);
     if (st != SS_OK)
         return st;
     sampler r = { .scene = scene, .opts = opts,
@@ -335,9 +346,6 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
     int exact = strcmp(method, EXACT) == 0;
     motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
-
-    if ((st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err)) != SS_OK)
-        return st;
     int slips = ss_motion_start(&m);
     st = check_length(&r, &m.now, exact, err);
     if (st != SS_OK)
@@ -349,7 +357,6 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
         st = run(&r, e, err);
     if (stats != NULL && e != NULL)
         *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, ss_motion_unresolved(&m) };
-    if (e != NULL)
-        e->type->free(e);
+    ss_engine_free(e);
     return st;
 }

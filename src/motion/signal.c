@@ -20,21 +20,20 @@ ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
     ss_sim_columns columns = { 0 };
     for (const char *name = list;; name++) {
         size_t length = strcspn(name, ",");
-        int c = 0, repeated = 0;
-        if (length == 1 && *name == 't' && name == list) {
+        int c = 0, repeated = 0, is_time = name == list && length == 1 && *name == 't';
+        while (c < SS_SIM_COLUMNS && (strlen(column[c].name) != length
+                                      || strncmp(name, column[c].name, length) != 0))
+            c++;
+        for (size_t i = 0; i < columns.n; i++)
+            repeated |= columns.pick[i] == c;
+        if (!is_time && (c == SS_SIM_COLUMNS || repeated))
+            return ss_fail(err, SS_EINVAL, repeated ? "'%.*s' is there twice in '%s'"
+                           : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, s, y, "
+                           "z, mode", (int)length, name, list);
+        if (is_time)
             columns.has_time = 1;
-        } else {
-            while (c < SS_SIM_COLUMNS && (strlen(column[c].name) != length
-                                          || strncmp(name, column[c].name, length) != 0))
-                c++;
-            for (size_t i = 0; i < columns.n; i++)
-                repeated |= columns.pick[i] == c;
-            if (c == SS_SIM_COLUMNS || repeated)
-                return ss_fail(err, SS_EINVAL, repeated ? "'%.*s' is there twice in '%s'"
-                               : "'%.*s' in '%s' is none of t (which comes first), x, v, a, f, s, y, "
-                               "z, mode", (int)length, name, list);
+        else
             columns.pick[columns.n++] = c;
-        }
         name += length;
         if (*name == '\0')
             break;

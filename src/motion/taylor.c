@@ -112,7 +112,7 @@ evaluate(const taylor *t, double s, double q[], double dqdt[])
     dqdt[2] = 0;
 }
 
-static ss_status
+static void
 taylor_begin(engine *e)
 {
     taylor *t = (taylor *)e;
@@ -121,7 +121,6 @@ taylor_begin(engine *e)
     t->shortest = ss_step_floor(m);
     e->rhs++;
     m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
-    return SS_OK;
 }
 
 /* Expand the series in units that neither overflow nor are too long for the mode; 0 if there are none. */
@@ -186,37 +185,31 @@ taylor_go_on(engine *e)
     ss_motion_rebase(e->m);
 }
 
-static void
-taylor_free(engine *e)
-{
-    free(e);
-}
-
 static const struct engine_type taylor_type = {
     .begin = taylor_begin, .step = taylor_step, .at = taylor_at, .curve = taylor_curve,
-    .go_on = taylor_go_on, .free = taylor_free
+    .go_on = taylor_go_on
 };
 
 ss_status
 ss_taylor_new(engine **out, motion *m, double tol, ss_error *err)
 {
-    double scale[MAX_DIM];
     if (m->now.model->series == NULL)
         return ss_fail(err, SS_EINVAL, "method " TAYLOR ": the %s model has no series",
                        m->now.model->name);
-    ss_status st = ss_motion_scales(&m->now, tol, scale, err);
-    if (st != SS_OK)
-        return st;
     taylor *t = calloc(1, sizeof *t);
     if (t == NULL)
         return ss_fail_memory(err, NULL);
+    ss_status st = ss_motion_scales(&m->now, tol, t->scale, err);
+    if (st != SS_OK) {
+        free(t);
+        return st;
+    }
     t->base = (engine){ .type = &taylor_type, .m = m };
     t->order = order_of(tol);
     t->tol = tol;
     t->next = ss_step_cap(&m->now);
     for (int n = 0; n < MOST_ORDER + 2; n++)
         t->per_order[n] = 1.0 / (n + 1);
-    memcpy(t->scale, scale, sizeof scale);
     *out = &t->base;
     return SS_OK;
 }

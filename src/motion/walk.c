@@ -12,20 +12,21 @@ ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error 
     *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
     ss_motion_start(&w->m);
     ss_status st = ss_engine_new(&w->e, &w->m, method, opts->tol, err);
-    return st == SS_OK ? ss_engine_begin(w->e) : st;
+    if (st == SS_OK)
+        ss_engine_begin(w->e);
+    return st;
 }
 
-ss_status
+void
 ss_walk_begin_at(walk *w, const motion *from)
 {
     w->m = *from;
     ss_motion_rebase(&w->m);
     w->m.origin = (instant){ 0, 0 };
-    w->m.now.u = 0;
     ss_motion_rebase(&w->m);
     w->lasted = 0;
     w->in_a_row = 0;
-    return ss_engine_begin(w->e);
+    ss_engine_begin(w->e);
 }
 
 void
@@ -74,10 +75,10 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
             return ss_fail(err, SS_EDATA, "the stick at t = %.9g s is without end: no slip comes within a "
                            "time that a double holds", w->m.origin.hi + m->u);
         w->ends = w->h <= longest;
-        if (w->ends)
-            return SS_OK;
-        w->h = longest;
-        ss_engine_rest(e, longest);
+        if (!w->ends) {
+            w->h = longest;
+            ss_engine_rest(e, longest);
+        }
         return SS_OK;
     }
     w->h = longest;
@@ -95,9 +96,8 @@ ss_walk_on(walk *w, int *is_event, ss_event *event, ss_error *err)
         return SS_OK;
     }
     *is_event = ss_engine_next_mode(w->e, w->still, w->h, event);
-    ss_status st = ss_engine_begin(w->e);
-    if (st == SS_OK)
-        st = ss_motion_chatters(&w->m, w->lasted, &w->in_a_row, err);
+    ss_engine_begin(w->e);
+    ss_status st = ss_motion_chatters(&w->m, w->lasted, &w->in_a_row, err);
     w->lasted = 0;
     return st;
 }
@@ -105,7 +105,6 @@ ss_walk_on(walk *w, int *is_event, ss_event *event, ss_error *err)
 void
 ss_walk_end(walk *w)
 {
-    if (w->e != NULL)
-        w->e->type->free(w->e);
+    ss_engine_free(w->e);
     w->e = NULL;
 }

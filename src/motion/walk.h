@@ -25,7 +25,7 @@ typedef struct walk {
 /* At the start of the scene, which stays the caller's.  opts: method, tol and max_steps count. */
 ss_status ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err);
 /* At the state of a motion with the same scene, whose instant becomes t = 0. */
-ss_status ss_walk_begin_at(walk *w, const motion *from);
+void ss_walk_begin_at(walk *w, const motion *from);
 /* Find the next leg: until the next event, for at most `longest` seconds. */
 ss_status ss_walk_leg(walk *w, double longest, ss_error *err);
 /* State and rate of change s after its start, 0 <= s <= h. */

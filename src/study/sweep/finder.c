@@ -59,7 +59,8 @@ ss_finder_begin_at(finder *f, const motion *from)
 {
     const motion copy = *from;          /* which may be the walk's own */
     f->n = 0;
-    return ss_walk_begin_at(&f->w, &copy);
+    ss_walk_begin_at(&f->w, &copy);
+    return SS_OK;
 }
 
 /* --- walking ------------------------------------------------------------------------------- */
