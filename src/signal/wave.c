@@ -127,19 +127,15 @@ ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *e
                        ss_strerror(st), opts->duration * opts->rate, opts->duration, opts->rate);
     if (st == SS_OK && wave == SS_NOISE)
         st = ss_noise_add_once((*out)->values, (*out)->n, fabs(opts->amplitude), opts->seed);
-    if (st != SS_OK) {
-        ss_signal_free(*out);
-        *out = NULL;
-        return ss_fail(err, st, "%s", ss_strerror(st));
-    }
     double zero = 0;                    /* NaN once a value is not finite */
-    for (size_t i = 0; wave != SS_NOISE && i < (*out)->n; i++) {
+    for (size_t i = 0; st == SS_OK && wave != SS_NOISE && i < (*out)->n; i++) {
         (*out)->values[i] = sample(wave, opts, i);
         zero += 0 * (*out)->values[i];
     }
-    if (zero == 0)
+    if (st == SS_OK && zero == 0)
         return SS_OK;
     ss_signal_free(*out);
     *out = NULL;
-    return ss_fail(err, SS_ERANGE, "%s", ss_strerror(SS_ERANGE));
+    st = st == SS_OK ? SS_ERANGE : st;
+    return ss_fail(err, st, "%s", ss_strerror(st));
 }

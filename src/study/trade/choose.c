@@ -33,6 +33,7 @@ typedef struct choice {
     run ref, run;
     double known, accuracy;
     unsigned long user_steps;       /* of opts */
+    double max_steps;               /* that a method may take */
     double tol, reached;            /* of the last method, SS_OK; the least error seen */
 } choice;
 
@@ -60,13 +61,10 @@ loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
 static ss_status
 choose_given(choice *s, const char *method, ss_error *err)
 {
-    double most = OUTRAGEOUS * (double)(s->ref.stats.steps + 1);
-    if (s->user_steps > 0)
-        most = fmin(most, (double)s->user_steps);
-    ss_status st = loosest(s, method, (unsigned long)most, err);
+    ss_status st = loosest(s, method, (unsigned long)s->max_steps, err);
     if (st == SS_EBUDGET && isfinite(s->reached))
         return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g; with fewer x "
-                       "was %.2g of its maximum off", method, most, s->accuracy, s->reached);
+                       "was %.2g of its maximum off", method, s->max_steps, s->accuracy, s->reached);
     if (st == SS_ETOL && isfinite(s->reached))
         return ss_fail(err, st, "%s keeps no accuracy of %g: x was %.2g of its maximum off at best",
                        method, s->accuracy, s->reached);
@@ -83,9 +81,7 @@ choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
         double most = least / cost[i].rhs / cost[i].a_step;
         if (cost[i].at_samples)
             most -= (double)ss_scene_samples(&s->p.scene);
-        most = fmin(most, OUTRAGEOUS * (double)(s->ref.stats.steps + 1));
-        if (s->user_steps > 0)
-            most = fmin(most, (double)s->user_steps);
+        most = fmin(most, s->max_steps);
         if (!(most >= 1))
             continue;
         ss_status st = loosest(s, cost[i].method, (unsigned long)most, err);
@@ -141,6 +137,9 @@ choose(choice *s, ss_sim_opts *opts, ss_error *err)
         opts->tol = ss_sim_defaults.tol;
         return SS_OK;
     }
+    s->max_steps = OUTRAGEOUS * (double)(s->ref.stats.steps + 1);
+    if (s->user_steps > 0)
+        s->max_steps = fmin(s->max_steps, (double)s->user_steps);
     if (opts->method == NULL)
         return choose_cheapest(s, opts, err);
     st = choose_given(s, opts->method, err);
@@ -154,11 +153,9 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     if (opts == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_record_check(scene, err);
-    if (st != SS_OK)
-        return st;
-    if ((st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err)) != SS_OK)
-        return st;
-    if (opts->method != NULL && strcmp(opts->method, EXACT) == 0)
+    if (st == SS_OK)
+        st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err);
+    if (st == SS_OK && opts->method != NULL && strcmp(opts->method, EXACT) == 0)
         st = ss_exact_check(scene, err);
     if (st != SS_OK)
         return st;

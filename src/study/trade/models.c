@@ -121,11 +121,9 @@ simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
 static ss_status
 make_signal(portrait *p, const ss_scene *scene, ss_error *err)
 {
-    ss_sim_columns columns;
-    ss_status st = ss_sim_columns_parse(&columns, "t,x,v,a,f", err);
-    ss_header *head = st == SS_OK ? ss_sim_header(scene, &columns) : NULL;
-    if (st == SS_OK)
-        st = head != NULL ? ss_signal_new(&p->signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
+    const ss_sim_columns columns = { 1, COLUMNS, { 0, 1, 2, 3 } };
+    ss_header *head = ss_sim_header(scene, &columns);
+    ss_status st = head != NULL ? ss_signal_new(&p->signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
     ss_header_free(head);
     return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }

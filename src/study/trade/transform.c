@@ -14,8 +14,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "morlet/plan.h"
+#include "study/trade/runs.h"
 
-enum { EACH = 40, ENGINES = 3, LOOSEST = 2, TIGHTEST = 13 };
+/* The first and the last accuracy are those of ss_trade_tolerance. */
+enum { EACH = 40, ENGINES = 3, LOOSEST = 1, TIGHTEST = 12, ROWS = ENGINES * (TIGHTEST - LOOSEST + 1) };
 
 static const char *const method[ENGINES] = { "quadrature", "fft", "auto" };
 static const ss_engine engine[ENGINES] = { SS_ENGINE_QUADRATURE, SS_ENGINE_FFT, SS_ENGINE_AUTO };
@@ -37,20 +39,6 @@ typedef struct trial {
     scale_reference *reference;
     ss_trade *trade;
 } trial;
-
-/* 1e-p, as it is written. */
-static double
-accuracy_of(int p)
-{
-    const char text[] = { '1', 'e', '-', (char)('0' + p / 10), (char)('0' + p % 10), '\0' };
-    return strtod(text, NULL);
-}
-
-static ss_status
-stopped(const trial *t, double done)
-{
-    return ss_progress_at(&t->how->progress, done);
-}
 
 /* --- the reference ---------------------------------------------------------------------------- */
 
@@ -94,7 +82,7 @@ refer(trial *t, ss_error *err)
 {
     ss_morlet *plan = NULL;
     record rec = { 0 };
-    t->opts.accuracy = accuracy_of(TIGHTEST);
+    t->opts.accuracy = ss_trade_tolerance[TIGHTEST];
     ss_status st = ss_morlet_new(&plan, t->n, t->rate, &t->opts, err);
     if (st != SS_OK)
         return st;
@@ -107,7 +95,7 @@ refer(trial *t, ss_error *err)
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
         st = refer_scale(t, plan, &rec, i, err);
         if (st == SS_OK)
-            st = stopped(t, 0.1 * (double)i / (double)plan->n_scales);
+            st = ss_progress_at(&t->how->progress, 0.1 * (double)i / (double)plan->n_scales);
     }
     t->x_max = ldexp(rec.x_max, rec.exponent);
     if (!t->opts.octaves) {
@@ -163,8 +151,9 @@ transform(trial *t, const ss_trade_row *row, double *seconds, double *error, ss_
 static ss_status
 transform_again(void *user, const ss_trade_row *row, double done, double *seconds)
 {
-    ss_status st = stopped(user, done);
-    return st == SS_OK ? transform(user, row, seconds, NULL, NULL) : st;
+    trial *t = user;
+    ss_status st = ss_progress_at(&t->how->progress, done);
+    return st == SS_OK ? transform(t, row, seconds, NULL, NULL) : st;
 }
 
 static ss_status
@@ -184,7 +173,7 @@ fill_rows(trial *t, ss_error *err)
 {
     ss_trade *trade = t->trade;
     ss_status st = refer(t, err);
-    trade->row = calloc(ENGINES * (TIGHTEST - LOOSEST + 1), sizeof *trade->row);
+    trade->row = calloc(ROWS, sizeof *trade->row);
     if (st == SS_OK && trade->row == NULL)
         st = SS_ENOMEM;
     trade->samples = EACH * t->n_scales;
@@ -192,12 +181,12 @@ fill_rows(trial *t, ss_error *err)
     trade->transform = 1;
     strcpy(trade->reference, "quadrature in full");
     for (int e = 0; st == SS_OK && e < ENGINES; e++)
-        for (int p = LOOSEST; st == SS_OK && p <= TIGHTEST; p++) {
+        for (int i = LOOSEST; st == SS_OK && i <= TIGHTEST; i++) {
             ss_trade_row *row = &trade->row[trade->n++];
-            *row = (ss_trade_row){ .method = method[e], .tol = accuracy_of(p) };
+            *row = (ss_trade_row){ .method = method[e], .tol = ss_trade_tolerance[i] };
             st = measure_row(t, row, err);
             if (st == SS_OK)
-                st = stopped(t, 0.1 + 0.6 * (double)trade->n / (ENGINES * (TIGHTEST - LOOSEST + 1)));
+                st = ss_progress_at(&t->how->progress, 0.1 + 0.6 * (double)trade->n / ROWS);
         }
     if (st == SS_OK)
         st = ss_trade_repeat(trade, transform_again, t);
