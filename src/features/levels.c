@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/versions.h"
 #include "features/levels.h"
 #include "morlet/plan.h"
-#include "morlet/versions.h"
 
 enum { AT_ONCE = 1 << 14 };     /* coefficients */
 

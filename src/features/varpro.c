@@ -18,7 +18,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "morlet/versions.h"
+#include "base/versions.h"
 
 enum { COLUMNS = VARPRO_COLUMNS, OFTEN = 16, STEPS = 50 };
 #define DEPENDENT 1e-13         /* of a column's square: less than that is rounding */

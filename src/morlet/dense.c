@@ -10,8 +10,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/versions.h"
 #include "morlet/dense.h"
-#include "morlet/versions.h"
 #ifdef HAVE_TARGETS
 #include <immintrin.h>
 #endif

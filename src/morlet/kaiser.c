@@ -7,8 +7,8 @@
  * the band ends in a Gaussian the images near its edge are as weak as the band is there, so kernels
  * with a lower cutoff than the band's edge are tried too, and the shortest is taken. */
 #include <math.h>
+#include "base/versions.h"
 #include "morlet/kaiser.h"
-#include "morlet/versions.h"
 
 #define FIT_PART (1 / 16.)      /* of a bound, for the polynomial that undoes the response */
 

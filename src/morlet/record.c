@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/versions.h"
 #include "morlet/plan.h"
-#include "morlet/versions.h"
 
 enum { LANES = 8 };
 

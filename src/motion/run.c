@@ -90,7 +90,7 @@ fill_sample(ss_sample *sample, sampler *r, engine *e, int still, double s)
     if (still)
         memcpy(q, m->now.q, sizeof q);
     else
-        e->type->at(e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, fmax(s, 0), r->base, q, dqdt);
+        e->type->at(e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, s > 0 ? s : 0, r->base, q, dqdt);
     motion_sample(m, r->base, m->now.u + s, q, dqdt, sample);
     sample->t = (double)r->i / r->scene->rate;
 }

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/versions.h"
 
 /* Orders of the tolerances 1e-1 and 1e-14, even. */
 enum { LEAST_ORDER = 6, MOST_ORDER = 24 };
@@ -25,9 +26,6 @@ enum { LEAST_ORDER = 6, MOST_ORDER = 24 };
 /* And at most half a period of the mode's fastest motion, over which the terms are e^pi at most. */
 enum { LONGEST = STEPS_PER_PERIOD / 2 };
 
-/* Horner's scheme sums the even and the odd powers of the state and of v' side by side. */
-enum { LANES = MAX_DIM + 1, PAIRS = MOST_ORDER / 2 + 1 };
-
 typedef struct taylor {
     engine base;
     int order;
@@ -38,8 +36,7 @@ typedef struct taylor {
     double next;                            /* the length of the next step, about [s] */
     double unit, per_unit;                  /* [s], [1/s] */
     double per_order[MOST_ORDER + 2];       /* 1 / (n + 1) */
-    double c[MOST_ORDER + 2][MAX_DIM];      /* of the state in s / unit */
-    double pair[PAIRS][2 * LANES];          /* of even and odd order, v' last */
+    double c[MOST_ORDER + 2][SERIES_PARTS]; /* of the state and of v' in s / unit */
 } taylor;
 
 static int
@@ -76,39 +73,24 @@ expand(taylor *t)
     t->base.rhs += (unsigned long)t->order;
 }
 
-static void
-pair_up(taylor *t)
-{
-    for (int n = 0; n <= t->order + 1; n++) {
-        double *to = t->pair[n / 2] + n % 2 * LANES;
-        memcpy(to, t->c[n], sizeof t->c[n]);
-        to[MAX_DIM] = n <= t->order ? (n + 1) * t->per_unit * t->c[n + 1][1] : 0;
-    }
-}
-
-/* The state and the rates of change of its first two parts.  Written out, the scheme is one that
- * compilers do in vectors. */
-static void
+/* The state and the rates of change of its first two parts: Horner's scheme for the even and the odd
+ * powers of all side by side, which compilers do in vectors. */
+VERSIONS static void
 evaluate(const taylor *t, double s, double q[], double dqdt[])
 {
-    double x = s * t->per_unit, y = x * x;
-    const double *c = t->pair[t->order / 2];
-    double q0 = c[0], q1 = c[1], q2 = c[2], a = c[3], p0 = c[4], p1 = c[5], p2 = c[6], b = c[7];
-    while (c != t->pair[0]) {
-        c -= 2 * LANES;
-        q0 = q0 * y + c[0];
-        q1 = q1 * y + c[1];
-        q2 = q2 * y + c[2];
-        a = a * y + c[3];
-        p0 = p0 * y + c[4];
-        p1 = p1 * y + c[5];
-        p2 = p2 * y + c[6];
-        b = b * y + c[7];
+    enum { LANES = 2 * SERIES_PARTS };
+    double x = s * t->per_unit, y = x * x, sum[LANES];
+    const double *c = t->c[t->order];
+    memcpy(sum, c, sizeof sum);
+    while (c != t->c[0]) {
+        c -= LANES;
+        for (int i = 0; i < LANES; i++)
+            sum[i] = sum[i] * y + c[i];
     }
-    q[0] = q0 + x * p0;
-    dqdt[0] = q[1] = q1 + x * p1;
-    q[2] = q2 + x * p2;
-    dqdt[1] = a + x * b;
+    for (int i = 0; i < MAX_DIM; i++)
+        q[i] = sum[i] + x * sum[SERIES_PARTS + i];
+    dqdt[0] = q[1];
+    dqdt[1] = sum[MAX_DIM] + x * sum[SERIES_PARTS + MAX_DIM];
     dqdt[2] = 0;
 }
 
@@ -149,7 +131,6 @@ taylor_step(engine *e, double h_max, ss_error *err)
     if (!(t->next >= t->shortest))
         return ss_fail(err, SS_ETOL, TAYLOR " cannot keep the tolerance %.3g at t = %.9g s: the step "
                        "fell below %.3g s", t->tol, e->m->origin.hi + m->u, t->shortest);
-    pair_up(t);
     for (size_t i = 0; i < MAX_DIM; i++)
         e->dq0[i] = t->per_unit * t->c[1][i];
     e->h = m->scene->base != NULL ? fmin(t->next, m->u_knot - m->u) : t->next;

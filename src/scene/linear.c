@@ -51,7 +51,7 @@ ss_linear_derivatives(const state *m, double u, const double q[], const double d
 }
 
 void
-ss_linear_series(const state *m, const double step[], int order, double c[][MAX_DIM])
+ss_linear_series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     double force[MOST_SERIES + 1];
     base_force_series(m, step, order, force);
@@ -60,7 +60,9 @@ ss_linear_series(const state *m, const double step[], int order, double c[][MAX_
     c[0][1] = m->q[1];
     for (int n = 0; n < order; n++) {
         c[n + 1][0] = step[n] * c[n][1];
-        c[n + 1][1] = step[n] * (force[n] - m->k * c[n][0] - m->c * c[n][1]) / m->scene->mass;
+        double a = (force[n] - m->k * c[n][0] - m->c * c[n][1]) / m->scene->mass;
+        c[n + 1][1] = step[n] * a;
+        c[n][MAX_DIM] = a;
     }
 }
 

@@ -20,7 +20,7 @@
 #include <stickslip/scene.h>
 #include "scene/key.h"
 
-enum { MAX_DIM = 3, ORDERS = 4, MOST_SERIES = 26 };
+enum { MAX_DIM = 3, ORDERS = 4, MOST_SERIES = 26, SERIES_PARTS = MAX_DIM + 1 };
 
 /* base.c; n samples at start + i / rate. */
 struct ss_base {
@@ -132,12 +132,13 @@ struct model {
      * for what lies inside them, which the multistep methods cannot do where there are events. */
     void (*derivatives)(const state *m, double u, const double q[], const double dqdt[],
                         double higher[][MAX_DIM]);
-    /* The Taylor coefficients of the present state in s / unit, up to an order of MOST_SERIES at most,
-     * by step[n] = unit / (n + 1); NULL if the model has no recurrence for them. */
-    void (*series)(const state *m, const double step[], int order, double c[][MAX_DIM]);
+    /* The Taylor coefficients in s / unit of the present state up to an order of MOST_SERIES at most, and
+     * of v', the last part, up to one order less, by step[n] = unit / (n + 1).  Parts that the model does
+     * not have are left alone.  NULL if it has no recurrence for them. */
+    void (*series)(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
     /* Shorten a step [unit] to the range in which those coefficients describe the motion: they may not
      * show a pole beyond which the motion is another.  NULL if they always describe it. */
-    double (*reach)(const state *m, double c[][MAX_DIM], double step);
+    double (*reach)(const state *m, double c[][SERIES_PARTS], double step);
     /* A function that is not negative within the mode; *slope is its rate of change.  NULL if the model
      * has no events.  If the model has derivatives or a series, the guard is level + p with p linear in q
      * and v, or level - |p| in a mode 0 in which the mass moves. */
@@ -322,7 +323,7 @@ void ss_linear_rates(const state *m, double drive, const double q[], double dqdt
 void ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
 void ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
                            double higher[][MAX_DIM]);
-void ss_linear_series(const state *m, const double step[], int order, double c[][MAX_DIM]);
+void ss_linear_series(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
 double ss_linear_fastest(const state *m, const char **what);
 void ss_linear_slip(state *m, double x, double v, int direction);
 double ss_linear_slip_guard(const state *m, const double q[], const double dqdt[], double *slope);

@@ -177,7 +177,7 @@ inner_of_both(const double u[], const double R[], const double a[], int n, doubl
 /* u = tanh(alpha v) has u' = alpha R v' with R = 1 - u^2, whose first coefficient is written for the
  * sake of its digits where u is almost 1. */
 static void
-series(const state *m, const double step[], int order, double c[][MAX_DIM])
+series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
@@ -186,7 +186,7 @@ series(const state *m, const double step[], int order, double c[][MAX_DIM])
     int saturated = fabs(v) > SATURATED;
     law(s, &rate, &goal);
     base_force_series(m, step, order, force);
-    memcpy(c[0], m->q, sizeof c[0]);
+    memcpy(c[0], m->q, sizeof m->q);
     u[0] = copysign((1 - e) / (1 + e), v);
     R[0] = 4 * e / ((1 + e) * (1 + e));
     for (int n = 0; n < order; n++) {
@@ -194,15 +194,17 @@ series(const state *m, const double step[], int order, double c[][MAX_DIM])
         c[n + 1][0] = step[n] * c[n][1];
         c[n + 1][1] = step[n] * a[n];
         c[n + 1][2] = step[n] * rate * (goal * u[n] - c[n][2]);
+        c[n][MAX_DIM] = a[n];
         if (saturated)
             continue;
-        double uu, Ra, outer = R[0] * a[n];
+        double uu, Ra;
         inner_of_both(u, R, a, n, &uu, &Ra);
+        Ra += R[0] * a[n];
         if (n > 0) {
-            R[n] = -(uu + 2 * u[0] * u[n]);
-            outer += R[n] * a[0];
+            R[n] = -uu - 2 * u[0] * u[n];
+            Ra += R[n] * a[0];
         }
-        u[n + 1] = s->alpha * step[n] * (Ra + outer);
+        u[n + 1] = s->alpha * step[n] * Ra;
     }
 }
 
@@ -211,7 +213,7 @@ series(const state *m, const double step[], int order, double c[][MAX_DIM])
 #define WAY_TO_POLE 0.4
 
 static double
-reach(const state *m, double c[][MAX_DIM], double step)
+reach(const state *m, double c[][SERIES_PARTS], double step)
 {
     enum { TERMS = 6 };
     double most = WAY_TO_POLE * (fabs(m->q[1]) + M_PI / 2 / m->scene->alpha), way = INFINITY;

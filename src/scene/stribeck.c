@@ -64,7 +64,7 @@ sight(const state *m, const double dqdt[])
 
 /* The fall w has w (1 + |v| / v_s) = 1. */
 static void
-series(const state *m, const double step[], int order, double c[][MAX_DIM])
+series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
@@ -81,8 +81,9 @@ series(const state *m, const double step[], int order, double c[][MAX_DIM])
         else
             w[n] = -w[0] * (w[0] * p[n] + inner_products(w, p, n));
         c[n + 1][0] = step[n] * c[n][1];
-        c[n + 1][1] = step[n] * per_mass
-            * (force[n] - fall * w[n] - m->k * c[n][0] - m->c * c[n][1]);
+        double a = per_mass * (force[n] - fall * w[n] - m->k * c[n][0] - m->c * c[n][1]);
+        c[n + 1][1] = step[n] * a;
+        c[n][MAX_DIM] = a;
     }
 }
 

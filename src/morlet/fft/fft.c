@@ -30,12 +30,12 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/versions.h"
 #include "morlet/dense.h"
 #include "morlet/fft/plan.h"
 #include "morlet/fft/points.h"
 #include "morlet/kaiser.h"
 #include "morlet/plan.h"
-#include "morlet/versions.h"
 
 #define SPREAD_BETA (0.985 * M_PI * SPREAD_TAPS * 7 / 8)
 

@@ -3,7 +3,9 @@
 #define POINTS_H
 
 #include <stddef.h>
-#include "morlet/versions.h"
+#include "base/versions.h"
+
+enum { POINT_LANES = 8 };         /* complex numbers at a time in the loops below */
 
 /* to += g x over n terms, of which term k of the spectrum x of m points, a real signal's, is the first:
  * to term at of length, and on around it. */

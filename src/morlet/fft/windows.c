@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/pool.h"
+#include "base/versions.h"
 #include "morlet/fft/blocks.h"
 #include "morlet/fft/points.h"
 #include "morlet/fft/stage.h"
-#include "morlet/versions.h"
 
 enum { WORTH_A_THREAD = 8 };    /* windows */
 

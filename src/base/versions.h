@@ -29,6 +29,4 @@
 #define VERSIONS FAST
 #endif
 
-enum { POINT_LANES = 8 };         /* complex numbers at a time in such loops */
-
 #endif
