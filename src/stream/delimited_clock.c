@@ -19,26 +19,25 @@ enum { GAPS_MOST = 1000 };      /* samples for each that is there */
 
 /* Seconds are stamps * factor / divisor. */
 struct time_unit {
-    const char *names;          /* with blanks between, the usual one first */
+    const char *name, *others;  /* the usual name; others, with blanks between */
     double factor, divisor;
     int is_name;                /* does a column of such a name hold times? */
 };
 
 static const struct time_unit units_of_time[] = {
-    { "s sec secs second seconds", 1, 1, 0 },
-    { "ms msec millisecond milliseconds", 1, 1e3, 1 },
-    { "us usec microsecond microseconds \u00b5s \u03bcs", 1, 1e6, 1 },
-    { "ns nsec nanosecond nanoseconds", 1, 1e9, 1 },
-    { "min minute minutes", 60, 1, 0 },
-    { "h hr hour hours", 3600, 1, 0 }
+    { "s", "sec secs second seconds", 1, 1, 0 },
+    { "ms", "msec millisecond milliseconds", 1, 1e3, 1 },
+    { "us", "usec microsecond microseconds \u00b5s \u03bcs", 1, 1e6, 1 },
+    { "ns", "nsec nanosecond nanoseconds", 1, 1e9, 1 },
+    { "min", "minute minutes", 60, 1, 0 },
+    { "h", "hr hour hours", 3600, 1, 0 }
 };
 enum { UNITS_OF_TIME = sizeof units_of_time / sizeof *units_of_time };
 
 const char *
 ss_time_unit_name(size_t i)
 {
-    static const char *const name[UNITS_OF_TIME] = { "s", "ms", "us", "ns", "min", "h" };
-    return i < UNITS_OF_TIME ? name[i] : NULL;
+    return i < UNITS_OF_TIME ? units_of_time[i].name : NULL;
 }
 
 /* Is the word of n bytes one of those in the list, in any case? */
@@ -54,13 +53,14 @@ is_in_list(const char *list, const char *word, size_t n)
 static const struct time_unit *
 find_time_unit(const char *name)
 {
-    for (size_t i = 0; i < UNITS_OF_TIME; i++)
-        if (is_in_list(units_of_time[i].names, name, strlen(name)))
-            return &units_of_time[i];
+    for (const struct time_unit *unit = units_of_time; unit < units_of_time + UNITS_OF_TIME; unit++)
+        if (strcasecmp(unit->name, name) == 0 || is_in_list(unit->others, name, strlen(name)))
+            return unit;
     return NULL;
 }
 
-/* The unit that a column's name is or ends with, or NULL: ms, Time_ms.  *length: of what stands before. */
+/* The unit that a column's name is or ends with, or NULL: ms, Time_ms.  *length: of what stands
+ * before. */
 static const struct time_unit *
 unit_in_name(const char *name, size_t *length)
 {
@@ -86,20 +86,6 @@ is_called_time(const ss_column *c)
     return is_in_list(words, c->name, length);
 }
 
-/* The unit of a column of time where the file or the caller gives one, else *unit = NULL. */
-static ss_status
-given_unit(const struct table *t, const ss_column *c, const struct time_unit **unit, ss_error *err)
-{
-    size_t length;
-    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
-    *unit = *own != '\0' ? find_time_unit(own) : strcasecmp(c->name, "x_value") == 0
-        ? &units_of_time[0] : unit_in_name(c->name, &length);
-    if (*unit == NULL && *own != '\0')
-        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
-                       c->name, own);
-    return SS_OK;
-}
-
 /* A number of no unit that is a date between 2000 and 2100 in seconds since 1970, or in parts of
  * them: those, else NULL. */
 static const struct time_unit *
@@ -111,6 +97,23 @@ unit_of_date(double stamp)
             return &units_of_time[i];
     }
     return NULL;
+}
+
+/* The unit of a column of numbers that are times: that given by the caller, the file or the
+ * column's name, or else that of a date; NULL if nothing says what it is. */
+static ss_status
+unit_of_times(const struct table *t, size_t column, const struct time_unit **unit, int *is_date, ss_error *err)
+{
+    size_t length;
+    const ss_column *c = &t->names->column[column];
+    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
+    *unit = *own != '\0' ? find_time_unit(own) : strcasecmp(c->name, "x_value") == 0
+        ? &units_of_time[0] : unit_in_name(c->name, &length);
+    if (*unit == NULL && *own != '\0')
+        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
+                       c->name, own);
+    *is_date = *unit == NULL && (*unit = unit_of_date(t->value[column])) != NULL;
+    return SS_OK;
 }
 
 /* Forget the rows without a time. */
@@ -149,8 +152,8 @@ spread_rows(struct table *t, const size_t *sample, ss_error *err)
     return SS_OK;
 }
 
-/* Rows at stamps as samples of a clock: that of the stamps, or that of opts->resample.  *own: the rate of the
- * stamps. */
+/* Rows at stamps as samples of a clock: that of the stamps, or that of opts->resample.  *own: the
+ * rate of the stamps. */
 static ss_status
 place_rows(struct table *t, const double *stamp, double *own, ss_error *err)
 {
@@ -210,12 +213,12 @@ read_stamps(struct table *t, size_t column, double factor, double divisor, doubl
     return st;
 }
 
-/* Ask about a clock that no laboratory has, unless the caller gave its unit; doubt one without unit that
- * would be usual with another. */
+/* Ask about a clock that no laboratory has, unless the caller gave its unit; doubt one without unit
+ * that would be usual with another. */
 static ss_status
 check_rate(const struct table *t, const char *name, const struct time_unit *given, double rate, ss_error *err)
 {
-    const char *unit = given == NULL ? "s" : ss_time_unit_name((size_t)(given - units_of_time));
+    const char *unit = given == NULL ? "s" : given->name;
     if (t->opts->time_unit != NULL)
         return SS_OK;
     if (!(rate >= LEAST_RATE && rate <= MOST_RATE))
@@ -230,19 +233,19 @@ check_rate(const struct table *t, const char *name, const struct time_unit *give
 static ss_status
 read_clock(struct table *t, size_t column, ss_error *err)
 {
-    const struct time_unit *given, *date = NULL;
-    const ss_column *c = &t->names->column[column];
+    const struct time_unit *known;
+    const char *name = t->names->column[column].name;
+    int is_date;
     double rate = 0;
-    ss_status st = given_unit(t, c, &given, err);
+    ss_status st = unit_of_times(t, column, &known, &is_date, err);
     if (st != SS_OK)
         return st;
-    if (given == NULL && (date = unit_of_date(t->value[column])) != NULL)
+    if (is_date)
         ss_delimited_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->in->name,
-                          c->name, ss_time_unit_name((size_t)(date - units_of_time)));
-    given = given != NULL ? given : date;
-    const struct time_unit *unit = given != NULL ? given : &units_of_time[0];
+                          name, known->name);
+    const struct time_unit *unit = known != NULL ? known : &units_of_time[0];
     st = read_stamps(t, column, unit->factor, unit->divisor, &rate, err);
-    return st == SS_OK ? check_rate(t, c->name, given, rate, err) : st;
+    return st == SS_OK ? check_rate(t, name, known, rate, err) : st;
 }
 
 /* --- dates and times of day ---------------------------------------------------------------- */
@@ -367,16 +370,14 @@ find_time(const struct table *t, int *guessed)
 struct time_column
 ss_delimited_time(const struct table *t)
 {
-    int guessed;
+    int guessed, is_date;
     struct time_column time = { find_time(t, &guessed), 1, 1 };
     const struct time_unit *unit;
     if (time.column == NONE || t->column[time.column].kind == COLUMN_STAMPS)
         return time;
     if (t->column[time.column].kind == COLUMN_TEXT
-        || given_unit(t, &t->names->column[time.column], &unit, NULL) != SS_OK)
+        || unit_of_times(t, time.column, &unit, &is_date, NULL) != SS_OK)
         return (struct time_column){ NONE, 1, 1 };
-    if (unit == NULL)
-        unit = unit_of_date(t->value[time.column]);
     if (unit != NULL)
         time = (struct time_column){ time.column, unit->factor, unit->divisor };
     return time;
