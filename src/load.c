@@ -49,8 +49,8 @@ adjust(ss_signal **signal, const char *path, const ss_read_opts *opts, ss_error 
     size_t *column = malloc(head->n_columns * sizeof *column);
     for (size_t c = 0; column != NULL && c < head->n_columns; c++)
         column[c] = c;
-    st = column != NULL ? ss_signal_select(&chosen, all, column, head->n_columns, (size_t)first, (size_t)end, err)
-        : ss_fail_memory(err, path);
+    st = column == NULL ? ss_fail_memory(err, path)
+        : ss_signal_select(&chosen, all, column, head->n_columns, (size_t)first, (size_t)end, err);
     free(column);
     if (st != SS_OK)
         return st;

@@ -48,7 +48,8 @@ const char *tool_input(int argc, char *argv[], int optind);
 /* The name of a path in messages: "<stdin>" for "-". */
 const char *tool_input_name(const char *path);
 /* Call with what any option or argument names as a file to read, before or after output is opened: dies
- * if the output would take its place, under whatever name.  Returns path.  The functions below do it. */
+ * if the output would take its place, under whatever name.  Returns path.  The functions below do
+ * it. */
 const char *tool_reads(const char *path);
 /* The same for what -o names, as early as it is known; tool_output_kind and tool_output do it. */
 void tool_writes(const char *path);
@@ -80,8 +81,8 @@ typedef enum tool_kind {        /* what the ending of -o or --format asks for */
     TOOL_TSV = TOOL_STREAM + SS_TSV
 } tool_kind;
 
-/* Sets of output kinds, to be combined with |: pictures, formats of streams that hold words, all formats
- * of streams, signals. */
+/* Sets of output kinds, to be combined with |: pictures, formats of streams that hold words, all
+ * formats of streams, signals. */
 enum {
     TOOL_PICTURES = 1 << TOOL_GP | 1 << TOOL_PNG | 1 << TOOL_SVG | 1 << TOOL_PDF,
     TOOL_WORDS = 1 << TOOL_STREAM,

@@ -1,8 +1,8 @@
 /* hdf5.c -- HDF5 when a file needs it.
  *
- * HDF5 brings some 35 libraries, and loading these takes more processor time than most runs of a tool.  So
- * tools are not linked with the store (src/store): these functions have its names, open the shared library
- * libstickslip where the store is, and call the same function there. */
+ * HDF5 brings some 35 libraries, and loading these takes more processor time than most runs of a
+ * tool.  So tools are not linked with the store (src/store): these functions have its names, open
+ * the shared library libstickslip where the store is, and call the same function there. */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stickslip/store.h>

@@ -91,7 +91,8 @@ typedef struct tool_reading {
     int given;                  /* was any of the options? */
 } tool_reading;
 
-/* Call after tool_parse; --scale and --unit without a name are of this column, or if NULL of the only one. */
+/* Call after tool_parse; --scale and --unit without a name are of this column, or if NULL of the
+ * only one. */
 void tool_reading_end(tool_reading *r, const char *column);
 void tool_reading_free(tool_reading *r);
 

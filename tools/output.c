@@ -1,4 +1,5 @@
-/* output.c -- the forms of output: streams, HDF5, scripts, and the pictures that gnuplot makes of them. */
+/* output.c -- the forms of output: streams, HDF5, scripts, and the pictures that gnuplot makes of
+ * them. */
 #include "options.h"
 
 #include <errno.h>
@@ -116,7 +117,8 @@ clear_environment(void)
     setenv("TZ", "UTC0", 1);            /* of the date in a PDF */
 }
 
-/* Start gnuplot on a script, without the settings of a user; its words go to a file, its picture comes through *picture. */
+/* Start gnuplot on a script, without the settings of a user; its words go to a file, its picture comes
+ * through *picture. */
 static pid_t
 start_gnuplot(FILE *script, FILE *words, FILE **picture)
 {

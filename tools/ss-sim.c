@@ -40,8 +40,8 @@ typedef struct request {
     ss_sim_opts opts;
 } request;
 
-/* The output of the sinks: a stream, begun with the first sample or event, so that a run that fails at once
- * writes nothing; or a record to fill. */
+/* The output of the sinks: a stream, begun with the first sample or event, so that a run that fails
+ * at once writes nothing; or a record to fill. */
 typedef struct output {
     const request *req;
     ss_header *head;

@@ -31,16 +31,17 @@ typedef struct ss_plot_opts {
 extern const ss_plot_opts ss_plot_defaults;
 
 /* One panel a column over time (figure 1), of the n columns given by index; n = 0 for all.  The first
- * column of opts->over, if that is not NULL, is drawn over the first panel; it begins with the signal. */
+ * column of opts->over, if that is not NULL, is drawn over the first panel; it begins with the
+ * signal. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
-/* One column over another: a phase plane or a friction loop.  Over it are drawn the columns of opts->over of
- * the same names, or else its first two. */
+/* One column over another: a phase plane or a friction loop.  Over it are drawn the columns of
+ * opts->over of the same names, or else its first two. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
-/* The power spectral density of columns, as ss_spectrum_new has it of the span drawn, a panel each; n = 0 for
- * all.  decibels: 1: in dB re 1 unit^2/Hz. */
+/* The power spectral density of columns, as ss_spectrum_new has it of the span drawn, a panel each;
+ * n = 0 for all.  decibels: 1: in dB re 1 unit^2/Hz. */
 ss_status ss_plot_spectrum(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                            double resolution, int decibels, const ss_plot_opts *opts, ss_error *err);
 
@@ -66,22 +67,24 @@ typedef struct ss_contour_opts {
 extern const ss_range ss_contour_levels;
 extern const ss_range ss_contour_spans;         /* [dB] */
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels spanning 80 dB, or down to the noise */
-/* The name of the i-th palette, each with even steps of lightness: "viridis", ...; NULL after the last. */
+/* The name of the i-th palette, each with even steps of lightness: "viridis", ...; NULL after the
+ * last. */
 const char *ss_palette_name(size_t i);
 
 /* Contours of L = 20 log10(|W| / max|W| where edge = 0) at -k span/levels, k = 1 ... levels.
  *
- * Noise is measured where |W| of a scale, outside the cone of influence, has the distribution that Gaussian
- * noise gives it, exp(-|W|^2/s^2) being the share above |W|: where the ratios of its 10, 25 and 50 %
- * quantiles are those of this law within 1 dB, with at least 100 wavelets' lengths of it.  s is found
- * from the 25 % quantile: within 0.5 dB where all is noise, up to 2 dB too high where events last for
- * 30 % of the time.  With an octave of such scales or more, noise begins at sqrt(ln N) times the s that nine
- * of ten of them do not exceed: the largest of N independent |W|, as many as the map has, is about there.
+ * Noise is measured where |W| of a scale, outside the cone of influence, has the distribution that
+ * Gaussian noise gives it, exp(-|W|^2/s^2) being the share above |W|: where the ratios of its 10,
+ * 25 and 50 % quantiles are those of this law within 1 dB, with at least 100 wavelets' lengths of
+ * it.  s is found from the 25 % quantile: within 0.5 dB where all is noise, up to 2 dB too high
+ * where events last for 30 % of the time.  With an octave of such scales or more, noise begins at
+ * sqrt(ln N) times the s that nine of ten of them do not exceed: the largest of N independent |W|,
+ * as many as the map has, is about there.
  *
- * A ridge point is a maximum of |W| over the scales at one time, outside the cone, 3 dB above the saddles
- * beside it and above the lowest line.  Where a steady oscillation has it, it lies at the label
- * 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) times its frequency, 0.987 for omega_c = 6; with the norm 1/a
- * at that frequency.
+ * A ridge point is a maximum of |W| over the scales at one time, outside the cone, 3 dB above the
+ * saddles beside it and above the lowest line.  Where a steady oscillation has it, it lies at the
+ * label 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) times its frequency, 0.987 for omega_c = 6;
+ * with the norm 1/a at that frequency.
  *
  * Marks outside the span and the labels drawn are arrows at the border. */
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,

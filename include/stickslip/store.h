@@ -33,10 +33,10 @@ ss_status ss_store_write(const char *path, const ss_record *record, ss_error *er
 /* The same while samples and coefficients are still being made, in memory that does not grow with
  * their number.  Grid has head, n_scales, scale and center as in ss_coefficients; its n is the
  * length of the record, or 0 if that is not known yet: the datasets then have a time dimension
- * without limit.  Its head is ss_coefficients_header's; if its options say rounded, re and im become
- * multiples of a power of two that is at most TOL/sqrt(2) x the largest |W| of their scale until then, which
- * halves files and more: the error of what is read back is within TOL.  Signal is the header of the transformed
- * signal, with all columns that are stored beside it, or NULL. */
+ * without limit.  Its head is ss_coefficients_header's; if its options say rounded, re and im
+ * become multiples of a power of two that is at most TOL/sqrt(2) x the largest |W| of their scale
+ * until then, which halves files and more: the error of what is read back is within TOL.  Signal is
+ * the header of the transformed signal, with all columns that are stored beside it, or NULL. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);
@@ -51,7 +51,8 @@ ss_status ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error 
 /* A file without ss_store_writer_end is removed; NULL is allowed. */
 void ss_store_writer_free(ss_store_writer *writer);
 
-/* 1 if the file is HDF5 (its signature at byte 0, 512, 1024, ...), else 0, also if it cannot be read. */
+/* 1 if the file is HDF5 (its signature at byte 0, 512, 1024, ...), else 0, also if it cannot be
+ * read. */
 int ss_store_is_hdf5(const char *path);
 
 /* 1 if the file is HDF5 with a /signal in it, damaged or not. */

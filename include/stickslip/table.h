@@ -19,9 +19,10 @@ typedef struct ss_table {
     char **cell;                /* of row i and column c: cell[i * n_columns + c] */
 } ss_table;
 
-/* Read text of this kind: events, features, a ranking, a trade or a sweep.  Several with the same columns,
- * such as the shards of a sweep, may stand one after the other.  SS_EKIND: another kind; SS_EDATA with
- * file and line: no columns, or others than before, or a row of more or fewer cells; SS_EIO. */
+/* Read text of this kind: events, features, a ranking, a trade or a sweep.  Several with the same
+ * columns, such as the shards of a sweep, may stand one after the other.  SS_EKIND: another kind;
+ * SS_EDATA with file and line: no columns, or others than before, or a row of more or fewer cells;
+ * SS_EIO. */
 ss_status ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error *err);
 /* The value of the first note with this key; NULL if there is none. */
 const char *ss_table_note(const ss_table *table, const char *key);

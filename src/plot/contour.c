@@ -1,5 +1,5 @@
-/* contour.c -- contours of |W| in decibels over time and frequency, below the signal: the script, with its
- * axes and cone of influence. */
+/* contour.c -- contours of |W| in decibels over time and frequency, below the signal: the script,
+ * with its axes and cone of influence. */
 #include "plot/contour_marks.h"
 
 #include <float.h>
@@ -132,9 +132,9 @@ write_key(FILE *out, const drawing *d)
               "\n", out);
 }
 
-/* Events first, so that they lie behind the lines; then the cone, over colours if there are any, the contours,
- * and the features.
- * Each level has one colour: gnuplot 6.0 loses some lines that have a colour for each point. */
+/* Events first, so that they lie behind the lines; then the cone, over colours if there are any,
+ * the contours, and the features.  Each level has one colour: gnuplot 6.0 loses some lines that
+ * have a colour for each point. */
 static ss_status
 write_panel_b(FILE *out, const drawing *d)
 {

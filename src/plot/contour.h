@@ -9,8 +9,8 @@
 #define CONTOUR_LEVELS 100      /* the most levels */
 #define CONTOUR_FLOOR 1000.0    /* [dB] below the largest |W|: the level of |W| = 0 */
 
-/* |W| in decibels relative to the largest, CONTOUR_COLUMNS + 1 values a row; a row is a scale, the first
- * and the last where the labels drawn begin and end. */
+/* |W| in decibels relative to the largest, CONTOUR_COLUMNS + 1 values a row; a row is a scale, the
+ * first and the last where the labels drawn begin and end. */
 typedef struct contour_map {
     const script_span *span_of_time;
     size_t rows;

@@ -1,8 +1,9 @@
 /* contour_fill.c -- colours between lines of equal |W|.
  *
- * Beyond the border of the map all is low, so that every line is closed.  Lines do not cross, so of two
- * areas that they enclose one contains the other, or they have nothing in common: painted in the order of
- * their size, each in the colour of what lies within its line, they give every level its place, holes too. */
+ * Beyond the border of the map all is low, so that every line is closed.  Lines do not cross, so of
+ * two areas that they enclose one contains the other, or they have nothing in common: painted in
+ * the order of their size, each in the colour of what lies within its line, they give every level
+ * its place, holes too. */
 #include "plot/contour.h"
 
 #include <math.h>

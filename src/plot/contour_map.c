@@ -18,7 +18,8 @@ typedef struct filling {
     const ss_coefficients *c;
     const ss_contour_opts *contour;
     size_t first;               /* scale of the first row */
-    double outside, anywhere;   /* the largest |W| outside the cone of influence, -1: there is none; and of all */
+    double outside, anywhere;   /* the largest |W| outside the cone of influence, -1: there is none;
+                                   and of all */
     noise_level *noise;         /* NULL: not measured */
 } filling;
 

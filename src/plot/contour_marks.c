@@ -1,5 +1,5 @@
-/* contour_marks.c -- events and features over the contours: those in the map at their places, the others
- * as arrows at its border, one for all of a kind that lie beyond the same place of it. */
+/* contour_marks.c -- events and features over the contours: those in the map at their places, the
+ * others as arrows at its border, one for all of a kind that lie beyond the same place of it. */
 #include "plot/contour_marks.h"
 
 #include <math.h>
@@ -55,7 +55,8 @@ height_of(const border *b, double f)
     return log(f / b->fmin) / log(b->fmax / b->fmin);
 }
 
-/* An arrow to the border for what lies beyond it, at this time and height; nothing if it lies within. */
+/* An arrow to the border for what lies beyond it, at this time and height; nothing if it lies
+ * within. */
 static void
 point_to(border *b, double t, double height)
 {

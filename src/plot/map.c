@@ -1,7 +1,8 @@
 /* map.c -- a sweep over two parameters: regions of equal count, lines of equal value.
  *
  * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and
- * each overlaps the next row by a quarter, so that no seams show.  The lines are those of map_lines.c. */
+ * each overlaps the next row by a quarter, so that no seams show.  The lines are those of
+ * map_lines.c. */
 #include <stickslip/sweep.h>
 #include "plot/map.h"
 #include "plot/script.h"
@@ -176,7 +177,8 @@ write_axis(FILE *out, const char *name, const map_axis *a)
     fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
 }
 
-/* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten values. */
+/* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten
+ * values. */
 static int
 letters_of(const map_axis *a)
 {
@@ -262,7 +264,8 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
 {
     ss_plot_opts titled = *opts;
     const char *scene = ss_table_note(d->table, "scene");
-    script_label x_label = ss_map_label(d->column[0].label, 0, INFINITY), y_label = ss_map_label(d->column[1].label, 0, INFINITY);
+    script_label x_label = ss_map_label(d->column[0].label, 0, INFINITY);
+    script_label y_label = ss_map_label(d->column[1].label, 0, INFINITY);
     script_label line_label = ss_map_label(d->column[line].label, 0, INFINITY);
     if (titled.title == NULL)
         titled.title = scene != NULL ? scene : "";
@@ -279,7 +282,8 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     if (st != SS_OK)
         return st;
     fprintf(out, "set lmargin at screen %g; set tmargin at screen %s; "
-            "set bmargin at screen 0.14\n", 0.14 + 0.025 * fmax(0, letters_of(&g->y) - 3), line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
+            "set bmargin at screen 0.14\n", 0.14 + 0.025 * fmax(0, letters_of(&g->y) - 3),
+            line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", r->n > 0 || r->missing ? "0.835" : "0.965");
     write_axis(out, "x", &g->x);
     write_axis(out, "y", &g->y);

@@ -14,8 +14,8 @@ typedef struct map_column {
     double *value;              /* a row each; NaN: it has none */
 } map_column;
 
-/* Column c of the rows: "-" is NaN, and "aperiodic" a period of 0; its value is to be freed even after a
- * failure.  SS_EDATA: another word. */
+/* Column c of the rows: "-" is NaN, and "aperiodic" a period of 0; its value is to be freed even
+ * after a failure.  SS_EDATA: another word. */
 ss_status ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *err);
 /* "base frequency / Hz" of base_frequency. */
 script_label ss_map_label(const ss_column *column, int exponent, double room);

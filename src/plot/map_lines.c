@@ -1,7 +1,7 @@
 /* map_lines.c -- lines of equal value on a map, and their labels.
  *
- * isoline.c traces the lines.  Each level has a label on at least one line: lines with the least choice of
- * place are labelled first; other long lines have a label where it covers no other. */
+ * isoline.c traces the lines.  Each level has a label on at least one line: lines with the least
+ * choice of place are labelled first; other long lines have a label where it covers no other. */
 #include "plot/map.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* models.c -- what a simpler scene costs in accuracy and saves in time: a colour a scene, a kind of point
- * a quantity.  An error of 0 has no place on a logarithmic axis and is left out. */
+/* models.c -- what a simpler scene costs in accuracy and saves in time: a colour a scene, a kind of
+ * point a quantity.  An error of 0 has no place on a logarithmic axis and is left out. */
 #include "plot/script.h"
 
 #include <math.h>

@@ -1,12 +1,12 @@
 /* noise_level.c -- where noise begins in a map of |W|.
  *
- * Of Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential distribution:
- * its quantile u is -s^2 ln(1 - u).  A scale at which the quantiles of |W|^2 keep these ratios in the lower
- * half, which few events reach, shows noise, and how high it is.  Steady oscillations have no such
- * spread; transients, and the rounding left between them, have far more.
+ * Of Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential
+ * distribution: its quantile u is -s^2 ln(1 - u).  A scale at which the quantiles of |W|^2 keep
+ * these ratios in the lower half, which few events reach, shows noise, and how high it is.  Steady
+ * oscillations have no such spread; transients, and the rounding left between them, have far more.
  *
- * Quantiles come from histograms in bins of 1/8 of a binary order, 0.26 to 0.51 dB, within which they are
- * interpolated: so no coefficient need be kept. */
+ * Quantiles come from histograms in bins of 1/8 of a binary order, 0.26 to 0.51 dB, within which
+ * they are interpolated: so no coefficient need be kept. */
 #include "plot/noise_level.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* overview.c -- a recording of any length in one pass, thinned to what a picture shows of it.
  *
- * A row of blocks holds the largest of as many values each, a power of 2; when all its blocks are full, each
- * two become one, and blocks are twice as long from there on. */
+ * A row of blocks holds the largest of as many values each, a power of 2; when all its blocks are
+ * full, each two become one, and blocks are twice as long from there on. */
 #include <stickslip/overview.h>
 
 #include <math.h>
@@ -13,7 +13,8 @@
 
 enum { BLOCKS = 4096 };
 
-/* The largest of each block; or of samples the smallest and the largest, in the order of their times. */
+/* The largest of each block; or of samples the smallest and the largest, in the order of their
+ * times. */
 typedef struct row {
     size_t length;              /* values a block */
     size_t n;                   /* values so far */
@@ -127,7 +128,8 @@ is_edge(const ss_overview *o, const ss_scale *scale, size_t k, size_t samples)
     return wavelet_edge(scale, k, samples, o->head->rate, o->head->start, o->gap, o->n_gaps);
 }
 
-/* A sink.  What lies between two translations outside the cone is outside, too, where there are no gaps. */
+/* A sink.  What lies between two translations outside the cone is outside, too, where there are no
+ * gaps. */
 static int
 take_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {

@@ -1,8 +1,9 @@
 /* palette.c -- colours whose lightness falls in even steps, for levels on white paper.
  *
- * viridis, plasma, inferno and magma are those of S. van der Walt and N. Smith for matplotlib (2015), which
- * they dedicated to the public domain (CC0), cividis that of J. Nunez, C. Anderton and R. Renslow (2018),
- * which all kinds of colour vision see alike; at tenths of their range, between which colours are mixed. */
+ * viridis, plasma, inferno and magma are those of S. van der Walt and N.  Smith for matplotlib
+ * (2015), which they dedicated to the public domain (CC0), cividis that of J.  Nunez, C.  Anderton
+ * and R.  Renslow (2018), which all kinds of colour vision see alike; at tenths of their range,
+ * between which colours are mixed. */
 #include "plot/contour.h"
 
 #include <string.h>

@@ -48,8 +48,8 @@ make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t 
     return SS_OK;
 }
 
-/* The first column of opts->over, as if it were sampled from the start of the signal on.  Its values count
- * in the range, but not in the exponent. */
+/* The first column of opts->over, as if it were sampled from the start of the signal on.  Its
+ * values count in the range, but not in the exponent. */
 static ss_status
 check_over(ss_header *head, script_span *span, const ss_header *of_signal, const ss_plot_opts *opts,
            ss_error *err)

@@ -48,8 +48,8 @@ int ss_script_decimals(double range);
 
 /* The power of ten, a multiple of 3, by which the n values are divided to be short to read. */
 int ss_script_exponent(const double *x, size_t n);
-/* "name / (10^-3 unit)", if it is wider than its room in two lines, "name" and "(10^-3 unit)", and in smaller
- * letters; cut where it is longer than any picture. */
+/* "name / (10^-3 unit)", if it is wider than its room in two lines, "name" and "(10^-3 unit)", and
+ * in smaller letters; cut where it is longer than any picture. */
 typedef struct script_label {
     char text[256];
     size_t n;                   /* bytes of it */

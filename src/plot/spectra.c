@@ -1,4 +1,5 @@
-/* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel each. */
+/* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel
+ * each. */
 #include "plot/script.h"
 
 #include <math.h>

@@ -355,8 +355,9 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
     return notes->status != SS_OK;
 }
 
-ss_status
-ss_h5_read_notes(h5_file *file, ss_header *head)
+/* The notes among the root's attributes, in the order in which they were written. */
+static ss_status
+read_notes(h5_file *file, ss_header *head)
 {
     hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
     struct notes notes = { file, head, SS_OK };
@@ -395,7 +396,7 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
     if (*head == NULL)
         return SS_ENOMEM;
     (*head)->has_time = has_time != 0;
-    return ss_h5_read_notes(file, *head);
+    return read_notes(file, *head);
 }
 
 ss_status

@@ -73,9 +73,6 @@ ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *
  * notes of the file. */
 ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
 
-/* The notes among the root's attributes, in the order in which they were written. */
-ss_status ss_h5_read_notes(h5_file *file, ss_header *head);
-
 /* The dataset at a path, from any program (foreign.c). */
 ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,
                              const ss_read_opts *opts);

@@ -1,7 +1,8 @@
 /* output.c -- the file that HDF5 writes, whole or absent.
  *
  * The same input gives the same bytes: nothing in the file depends on the clock, the path or the
- * machine.  Where HDF5 cannot go to and fro in the file, it gets one without a name, which is copied. */
+ * machine.  Where HDF5 cannot go to and fro in the file, it gets one without a name, which is
+ * copied. */
 #include "store/output.h"
 
 #include <errno.h>

@@ -43,8 +43,9 @@ link_name(char link[256], hid_t group, const char *name)
         sprintf(link + length, "_%d", i);
 }
 
-/* HDF5 writes the list of what is attached to t anew for each column.  A list of more than 64 kB it does
- * not keep in the header of t but appends each time: 32768 columns would take a minute and 1 GB. */
+/* HDF5 writes the list of what is attached to t anew for each column.  A list of more than 64 kB it
+ * does not keep in the header of t but appends each time: 32768 columns would take a minute and 1
+ * GB. */
 enum { MOST_ATTACHED = 4000 };
 
 static ss_status

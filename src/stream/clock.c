@@ -165,8 +165,8 @@ refuse(const char *file, const double *t, const unsigned long *line, size_t n, c
     }
     double missing = rint(off / usual);
     if (missing > 0 && t[worst] - t[worst - 1] > usual && fabs(off / usual - missing) <= 2 * TOLERANCE)
-        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", file, line[worst], missing,
-                       missing > 1 ? "s are" : " is");
+        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", file,
+                       line[worst], missing, missing > 1 ? "s are" : " is");
     return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
                    "sample periods, %.1f is allowed", file, line[worst], off / usual, TOLERANCE);
 }

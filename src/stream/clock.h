@@ -25,8 +25,8 @@ int ss_clock_add(clock_fit *f, double sample, double stamp);
 ss_status ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err);
 void ss_clock_free(clock_fit *f);
 
-/* Find the uniform clock of n time stamps t; row i stands in line line[i].  sample[i] becomes the number
- * of row i's sample, from 0, which is i unless gaps are allowed. */
+/* Find the uniform clock of n time stamps t; row i stands in line line[i].  sample[i] becomes the
+ * number of row i's sample, from 0, which is i unless gaps are allowed. */
 ss_status ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
                         int gaps, size_t *sample, double *rate, ss_error *err);
 /* The median step of stamps, which must ascend. */

@@ -2,8 +2,8 @@
  *
  * The first line with nothing but numbers begins the data and shows the separator; the lines above
  * it are searched for names and units, and one column becomes the clock.  The whole table is read
- * first, as only all stamps together show the rate.  A line of words below the rows begins another table
- * if rows follow it again. */
+ * first, as only all stamps together show the rate.  A line of words below the rows begins another
+ * table if rows follow it again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -288,8 +288,8 @@ begin_kept(struct table *t, size_t first, ss_error *err)
     return st;
 }
 
-/* Begin with the first row of numbers.  If there is none, or a line of words and numbers stands above it,
- * begin with the first of the lines that are alike. */
+/* Begin with the first row of numbers.  If there is none, or a line of words and numbers stands
+ * above it, begin with the first of the lines that are alike. */
 static ss_status
 begin_first(struct table *t, const char *row, ss_error *err)
 {
@@ -398,8 +398,8 @@ add_stamp(struct table *t, struct time_column time, size_t row)
     return (t->fit.n == 0 || stamp > t->fit.last.stamp) && ss_clock_add(&t->fit, (double)t->fit.n, stamp);
 }
 
-/* Check all rows, and find their clock, keeping none but the first.  Sets t->twice unless there is another
- * table or the clock is not uniform. */
+/* Check all rows, and find their clock, keeping none but the first.  Sets t->twice unless there is
+ * another table or the clock is not uniform. */
 static ss_status
 survey(struct table *t, ss_error *err)
 {
@@ -457,7 +457,8 @@ drop_columns(struct table *t)
             t->value[to++] = t->value[i * t->n_columns + t->kept[c]];
 }
 
-/* Read rows again, as many as fit into a piece.  Rows that a recorder has appended since are not read. */
+/* Read rows again, as many as fit into a piece.  Rows that a recorder has appended since are not
+ * read. */
 static ss_status
 read_piece(ss_reader *reader, struct table *t, ss_error *err)
 {

@@ -95,8 +95,8 @@ enum cell_kind ss_cell_read(char *cell, char separator, double *x);
 /* Split a line, in place, into t->cell and return the number of cells, without surplus empty cells at
  * the end.  NONE: no memory. */
 size_t ss_delimited_split(struct table *t, char *p, char separator);
-/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing number,
- * e for an empty cell, t for text.  *numbers counts the finite numbers.  NULL: no memory. */
+/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing
+ * number, e for an empty cell, t for text.  *numbers counts the finite numbers.  NULL: no memory. */
 char *ss_delimited_shape(struct table *t, const char *line, char separator, size_t *numbers);
 
 /* The start of the data among the lines that were kept (delimited_start.c). */

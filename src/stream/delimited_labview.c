@@ -1,10 +1,10 @@
-/* delimited_labview.c -- headers of LabVIEW and of other programs of National Instruments, which say in
- * lines above the data what each column is: "Delta_X", "Interval" or "delta t", "Y_Unit_Label" or "Unit",
- * "Channel name".
+/* delimited_labview.c -- headers of LabVIEW and of other programs of National Instruments, which
+ * say in lines above the data what each column is: "Delta_X", "Interval" or "delta t",
+ * "Y_Unit_Label" or "Unit", "Channel name".
  *
- * The columns of x of LabVIEW's measurement files (.lvm) are as "X_Columns" says: One comes first, Multi
- * have one before each channel, and with No its place is empty and the header alone has the clock.
- * (National Instruments, Specification for the LabVIEW Measurement File.) */
+ * The columns of x of LabVIEW's measurement files (.lvm) are as "X_Columns" says: One comes first,
+ * Multi have one before each channel, and with No its place is empty and the header alone has the
+ * clock.  (National Instruments, Specification for the LabVIEW Measurement File.) */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,9 +35,9 @@ ss_delimited_is_key(const char *cell)
     return is_one_of(cell, steps) || is_one_of(cell, units) || is_one_of(cell, names);
 }
 
-/* The cells of the last kept line, behind the file's own header, that begins with one of these words;
- * gives how many there are behind it, in t->cell + 1.  0: there is none; NONE: no memory.  *text holds the
- * cells and is to be freed. */
+/* The cells of the last kept line, behind the file's own header, that begins with one of these
+ * words; gives how many there are behind it, in t->cell + 1.  0: there is none; NONE: no memory.
+ * *text holds the cells and is to be freed. */
 static size_t
 find_line(struct table *t, const char *const *word, char **text)
 {
@@ -64,8 +64,8 @@ find_line(struct table *t, const char *const *word, char **text)
 
 /* --- what the lines say -------------------------------------------------------------------- */
 
-/* The number that all cells of a line have; *n: how many, 0 if there is no such line.  Cells that are no
- * numbers, as dates, are none. */
+/* The number that all cells of a line have; *n: how many, 0 if there is no such line.  Cells that
+ * are no numbers, as dates, are none. */
 static ss_status
 read_same(struct table *t, const char *const *word, double *x, size_t *n, ss_error *err)
 {
@@ -87,7 +87,8 @@ read_same(struct table *t, const char *const *word, double *x, size_t *n, ss_err
     return st;
 }
 
-/* The place in a list of the word behind the first cell of a line, or what it was without such a line. */
+/* The place in a list of the word behind the first cell of a line, or what it was without such a
+ * line. */
 static ss_status
 read_choice(struct table *t, const char *const *word, const char *const *choice, int *found, ss_error *err)
 {

@@ -123,8 +123,8 @@ has_word(const char *name, const char *const *word)
     return 0;
 }
 
-/* The unit that a name ends with: slip_velocity_mm_s.  Letters that are ends of other words too are units
- * behind a word of that quantity alone: displacement_in, accel_g. */
+/* The unit that a name ends with: slip_velocity_mm_s.  Letters that are ends of other words too are
+ * units behind a word of that quantity alone: displacement_in, accel_g. */
 static const char *
 unit_of_name(const char *name)
 {

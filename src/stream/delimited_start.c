@@ -1,8 +1,8 @@
 /* delimited_start.c -- where the data of a text table begin.
  *
- * A line with nothing but numbers, dates and times begins them.  A table with a column of words has none:
- * there it is the first line, below one without numbers, that the next two lines are like, cell by
- * cell. */
+ * A line with nothing but numbers, dates and times begins them.  A table with a column of words has
+ * none: there it is the first line, below one without numbers, that the next two lines are like,
+ * cell by cell. */
 #include <stdlib.h>
 #include <string.h>
 #include "stream/delimited.h"
@@ -17,8 +17,8 @@ may_separate(const struct table *t, const char *line, char separator)
     return separator == ' ' ? !t->labview : strchr(line, separator) != NULL;
 }
 
-/* The number of cells that are columns, if all of them hold numbers; else 0.  LabVIEW leaves the cell of x
- * empty and writes comments behind some rows. */
+/* The number of cells that are columns, if all of them hold numbers; else 0.  LabVIEW leaves the
+ * cell of x empty and writes comments behind some rows. */
 static size_t
 count_cells(const struct table *t, const char *line, const char *shape, size_t numbers)
 {

@@ -26,7 +26,8 @@ struct format {
     void (*word)(FILE *out, const char *word);  /* writes such a cell; NULL: as it is */
 };
 
-/* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried last. */
+/* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried
+ * last. */
 #define FORMAT_LIST(row) \
     row(tsv) \
     row(au) \

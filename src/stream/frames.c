@@ -109,8 +109,8 @@ skip_chunks(ss_reader *reader, ss_error *err)
     }
 }
 
-/* Behind the data that the header gives there must be nothing, or other chunks: else which of the two is
- * right? */
+/* Behind the data that the header gives there must be nothing, or other chunks: else which of the
+ * two is right? */
 static ss_status
 refuse_more(ss_reader *reader, ss_error *err)
 {

@@ -70,11 +70,13 @@ type_of(const char *text)
     sample_type type = { .little_endian = text[0] != '>', .is_float = text[1] == 'f',
                          .is_unsigned = text[1] == 'u' || text[1] == 'b' };
     char *end;
-    if (text[0] == '\0' || strchr("<>|=", text[0]) == NULL || text[1] == '\0' || strchr(kinds, text[1]) == NULL)
+    if (text[0] == '\0' || strchr("<>|=", text[0]) == NULL || text[1] == '\0'
+        || strchr(kinds, text[1]) == NULL)
         return type;
     unsigned long bytes = strtoul(text + 2, &end, 10);
     int known = type.is_float ? bytes == 4 || bytes == 8
-        : text[1] == 'V' ? bytes > 0 && bytes <= RECORD_MOST : bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8;
+        : text[1] == 'V' ? bytes > 0 && bytes <= RECORD_MOST
+        : bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8;
     if (text[2] >= '0' && text[2] <= '9' && *end == '\0' && known)
         type.bytes = (unsigned)bytes;
     return type;
@@ -192,8 +194,8 @@ read_header(struct input *in, char **text, ss_error *err)
         before += 2;
     }
     if (version < 1 || version > 3 || length > HEADER_MOST)
-        return ss_fail(err, SS_EDATA, "%s: .npy of version %zu with a header of %zu bytes is not read; versions 1 to "
-                       "3 are", in->name, version, length);
+        return ss_fail(err, SS_EDATA, "%s: .npy of version %zu with a header of %zu bytes is not read; "
+                       "versions 1 to 3 are", in->name, version, length);
     st = ss_input_need(in, before + length, err);
     if (st != SS_OK)
         return st;
@@ -209,7 +211,8 @@ read_header(struct input *in, char **text, ss_error *err)
 
 /* --- the numbers --------------------------------------------------------------------------- */
 
-/* All records, as they come, into *value; it grows with what is there, not with what the header says. */
+/* All records, as they come, into *value; it grows with what is there, not with what the header
+ * says. */
 static ss_status
 read_records(struct input *in, const struct npy *a, double **value, ss_error *err)
 {
@@ -283,8 +286,9 @@ open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         st = ss_delimited_no_memory(&t, err);
     if (st == SS_OK && (!read_dictionary(&a, text) || !arrange(&a)))
         st = a.no_memory ? ss_fail_memory(err, in->name)
-            : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', array.astype('f8')) writes "
-                     "one of one or two dimensions that is", in->name, ss_cell_trim(text));
+            : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "
+                      "array.astype('f8')) writes one of one or two dimensions that is", in->name,
+                      ss_cell_trim(text));
     if (st == SS_OK)
         st = read_records(in, &a, &value, err);
     if (st == SS_OK)

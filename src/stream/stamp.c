@@ -23,7 +23,8 @@ read_part(const char *p, const char *marks, int n, long *x)
     return p != NULL && *p != '\0' && strchr(marks, *p) != NULL ? read_digits(p + 1, n, x) : NULL;
 }
 
-/* The day's number in the Gregorian calendar: years begin in March, so that a leap day is their last. */
+/* The day's number in the Gregorian calendar: years begin in March, so that a leap day is their
+ * last. */
 static long
 day_number(long year, long month, long day)
 {

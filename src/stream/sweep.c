@@ -197,8 +197,8 @@ has_header(FILE *in, const char *header, char *start, size_t *got)
     return memcmp(start, header, *got) == 0;
 }
 
-/* Whole rows, in the order in which they must come.  Of a point with several, the last in the file, there
- * may be more: it is left out. */
+/* Whole rows, in the order in which they must come.  Of a point with several, the last in the file,
+ * there may be more: it is left out. */
 static ss_status
 count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t *rows, long *end,
            ss_error *err)
