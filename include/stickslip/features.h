@@ -84,6 +84,8 @@ typedef struct ss_features {
     ss_loading *loading;        /* as many, where transitions are falls of a force; else NULL */
     ss_median slope, stiffness, drop, duration, recurrence, stick;
     ss_median static_friction, friction, k_over_m;      /* of these */
+    int reverses;               /* 1: transitions are reversals of a force; friction is half of its step
+                                   from one to the next, stiffness that over the displacement */
     size_t n_maxima;
     ss_maximum *maximum;        /* all local maxima above the threshold, in time order */
     ss_spikes *spikes;          /* of the whole record; none of it is claimed unless conclusive */

@@ -223,6 +223,8 @@ find_slope(search *s)
     size_t x = (size_t)s->opts->displacement, f = (size_t)s->opts->force, n = 0;
     if (s->opts->displacement < 0 || s->opts->force < 0)
         return SS_OK;
+    if (out->reverses && isfinite(out->friction.value))     /* which has its own stiffness */
+        return SS_OK;
     ss_window *span = malloc((out->n + 1) * sizeof *span);
     if (span == NULL)
         return SS_ENOMEM;

@@ -16,6 +16,7 @@
 #include <string.h>
 #include "features/drops.h"
 #include "features/loading.h"
+#include "features/reversals.h"
 #include "signal/gaps.h"
 
 #define OUTLIERS 0.02           /* of the samples at either end may be wrong */
@@ -177,6 +178,8 @@ find_by_itself(search *s, double *x, int *decided)
     for (size_t i = 0; i < s->n; i++)
         y[i] = s->x[i] - middle;
     ss_status st = find_reversals(s, y, level_of(y, s->n, x));
+    if (st == SS_OK)
+        st = ss_reversals_measure(s, y);
     free(y);
     return st;
 }

@@ -157,9 +157,8 @@ read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const
     l->stiffness = times((ss_value){ fabs(found.slope), found.error }, s->largest);
 }
 
-/* Of those of n that are numbers; scratch holds n. */
-static ss_median
-median_of(const ss_value *v, size_t n, double *scratch)
+ss_median
+ss_median_of(const ss_value *v, size_t n, double *scratch)
 {
     size_t used = 0, known = 0;
     for (size_t i = 0; i < n; i++)
@@ -184,7 +183,7 @@ median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
 {
     for (size_t i = 0; i < out->n; i++)
         memcpy(&v[i], (const char *)&out->loading[i] + offset, sizeof *v);
-    return median_of(v, out->n, scratch);
+    return ss_median_of(v, out->n, scratch);
 }
 
 static void
@@ -210,7 +209,7 @@ fit_falls(fall *f, const search *s, const double *x, size_t n, ss_value *v, doub
         f[i].line = fit_rise(x, f[i].rise);
         v[i] = (ss_value){ f[i].line.slope > 0 ? f[i].line.slope : NAN, NAN };
     }
-    double loading = median_of(v, n, scratch).value;
+    double loading = ss_median_of(v, n, scratch).value;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         const ss_window room = { f[i].rise.first, i + 1 < n ? f[i + 1].rise.end : s->n };
         st = ss_slip_fit(&f[i].slip, &f[i].is_slip, x, room, f[i].high, f[i].low, loading);

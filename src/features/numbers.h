@@ -6,7 +6,9 @@
 #include <stickslip/features.h>
 
 /* The recordings that have a number. */
-typedef enum number_group { ALL, WITH_LOADING, WITH_LOADING_OVER_X, WITH_MASS, WITH_X_AND_F } number_group;
+typedef enum number_group {
+    ALL, WITH_LOADING, WITH_FRICTION, WITH_FRICTION_OVER_X, WITH_MASS, WITH_X_AND_F
+} number_group;
 
 typedef struct feature_number {
     const char *key, *unit;     /* unit NULL: that of the column is in it */

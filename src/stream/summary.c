@@ -9,15 +9,27 @@
 #include "features/numbers.h"
 #include "stream/output.h"
 
+/* A signal of this kind has such numbers. */
+static int
+applies(number_group of, const ss_features *f)
+{
+    switch (of) {
+    case WITH_LOADING:         return f->loading != NULL;
+    case WITH_FRICTION:
+    case WITH_FRICTION_OVER_X: return f->loading != NULL || f->reverses;
+    default:                   return 1;
+    }
+}
+
+/* They were asked for, too. */
 static int
 belongs(number_group of, const ss_features *f, const ss_features_opts *opts)
 {
     switch (of) {
-    case WITH_LOADING:        return f->loading != NULL;
-    case WITH_LOADING_OVER_X: return f->loading != NULL && opts->displacement >= 0;
-    case WITH_MASS:           return opts->mass > 0;
-    case WITH_X_AND_F:        return opts->displacement >= 0 && opts->force >= 0;
-    default:                  return 1;
+    case WITH_FRICTION_OVER_X: return applies(of, f) && opts->displacement >= 0;
+    case WITH_MASS:            return opts->mass > 0;
+    case WITH_X_AND_F:         return opts->displacement >= 0 && opts->force >= 0;
+    default:                   return applies(of, f);
     }
 }
 
@@ -68,7 +80,7 @@ ss_summary_fill(ss_summary *out, const ss_features *f, const ss_signal *signal, 
     }
     out->number[0].value = (double)f->n;
     for (size_t i = 1; i < SS_SUMMARY_NUMBERS; i++)
-        if (!ss_feature_numbers[i].is_median || f->loading != NULL)
+        if (applies(ss_feature_numbers[i].of, f))
             memcpy(&out->number[i], (const char *)f + ss_feature_numbers[i].at, sizeof out->number[i]);
     snprintf(out->unit, sizeof out->unit, "%s", signal->head->column[column].unit);
     add_reason(out, "slips", f->why_slips);

@@ -1,0 +1,46 @@
+# Friction and stiffness of a force that goes to and fro: a slider on a spring that is moved to and fro, with
+# a constant beside the force, has those of its scene, within three standard errors of at most 6 %.
+slider() {      # STIFFNESS: 8 s of it
+    ss-sim -s mass=1 -s stiffness=1e8 -s damping=2e4 -s friction=4000 -s contact_stiffness="$1" \
+        -s contact_damping=0 -s base_amplitude=0.02 -s base_frequency=1 -s settle=0 -s duration=8 -s rate=1000 \
+        -c t,x,f compliant-light | without_scene | awk 'BEGIN { OFS = "\t" } !/^#/ { $3 += 500 } { print }'
+}
+without_scene() { grep -E '^[^#]|^# (stickslip|rate|start|columns)'; }
+covers() { awk -v key="$1:" -v truth="$2" '$2 == key { off = $3 - truth; if (off < 0) off = -off
+    print key, ($3 != "-" && $4 != "-" && off <= 3 * $4 + 1e-5 * truth && $4 < 0.06 * truth ? "covered" : $3 " " $4) }'; }
+none() { awk -v key="$1:" '$2 == key { print key, $3 }'; }
+for contact in 5e5 1e6 3e6 1e7; do
+    slider $contact > clean.tsv
+    ss-features -c f clean.tsv > found
+    covers friction 4000 < found
+    covers loading_stiffness $contact < found
+done
+for seed in 1 2 3; do
+    slider 1e6 | ss-noise --snr 40 --seed $seed | ss-features -c f > found
+    covers friction 4000 < found
+    covers loading_stiffness 1e6 < found
+done
+# against the paper's contact, by its force alone
+ss-sim compliant-light | without_scene | ss-features -c f | covers loading_stiffness 209900
+# a Coulomb slider does not move in the stick; without a displacement there is nothing to hold the force against
+ss-sim coulomb | without_scene | ss-features -c f > found
+covers friction 1.28 < found
+none loading_stiffness < found
+ss-sim -c t,f coulomb | ss-features -c f | grep -c '^# loading_stiffness' || true
+# forces of a damper and of a spring have reversals but no friction
+for law in 'cos(w * t)' 'sin(w * t)' 'sin(w * t) + cos(w * t)'; do
+    awk "BEGIN { w = 8 * atan2(1, 1); print \"t,x (m),f (N)\"; for (i = 0; i < 8000; i++) { t = i / 1000
+        print t \",\" .02 * sin(w * t) \",\" $law } }" > law.csv
+    ss-features -c f law.csv > found
+    none friction < found
+    none loading_stiffness < found
+done
+# a gap: what it reaches is left out
+slider 1e6 | awk 'BEGIN { print "t,x (m),f (N)"; OFS = "," } !/^#/ { if ($1 > 3.2 && $1 < 3.6) $3 = ""
+    print $1, $2, $3 }' > gap.csv
+ss-features -q --gaps split -c f gap.csv > found
+covers friction 4000 < found
+covers loading_stiffness 1e6 < found
+# one table of files has them, too
+ss-features -c f --summary clean.tsv | awk -F '\t' '/^# columns/ { sub("# columns: ", ""); n = split($0, name, "\t") }
+    !/^#/ { for (i = 1; i <= n; i++) if (name[i] == "friction" || name[i] == "drop") print name[i], $i }'
