@@ -139,6 +139,42 @@ pieces_do_not_matter_and_noise_is_measured(void **state)
     ss_signal_free(signal);
 }
 
+/* Signals whose |W|^2 overflows or underflows have the same picture, and the time near gaps, as that
+ * of the ends, does not count for the largest. */
+static void
+sizes_do_not_matter_and_gaps_are_left_out(void **state)
+{
+    const ss_morlet_opts opts = grid();
+    ss_signal *signal = record(60);
+    (void)state;
+    for (size_t i = 20000; i < 20100; i++)
+        signal->values[i] += 4000;
+    assert_int_equal(ss_header_note(signal->head, "gaps", "5.001:5.002 20:20.1 50:51"), SS_OK);
+    ss_overview *one = look_at(signal, &opts, 4096);
+    const ss_coefficients *a = ss_overview_coefficients(one);
+    ss_coefficients *all;
+    assert_int_equal(ss_morlet_transform(&all, signal, 0, &opts, NULL), SS_OK);
+    assert_true(fabs(ss_overview_top(one) / ss_coefficients_max(all) - 1) <= 2e-6);
+    for (int power = -600; power <= 600; power += 1200) {
+        ss_signal *scaled = record(60);
+        for (size_t i = 0; i < signal->n; i++)
+            scaled->values[i] = ldexp(signal->values[i], power);
+        assert_int_equal(ss_header_note(scaled->head, "gaps", "5.001:5.002 20:20.1 50:51"), SS_OK);
+        ss_overview *o = look_at(scaled, &opts, 4096);
+        const ss_coefficients *b = ss_overview_coefficients(o);
+        assert_int_equal(a->n_scales, b->n_scales);
+        assert_true(fabs(ldexp(ss_overview_top(o), -power) / ss_overview_top(one) - 1) <= 2e-6);
+        for (size_t i = 0; i < a->n_scales; i++)
+            for (size_t k = a->scale[i].offset; k < a->scale[i].offset + a->scale[i].n; k++)
+                assert_true(fabs(ldexp(b->w[2 * k], -power) - a->w[2 * k]) <= 2e-6 * 4000);
+        ss_overview_free(o);
+        ss_signal_free(scaled);
+    }
+    ss_coefficients_free(all);
+    ss_overview_free(one);
+    ss_signal_free(signal);
+}
+
 static void
 what_is_too_short_or_wrong_is_refused(void **state)
 {
@@ -171,6 +207,7 @@ main(void)
         cmocka_unit_test(blocks_have_the_largest_of_their_translations),
         cmocka_unit_test(the_signal_keeps_its_extremes_and_times),
         cmocka_unit_test(pieces_do_not_matter_and_noise_is_measured),
+        cmocka_unit_test(sizes_do_not_matter_and_gaps_are_left_out),
         cmocka_unit_test(what_is_too_short_or_wrong_is_refused),
     };
     return cmocka_run_group_tests_name("overview", tests, NULL, NULL);

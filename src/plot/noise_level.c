@@ -52,13 +52,21 @@ ss_noise_level_new(size_t n_scales)
 }
 
 /* The exponent of a double and the first bits behind its binary point, which count the bins. */
-void
-ss_noise_level_add(noise_level *noise, size_t i, double power)
+static size_t
+bin_of(double power)
 {
     int64_t bits;
     memcpy(&bits, &power, sizeof bits);
     int64_t bin = (bits >> (52 - PART_BITS)) - ((int64_t)(1023 + LEAST_ORDER) << PART_BITS);
-    noise->count[i * BINS + (size_t)(bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin)]++;
+    return (size_t)(bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin);
+}
+
+void
+ss_noise_level_add(noise_level *noise, size_t i, const double *power, size_t first, size_t n, size_t step)
+{
+    uint64_t *count = noise->count + i * BINS;
+    for (size_t k = first; k < n; k += step)
+        count[bin_of(power[k])] += step;
 }
 
 /* The least power in a bin. */

@@ -8,8 +8,10 @@
 typedef struct noise_level noise_level;
 
 noise_level *ss_noise_level_new(size_t n_scales);       /* NULL: no memory */
-/* A coefficient of scale i outside the cone of influence, by |W|^2 >= 0. */
-void ss_noise_level_add(noise_level *noise, size_t i, double power);
+/* Coefficients first, first + step, ... below n of those given of scale i, by |W|^2 >= 0; all outside the
+ * cone of influence.  Each stands for as many as step. */
+void ss_noise_level_add(noise_level *noise, size_t i, const double *power, size_t first, size_t n,
+                        size_t step);
 /* |W| at which noise begins; 0: none was found. */
 double ss_noise_level(noise_level *noise, const ss_scale *scale);
 void ss_noise_level_free(noise_level *noise);           /* NULL is allowed */

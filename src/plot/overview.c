@@ -6,8 +6,8 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/error.h"
+#include "base/versions.h"
 #include "morlet/wavelet.h"
 #include "plot/noise_level.h"
 
@@ -16,7 +16,7 @@ enum { BLOCKS = 4096 };
 /* The largest of each block; or of samples the smallest and the largest, in the order of their
  * times. */
 typedef struct row {
-    size_t length;              /* values a block */
+    int order;                  /* a block has 2^order values */
     size_t n;                   /* values so far */
     double *most;               /* BLOCKS */
     double *least;              /* BLOCKS; NULL: not wanted */
@@ -42,7 +42,6 @@ struct ss_overview {
 static int
 make_row(row *r, int both)
 {
-    r->length = 1;
     r->most = malloc(BLOCKS * sizeof *r->most);
     r->least = both ? malloc(BLOCKS * sizeof *r->least) : NULL;
     r->falls = both ? calloc(BLOCKS, 1) : NULL;
@@ -57,68 +56,131 @@ free_row(row *r)
     free(r->falls);
 }
 
+/* Which of two neighbours are the smallest and the largest, and in which order. */
 static void
-halve(row *r)
+halve_least(row *r)
 {
     for (size_t i = 0; i < BLOCKS / 2; i++) {
         size_t a = 2 * i, b = a + 1, high = r->most[b] > r->most[a] ? b : a;
-        if (r->least != NULL) {
-            size_t low = r->least[b] < r->least[a] ? b : a;
-            r->falls[i] = high != low ? high < low : r->falls[high];
-            r->least[i] = r->least[low];
-        }
-        r->most[i] = r->most[high];
+        size_t low = r->least[b] < r->least[a] ? b : a;
+        r->falls[i] = high != low ? high < low : r->falls[high];
+        r->least[i] = r->least[low];
     }
-    r->length *= 2;
 }
 
-/* Add m values, which all lie in the block that they begin in. */
 static void
-add_to_block(row *r, const double *x, size_t m)
+halve(row *r)
 {
-    size_t i = r->n / r->length, high = 0, low = 0;
-    int first = r->n % r->length == 0;
-    for (size_t k = 1; k < m; k++)
+    if (r->least != NULL)
+        halve_least(r);
+    for (size_t i = 0; i < BLOCKS / 2; i++)
+        r->most[i] = r->most[2 * i + 1] > r->most[2 * i] ? r->most[2 * i + 1] : r->most[2 * i];
+    r->order++;
+}
+
+/* Of the next n values, how many lie in block *i, the first that has room. */
+static inline size_t
+next_block(row *r, size_t n, size_t *i)
+{
+    if (r->n >> r->order == BLOCKS)
+        halve(r);
+    *i = r->n >> r->order;
+    size_t room = ((*i + 1) << r->order) - r->n;
+    return room < n ? room : n;
+}
+
+/* Add m samples to block i, which they lie in. */
+static void
+add_to_block(row *r, size_t i, const double *x, size_t m)
+{
+    size_t high = 0, low = 0;
+    int first = r->n == i << r->order;
+    for (size_t k = 1; k < m; k++) {
         high = x[k] > x[high] ? k : high;
-    for (size_t k = 1; r->least != NULL && k < m; k++)
         low = x[k] < x[low] ? k : low;
-    int higher = first || x[high] > r->most[i];
-    if (r->least != NULL) {
-        int lower = first || x[low] < r->least[i];
-        if (higher || lower)
-            r->falls[i] = higher && lower ? high < low : lower;
-        r->least[i] = lower ? x[low] : r->least[i];
     }
+    int higher = first || x[high] > r->most[i], lower = first || x[low] < r->least[i];
+    if (higher || lower)
+        r->falls[i] = higher && lower ? high < low : lower;
     r->most[i] = higher ? x[high] : r->most[i];
+    r->least[i] = lower ? x[low] : r->least[i];
     r->n += m;
 }
 
 static void
-add(row *r, const double *x, size_t n)
+add_samples(row *r, const double *x, size_t n)
 {
-    for (size_t k = 0, m; k < n; k += m) {
-        if (r->n == BLOCKS * r->length)
-            halve(r);
-        size_t room = r->length - r->n % r->length;
-        m = room < n - k ? room : n - k;
-        add_to_block(r, x + k, m);
+    for (size_t k = 0, m, i; k < n; k += m) {
+        m = next_block(r, n - k, &i);
+        add_to_block(r, i, x + k, m);
     }
+}
+
+/* The largest of at least one value >= 0; lanes let the machine compare several at a time. */
+static inline double
+largest_of(const double *x, size_t n)
+{
+    enum { LANES = 8 };
+    double lane[LANES] = { 0 }, most = x[0];
+    size_t k = 1;
+    if (n > LANES) {
+        for (; k + LANES <= n; k += LANES)
+            for (size_t j = 0; j < LANES; j++)
+                lane[j] = x[k + j] > lane[j] ? x[k + j] : lane[j];
+        for (size_t j = 0; j < LANES; j++)
+            most = lane[j] > most ? lane[j] : most;
+    }
+    for (; k < n; k++)
+        most = x[k] > most ? x[k] : most;
+    return most;
+}
+
+/* Add n levels, squares or not, of which a row has the roots; returns the largest root. */
+VERSIONS static double
+add_levels(row *r, const double *level, size_t n, int squares)
+{
+    double all = 0;
+    for (size_t k = 0, m, i; k < n; k += m) {
+        m = next_block(r, n - k, &i);
+        double most = largest_of(level + k, m);
+        most = squares ? sqrt(most) : most;
+        r->most[i] = r->n == i << r->order || most > r->most[i] ? most : r->most[i];
+        all = most > all ? most : all;
+        r->n += m;
+    }
+    return all;
 }
 
 static size_t
 blocks(const row *r)
 {
-    return (r->n + r->length - 1) / r->length;
+    return (r->n + ((size_t)1 << r->order) - 1) >> r->order;
 }
 
 /* --- as coefficients come ------------------------------------------------------------------ */
 
-/* |W|; squares overflow and underflow where hypot does not, which takes longer. */
-static double
-magnitude(double re, double im)
+enum { PIECE = 512 };           /* coefficients at a time, which stay in the cache */
+
+/* |W|^2; returns the largest. */
+VERSIONS static double
+square(double *restrict level, const double *restrict w, size_t n)
 {
-    double power = re * re + im * im;
-    return power > 1e-280 && power < 1e280 ? sqrt(power) : hypot(re, im);
+    for (size_t k = 0; k < n; k++)
+        level[k] = w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1];
+    return largest_of(level, n);
+}
+
+/* |W|^2, and returns 1; or |W|, which takes longer, where the largest square overflows or
+ * underflows. */
+static int
+find_levels(double *level, const double *w, size_t n)
+{
+    double most = square(level, w, n);
+    if (most > 1e-280 && most < 1e280)
+        return 1;
+    for (size_t k = 0; k < n; k++)
+        level[k] = hypot(w[2 * k], w[2 * k + 1]);
+    return 0;
 }
 
 /* Is a translation in the cone of influence? */
@@ -128,27 +190,54 @@ is_edge(const ss_overview *o, const ss_scale *scale, size_t k, size_t samples)
     return wavelet_edge(scale, k, samples, o->head->rate, o->head->start, o->gap, o->n_gaps);
 }
 
-/* A sink.  What lies between two translations outside the cone is outside, too, where there are no
- * gaps. */
+/* Are all translations first ... last outside the cone of influence, of the ends and of gaps? */
+static int
+are_inside(const ss_overview *o, const ss_scale *scale, size_t first, size_t last, size_t samples)
+{
+    double from = ss_scale_b(scale, first), to = ss_scale_b(scale, last);
+    return !is_edge(o, scale, first, samples) && !is_edge(o, scale, last, samples)
+        && !ss_gaps_near(o->gap, o->n_gaps, o->head->start + (from + to) / 2,
+                         (to - from) / 2 + wavelet_cone(scale->a));
+}
+
+/* Noise is as well measured by two coefficients a length of the wavelet, 2 sqrt(pi) a, as by all:
+ * those between follow from them.  Each counts for all up to the next. */
+static size_t
+noise_step(const ss_scale *scale)
+{
+    double step = floor(sqrt(M_PI) * scale->a * scale->b_den / scale->b_num);
+    return step > 1 ? (size_t)step : 1;
+}
+
+/* Levels of translations from first on, all in the cone of influence or all outside. */
+static void
+add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, double *level, int squares,
+            int edge)
+{
+    size_t i = (size_t)(scale - ss_stream_scale(o->stream, 0)), step = noise_step(scale);
+    double most = add_levels(&o->scale[i], level, n, squares);
+    if (edge)
+        return;
+    o->top = most > o->top ? most : o->top;
+    for (size_t k = 0; !squares && k < n; k++)
+        level[k] *= level[k];
+    ss_noise_level_add(o->noise, i, level, (step - first % step) % step, n, step);
+}
+
+/* A sink. */
 static int
 take_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
-    enum { PIECE = 512 };
     ss_overview *o = user;
-    size_t i = (size_t)(scale - ss_stream_scale(o->stream, 0));
     double level[PIECE];
     for (size_t at = 0, m; at < n; at += m) {
         m = n - at < PIECE ? n - at : PIECE;
-        for (size_t k = 0; k < m; k++)
-            level[k] = magnitude(w[2 * (at + k)], w[2 * (at + k) + 1]);
-        add(&o->scale[i], level, m);
-        int inside = o->n_gaps == 0 && !is_edge(o, scale, first + at, samples)
-            && !is_edge(o, scale, first + at + m - 1, samples);
-        for (size_t k = 0; k < m; k++)
-            if (inside || !is_edge(o, scale, first + at + k, samples)) {
-                o->top = level[k] > o->top ? level[k] : o->top;
-                ss_noise_level_add(o->noise, i, level[k] * level[k]);
-            }
+        int squares = find_levels(level, w + 2 * at, m);
+        int inside = are_inside(o, scale, first + at, first + at + m - 1, samples);
+        size_t stretch = inside ? m : 1;
+        for (size_t k = 0; k < m; k += stretch)
+            add_stretch(o, scale, first + at + k, stretch, level + k, squares,
+                        !inside && is_edge(o, scale, first + at + k, samples));
     }
     return 0;
 }
@@ -189,7 +278,7 @@ ss_overview_push(ss_overview *o, const double *x, size_t n, ss_error *err)
         return SS_FAIL_NULL(err);
     ss_status st = ss_stream_push(o->stream, x, n, err);
     if (st == SS_OK)
-        add(&o->samples, x, n);
+        add_samples(&o->samples, x, n);
     return st;
 }
 
@@ -200,11 +289,11 @@ make_signal(ss_overview *o)
 {
     const row *r = &o->samples;
     ss_header *head;
-    size_t a_block = r->length > 1 ? 2 : 1;
+    size_t a_block = r->order > 0 ? 2 : 1;
     ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0);
     if (st != SS_OK)
         return st;
-    head->rate = o->head->rate * (double)a_block / (double)r->length;
+    head->rate = ldexp(o->head->rate * (double)a_block, -r->order);
     st = ss_signal_new(&o->signal, head, a_block * blocks(r));
     ss_header_free(head);
     for (size_t i = 0; st == SS_OK && i < blocks(r); i++) {
@@ -241,7 +330,7 @@ make_coefficients(ss_overview *o)
     for (size_t i = first; i < scales; i++) {
         const row *r = &o->scale[i];
         c->scale[i - first] = scale[i];
-        c->scale[i - first].b_num *= (double)r->length;
+        c->scale[i - first].b_num = ldexp(scale[i].b_num, r->order);
         c->scale[i - first].n = blocks(r);
         c->scale[i - first].offset = (size_t)(w - c->w) / 2;
         for (size_t k = 0; k < blocks(r); k++, w += 2)
