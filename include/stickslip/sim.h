@@ -34,7 +34,8 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
     unsigned long events;       /* before the record too */
     unsigned long unresolved;   /* micro-events within the error of x in a step (the tolerance, or
                                    the rounding of the closed form): slips no longer than that, and
-                                   contacts that only touched their limit.  x keeps its accuracy;
+                                   contacts that only touched their limit, and the end of a slip
+                                   that damping has slowed to nothing.  x keeps its accuracy;
                                    the number and times of such events do not */
 } ss_sim_stats;
 

@@ -83,6 +83,14 @@ ss_motion_unresolved(const motion *m)
     return m->unresolved + m->now.touches;
 }
 
+int
+ss_motion_fades(const motion *m)
+{
+    const state *now = &m->now;
+    return now->model->guard != NULL && now->mode != 0
+        && fabs(now->q[1]) <= m->doubt * now->model->fastest(now, NULL);
+}
+
 /* The phase of the base at t. */
 turn
 ss_motion_base(const motion *m, instant t)

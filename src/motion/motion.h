@@ -34,6 +34,8 @@ void ss_motion_rebase(motion *m);                   /* let u count from the pres
 turn ss_motion_base(const motion *m, instant t);    /* the phase of the base */
 double ss_motion_x(const motion *m);                /* now, at u = 0 */
 unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
+/* 1 if a slip has become so slow that the doubt of x hides its end, as damping lets it near 0. */
+int ss_motion_fades(const motion *m);
 /* A mode has lasted this long [s]: SS_ECHATTER after too many short ones in a row. */
 ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
 

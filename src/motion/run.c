@@ -355,8 +355,10 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
         st = begin(&r, e, slips);
     if (st == SS_OK)
         st = run(&r, e, err);
+    unsigned long unresolved = ss_motion_unresolved(&m);
     if (stats != NULL && e != NULL)
-        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events, ss_motion_unresolved(&m) };
+        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events,
+                                 unresolved > 0 ? unresolved : (unsigned long)ss_motion_fades(&m) };
     ss_engine_free(e);
     return st;
 }
