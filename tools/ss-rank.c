@@ -31,7 +31,8 @@ TOOL_READING_USAGE
 "  -h, --help            show this text; --version: show the version\n";
 
 typedef struct job {
-    const char *signal_path, *column_name, *as, *known_by, *output;
+    const char *signal_path, *column_name, *known_by, *output;
+    int as, fits;               /* as: of ss_quantity_names; -1: not given */
     tool_texts settings;
     const char **scenes;
     size_t n_scenes;
@@ -114,12 +115,12 @@ quantity_of_name(const char *name)
 
 /* And by what that is known. */
 static ss_quantity
-quantity_of(const ss_column *column, const char *as, const char **by)
+quantity_of(const ss_column *column, int as, const char **by)
 {
     int found = -1;
     *by = "--as";
-    if (as != NULL)
-        return (ss_quantity)tool_choice("--as", as, ss_quantity_names);
+    if (as >= 0)
+        return (ss_quantity)as;
     *by = "its name";
     if ((found = quantity_of_name(column->name)) >= 0)
         return (ss_quantity)found;
@@ -170,7 +171,7 @@ note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
 }
 
 static void
-rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *opts)
+rank(const job *j, const ss_signal *signal, size_t column)
 {
     ss_scene *scene = calloc(j->n_scenes + 1, sizeof *scene);
     char **name = calloc(j->n_scenes + 1, sizeof *name);
@@ -182,12 +183,12 @@ rank(const job *j, const ss_signal *signal, size_t column, const ss_rank_opts *o
         scene[i] = tool_read_scene(j->scenes[i], &j->settings);
         name[i] = tool_name_scene(j->scenes[i], &j->settings);
     }
-    tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, opts, &err), &err);
-    note_work(r, name, opts);
+    tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, &j->opts, &err), &err);
+    note_work(r, name, &j->opts);
     const ss_ranking_text about = {
         .signal = signal_name(j->signal_path), .column = signal->head->column[column].name,
         .known_by = j->known_by, .scene = (const char *const *)name };
-    tool_check(ss_ranking_write(r, &about, opts, tool_output(j->output), tool_stream(j->kind)), NULL);
+    tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind)), NULL);
     for (size_t i = 0; i < j->n_scenes; i++)
         free(name[i]);
     free(name);
@@ -299,45 +300,52 @@ fit(const job *j, const ss_signal *signal, size_t column)
     (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
 }
 
+/* The signal and the scenes named; without scenes, those of the paper, or of a fit the one that it starts
+ * from. */
 static void
-set_quantity(const tool_option *o, char *text)
+set_files(job *j, int n, char *file[])
 {
-    *(const char **)o->to = ss_quantity_names[tool_choice("--as", text, ss_quantity_names)];
+    static const char *usual[16] = { "compliant-light" };
+    j->signal_path = n > 0 ? file[0] : "-";
+    j->scenes = n > 1 ? (const char **)file + 1 : usual;
+    j->n_scenes = n > 1 ? (size_t)n - 1 : 0;
+    if (n > 1 || j->fits)
+        return;
+    while (j->n_scenes < sizeof usual / sizeof *usual && ss_shipped_scenes[j->n_scenes].name != NULL) {
+        usual[j->n_scenes] = ss_shipped_scenes[j->n_scenes].name;
+        j->n_scenes++;
+    }
+}
+
+static void
+parse(job *j, int argc, char *argv[])
+{
+    const ss_range percents = { 0, 99 }, frequencies = { 1e-9, 1e12 };
+    double percent = 100 * j->opts.spread;
+    const tool_option options[] = {
+        TOOL_TEXT('c', "column", &j->column_name), TOOL_CHOICE('a', "as", &j->as, ss_quantity_names),
+        TOOL_TEXTS('s', "set", &j->settings), TOOL_NUMBER('p', "spread", &percent, percents),
+        TOOL_NUMBER('F', "forcing", &j->opts.forcing_frequency, frequencies),
+        TOOL_FLAG(0, "fit", &j->fits), TOOL_OUTPUT(&j->output), TOOL_FORMAT_OF_WORDS(&j->kind) };
+    int first = TOOL_PARSE(argc, argv, options, &j->reading);
+    j->opts.spread = percent / 100;
+    tool_reading_end(&j->reading, j->column_name);
+    if (j->fits && argc - first > 2)
+        tool_usage("--fit takes one scene");
+    if (j->fits)
+        tool_writes(j->output);
+    else
+        j->kind = tool_output_kind(j->output, TOOL_WORDS, j->kind);
+    set_files(j, argc - first, argv + first);
 }
 
 int
 main(int argc, char *argv[])
 {
-    const ss_range percents = { 0, 99 }, frequencies = { 1e-9, 1e12 };
-    job j = { .kind = TOOL_TSV, .opts = ss_rank_defaults };
-    double percent = 100 * j.opts.spread;
-    int fits = 0;
-    const tool_option options[] = {
-        TOOL_TEXT('c', "column", &j.column_name), TOOL_VALUE('a', "as", set_quantity, &j.as),
-        TOOL_TEXTS('s', "set", &j.settings), TOOL_NUMBER('p', "spread", &percent, percents),
-        TOOL_NUMBER('F', "forcing", &j.opts.forcing_frequency, frequencies),
-        TOOL_FLAG(0, "fit", &fits), TOOL_OUTPUT(&j.output), TOOL_FORMAT_OF_WORDS(&j.kind) };
+    job j = { .kind = TOOL_TSV, .opts = ss_rank_defaults, .as = -1 };
 
     tool_begin(argv, "ss-rank", usage);
-    int first = TOOL_PARSE(argc, argv, options, &j.reading);
-    j.opts.spread = percent / 100;
-    tool_reading_end(&j.reading, j.column_name);
-    if (fits && argc - first > 2)
-        tool_usage("--fit takes one scene");
-    if (fits)
-        tool_writes(j.output);
-    else
-        j.kind = tool_output_kind(j.output, TOOL_WORDS, j.kind);
-    j.signal_path = first < argc ? argv[first] : "-";
-    const char *shipped[16];
-    size_t n = 0;
-    while (n < sizeof shipped / sizeof *shipped && ss_shipped_scenes[n].name != NULL)
-        shipped[n] = ss_shipped_scenes[n].name, n++;
-    j.scenes = first + 1 < argc ? (const char **)argv + first + 1 : shipped;
-    j.n_scenes = first + 1 < argc ? (size_t)(argc - first - 1) : n;
-    if (fits && first + 1 >= argc)
-        shipped[0] = "compliant-light";
-
+    parse(&j, argc, argv);
     ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
     j.opts.quantity = quantity_of(&signal->head->column[column], j.as, &j.known_by);
@@ -346,10 +354,10 @@ main(int argc, char *argv[])
               j.known_by);
     find_others(j.opts.also, signal->head, column);
     j.opts.progress = (ss_progress){ tool_progress, &j };
-    if (fits)
+    if (j.fits)
         fit(&j, signal, column);
     else
-        rank(&j, signal, column, &j.opts);
+        rank(&j, signal, column);
     ss_signal_free(signal);
     tool_reading_free(&j.reading);
     free(j.settings.text);

@@ -255,6 +255,31 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--accuracy and --tol exclude each other");
 }
 
+/* Run the scene, its samples and events going where they are asked for. */
+static void
+simulate(request *req, const ss_scene *scene, output *o)
+{
+    ss_sim_stats stats = { 0 };
+    ss_error err = { 0 };
+    req->opts.user = req->opts.progress.user = o;
+    if (req->kind == TOOL_H5)
+        tool_check(ss_signal_new(&o->signal, o->head, ss_scene_samples(scene)), NULL);
+    if (req->events || req->kind == TOOL_H5)
+        req->opts.events = req->events ? stream_event : keep_event;
+    if (!req->events)
+        req->opts.samples = req->kind == TOOL_H5 ? keep_samples : stream_samples;
+    tool_end_at_rows(req->path);
+    ss_status st = ss_sim_run(scene, &req->opts, &stats, &err);
+    if (st == SS_STOP && !tool_stopping())
+        tool_die("write error: %s", strerror(errno));
+    tool_check(st, &err);
+    tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req->opts.method,
+              req->opts.tol, stats.steps, stats.rhs, stats.events);
+    if (stats.unresolved > 0 && req->accuracy == 0)     /* else the events have been counted twice */
+        tool_warn("%lu slips and touches of the limit are smaller than the error of x: x is right, "
+                  "their number and times are not resolved", stats.unresolved);
+}
+
 /* Put what the run has made where it belongs. */
 static void
 finish(output *o, int has_events)
@@ -283,8 +308,6 @@ main(int argc, char *argv[])
 {
     request req = { .kind = TOOL_TSV, .opts.progress.function = tool_progress };
     output o = { .req = &req };
-    ss_sim_stats stats = { 0 };
-    ss_error err = { 0 };
 
     tool_begin(argv, "ss-sim", usage);
     ss_sim_columns_parse(&req.columns, "t,x,v,a,f", NULL);
@@ -306,24 +329,7 @@ main(int argc, char *argv[])
     note_origin(o.head, &req);
     if (req.events && !ss_model_has_events(scene.model))
         tool_warn("the %s model has no events", ss_model_name(scene.model));
-
-    req.opts.user = req.opts.progress.user = &o;
-    if (req.kind == TOOL_H5)
-        tool_check(ss_signal_new(&o.signal, o.head, ss_scene_samples(&scene)), NULL);
-    if (req.events || req.kind == TOOL_H5)
-        req.opts.events = req.events ? stream_event : keep_event;
-    if (!req.events)
-        req.opts.samples = req.kind == TOOL_H5 ? keep_samples : stream_samples;
-    tool_end_at_rows(req.path);
-    ss_status st = ss_sim_run(&scene, &req.opts, &stats, &err);
-    if (st == SS_STOP && !tool_stopping())
-        tool_die("write error: %s", strerror(errno));
-    tool_check(st, &err);
-    tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req.opts.method,
-              req.opts.tol, stats.steps, stats.rhs, stats.events);
-    if (stats.unresolved > 0 && req.accuracy == 0)     /* else the events have been counted twice */
-        tool_warn("%lu slips and touches of the limit are smaller than the error of x: x is right, "
-                  "their number and times are not resolved", stats.unresolved);
+    simulate(&req, &scene, &o);
     finish(&o, ss_model_has_events(scene.model));
     free(req.settings.text);
     tool_end();
