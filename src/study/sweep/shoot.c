@@ -11,15 +11,15 @@ enum { REPETITIONS = 4 };
 
 /* --- Newton's method ----------------------------------------------------------------------- */
 
-/* One step, which moves *at.  *off: the larger of the step and the miss; INFINITY if the step was
- * shortened, unless the miss is rounding. */
+/* One step, which moves *at, by *t if it is known, else by the derivative there, which *t becomes.  *off: the larger of the step
+ * and the miss; INFINITY if the step was shortened, unless the miss is rounding. */
 static ss_status
-newton_step(finder *f, int period, motion *at, tangent *t, double *off)
+newton_step(finder *f, int period, motion *at, int known, tangent *t, double *off)
 {
     double unit[D_MOST], from[D_MOST], r[D_MOST], d[D_MOST];
     ss_status st = ss_finder_begin_at(f, at);
     if (st == SS_OK)
-        st = ss_finder_derive(f, period, NEWTON, t);
+        st = known ? ss_finder_go(f, period, NULL, NULL) : ss_finder_derive(f, period, NEWTON, t);
     if (st != SS_OK)
         return st;
     const motion end = f->w.m;
@@ -107,21 +107,43 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     return st;
 }
 
+/* Differences of walks cost as much as three steps.  So close to the limit the derivative of the last step
+ * serves the next, unless such steps shrink too little, or it is near 1: then they magnify its error. */
+#define CLOSE 0.01
+#define SHRINKS 0.1
+#define FAR_FROM_1 0.8
+
+/* Newton's steps until one is within tol, which *found says; *first: the largest multiplier by *t. */
+static ss_status
+converge(finder *f, int cycles, motion *at, tangent *t, int *found, double *first)
+{
+    double off = INFINITY, second, angle;
+    int serves = 0;
+    ss_status st = SS_OK;
+    for (int i = 0; st == SS_OK && off > f->opts->tol && i < NEWTON_STEPS; i++) {
+        double last = off;
+        int old = serves;
+        st = newton_step(f, cycles, at, old, t, &off);
+        if (st == SS_OK && !old && (!f->in_closed_form || off <= f->opts->tol))
+            st = ss_tangent_multipliers(t, first, &second, &angle);
+        serves = !f->in_closed_form && off <= CLOSE && *first <= FAR_FROM_1
+            && (!old || off <= SHRINKS * last);
+    }
+    *found = st == SS_OK && off <= f->opts->tol;
+    return st;
+}
+
 static ss_status
 look(finder *f, int approached, int *period, ss_steady *out)
 {
-    tangent t;
-    double off = INFINITY, first = INFINITY, second, angle;
+    tangent t = { 0 };
+    double first = INFINITY;
     const motion from = f->w.m;
     motion at = from;
-    int cycles = *period, wanted = 0;
-    ss_status st = SS_OK;
+    int cycles = *period, wanted;
     *period = 0;
-    for (int i = 0; st == SS_OK && off > f->opts->tol && i < NEWTON_STEPS; i++)
-        st = newton_step(f, cycles, &at, &t, &off);
-    if (st == SS_OK && off <= f->opts->tol)
-        st = ss_tangent_multipliers(&t, &first, &second, &angle);
-    if (st == SS_OK)
+    ss_status st = converge(f, cycles, &at, &t, &wanted, &first);
+    if (wanted)
         wanted = first <= 1 + (f->in_closed_form ? 1e-9 : 1e-5);
     if (wanted && approached)
         st = is_approached(f, &from, &at, &t, cycles, &wanted);
