@@ -16,3 +16,7 @@ echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#'
     grep -v '_free$' | sort -u | while read -r function; do
         grep -q "^.Fn $function\b" stickslip.3 || echo "not in stickslip(3): $function"
     done
+# What a user reads first is short.
+for bound in README.md:140 CHANGELOG.md:40; do
+    [ "$(wc -l < "$SRC/${bound%:*}")" -le "${bound#*:}" ] || echo "longer than ${bound#*:} lines: ${bound%:*}"
+done
