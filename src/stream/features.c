@@ -203,7 +203,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         || ss_rows_begin(&rows, out, format, SS_KIND_FEATURES) != SS_OK)
         return SS_EINVAL;
     const ss_header *head = signal->head;
-    ss_rows_notes(&rows, head, "contact_");             /* a scene's own; here they are results */
+    ss_rows_notes(&rows, head, ss_summary_has_key);     /* those of a scene are no results */
     ss_rows_note(&rows, "column: %s", head->column[column].name);
     ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
     ss_rows_note(&rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");

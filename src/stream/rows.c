@@ -33,10 +33,10 @@ ss_rows_note(struct rows *rows, const char *text, ...)
 }
 
 void
-ss_rows_notes(struct rows *rows, const ss_header *head, const char *except)
+ss_rows_notes(struct rows *rows, const ss_header *head, int (*is_left_out)(const char *note))
 {
     for (size_t i = 0; i < head->n_notes; i++)
-        if (except == NULL || strncmp(head->note[i], except, strlen(except)) != 0)
+        if (is_left_out == NULL || !is_left_out(head->note[i]))
             ss_rows_note(rows, "%s", head->note[i]);
 }
 

@@ -19,8 +19,8 @@ ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind 
 /* A line "# key: value", in a format that has notes. */
 SS_PRINTF(2, 3)
 void ss_rows_note(struct rows *rows, const char *text, ...);
-/* The notes of a header, without those whose key begins with except, which may be NULL. */
-void ss_rows_notes(struct rows *rows, const ss_header *head, const char *except);
+/* The notes of a header; is_left_out may be NULL. */
+void ss_rows_notes(struct rows *rows, const ss_header *head, int (*is_left_out)(const char *note));
 
 /* Write one column, and ss_rows_end after the last; or write all columns. */
 void ss_rows_column(struct rows *rows, const char *name, const char *unit);

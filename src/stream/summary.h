@@ -9,4 +9,7 @@
  * count of transitions; medians have the scatter of the events, too. */
 void ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts);
 
+/* 1 if a note has the key of such a number. */
+int ss_summary_has_key(const char *note);
+
 #endif
