@@ -10,7 +10,8 @@
 #include "morlet/plan.h"
 
 typedef struct compare {
-    const ss_morlet *plan, *other;      /* other: by FFT alone; NULL if not needed */
+    const ss_morlet *plan;
+    ss_morlet *other;                   /* the same grid by FFT alone */
     record rec;
     spectra spectra;
     double *scratch, *row;              /* for a scale by FFT */
@@ -42,15 +43,14 @@ static ss_status
 recompute(compare *cmp, size_t i, ss_error *err)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
-    double most = 0;
     if (!only_by_sum(cmp, i)) {
         ss_status st = ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->k, cmp->each,
                                             cmp->want);
         return st != SS_OK ? st : ss_morlet_finish(cmp->want, cmp->each, scale->a,
                                                    cmp->plan->opts.norm, cmp->rec.exponent, err);
     }
-    ss_status st = ss_morlet_part(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, NULL,
-                                  (span){ 0, scale->n }, &most, cmp->row, err);
+    ss_status st = ss_morlet_whole(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, cmp->row,
+                                   err);
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
         cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
@@ -78,16 +78,15 @@ compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *
 }
 
 static ss_status
-prepare(compare *cmp, ss_morlet **other, ss_error *err)
+prepare(compare *cmp, ss_error *err)
 {
     const ss_morlet *plan = cmp->plan;
     ss_morlet_opts opts = plan->opts;
     size_t longest = 0;
     opts.engine = SS_ENGINE_FFT;
-    ss_status st = ss_morlet_new(other, plan->n, plan->rate, &opts, err);
+    ss_status st = ss_morlet_new(&cmp->other, plan->n, plan->rate, &opts, err);
     if (st != SS_OK)
         return st;
-    cmp->other = *other;
     cmp->k = malloc(cmp->each * sizeof *cmp->k);
     cmp->want = malloc(2 * cmp->each * sizeof *cmp->want);
     if (cmp->k == NULL || cmp->want == NULL)
@@ -110,24 +109,22 @@ ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_
     if (plan == NULL || x == NULL || w == NULL || difference == NULL)
         return SS_FAIL_NULL(err);
     compare cmp = { .plan = plan, .each = each, .state = 1 };
-    ss_morlet *other = NULL;
     double worst = 0;
     if (each < 1 || each > 1000000)
         return ss_fail(err, SS_EINVAL, "%zu coefficients a scale are out of range 1 ... 1e6", each);
     ss_status st = ss_morlet_record(&cmp.rec, x, plan->n, plan->opts.detrend, err);
     if (st == SS_OK)
-        st = prepare(&cmp, &other, err);
+        st = prepare(&cmp, err);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++)
         st = compare_scale(&cmp, i, w, &worst, err);
     if (st == SS_OK)
         *difference = worst;
     ss_morlet_spectra_free(&cmp.spectra);
-    if (cmp.scratch != NULL)
-        ss_fft_scratch_free(cmp.scratch);
+    ss_fft_scratch_free(cmp.scratch);
     free(cmp.row);
     free(cmp.k);
     free(cmp.want);
     free(cmp.rec.x);
-    ss_morlet_free(other);
+    ss_morlet_free(cmp.other);
     return st;
 }

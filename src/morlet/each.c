@@ -30,10 +30,9 @@ compute(void *user)
 {
     worker *w = user;
     const shared_input *in = w->shared;
-    double most = 0;
     w->error.text[0] = '\0';
-    w->status = ss_morlet_part(in->plan, w->scale, &in->rec, &in->spectra, w->scratch, NULL,
-                               (span){ 0, in->plan->scale[w->scale].n }, &most, w->w, &w->error);
+    w->status = ss_morlet_whole(in->plan, w->scale, &in->rec, &in->spectra, w->scratch, w->w,
+                                &w->error);
 }
 
 static ss_status
@@ -102,8 +101,7 @@ ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink
     if (st == SS_OK)
         st = all_scales(w, workers, sink, user, err);
     for (size_t t = 0; w != NULL && t < workers; t++) {
-        if (w[t].scratch != NULL)
-            ss_fft_scratch_free(w[t].scratch);
+        ss_fft_scratch_free(w[t].scratch);
         free(w[t].w);
     }
     free(w);

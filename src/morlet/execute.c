@@ -23,23 +23,14 @@ typedef struct scale_queue {
     ss_error error;
 } scale_queue;
 
-static ss_status
-one_scale(const scale_queue *queue, size_t i, double *scratch, ss_error *err)
-{
-    const ss_scale *scale = &queue->plan->scale[i];
-    double most = 0;
-    return ss_morlet_part(queue->plan, i, &queue->rec, &queue->spectra, scratch, NULL,
-                          (span){ 0, scale->n }, &most, queue->w + 2 * scale->offset, err);
-}
-
 /* A thread: compute scales until none is left, the expensive short ones first. */
 static void
 compute_scales(void *user)
 {
     scale_queue *queue = user;
-    const ss_morlet_opts *opts = &queue->plan->opts;
+    const ss_morlet *plan = queue->plan;
     double *scratch;
-    ss_status have = ss_morlet_scratch(queue->plan, &scratch);
+    ss_status have = ss_morlet_scratch(plan, &scratch);
     pthread_mutex_lock(&queue->lock);
     if (have != SS_OK) {
         queue->next = queue->failed = 0;
@@ -49,23 +40,23 @@ compute_scales(void *user)
         size_t i = --queue->next;
         ss_error err = { 0 };
         pthread_mutex_unlock(&queue->lock);
-        ss_status st = one_scale(queue, i, scratch, &err);
+        ss_status st = ss_morlet_whole(plan, i, &queue->rec, &queue->spectra, scratch,
+                                       queue->w + 2 * plan->scale[i].offset, &err);
         pthread_mutex_lock(&queue->lock);
         if (st != SS_OK && (queue->status == SS_OK || i < queue->failed)) {
             queue->failed = i;
             queue->status = st;
             queue->error = err;
         }
-        queue->done += queue->plan->scale[i].n;
+        queue->done += plan->scale[i].n;
         if (queue->status == SS_OK)
-            queue->status = ss_progress_at(&opts->progress,
-                                           (double)queue->done / (double)queue->plan->total);
+            queue->status = ss_progress_at(&plan->opts.progress,
+                                           (double)queue->done / (double)plan->total);
         if (queue->status == SS_STOP)
             queue->next = 0;
     }
     pthread_mutex_unlock(&queue->lock);
-    if (scratch != NULL)
-        ss_fft_scratch_free(scratch);
+    ss_fft_scratch_free(scratch);
 }
 
 ss_status

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "morlet/plan.h"
 #include "base/progress.h"
 #include "base/range.h"
+#include "morlet/plan.h"
 
 /* A residual that STALL_FROM or more passes, doubled, lower by less than STALL stays. */
 enum { PASSES = 500, STALL_FROM = 16 };

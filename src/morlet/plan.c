@@ -129,11 +129,9 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
     factor = fits ? factor : 1;
     if (s != NULL && ss_blocks_covers(plan->blocks, i))
         ss_blocks_scale(plan->blocks, i, &s->blocks, scratch, part, factor, w);
-    else if (s != NULL && ss_fft_covers(plan->fft, i)) {
-        if (scratch == NULL)
-            return SS_ENOMEM;
+    else if (s != NULL && ss_fft_covers(plan->fft, i))
         ss_fft_scale(plan, i, rec, s, scratch, part, factor, most, w);
-    } else {
+    else {
         wavelet *own = wave == NULL ? ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)
             : NULL;
         if (wave == NULL && own == NULL)
@@ -143,4 +141,13 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
     }
     return fits ? SS_OK
         : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
+}
+
+ss_status
+ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+                double *scratch, double *w, ss_error *err)
+{
+    double most = 0;
+    return ss_morlet_part(plan, i, rec, s, scratch, NULL, (span){ 0, plan->scale[i].n }, &most, w,
+                          err);
 }

@@ -134,7 +134,7 @@ void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spec
                   double *scratch, span part, double factor, double *most, double *w);
 size_t ss_fft_room(const struct fft *fft);             /* doubles of scratch for one thread */
 double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
-void ss_fft_scratch_free(double *scratch);
+void ss_fft_scratch_free(double *scratch);              /* NULL is allowed */
 
 /* Of a plan for windows: what one costs [s], the samples of which every window must begin at a
  * multiple, and those by which the first translation asked for must lie behind a multiple. */
@@ -154,5 +154,8 @@ ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                          double *scratch, wavelet *wave, span part, double *most, double *w,
                          ss_error *err);
+/* The whole of scale i. */
+ss_status ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+                          double *scratch, double *w, ss_error *err);
 
 #endif

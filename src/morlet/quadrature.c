@@ -34,7 +34,6 @@
 
 enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
-
 /* The wavelet of one scale at whole samples; tables reach from -reach to reach. */
 typedef struct kernel {
     double d, d_low;                    /* 1/(a rate) and its rounding error */
@@ -60,7 +59,7 @@ kernel_of(const ss_morlet_opts *opts, double a, double rate)
     double c_low = fma(opts->center, inv_2pi, -c) + opts->center * inv_2pi_low;
     ker.cycles = c * ker.d;
     ker.cycles_low = fma(c, ker.d, -ker.cycles) + c * ker.d_low + c_low * ker.d;
-    ker.second = opts->admissible ? exp(-opts->center * opts->center / 2) : 0;
+    ker.second = wavelet_second(opts);
     return ker;
 }
 
@@ -224,28 +223,10 @@ add_taps(const kernel *ker, const record *rec, spot b, size_t from, size_t to, d
 
 /* --- scales -------------------------------------------------------------------------------- */
 
-/* Room for tables of |k| < taps. */
-static ss_status
-tables_new(double **base, size_t taps)
-{
-    size_t width = 2 * taps - 1;
-    *base = taps > SIZE_MAX / (8 * sizeof **base) ? NULL : malloc(3 * width * sizeof **base);
-    return *base == NULL ? SS_ENOMEM : SS_OK;
-}
-
-static void
-tables_use(kernel *ker, double *base, size_t taps)
-{
-    size_t width = 2 * taps - 1;
-    ker->re = base + taps - 1;
-    ker->im = ker->re + width;
-    ker->gauss = ker->im + width;
-}
-
 struct wavelet {
     kernel ker;
     size_t room;                        /* taps that leave out no more than TAIL_FLOOR, or n */
-    double *base;
+    double *base;                       /* of its tables */
 };
 
 size_t
@@ -261,13 +242,17 @@ ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n)
     wavelet *wave = malloc(sizeof *wave);
     if (wave == NULL)
         return NULL;
-    wave->ker = kernel_of(opts, a, rate);
-    wave->room = taps_for(&wave->ker, TAIL_FLOOR, n);
-    if (tables_new(&wave->base, wave->room) != SS_OK) {
+    kernel *ker = &wave->ker;
+    *ker = kernel_of(opts, a, rate);
+    size_t taps = wave->room = taps_for(ker, TAIL_FLOOR, n), width = 2 * taps - 1;
+    wave->base = taps > SIZE_MAX / (8 * sizeof(double)) ? NULL : malloc(3 * width * sizeof(double));
+    if (wave->base == NULL) {
         free(wave);
         return NULL;
     }
-    tables_use(&wave->ker, wave->base, wave->room);
+    ker->re = wave->base + taps - 1;
+    ker->im = ker->re + width;
+    ker->gauss = ker->im + width;
     return wave;
 }
 

@@ -8,6 +8,13 @@
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 #define WAVELET_CENTER 6.0              /* omega_c, where none is asked for */
 
+/* The factor of the second term of h; 0 where that is left out. */
+static inline double
+wavelet_second(const ss_morlet_opts *opts)
+{
+    return opts->admissible ? exp(-opts->center * opts->center / 2) : 0;
+}
+
 /* The width of the cone of influence at scale a: |h|^2 has fallen to exp(-2). */
 static inline double
 wavelet_cone(double a)

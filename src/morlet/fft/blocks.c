@@ -51,19 +51,17 @@ enum {
 
 /* --- which scales, in what windows ------------------------------------------------------------ */
 
-/* The distance from omega_c to either end of the wavelet's band. */
 static double
-half_band(const ss_morlet_opts *opts)
+half_width(const ss_morlet_opts *opts)
 {
-    double c = opts->center;
-    return opts->admissible && CUT > c ? c + sqrt(CUT * CUT - c * c) : CUT;
+    return half_band(opts->center, wavelet_second(opts), CUT);
 }
 
 /* A: the least samples of a scale on a level but the first. */
 static double
 least_scale(const ss_morlet_opts *opts)
 {
-    return (opts->center + half_band(opts)) / BAND;
+    return (opts->center + half_width(opts)) / BAND;
 }
 
 static int
@@ -117,9 +115,9 @@ static ss_status
 make_weights(const ss_morlet *plan, block_scale *r, const ss_scale *scale, size_t length)
 {
     const ss_morlet_opts *opts = &plan->opts;
-    band b = band_around(opts->center, half_band(opts), ldexp(scale->a, -r->level), plan->rate,
+    band b = band_around(opts->center, half_width(opts), ldexp(scale->a, -r->level), plan->rate,
                          (double)length);
-    double second = opts->admissible ? exp(-opts->center * opts->center / 2) : 0;
+    double second = wavelet_second(opts);
     r->lo = b.lo;
     r->terms = (size_t)(b.hi - b.lo) + 1;
     r->owner = 1;
@@ -292,7 +290,6 @@ plan_all(struct blocks *b, double *v, unsigned how)
 static ss_status
 make_plans(struct blocks *b, ss_planner planner)
 {
-    static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
     size_t room = ss_blocks_room(b);
     for (size_t l = 0; l < b->levels; l++)
         room = 2 * b->stage[l].stride > room ? 2 * b->stage[l].stride : room;
@@ -300,7 +297,7 @@ make_plans(struct blocks *b, ss_planner planner)
     if (v == NULL)
         return SS_ENOMEM;
     pthread_mutex_lock(&ss_fftw_planner);
-    ss_status st = plan_all(b, v, flags[planner]);
+    ss_status st = plan_all(b, v, flag_of(planner));
     pthread_mutex_unlock(&ss_fftw_planner);
     fftw_free(v);
     return st;

@@ -146,12 +146,12 @@ write_anywhere(const struct fft *f, const route *r, const band *b, const ss_scal
                double *w)
 {
     const level *lev = &f->level[r->level];
-    double per_sample = (double)r->length / (double)circle_of(lev), most = 0;
     size_t circle = circle_of(lev);
+    double per_sample = (double)r->length / (double)circle, most = 0;
     for (size_t i = 0; i < part.n; i++) {
         spot at = ss_scale_spot(scale, part.first + i, f->rate);
         double c = at.c - (double)origin, tau = at.tau;
-        double weight[KAISER_TAPS_MAX], e[2], re = 0, im = 0;
+        double weight[KAISER_TAPS_MAX], re = 0, im = 0;
         uint64_t whole = (uint64_t)c * r->length / circle;  /* both below 2^32 */
         double rest = (double)((uint64_t)c * r->length % circle) / (double)circle
             + tau * per_sample;
@@ -164,9 +164,7 @@ write_anywhere(const struct fft *f, const route *r, const band *b, const ss_scal
         }
         double phase = 2 * M_PI * ((double)((uint64_t)b->mid % circle * (uint64_t)c % circle)
                                    + (double)b->mid * tau) / (double)circle;
-        e[0] = cos(phase);
-        e[1] = sin(phase);
-        double x = re * e[0] - im * e[1], y = re * e[1] + im * e[0];
+        double co = cos(phase), si = sin(phase), x = re * co - im * si, y = re * si + im * co;
         most = fmax(most, x * x + y * y);
         w[2 * i] = x * factor;
         w[2 * i + 1] = y * factor;
@@ -371,15 +369,13 @@ static ss_status
 forward_level(const level *lev, const record *rec, double **out)
 {
     double *x = *out = fftw_malloc((lev->points + 2) * sizeof *x);
-    ss_status st = x == NULL ? SS_ENOMEM : SS_OK;
-    if (st == SS_OK && lev->samples == 1) {
+    if (x == NULL)
+        return SS_ENOMEM;
+    if (lev->samples == 1) {
         memcpy(x, rec->x, rec->n * sizeof *x);
         memset(x + rec->n, 0, (lev->points - rec->n) * sizeof *x);
-    }
-    else if (st == SS_OK)
-        st = spread_record(lev, rec, x);
-    if (st != SS_OK)
-        return st;
+    } else if (spread_record(lev, rec, x) != SS_OK)
+        return SS_ENOMEM;
     fftw_execute_dft_r2c(lev->forward, x, (fftw_complex *)x);
     if (lev->samples > 1)
         undo_spreading(lev, x);
@@ -401,12 +397,13 @@ ss_status
 ss_fft_forward(const struct fft *fft, const record *rec, spectra *out)
 {
     ss_status st = SS_OK;
-    for (int i = 0; st == SS_OK && i < fft->levels; i++)
-        if (fft->level[i].forward != NULL) {
-            st = forward_level(&fft->level[i], rec, &out->level[i]);
-            if (st == SS_OK && fft->half[0] < fft->half[1])
-                st = sizes_of_level(&fft->level[i], out->level[i], &out->size[i]);
-        }
+    for (int i = 0; st == SS_OK && i < fft->levels; i++) {
+        if (fft->level[i].forward == NULL)
+            continue;
+        st = forward_level(&fft->level[i], rec, &out->level[i]);
+        if (st == SS_OK && fft->half[0] < fft->half[1])
+            st = sizes_of_level(&fft->level[i], out->level[i], &out->size[i]);
+    }
     return st;
 }
 

@@ -78,14 +78,6 @@ samples_reached(const ss_scale *scale, double rate)
     return reach < 0x1p50 ? (size_t)reach : (size_t)1 << 50;
 }
 
-/* The admissible wavelet has a hump about v = -omega_c, which must be inside, too. */
-static double
-half_width(const struct fft *f, double reach)
-{
-    double c = f->center;
-    return f->second > 0 && reach > c ? c + sqrt(reach * reach - c * c) : reach;
-}
-
 /* See above; nd is the record's length in units of the shortest scale. */
 static void
 choose_bounds(struct fft *f, double nd, double accuracy)
@@ -93,8 +85,9 @@ choose_bounds(struct fft *f, double nd, double accuracy)
     double factor = 2.4 * (1 + log1p(nd / 2)), hump = f->second > 0 ? 2 : 1;
     double cut = TAIL_FLOOR / 2 / (factor * hump), images = TAIL_FLOOR / 2 / (2 * factor);
     double first = accuracy * 4 / hump / sqrt(nd);
-    f->half[1] = half_width(f, sqrt(-2 * log(cut)));
-    f->half[0] = half_width(f, sqrt(-2 * log(fmin(0.1, fmax(cut, first)))));
+    double far = sqrt(-2 * log(cut)), near = sqrt(-2 * log(fmin(0.1, fmax(cut, first))));
+    f->half[1] = half_band(f->center, f->second, far);
+    f->half[0] = half_band(f->center, f->second, near);
     f->images[1] = images;
     f->images[0] = fmin(0.01, fmax(images, accuracy * 0.16 / sqrt(nd)));
     if (f->half[0] == f->half[1])
@@ -187,26 +180,17 @@ inverse_cost(size_t length)
     return length < 1 << 12 ? cost : length < 1 << 18 ? 1.6 * cost : 3.5 * cost;
 }
 
-/* A kernel for a band to edge <= EDGE_MAX with this cut; 0 if none is accurate enough. */
-static int
-kernel_for(const struct fft *f, double edge, int cut, kaiser *out)
-{
-    kaiser_band shape = { .edge = edge, .reach = f->half[cut], .center = f->center,
-                          .second = f->second };
-    return ss_kaiser_choose(out, &shape, f->images[cut]);
-}
-
-/* The kernel for a band to this edge, made on the first call; NULL: none, or no memory. */
+/* The kernel for a band to this edge, made on the first call; NULL: none is accurate enough, or no
+ * memory. */
 static const kaiser *
-advance_kernel(struct fft *f, int cut, double edge)
+find_kernel(struct fft *f, int cut, double edge)
 {
-    double made_for;
-    int k = kernel_index(edge, &made_for);
+    kaiser_band shape = { .reach = f->half[cut], .center = f->center, .second = f->second };
     kaiser ker;
     if (edge > EDGE_MAX)
         return NULL;
-    kaiser **at = &f->kernel[cut][k];
-    if (*at != NULL || !kernel_for(f, made_for, cut, &ker))
+    kaiser **at = &f->kernel[cut][kernel_index(edge, &shape.edge)];
+    if (*at != NULL || !ss_kaiser_choose(&ker, &shape, f->images[cut]))
         return *at;
     *at = malloc(sizeof ker);
     if (*at != NULL)
@@ -224,7 +208,7 @@ interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int d
     band b = { 0 };
     for (int cut = 1; cut >= 0; cut--) {
         b = band_of(f, lev, scale->a, f->half[cut]);
-        kernel[cut] = advance_kernel(f, cut, edge_of(&b, length));
+        kernel[cut] = find_kernel(f, cut, edge_of(&b, length));
         if (kernel[cut] == NULL)
             return INFINITY;
     }
@@ -292,7 +276,7 @@ forward_cost(const struct fft *f, const level *lev)
     return inverse_cost(lev->points) / 2 + spreading;
 }
 
-/* Routes of all scales; by AUTO those only where they are cheaper, the spectra included. */
+/* Choose the routes of all scales; by AUTO those only where they are cheaper, the spectra included. */
 static void
 choose_routes(struct fft *f, const ss_morlet *plan)
 {
@@ -319,9 +303,13 @@ choose_routes(struct fft *f, const ss_morlet *plan)
         gain[l] -= forward;
         f->cost += forward;
     }
-    for (size_t i = 0; plan->opts.engine == SS_ENGINE_AUTO && i < plan->n_scales; i++)
-        if (gain[f->route[i].level] < 0)
-            f->route[i].kind = BY_SUM;
+    for (size_t i = 0; i < plan->n_scales; i++) {
+        route *r = &f->route[i];
+        if (plan->opts.engine == SS_ENGINE_AUTO && gain[r->level] < 0)
+            r->kind = BY_SUM;
+        if (r->kind != BY_SUM && r->length > f->longest)
+            f->longest = r->length;
+    }
 }
 
 /* --- weights of dense scales ------------------------------------------------------------------ */
@@ -372,33 +360,31 @@ share_weights(struct fft *f, const ss_morlet *plan)
 
 /* --- FFTW's plans, made while ss_fftw_planner is held ----------------------------------------- */
 
-static inverse *
+static fftw_plan
 inverse_of_length(struct fft *f, size_t length, fftw_complex *v, fftw_complex *c, unsigned how)
 {
     inverse *of = f->inverse;
     for (; of < f->inverse + f->n_inverse; of++)
         if (of->length == length)
-            return of;
+            return of->plan;
     c = length > APART ? v : c;
     of->length = length;
     of->plan = fftw_plan_dft_1d((int)length, c, v, FFTW_BACKWARD, how);
     f->n_inverse++;
-    return of;
+    return of->plan;
 }
 
 /* v, c and x have the alignment of the arrays to come. */
 static ss_status
 make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x)
 {
-    static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
-    unsigned how = flags[plan->opts.planner];
+    unsigned how = flag_of(plan->opts.planner);
     for (size_t i = 0; i < plan->n_scales; i++) {
         route *r = &f->route[i];
         level *lev = &f->level[r->level];
         if (r->kind == BY_SUM)
             continue;
-        inverse *of = inverse_of_length(f, r->length, (fftw_complex *)v, (fftw_complex *)c, how);
-        r->inverse = of->plan;
+        r->inverse = inverse_of_length(f, r->length, (fftw_complex *)v, (fftw_complex *)c, how);
         if (lev->forward == NULL)
             lev->forward = fftw_plan_dft_r2c_1d((int)lev->points, x, (fftw_complex *)x, how);
         if (r->inverse == NULL || lev->forward == NULL)
@@ -412,14 +398,13 @@ make_plans(struct fft *f, const ss_morlet *plan, double *v, double *c, double *x
 static ss_status
 plan_all(struct fft *f, const ss_morlet *plan)
 {
-    size_t n_scales = plan->n_scales;
-    size_t longest = f->level[0].points > f->level[1].points ? f->level[0].points
-        : f->level[1].points;
-    for (size_t i = 0; i < n_scales; i++)
-        if (f->route[i].kind != BY_SUM && f->route[i].length > f->longest)
-            f->longest = f->route[i].length;
-    longest = longest > f->longest ? longest : f->longest;
-    f->inverse = calloc(n_scales, sizeof *f->inverse);
+    size_t longest = f->longest;
+    for (int l = 0; l < f->levels; l++) {
+        level *lev = &f->level[l];
+        lev->block = lev->points / 2 / BLOCKS + 1;
+        longest = lev->points > longest ? lev->points : longest;
+    }
+    f->inverse = calloc(plan->n_scales, sizeof *f->inverse);
     double *v = fftw_malloc(2 * (longest + 2 * MARGIN + APART) * sizeof *v);
     ss_status st = SS_ENOMEM;
     if (f->inverse != NULL && v != NULL) {
@@ -428,18 +413,7 @@ plan_all(struct fft *f, const ss_morlet *plan)
         pthread_mutex_unlock(&ss_fftw_planner);
     }
     fftw_free(v);
-    for (int i = 0; i < f->levels; i++)
-        f->level[i].block = f->level[i].points / 2 / BLOCKS + 1;
     return st == SS_OK ? share_weights(f, plan) : st;
-}
-
-static int
-any_route(const struct fft *f, size_t n_scales)
-{
-    for (size_t i = 0; i < n_scales; i++)
-        if (f->route[i].kind != BY_SUM)
-            return 1;
-    return 0;
 }
 
 ss_status
@@ -450,12 +424,11 @@ ss_fft_new(ss_morlet *plan)
     struct fft *f = plan->fft = calloc(1, sizeof *f);
     if (f == NULL || (f->route = calloc(plan->n_scales, sizeof *f->route)) == NULL)
         return SS_ENOMEM;
-    double wc = plan->opts.center;
     double shortest = plan->scale[plan->n_scales - 1].a * plan->rate;
     f->n = plan->n;
     f->rate = plan->rate;
-    f->center = wc;
-    f->second = plan->opts.admissible ? exp(-wc * wc / 2) : 0;
+    f->center = plan->opts.center;
+    f->second = wavelet_second(&plan->opts);
     choose_bounds(f, (double)plan->n * (plan->window ? 2 : 1) / shortest, plan->opts.accuracy);
     if (plan->window)
         choose_window(f, plan);
@@ -464,7 +437,7 @@ ss_fft_new(ss_morlet *plan)
     choose_routes(f, plan);
     if (f->no_memory)
         return SS_ENOMEM;
-    if (any_route(f, plan->n_scales))
+    if (f->longest > 0)
         return plan_all(f, plan);
     ss_fft_free(f);
     plan->fft = NULL;

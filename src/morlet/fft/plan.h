@@ -69,7 +69,7 @@ struct fft {
     int levels;
     route *route;
     inverse *inverse;
-    size_t n_inverse, longest;      /* longest of their lengths */
+    size_t n_inverse, longest;      /* longest of their lengths; 0: none */
     kaiser *kernel[CUTS][KERNELS];  /* NULL: none needed */
     double cost;                    /* of all that is done here, about [s] */
     int no_memory;                  /* for one of them */
@@ -82,6 +82,22 @@ typedef struct band {
     double h, h_low;                /* v_k = k h - omega_c */
     ptrdiff_t lo, mid, hi;          /* k */
 } band;
+
+/* FFTW's flag for a planner. */
+static inline unsigned
+flag_of(ss_planner planner)
+{
+    static const unsigned flags[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
+    return flags[planner];
+}
+
+/* The distance from omega_c to either end of a band that has |v| <= reach.  The admissible wavelet has
+ * a hump about v = -omega_c, which must be inside, too. */
+static inline double
+half_band(double center, double second, double reach)
+{
+    return second > 0 && reach > center ? center + sqrt(reach * reach - center * center) : reach;
+}
 
 /* Samples around a circle. */
 static inline size_t
