@@ -26,20 +26,27 @@ errors_of_fit(const normal *h, double variance, ss_value value[2])
     value[1].error = sqrt(variance * h->ww / det);
 }
 
+/* The variance of the samples, by what a fit leaves of them. */
+static double
+variance_of(const fitter *k, const linear *fit)
+{
+    return fit->rss / (double)(fit->samples - k->fit.columns * fit->windows - 2);
+}
+
 /* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i. */
 static ss_status
 jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     double moved[2] = { 0, 0 }, mean[2] = { 0, 0 };
-    size_t used, samples = ss_window_total(window, n);
-    linear total = ss_varpro_project_all(&k->fit, window, n, &used);
+    linear total = ss_varpro_project_all(&k->fit, window, n);
+    size_t used = total.windows;
     normal all = total.normal, *each = malloc((used + 1) * sizeof *each);
     if (each == NULL)
         return SS_ENOMEM;
     for (size_t i = 0, to = 0; i < n; i++)
         if (ss_window_length(window[i]) > 0)
             each[to++] = ss_varpro_project(&k->fit, window[i]).normal;
-    errors_of_fit(&all, total.rss / (double)(samples - k->fit.columns * used - 2), value);
+    errors_of_fit(&all, variance_of(k, &total), value);
     for (int pass = 0; pass < 2 && used >= FIT_FEW; pass++)
         for (size_t i = 0; i < used; i++) {
             normal h = each[i];
@@ -66,10 +73,9 @@ static void
 variances(fitter *k, const ss_window *window, size_t n, double *variance, double of[2])
 {
     ss_value value[2];
-    size_t used;
-    linear all = ss_varpro_project_all(&k->fit, window, n, &used);
+    linear all = ss_varpro_project_all(&k->fit, window, n);
     if (*variance < 0)
-        *variance = all.rss / (double)(ss_window_total(window, n) - k->fit.columns * used - 2);
+        *variance = variance_of(k, &all);
     errors_of_fit(&all.normal, *variance, value);
     of[0] = value[0].error * value[0].error;
     of[1] = value[1].error * value[1].error;
@@ -119,9 +125,6 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     const double at[2] = { k->fit.w, k->fit.s };
     double whole[2], bent[2], variance = -1;
-    for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
-            return;
     variances(k, window, n, &variance, whole);
     ss_varpro_bend(&k->fit, 1);
     if (ss_varpro_fit(&k->fit, window, n, FIT_FINE)) {
@@ -139,9 +142,8 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 static double
 rss_with_line(fitter *k, const ss_window *window, size_t n, double line)
 {
-    size_t used;
     ss_varpro_add_line(&k->fit, line);
-    return ss_varpro_project_all(&k->fit, window, n, &used).rss;
+    return ss_varpro_project_all(&k->fit, window, n).rss;
 }
 
 /* A line in every window that explains more than chance is no part of the model, of which the fit
@@ -151,11 +153,8 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
     const double at[2] = { k->fit.w, k->fit.s };
     double least = INFINITY, best = 0;
-    size_t used, samples = ss_window_total(window, n);
-    for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
-            return;
-    linear plain = ss_varpro_project_all(&k->fit, window, n, &used);
+    linear plain = ss_varpro_project_all(&k->fit, window, n);
+    size_t used = plain.windows, samples = plain.samples;
     for (int l = 0; l < LINES; l++) {
         double line = at[0] * (LOWEST_LINE + l * (HIGHEST_LINE - LOWEST_LINE) / (LINES - 1));
         double rss = rss_with_line(k, window, n, line);
@@ -189,11 +188,9 @@ static void
 add_colour(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2])
 {
     ss_value more[2];
-    size_t used, samples = ss_window_total(window, n);
-    linear all = ss_varpro_project_all(&k->fit, window, n, &used);
-    double variance = all.rss / (double)(samples - k->fit.columns * used - 2);
-    double excess = fmax(0, variance - WHITE * white * white);
-    errors_of_fit(&all.normal, excess * 0.5 * (double)samples / (double)used, more);
+    linear all = ss_varpro_project_all(&k->fit, window, n);
+    double excess = fmax(0, variance_of(k, &all) - WHITE * white * white);
+    errors_of_fit(&all.normal, excess * 0.5 * (double)all.samples / (double)all.windows, more);
     for (int j = 0; j < 2; j++)
         value[j].error = sqrt(value[j].error * value[j].error + more[j].error * more[j].error
                               + FIT_FINE * FIT_FINE * k->fit.w * k->fit.w);
@@ -202,10 +199,19 @@ add_colour(fitter *k, const ss_window *window, size_t n, double white, ss_value 
 /* --- all of it ----------------------------------------------------------------------------- */
 
 void
-ss_errors_of_one(const fitter *k, ss_window win, const linear *fitted, ss_value value[2])
+ss_errors_of_one(const fitter *k, const linear *fit, ss_value value[2])
 {
-    double freedom = (double)(ss_window_length(win) - k->fit.columns - 2);
-    errors_of_fit(&fitted->normal, fitted->rss / freedom, value);
+    errors_of_fit(&fit->normal, variance_of(k, fit), value);
+}
+
+/* Has every window enough samples for all the columns that there are? */
+static int
+are_long(const ss_window *window, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
+            return 0;
+    return 1;
 }
 
 ss_status
@@ -216,8 +222,10 @@ ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_va
         st = add_misfit(k, window, n, value);
     if (st != SS_OK)
         return st;
-    add_slow_part(k, window, n, value);
-    add_line(k, window, n, value);
+    if (are_long(window, n)) {
+        add_slow_part(k, window, n, value);
+        add_line(k, window, n, value);
+    }
     add_colour(k, window, n, white, value);
     return SS_OK;
 }

@@ -60,7 +60,8 @@ ss_window ss_sticks_trim(const fitter *k, ss_window win);
 
 /* --- slips.c: micro-slips too weak for any one window, and what rings behind the windows ------ */
 
-/* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
+/* Where the gain changes most, so many samples behind the starts of the windows; *at is 0 where it does
+ * not change. */
 ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at);
 
 /* Does the gain change once a period, as in a train of micro-slips? */
@@ -78,6 +79,6 @@ ss_status ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is
 ss_status ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2]);
 
 /* Those of a fit to one window alone, from its curvature. */
-void ss_errors_of_one(const fitter *k, ss_window win, const linear *fitted, ss_value value[2]);
+void ss_errors_of_one(const fitter *k, const linear *fit, ss_value value[2]);
 
 #endif

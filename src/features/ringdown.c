@@ -39,7 +39,7 @@ fit_one(fitter *k, ss_window win, ss_value each[2])
         fitted = ss_varpro_project(&k->fit, win);
         each[0].value = k->fit.w;
         each[1].value = k->fit.s;
-        ss_errors_of_one(k, win, &fitted, each);
+        ss_errors_of_one(k, &fitted, each);
     }
     k->fit.w = w, k->fit.s = s;
     return fitted;
@@ -120,53 +120,65 @@ fit_shared(fitter *k, const ss_window *window, size_t n, double tol, int *ok)
 static int
 stands_out(fitter *k, const ss_window *window, size_t n)
 {
-    double ring = 0;
-    size_t used = 0;
-    for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > 0) {
-            ring += ss_varpro_project(&k->fit, window[i]).ring;
-            used++;
-        }
-    return ring > (double)used * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+    linear all = ss_varpro_project_all(&k->fit, window, n);
+    return all.ring > (double)all.windows * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+}
+
+/* Windows about the cores, longer and longer, as long as the fit to them converges near its start. */
+static ss_status
+grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int *ok)
+{
+    const double start = k->fit.w;
+    int more = 1;
+    ss_status st = fit_shared(k, core, n, COARSE, ok);
+    for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
+        *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* or it is something else */
+        if (st != SS_OK || !*ok)
+            return st;
+        size_t longest = periods(k, limit);
+        ss_sticks_find(k, core, window, n, longest);
+        more = 0;
+        for (size_t i = 0; i < n; i++)
+            more |= ss_window_length(window[i]) == longest;
+        st = fit_shared(k, window, n, COARSE, ok);
+    }
+    return st;
+}
+
+/* Cut all windows, or empty the worst of them, until no micro-slip shows in them. */
+static ss_status
+leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
+{
+    for (;;) {
+        size_t at = 0;
+        ss_status st = fit_shared(k, window, n, FIT_FINE, ok);
+        if (st == SS_OK && *ok)
+            st = ss_slips_find(k, window, n, &at);
+        if (at == 0)
+            return st;
+        if (at < periods(k, FIT_LEAST))
+            ss_slips_drop_worst(k, window, n, at);
+        else
+            for (size_t i = 0; i < n; i++)
+                window[i] = ss_sticks_cut(k, window[i], at);
+    }
 }
 
 static ss_status
 fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
 {
-    double start = k->fit.w;
-    int ok = 0, more = 1;
+    int ok = 0, is_on;
     for (size_t i = 0; i < n; i++)
         core[i] = window[i] = ss_sticks_place(k, anchor[i], CORE);
-    ss_status st = fit_shared(k, core, n, COARSE, &ok);
-    for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
-        if (st != SS_OK || !ok || !(fabs(log(k->fit.w / start)) < M_LN2 / 2))
-            return st;                  /* or it is something else */
-        size_t longest = periods(k, limit);
-        ss_sticks_find(k, core, window, n, longest);
-        more = 0;
-        for (size_t i = 0; i < n; i++)
-            more |= ss_window_length(window[i]) == longest;
-        st = fit_shared(k, window, n, COARSE, &ok);
-    }
+    ss_status st = grow_windows(k, core, window, n, &ok);
     if (st != SS_OK || !ok)
         return st;
     for (size_t i = 0; i < n; i++)
         window[i] = ss_sticks_trim(k, window[i]);
-    size_t longest;
-    do {
-        st = fit_shared(k, window, n, FIT_FINE, &ok);
-        if (st == SS_OK && ok)
-            st = ss_slips_find(k, window, n, &longest);
-        if (st != SS_OK || !ok)
-            return st;
-        if (longest < periods(k, FIT_LEAST))
-            ss_slips_drop_worst(k, window, n, longest);
-        else
-            for (size_t i = 0; i < n; i++)
-                window[i] = ss_sticks_cut(k, window[i], longest);
-    } while (longest < k->fit.room);
-    int is_on;
+    st = leave_out_slips(k, window, n, &ok);
+    if (st != SS_OK || !ok)
+        return st;
     st = ss_slips_ring_on(k, window, n, &is_on);
     k->is_train = ss_slips_recur(k, window, n);
     if (st == SS_OK && (is_on || !stands_out(k, window, n))) {

@@ -133,7 +133,6 @@ statistic(score *at)
     return sum;
 }
 
-/* Where the gain changes most, if it does at all; *at is k->fit.room if not. */
 ss_status
 ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
 {
@@ -148,7 +147,7 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
         if (ss_window_length(window[i]) > 0)
             add_scores(k, window[i], step, step, n_places, 0, place);
     double most = 1;
-    *at = k->fit.room;
+    *at = 0;
     for (size_t l = 0; l < n_places; l++) {
         double chance = (l + 1) * step < periods(k, FIT_LEAST) ? BREAK_EARLY : BREAK;
         double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
@@ -179,7 +178,6 @@ ss_slips_recur(fitter *k, const ss_window *window, size_t n)
     return 0;
 }
 
-/* Empty the window whose gain, taken by itself, changes most at a place. */
 void
 ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
 {

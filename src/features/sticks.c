@@ -62,8 +62,6 @@ ss_sticks_has_gap(const fitter *k, ss_window win)
     return g > 0 && k->gap[g - 1].end > win.first;
 }
 
-/* The window of so many periods about an anchor where the line and the oscillation leave least,
- * among the places where there is at least a quarter of the most oscillation. */
 ss_window
 ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 {
@@ -90,7 +88,6 @@ ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
     return best;
 }
 
-/* Do the q samples that raise the sum of squares by rise belong to the stick? */
 int
 ss_sticks_belong(fitter *k, double rise, size_t q)
 {
@@ -149,7 +146,6 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     return grow(k, win, &sums, right < most ? right : most, 0);
 }
 
-/* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
 ss_window
 ss_sticks_cut(const fitter *k, ss_window win, size_t longest)
 {
@@ -161,7 +157,6 @@ ss_sticks_cut(const fitter *k, ss_window win, size_t longest)
     return win;
 }
 
-/* Keep off both ends as growth found them. */
 ss_window
 ss_sticks_trim(const fitter *k, ss_window win)
 {
@@ -173,7 +168,6 @@ ss_sticks_trim(const fitter *k, ss_window win)
     return ss_sticks_cut(k, win, ss_window_length(win) - 1);
 }
 
-/* Windows about the cores, as the w, s and noise at hand show them. */
 void
 ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit)
 {

@@ -294,23 +294,25 @@ ss_varpro_project(varpro *v, ss_window win)
     find_factor(v, n);
     add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx);
     ss_varpro_substitute(&v->factor, x, v->factor.y);
-    return linear_of(&v->factor, xx);
+    linear fit = linear_of(&v->factor, xx);
+    fit.windows = 1;
+    fit.samples = n;
+    return fit;
 }
 
 linear
-ss_varpro_project_all(varpro *v, const ss_window *window, size_t n, size_t *used)
+ss_varpro_project_all(varpro *v, const ss_window *window, size_t n)
 {
     linear all = { 0 };
-    *used = 0;
     for (size_t i = 0; i < n; i++) {
         if (ss_window_length(window[i]) == 0)
             continue;
         linear one = ss_varpro_project(v, window[i]);
+        all.windows += one.windows, all.samples += one.samples;
         all.whole += one.whole, all.rss += one.rss, all.ring += one.ring;
         all.normal.ww += one.normal.ww, all.normal.ws += one.normal.ws;
         all.normal.ss += one.normal.ss;
         all.normal.w += one.normal.w, all.normal.s += one.normal.s;
-        ++*used;
     }
     return all;
 }
@@ -321,9 +323,8 @@ ss_varpro_project_all(varpro *v, const ss_window *window, size_t n, size_t *used
 static linear
 project_at(varpro *v, const ss_window *window, size_t n, const double at[2])
 {
-    size_t used;
     v->w = at[0], v->s = at[1];
-    return ss_varpro_project_all(v, window, n, &used);
+    return ss_varpro_project_all(v, window, n);
 }
 
 /* To where w and s may go next; 0: there is no such place. */

@@ -41,7 +41,7 @@ typedef struct columns {
     size_t n;
     wave ring, slow, steady;
     double (*row)[VARPRO_COLUMNS];
-    double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS], now[VARPRO_COLUMNS][VARPRO_COLUMNS];
+    double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS];
 } columns;
 
 typedef struct varpro {
@@ -62,7 +62,8 @@ typedef struct normal {
     double ww, ws, ss, w, s;
 } normal;
 
-typedef struct linear {         /* what projecting a window gave */
+typedef struct linear {         /* the fit of the amplitudes to one window, or to several */
+    size_t windows, samples;    /* 0 where ss_varpro_solve gave it */
     double whole;               /* sum of squares of the samples, less the first */
     double rss;                 /* of what is left */
     double ring;                /* of what the oscillation explains */
@@ -86,8 +87,8 @@ void ss_varpro_add_line(varpro *v, double line);
 /* Fit the amplitudes to a window of more samples than columns. */
 linear ss_varpro_project(varpro *v, ss_window win);
 
-/* The sums over all windows that are not empty; how many these are. a and b are 0. */
-linear ss_varpro_project_all(varpro *v, const ss_window *window, size_t n, size_t *used);
+/* The sums over all windows that are not empty.  a and b are 0. */
+linear ss_varpro_project_all(varpro *v, const ss_window *window, size_t n);
 
 /* No sums yet, of windows that begin at origin or behind it. */
 void ss_varpro_sums_start(const varpro *v, size_t origin, varpro_sums *sums);

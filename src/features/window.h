@@ -14,14 +14,4 @@ ss_window_length(ss_window win)
     return win.end - win.first;
 }
 
-/* Of n windows together. */
-static inline size_t
-ss_window_total(const ss_window *window, size_t n)
-{
-    size_t sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += ss_window_length(window[i]);
-    return sum;
-}
-
 #endif
