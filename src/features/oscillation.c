@@ -61,21 +61,6 @@ find_bars(const search *s, bars which, double f, ss_window **bar, size_t *n)
     return SS_OK;
 }
 
-/* Where the transitions are known already, each stick by itself, as they need not be alike. */
-static ss_status
-fit_singly(const search *s, const size_t *anchor, size_t n, double f, ss_window *window,
-           ss_value all[2], ss_value *each)
-{
-    ss_window *bar = NULL;
-    size_t n_bars = 0;
-    ss_status st = find_bars(s, BAR_EVENTS, f, &bar, &n_bars);
-    if (st == SS_OK)
-        st = ss_ringdown_fit_each(s->x, s->n, anchor, n, 2 * M_PI / s->rate * f, bar, n_bars, window,
-                                  all, each);
-    free(bar);
-    return st;
-}
-
 /* Does a jump or kink that ends a stick lie between the two, by more than the scale that shows it? */
 static int
 crosses_event(const ss_spikes *found, double from, double to, double f)
@@ -134,6 +119,22 @@ judge_fit(const ss_value all[2], double omega, size_t n, size_t cycles, size_t u
     if (!(all[0].error < all[0].value / PRECISE))
         return "the transitions do not agree on a frequency";
     return NULL;
+}
+
+/* Where the transitions are known already, each stick by itself, as they need not be alike. */
+static ss_status
+fit_singly(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each)
+{
+    ss_window *bar = NULL;
+    size_t n_bars = 0, n = s->out->n;
+    const double w = 2 * M_PI / s->rate * f;
+    ss_status st = find_bars(s, BAR_EVENTS, f, &bar, &n_bars);
+    if (st == SS_OK)
+        st = ss_ringdown_fit_each(s->x, s->n, anchor, n, w, bar, n_bars, window, all, each);
+    if (st == SS_OK)
+        s->out->why_ringing = judge_fit(all, w, n, n, n, 0);
+    free(bar);
+    return st;
 }
 
 /* One fit about the anchors, kept off bars, and its judgement. *why: it is no ringing. */
@@ -206,47 +207,58 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
     return st;
 }
 
-ss_status
-ss_oscillation_fit(search *s, const double *about, double f, int singly, ss_window *window)
+/* Write what was fitted to the transitions. */
+static void
+report(search *s, const ss_window *window, const ss_value all[2], const ss_value *each)
 {
     ss_features *out = s->out;
-    size_t n = out->n;
-    size_t *anchor = malloc((n + 1) * sizeof *anchor);
-    ss_value *each = malloc(2 * (n + 1) * sizeof *each), all[2];
-    double repeats = out->repetition_frequency.value;
-    ss_hum hum = SS_HUM_NONE;
-    ss_status st = SS_ENOMEM;
-    if (anchor != NULL && each != NULL) {
-        for (size_t i = 0; i < n; i++)
-            anchor[i] = (size_t)(about[i] * s->rate);
-        st = singly || isnan(repeats) ? SS_OK
-            : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
-        if (st == SS_OK)
-            st = singly ? fit_singly(s, anchor, n, f, window, all, each)
-                : fit(s, anchor, n, f, window, all, each, &out->why_ringing);
-    }
-    if (st == SS_OK && singly)
-        out->why_ringing = judge_fit(all, 2 * M_PI / s->rate * f, n, n, n, 0);
-    if (st == SS_OK && hum == SS_HUM_HIDDEN)
-        out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
-    if (st == SS_OK && out->why_ringing != NULL)
-        ss_ringdown_clear(anchor, n, window, all, each);
-    if (st == SS_OK) {
-        set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
-        if (!(out->damping_ratio.value > POSITIVE * out->damping_ratio.error))
-            out->damping_ratio = unknown;
-        for (size_t i = 0; i < n; i++) {
-            ss_transition *tr = &out->transition[i];
-            set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
-            if (window[i].end > window[i].first) {
-                tr->from = (double)window[i].first / s->rate;
-                tr->to = (double)window[i].end / s->rate;
-            }
+    set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
+    if (!(out->damping_ratio.value > POSITIVE * out->damping_ratio.error))
+        out->damping_ratio = unknown;
+    for (size_t i = 0; i < out->n; i++) {
+        ss_transition *tr = &out->transition[i];
+        set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
+        if (window[i].end > window[i].first) {
+            tr->from = (double)window[i].first / s->rate;
+            tr->to = (double)window[i].end / s->rate;
         }
     }
-    if (st == SS_OK && hum == SS_HUM_SUBTRACTED && out->why_ringing == NULL)
-        out->why_ringing = "fitted to what is left when a steady hum near it is subtracted";
-    free(anchor);
+}
+
+/* All transitions together, when a hum beside the oscillation is subtracted. */
+static ss_status
+fit_shared(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each,
+           ss_hum *hum)
+{
+    double repeats = s->out->repetition_frequency.value;
+    ss_status st = isnan(repeats) ? SS_OK
+        : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, hum);
+    if (st == SS_OK)
+        st = fit(s, anchor, s->out->n, f, window, all, each, &s->out->why_ringing);
+    if (*hum == SS_HUM_HIDDEN)
+        s->out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
+    return st;
+}
+
+ss_status
+ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly)
+{
+    ss_features *out = s->out;
+    ss_window *window = malloc((out->n + 1) * sizeof *window);
+    ss_value *each = malloc(2 * (out->n + 1) * sizeof *each), all[2];
+    ss_hum hum = SS_HUM_NONE;
+    ss_status st = SS_ENOMEM;
+    if (window != NULL && each != NULL)
+        st = singly ? fit_singly(s, anchor, f, window, all, each)
+            : fit_shared(s, anchor, f, window, all, each, &hum);
+    if (st == SS_OK) {
+        if (out->why_ringing != NULL)
+            ss_ringdown_clear(anchor, out->n, window, all, each);
+        else if (hum == SS_HUM_SUBTRACTED)
+            out->why_ringing = "fitted to what is left when a steady hum near it is subtracted";
+        report(s, window, all, each);
+    }
+    free(window);
     free(each);
     return st;
 }

@@ -48,8 +48,8 @@ ss_status ss_transitions_new(ss_features *out, size_t n);
  * common, into s->out, which has spikes and repetition_frequency.  None found: s->out->n is 0. */
 ss_status ss_transitions_find(search *s);
 
-/* Fit an oscillation of about f to every transition in s->out, each about a time [s], and judge it, with
- * the windows that were fitted; singly: each by itself, as they need not be alike. */
-ss_status ss_oscillation_fit(search *s, const double *about, double f, int singly, ss_window *window);
+/* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and judge
+ * it; singly: each by itself, as they need not be alike. */
+ss_status ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly);
 
 #endif

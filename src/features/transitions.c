@@ -181,22 +181,19 @@ static ss_status
 refine(search *s, const ss_maximum *swell, double f)
 {
     ss_features *out = s->out;
-    double *about = malloc((out->n + 1) * sizeof *about);
-    ss_window *window = malloc((out->n + 1) * sizeof *window);
-    ss_status st = SS_ENOMEM;
-    if (about != NULL && window != NULL) {
-        for (size_t i = 0; i < out->n; i++)
-            about[i] = swell[i].t;
-        st = ss_oscillation_fit(s, about, f, 0, window);
-    }
+    size_t *anchor = malloc((out->n + 1) * sizeof *anchor);
+    if (anchor == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < out->n; i++)
+        anchor[i] = (size_t)(swell[i].t * s->rate);
+    ss_status st = ss_oscillation_fit(s, anchor, f, 0);
+    free(anchor);
     for (size_t i = 0; st == SS_OK && i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
         tr->onset = isnan(tr->from) ? swell[i].t : tr->from;
         tr->end = isnan(tr->to) ? swell[i].t : tr->to;
         snap_to_spikes(s, tr, 1 / f);
     }
-    free(about);
-    free(window);
     return st;
 }
 
@@ -411,19 +408,17 @@ strongest_band(const search *s, double *f)
 static ss_status
 fit_behind(search *s, double f)
 {
-    ss_features *out = s->out;
-    double *about = malloc((out->n + 1) * sizeof *about);
-    ss_window *window = malloc((out->n + 1) * sizeof *window);
-    ss_status st = SS_ENOMEM;
-    if (about != NULL && window != NULL) {
-        for (size_t i = 0; i < out->n; i++) {
-            const ss_transition *tr = &out->transition[i];
-            about[i] = fmin((s->spiked ? tr->end : tr->onset) + 2 / f, (double)(s->n - 1) / s->rate);
-        }
-        st = ss_oscillation_fit(s, about, f, !s->spiked, window);
+    const ss_features *out = s->out;
+    size_t *anchor = malloc((out->n + 1) * sizeof *anchor);
+    if (anchor == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < out->n; i++) {
+        const ss_transition *tr = &out->transition[i];
+        double t = (s->spiked ? tr->end : tr->onset) + 2 / f;
+        anchor[i] = (size_t)(fmin(t, (double)(s->n - 1) / s->rate) * s->rate);
     }
-    free(about);
-    free(window);
+    ss_status st = ss_oscillation_fit(s, anchor, f, !s->spiked);
+    free(anchor);
     return st;
 }
 
