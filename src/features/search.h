@@ -15,6 +15,7 @@
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 
 static const ss_value unknown = { NAN, NAN };
+static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 typedef struct search {
     const ss_signal *signal;
@@ -47,6 +48,13 @@ ss_status ss_transitions_new(ss_features *out, size_t n);
 /* The transitions, in time order, and, where they ring, the frequency and damping that they have in
  * common, into s->out, which has spikes and repetition_frequency.  None found: s->out->n is 0. */
 ss_status ss_transitions_find(search *s);
+
+/* Transitions at the swells of the oscillation that recurs most often among the maxima of at least this
+ * prominence [dB], refined and fitted, into s->out.  None: s->out->n is 0. */
+ss_status ss_ringing_find(search *s, double prominence);
+
+/* The ringing behind the transitions in s->out, if there is any. */
+ss_status ss_ringing_behind(search *s);
 
 /* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and judge
  * it; singly: each by itself, as they need not be alike. */

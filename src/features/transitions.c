@@ -1,86 +1,16 @@
 /* transitions.c -- where the transitions of a signal begin and end. */
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include "features/extent.h"
 #include "features/force.h"
-#include "base/list.h"
-#include "base/sort.h"
-#include "features/maxima.h"
 #include "features/scale_rows.h"
 #include "features/search.h"
 #include "signal/gaps.h"
 
-static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
-
-#define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
 #define APART 6.0               /* [dB] above the next weaker one: events are not swells of noise */
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
 enum { SHORT = 64 };            /* samples: in fewer no single event has quiet beside it */
-#define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
-
-static size_t
-row_of(const ss_coefficients *coef, double f)
-{
-    size_t best = 0;
-    for (size_t i = 1; i < coef->n_scales; i++)
-        if (fabs(log(coef->scale[i].f / f)) < fabs(log(coef->scale[best].f / f)))
-            best = i;
-    return best;
-}
-
-static int
-same_kind(const ss_maximum *m, double f)
-{
-    return fabs(log2(m->f / f)) <= BAND;
-}
-
-typedef struct gathered {
-    double octave, level;       /* of a maximum */
-} gathered;
-
-/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do.
- * An oscillation within a transition is faster than what repeats. */
-static ss_status
-find_recurrent(const search *s, double prominence, double *f)
-{
-    double best_level = 0, slowest = s->out->repetition_frequency.value;
-    size_t most = FEW - 1, n = 0;
-    gathered *list = malloc((s->n_found + 1) * sizeof *list);
-    *f = 0;
-    if (list == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < s->n_found; i++)
-        if (s->found[i].prominence >= prominence)
-            list[n++] = (gathered){ log2(s->found[i].f), s->found[i].level };
-    if (n > 1)
-        qsort(list, n, sizeof *list, ss_ascending);
-    for (size_t i = 0; i < s->n_found; i++) {
-        double octave = log2(s->found[i].f), level = 0;
-        size_t from = ss_list_from(list, n, sizeof *list, octave - BAND);
-        size_t end = ss_list_from(list, n, sizeof *list, octave + BAND);
-        if (end - from < FEW || end - from < most || s->found[i].f <= slowest)
-            continue;           /* that is not a number where nothing repeats */
-        for (size_t k = from; k < end; k++)
-            level += list[k].level;
-        if (end - from > most || level > best_level) {
-            most = end - from;
-            *f = s->found[i].f;
-            best_level = level;
-        }
-    }
-    free(list);
-    return SS_OK;
-}
-
-/* The label of a maximum in terms of the sinusoid that makes it. */
-static double
-true_frequency(const search *s, double label)
-{
-    return s->opts->norm == SS_NORM_L1 ? label
-        : label * (CENTER + sqrt(CENTER * CENTER + 2)) / (2 * CENTER);
-}
 
 ss_status
 ss_transitions_new(ss_features *out, size_t n)
@@ -95,156 +25,6 @@ ss_transitions_new(ss_features *out, size_t n)
         out->transition[i] = (ss_transition){ .maximum = no_maximum, .frequency = unknown,
                                               .damping_ratio = unknown, .from = NAN, .to = NAN };
     return SS_OK;
-}
-
-/* Give every swell the nearest maximum of the kind, not further than the wavelet reaches, where it
- * is above the threshold, if FEW or more are; how many have one at all. */
-static size_t
-match_maxima(search *s, const ss_maximum *swell, double f)
-{
-    ss_features *out = s->out;
-    double reach = CENTER / (M_PI * f);
-    size_t ringing = 0, first = 0;
-    for (size_t i = 0; i < out->n; i++) {
-        const ss_maximum *best = NULL;
-        while (first < s->n_found && s->found[first].t < swell[i].t - reach)
-            first++;
-        for (size_t k = first; k < s->n_found && s->found[k].t <= swell[i].t + reach; k++) {
-            const ss_maximum *m = &s->found[k];
-            if (same_kind(m, f)
-                && (best == NULL || fabs(m->t - swell[i].t) < fabs(best->t - swell[i].t)))
-                best = m;
-        }
-        ringing += best != NULL;
-        if (best == NULL || best->prominence < s->opts->threshold)
-            continue;
-        out->transition[i].maximum = *best;
-        out->recurring++;
-    }
-    for (size_t i = 0; out->recurring < FEW && i < out->n; i++)
-        out->transition[i].maximum = no_maximum;
-    out->recurring = out->recurring < FEW ? 0 : out->recurring;
-    return ringing;
-}
-
-/* The median of the labels; its error has the step of the grid in it, and their scatter. */
-static ss_status
-read_raw(search *s)
-{
-    ss_features *out = s->out;
-    double *f = malloc((out->recurring + 1) * sizeof *f), mean = 0, scatter = 0, step;
-    size_t n = 0;
-    if (f == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < out->n; i++)
-        if (!isnan(out->transition[i].maximum.f))
-            f[n++] = out->transition[i].maximum.f;
-    for (size_t i = 0; i < n; i++)
-        mean += f[i] / (double)n;
-    for (size_t i = 0; i < n; i++)
-        scatter += (f[i] - mean) * (f[i] - mean);
-    out->frequency_raw.value = gsl_stats_median(f, 1, n);
-    step = gsl_stats_select(f, 1, n, n / 2) * (exp2(1. / ss_morlet_defaults.voices) - 1);
-    out->frequency_raw.error = sqrt(step * step / 12
-                                    + (n > 1 ? scatter / (double)(n - 1) / (double)n : 0));
-    free(f);
-    return SS_OK;
-}
-
-/* Move the onset, which the fit or the swell gave, to the nearest jump or kink within half a period;
- * move the end to the last one that follows another within a period: the mass sticks no longer than
- * that before it is released again. */
-static void
-snap_to_spikes(const search *s, ss_transition *tr, double period)
-{
-    const ss_spikes *found = s->out->spikes;
-    double nearest = 0.5 * period;
-    double from = tr->onset;
-    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from - nearest);
-    for (; i < found->n && found->spike[i].t <= tr->end + period; i++) {
-        const ss_spike *spike = &found->spike[i];
-        double distance = fabs(spike->t - from);
-        if (!is_event(spike))
-            continue;
-        if (distance < nearest) {
-            nearest = distance;
-            tr->onset = spike->t;
-        }
-        if (spike->t > tr->end && spike->t <= tr->end + period)
-            tr->end = spike->t;
-    }
-}
-
-/* Refine a transition of which only a swell is known: fit its oscillation, then move its ends from the
- * fit, or from the swell, to the jumps and kinks beside them. */
-static ss_status
-refine(search *s, const ss_maximum *swell, double f)
-{
-    ss_features *out = s->out;
-    size_t *anchor = malloc((out->n + 1) * sizeof *anchor);
-    if (anchor == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < out->n; i++)
-        anchor[i] = (size_t)(swell[i].t * s->rate);
-    ss_status st = ss_oscillation_fit(s, anchor, f, 0);
-    free(anchor);
-    for (size_t i = 0; st == SS_OK && i < out->n; i++) {
-        ss_transition *tr = &out->transition[i];
-        tr->onset = isnan(tr->from) ? swell[i].t : tr->from;
-        tr->end = isnan(tr->to) ? swell[i].t : tr->to;
-        snap_to_spikes(s, tr, 1 / f);
-    }
-    return st;
-}
-
-static void
-forget_transitions(ss_features *out)
-{
-    free(out->transition);
-    out->transition = NULL;
-    out->n = out->recurring = 0;
-}
-
-/* Noise in a band swells too: but slowly, where a slip sets off its ringing at once.  So swells of a
- * signal that does not repeat itself are transitions only if half of them begin with a jump or kink. */
-static int
-begin_sharply(const search *s, const ss_maximum *swell, double f)
-{
-    const ss_spikes *found = s->out->spikes;
-    size_t sharp = 0, n = s->out->n;
-    for (size_t i = 0; i < n; i++) {
-        double t = swell[i].t - 1 / f;          /* a swell is highest about a period behind its onset */
-        size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, t - 1.5 / f);
-        while (k < found->n && found->spike[k].t <= t + 1.5 / f && !is_event(&found->spike[k]))
-            k++;
-        sharp += k < found->n && found->spike[k].t <= t + 1.5 / f;
-    }
-    return 2 * sharp >= n;
-}
-
-/* Transitions that ring: at each swell of |W| along the row of the frequency that recurs. */
-static ss_status
-find_ringing(search *s, double label)
-{
-    ss_features *out = s->out;
-    ss_maximum *swell = NULL;
-    size_t n = 0;
-    ss_status st = ss_maxima_of_row(&swell, &n, &s->map, row_of(s->map.grid, label), s->top,
-                                    RANGE, s->opts->threshold);
-    if (st == SS_OK)
-        st = ss_transitions_new(out, n);
-    size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
-    if (ringing < FEW || 2 * ringing < out->n           /* that is chance */
-        || (isnan(out->repetition_frequency.value) && !begin_sharply(s, swell, label)))
-        forget_transitions(out);
-    if (st == SS_OK && out->recurring > 0)
-        st = read_raw(s);
-    if (st == SS_OK && out->n > 0)
-        st = refine(s, swell, true_frequency(s, label));
-    if (out->n > 0)
-        qsort(out->transition, out->n, sizeof *out->transition, ss_ascending);
-    free(swell);
-    return st;
 }
 
 static int
@@ -339,99 +119,6 @@ find_single(search *s)
     return st;
 }
 
-/* --- ringing behind transitions that are known ----------------------------------------------- */
-
-#define SETTLED 1.0             /* periods behind the onset that are not looked at: its own jump */
-#define LOOKED 5.0              /* periods behind it up to which the band is looked for */
-#define LEFT 2.0                /* periods before the end that are not looked at */
-
-/* Where it may ring behind a transition: behind the last spike of those that are known by spikes. */
-static void
-span_behind(const search *s, size_t i, double period, double *from, double *to, double *last)
-{
-    const ss_transition *tr = &s->out->transition[i];
-    double next = i + 1 < s->out->n ? tr[1].onset : (double)s->n / s->rate;
-    *from = s->spiked ? tr->end + SETTLED / 2 * period : tr->onset + SETTLED * period;
-    *to = s->spiked ? tr->end + LOOKED / 2 * period : tr->onset + LOOKED * period;
-    *last = s->spiked ? next - LEFT / 4 * period : tr->end - LEFT * period;
-}
-
-/* The mean square of |W| over the root of the scale, which is that of the amplitude, over LOOKED less
- * SETTLED periods behind the onsets; 0: fewer than half of the transitions last so long. */
-static double
-power_behind(const search *s, const ss_scale *scale, const double *level)
-{
-    const ss_features *out = s->out;
-    double sum = 0, period = 1 / scale->f;
-    size_t used = 0;
-    for (size_t i = 0; i < out->n; i++) {
-        double from, to, last, one = 0;
-        span_behind(s, i, period, &from, &to, &last);
-        size_t first = (size_t)ceil(from / (scale->b_num / scale->b_den)), k = first;
-        if (to > last || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
-                                                         0.5 * (to - from) + ROW_REACH * scale->a))
-            continue;
-        for (; k < scale->n && ss_scale_b(scale, k) <= to; k++)
-            one += level[k] * level[k];
-        if (k == first)
-            continue;
-        sum += one / (double)(k - first);
-        used++;
-    }
-    return 2 * used > out->n ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
-}
-
-/* The label of the strongest band that is a band: with less power on either side.  0: none. */
-static ss_status
-strongest_band(const search *s, double *f)
-{
-    const ss_coefficients *grid = s->map.grid;
-    double before = 0, at = 0, best = 0;
-    double *level = malloc((grid->scale[grid->n_scales - 1].n + 1) * sizeof *level);
-    ss_status st = level != NULL ? SS_OK : SS_ENOMEM;
-    *f = 0;
-    for (size_t i = 0; st == SS_OK && i < grid->n_scales; i++) {
-        st = ss_levels_fill(&s->map, &(level_part){ i, 0, grid->scale[i].n, level }, 1);
-        double next = st == SS_OK ? power_behind(s, &grid->scale[i], level) : 0;
-        if (before > 0 && at > before && at > next && next > 0 && at > best) {
-            best = at;
-            *f = grid->scale[i - 1].f;
-        }
-        before = at;
-        at = next;
-    }
-    free(level);
-    return st;
-}
-
-/* Fit about two periods behind the transitions. */
-static ss_status
-fit_behind(search *s, double f)
-{
-    const ss_features *out = s->out;
-    size_t *anchor = malloc((out->n + 1) * sizeof *anchor);
-    if (anchor == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < out->n; i++) {
-        const ss_transition *tr = &out->transition[i];
-        double t = (s->spiked ? tr->end : tr->onset) + 2 / f;
-        anchor[i] = (size_t)(fmin(t, (double)(s->n - 1) / s->rate) * s->rate);
-    }
-    ss_status st = ss_oscillation_fit(s, anchor, f, !s->spiked);
-    free(anchor);
-    return st;
-}
-
-/* The oscillation of the strongest band is fitted; what is finer resolved but weaker is none. */
-static ss_status
-find_ringing_behind(search *s)
-{
-    double label = 0;
-    ss_status st = s->out->n < FEW ? SS_OK : strongest_band(s, &label);
-    s->out->why_ringing = "no band of frequencies stands out behind the transitions";
-    return st == SS_OK && label > 0 ? fit_behind(s, true_frequency(s, label)) : st;
-}
-
 /* How far gaps reach for spikes as blunt as those found. */
 static double
 spike_reach(const ss_spikes *found)
@@ -470,17 +157,14 @@ find_transitions(search *s)
         && has_strong_event(out->spikes);
     ss_status st = SS_OK;
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
-        double f;
-        st = find_recurrent(s, slight ? 0 : s->opts->threshold, &f);
-        if (st == SS_OK && f > 0)
-            st = find_ringing(s, f);
+        st = ss_ringing_find(s, slight ? 0 : s->opts->threshold);
         if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
             out->n = 0;                 /* the spikes know the times better */
     }
     if (st == SS_OK && out->n == 0 && spiked) {
         st = find_spiked(s);
         if (st == SS_OK)
-            st = find_ringing_behind(s);
+            st = ss_ringing_behind(s);
     }
     if (st == SS_OK && out->n == 0 && !s->cycles.modulated)
         st = find_single(s);
@@ -499,7 +183,7 @@ ss_transitions_find(search *s)
     else if (st == SS_OK && s->out->loading != NULL)
         s->out->why_ringing = "it is not looked for behind the falls of a force";
     else if (st == SS_OK)
-        st = find_ringing_behind(s);
+        st = ss_ringing_behind(s);
     if (st == SS_OK)
         count_spikes(s);
     return st;
