@@ -266,6 +266,13 @@ neighbours(const double *v, size_t n, double mean, double variance)
         : fmax(0, fmin(0.9, sum / ((double)(n - 1) * variance)));
 }
 
+/* Has the cycle energy, and a lag? */
+static int
+is_known(const cycle *c, double least)
+{
+    return c->energy > least && !isnan(c->lag);
+}
+
 /* Median and standard error of the frequencies of the cycles with energy. */
 static void
 summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
@@ -273,7 +280,7 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
     size_t used = 0, drifting = 0;
     double mean = 0, variance = 0, drift = 0, bend = 0;
     for (size_t i = 0; i < n; i++)
-        if (c[i].energy > least && !isnan(c[i].lag)) {
+        if (is_known(&c[i], least)) {
             mean += v[used++] = 1 / c[i].lag;
             bend += c[i].bend;
         }
@@ -289,7 +296,7 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
         variance = pow(median_of(v, used) / MAD, 2);
     }
     for (size_t i = 0; i < n; i++)
-        if (c[i].energy > least && !isnan(c[i].lag) && !isnan(c[i].twice) && c[i].slopes > 0)
+        if (is_known(&c[i], least) && !isnan(c[i].twice) && c[i].slopes > 0)
             v[drifting++] = (c[i].twice - c[i].change) / 3 / c[i].slopes;
     if (drifting > 0)
         drift = sqrt(fmax(0, median_of(v, drifting)));
@@ -302,24 +309,22 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
 static ss_status
 judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cycles *out)
 {
-    size_t active = 0, used = 0, symmetric = 0;
+    size_t used = 0;
     ss_status st = SS_OK;
+    for (size_t i = 0; i < n; i++)
+        if (is_known(&c[i], least))
+            v[used++] = c[i].symmetry;
+    out->symmetry = used > 0 ? median_of(v, used) : 0;
+    used = 0;
     for (size_t i = 0; i < n; i++) {
-        if (!(c[i].energy > least))
-            continue;
-        active++;
-        if (!isnan(c[i].lag))
+        out->n += c[i].energy > least;
+        if (is_known(&c[i], least))
             v[used++] = c[i].likeness;
     }
-    out->n = active;
     out->likeness = used > 0 ? median_of(v, used) : 0;
-    for (size_t i = 0; i < n; i++)
-        if (c[i].energy > least && !isnan(c[i].lag))
-            v[symmetric++] = c[i].symmetry;
-    out->symmetry = symmetric > 0 ? median_of(v, symmetric) : 0;
-    if (active < 2)
+    if (out->n < 2)
         out->why = "under three cycles of what may repeat are in the record";
-    else if (2 * used < active || used < 2 || !(out->likeness >= likeness))
+    else if (2 * used < out->n || used < 2 || !(out->likeness >= likeness))
         out->why = "no cycle resembles the next one";
     else if (lasting(c, n) < LASTING || fades(c, n, least))
         out->why = "it rings once, or sounds in a small part of the record only";
@@ -328,41 +333,46 @@ judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cyc
     return st;
 }
 
+/* What the cycles found have in common; x has so many samples a step from one to the next. */
+static ss_status
+describe(const cycle *c, size_t n, const double *x, size_t step, double likeness, double *v,
+         ss_cycles *out)
+{
+    double mean = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += c[i].energy / (double)n;
+    const double least = ACTIVE * mean;
+    ss_status st = judge(c, n, least, likeness, v, out);
+    if (st != SS_OK || out->why != NULL)
+        return st;
+    summarise(c, n, least, v, out);
+    size_t first = 0, last = n - 1;
+    while (!(c[first].energy > least))
+        first++;
+    while (!(c[last].energy > least))
+        last--;
+    out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
+    return SS_OK;
+}
+
 static ss_status
 find_at(const double *x, size_t n, double period, double likeness, ss_cycles *out)
 {
-    size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period;
+    size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
-    double *memory = malloc((n / q + 1 + most) * sizeof *memory), mean = 0;
+    double *averaged = calloc(n / q + 1, sizeof *averaged), *v = malloc(most * sizeof *v);
     cycle *c = malloc(most * sizeof *c);
-    size_t found = 0;
     ss_status st = SS_ENOMEM;
-    if (memory != NULL && c != NULL) {
-        double *v = memory + n / q + 1;
-        const view fine = { x, n }, coarse = { memory, n / q };
-        for (size_t i = 0; i < n / q; i++) {
-            memory[i] = 0;
-            for (size_t k = 0; k < q; k++)
-                memory[i] += x[i * q + k] / (double)q;
-        }
+    if (averaged != NULL && v != NULL && c != NULL) {
+        const view fine = { x, n }, coarse = { averaged, n / q };
+        for (size_t i = 0; i < n / q * q; i++)
+            averaged[i / q] += x[i] / (double)q;
         for (size_t i = 0; i + reach < n; i += step)
             c[found++] = measure(&fine, &coarse, q, i, period);
-        for (size_t i = 0; i < found; i++)
-            mean += c[i].energy / (double)found;
-        st = judge(c, found, ACTIVE * mean, likeness, v, out);
-        if (st == SS_OK && out->why == NULL) {
-            summarise(c, found, ACTIVE * mean, v, out);
-            size_t first = 0, last = found - 1;
-            while (!(c[first].energy > ACTIVE * mean))
-                first++;
-            while (!(c[last].energy > ACTIVE * mean))
-                last--;
-            out->first = first * step;
-            out->end = (last + 1) * step;
-            out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
-        }
+        st = describe(c, found, x, step, likeness, v, out);
     }
-    free(memory);
+    free(averaged);
+    free(v);
     free(c);
     return st;
 }

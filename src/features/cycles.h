@@ -9,7 +9,6 @@ typedef struct ss_cycles {
     ss_value period;            /* in samples; NaN: the signal does not repeat itself */
     ss_value frequency;         /* per sample */
     size_t n;                   /* cycles that hold energy */
-    size_t first, end;          /* the samples [first, end) of them */
     double likeness;            /* median correlation of a cycle with the next */
     double symmetry;            /* the same with the signal half a period later: -1 where the second
                                    half of a cycle mirrors the first */

@@ -107,6 +107,13 @@ mean_rate(const search *s)
     return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
 }
 
+/* The frequency of the cycles [Hz]. */
+static ss_value
+cycle_rate(const search *s)
+{
+    return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
+}
+
 /* How many transitions make a cycle: that many later a period has passed, for MOST of them, give or
  * take JITTER of it.  0: they do not repeat with the cycle. */
 static size_t
@@ -160,9 +167,8 @@ confirm_repetition(search *s)
 {
     ss_features *out = s->out;
     if (isnan(out->repetition_frequency.value)
-        && fabs(out->slip_rate.value / (s->rate * s->cycles.frequency.value) - 1) <= CONFIRMS) {
-        out->repetition_frequency = (ss_value){ s->rate * s->cycles.frequency.value,
-                                                s->rate * s->cycles.frequency.error };
+        && fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS) {
+        out->repetition_frequency = cycle_rate(s);
         out->why_repetition = NULL;
     }
 }
@@ -303,8 +309,7 @@ find_repetition(search *s)
     if (st != SS_OK || s->cycles.why != NULL)
         return st;
     if (s->cycles.likeness >= CYCLES_LIKE)
-        out->repetition_frequency = (ss_value){ s->rate * s->cycles.frequency.value,
-                                                s->rate * s->cycles.frequency.error };
+        out->repetition_frequency = cycle_rate(s);
     else
         out->why_repetition = "a cycle does not resemble the next one enough";
     return SS_OK;
