@@ -28,6 +28,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include "base/gauss.h"
 #include "features/period.h"
 
 #define WIDTH 0.2               /* a cycle's period may differ so much from the record's */
@@ -39,7 +40,6 @@
 #define STRAIGHT 0.95           /* r^2 of log energy on time that makes a decay */
 #define DEPTH 0.1               /* of the energies' scatter re their mean: less is no modulation */
 #define ROBUST 8                /* cycles, for their scatter to be read by the median deviation */
-#define MAD 0.6744897501960817  /* of a Gaussian, re its standard deviation */
 #define FEWEST 16               /* cycles, for modulation to show */
 
 typedef struct cycle {
@@ -293,7 +293,7 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
     if (used >= ROBUST) {
         for (size_t i = 0; i < used; i++)
             v[i] = fabs(v[i] - f);
-        variance = pow(median_of(v, used) / MAD, 2);
+        variance = pow(median_of(v, used) / GAUSS_MEDIAN, 2);
     }
     for (size_t i = 0; i < n; i++)
         if (is_known(&c[i], least) && !isnan(c[i].twice) && c[i].slopes > 0)

@@ -22,6 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/gauss.h"
 #include "base/list.h"
 #include "signal/gaps.h"
 
@@ -31,7 +32,6 @@
 #define NARROWEST 5             /* samples: two wrong ones side by side do no harm */
 #define STANDS_OUT 5.0          /* standard deviations of the noise, and */
 #define GLITCH 0.05             /* of the median drop: a wrong sample is off its neighbours by both */
-#define MAD 0.6744897501960817  /* of a Gaussian, re its standard deviation */
 
 typedef struct drop_list {
     size_t n, room;
@@ -47,22 +47,7 @@ noise_rms(const double *x, size_t n, double *scratch)
         return 0;
     for (size_t i = 1; i + 1 < n; i++)
         scratch[i - 1] = fabs(x[i - 1] - 2 * x[i] + x[i + 1]);
-    return gsl_stats_select(scratch, 1, n - 2, (n - 2) / 2) / (MAD * sqrt(6));
-}
-
-/* The place of v in the n sorted values, or where it is to be put in. */
-static size_t
-place(const double *sorted, size_t n, double v)
-{
-    size_t lo = 0, hi = n;
-    while (lo < hi) {
-        size_t mid = lo + (hi - lo) / 2;
-        if (sorted[mid] < v)
-            lo = mid + 1;
-        else
-            hi = mid;
-    }
-    return lo;
+    return gsl_stats_select(scratch, 1, n - 2, (n - 2) / 2) / (GAUSS_MEDIAN * sqrt(6));
 }
 
 /* y[i] is the median of the samples i - half ... i + half, fewer at the ends, but as many on either
@@ -75,12 +60,12 @@ running_median(double *y, const double *x, size_t n, size_t half, double *window
         size_t reach = half < i ? half : i;
         reach = reach < n - 1 - i ? reach : n - 1 - i;
         for (; end <= i + reach; end++, filled++) {
-            size_t k = place(window, filled, x[end]);
+            size_t k = ss_list_from(window, filled, sizeof *window, x[end]);
             memmove(window + k + 1, window + k, (filled - k) * sizeof *window);
             window[k] = x[end];
         }
         for (; first < i - reach; first++, filled--) {
-            size_t k = place(window, filled, x[first]);
+            size_t k = ss_list_from(window, filled, sizeof *window, x[first]);
             memmove(window + k, window + k + 1, (filled - k - 1) * sizeof *window);
         }
         y[i] = window[filled / 2];

@@ -17,13 +17,13 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/gauss.h"
 #include "features/drops.h"
 #include "features/slip.h"
 #include "features/window.h"
 
 #define NEAR 3.0                /* standard deviations about the line */
 #define AWAY 4                  /* samples in a row beyond that end it */
-#define MAD 0.6744897501960817  /* of a Gaussian, re its standard deviation */
 
 typedef struct line {
     double slope, error;        /* per unit of the abscissa */
@@ -169,7 +169,7 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
     double median = gsl_stats_median(scratch, 1, used);
     for (size_t i = 0; i < used; i++)
         scratch[i] = fabs(scratch[i] - median);
-    double scatter = gsl_stats_median(scratch, 1, used) / MAD;
+    double scatter = gsl_stats_median(scratch, 1, used) / GAUSS_MEDIAN;
     for (size_t i = 0; i < n; i++)
         if (isfinite(v[i].value) && isfinite(v[i].error))
             scratch[known++] = v[i].error;

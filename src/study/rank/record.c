@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <gsl/gsl_statistics_double.h>
 #include "base/error.h"
+#include "base/gauss.h"
+#include "study/rank/normal.h"
 
 const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
 
@@ -62,7 +64,7 @@ gaussian_variance(double *d, size_t n)
         return INFINITY;
     for (size_t i = 0; i < n; i++)
         d[i] = fabs(d[i]);
-    double median = gsl_stats_median(d, 1, n) / 0.67448975019608171;
+    double median = gsl_stats_median(d, 1, n) / GAUSS_MEDIAN;
     return median * median;
 }
 
@@ -121,33 +123,40 @@ ss_record_noise(rank_record *r, double samples)
     return SS_OK;
 }
 
-/* Cosine, sine and offset by their normal equations, which are near to diagonal over whole cycles. */
+enum { OF_SINUSOID = 3 };       /* cosine, sine and offset */
+
+static void
+sinusoid_at(const rank_record *r, double frequency, size_t i, double row[OF_SINUSOID])
+{
+    double phase = 2 * M_PI * frequency * (double)i / r->rate;
+    row[0] = cos(phase), row[1] = sin(phase), row[2] = 1;
+}
+
 double
 ss_record_sinusoid(const rank_record *r, double frequency)
 {
-    double a[3][4] = { { 0 } }, squares = 0, count = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (size_t i = 0; i < r->n; i++) {
-            double phase = 2 * M_PI * frequency * (double)i / r->rate, left = r->x[i];
-            const double base[3] = { cos(phase), sin(phase), 1 };
-            if (is_missing(r, i, 1))
-                continue;
-            for (int k = 0; k < 3; k++)
-                for (int l = 0; l < 3 && pass == 0; l++)
-                    a[k][l] += base[k] * base[l];
-            for (int k = 0; k < 3; k++)
-                a[k][3] += pass == 0 ? base[k] * r->x[i] : 0, left -= pass == 1 ? a[k][3] * base[k] : 0;
-            squares += pass == 1 ? left * left : 0;
-            count += pass;
+    const double lo[OF_SINUSOID] = { -INFINITY, -INFINITY, -INFINITY };
+    const double hi[OF_SINUSOID] = { INFINITY, INFINITY, INFINITY };
+    double row[OF_SINUSOID], c[OF_SINUSOID], squares = 0, count = 0;
+    normal e = { .n = OF_SINUSOID };
+    for (size_t i = 0; i < r->n; i++) {
+        if (is_missing(r, i, 1))
+            continue;
+        sinusoid_at(r, frequency, i, row);
+        for (size_t k = 0; k < e.n; k++) {
+            e.g[k] -= row[k] * r->x[i];
+            for (size_t l = 0; l < e.n; l++)
+                e.a[k][l] += row[k] * row[l];
         }
-        for (int k = 0; k < 3 && pass == 0; k++)        /* Gauss and Jordan: a is positive */
-            for (int j = 0; j < 3; j++) {
-                double part = j != k ? a[j][k] / a[k][k] : 0;
-                for (int l = 0; l < 4; l++)
-                    a[j][l] -= part * a[k][l];
-            }
-        for (int k = 0; k < 3 && pass == 0; k++)
-            a[k][3] /= a[k][k];
+    }
+    ss_normal_step(&e, 0, lo, hi, c);
+    for (size_t i = 0; i < r->n; i++) {
+        if (is_missing(r, i, 1))
+            continue;
+        sinusoid_at(r, frequency, i, row);
+        double left = r->x[i] - c[0] * row[0] - c[1] * row[1] - c[2] * row[2];
+        squares += left * left;
+        count++;
     }
     return squares / fmax(count, 1);
 }
