@@ -230,7 +230,7 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
         { "contact_damping", fit->contact_damping, CANDIDATE_OWN + 1 } };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         int k = known[i].key;
-        int ends = k >= 0 && (w->best.key[k] <= w->c.lo[k] || w->best.key[k] >= w->c.hi[k]);
+        int ends = k >= 0 && (w->best.p[k] <= w->c.lo[k] || w->best.p[k] >= w->c.hi[k]);
         *value = known[i].v.value;
         *error = ends ? INFINITY : known[i].v.error;
         if (!(*error <= VAGUE * *value))

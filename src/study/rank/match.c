@@ -61,9 +61,7 @@ typedef struct matching {
     const ss_stretch *progress;
     double runs;                        /* of the motion so far */
     ss_status status;                   /* SS_ENOMEM or SS_STOP */
-    match_origin o;                     /* but for p: of the present point */
-    double turn;                        /* unit of the frequency: the relative change that shifts the
-                                           ends of the record by about a radian */
+    match_origin o;
     size_t n_moved, moved[MOVED];       /* the unknowns that are adjusted */
     double wide;                        /* weights grow from 0 to 1 over so many samples */
     course here, tried;                 /* of the present point, and of one that was tried from it */
@@ -84,7 +82,7 @@ unknowns(const matching *w)
 static ss_scene
 scene_at(const matching *w, const double p[MOVED])
 {
-    double frequency = w->o.frequency * exp(w->turn * p[MATCH_FREQUENCY]);
+    double frequency = w->o.frequency * exp(w->o.turn * p[MATCH_FREQUENCY]);
     ss_scene s = ss_candidate_scene(w->c, p, 1 / frequency);
     s.rate = w->r->rate;
     s.duration = (double)w->r->n / s.rate;
@@ -323,21 +321,13 @@ settled(const matching *w, const candidate_start *start, double period)
     return ss_candidate_resized(w->c, s, start->size > 0 ? start->size : 1);
 }
 
-static double
-turn_of_record(const rank_record *r, double frequency)
-{
-    return 1 / (2 * M_PI * fmax((double)r->n / r->rate * frequency, 1));
-}
-
 /* Start from rest, CANDIDATE_SETTLE cycles before the record, as the search did. */
 static void
 begin_at_rest(matching *w, const candidate_start *start, double period, point *at)
 {
     double cycles = (double)w->r->n / w->r->rate / period;
-    w->o.frequency = 1 / period;
-    w->o.lead = CANDIDATE_SETTLE * period;
-    w->turn = turn_of_record(w->r, w->o.frequency);
-    memset(at->p, 0, sizeof at->p);
+    w->o = (match_origin){ .frequency = 1 / period, .lead = CANDIDATE_SETTLE * period,
+                           .turn = 1 / (2 * M_PI * fmax(cycles, 1)) };
     memcpy(at->p, start->key, sizeof start->key);
     at->p[MATCH_PHASE] = 2 * M_PI * (w->r->from / period - start->shift + cycles / 2);
 }
@@ -421,7 +411,7 @@ find_covariance(const matching *w, const normal *e, match *m)
     ss_normal_invert(e, inverse);
     for (size_t k = 0; k < e->n; k++) {
         name[k] = k < w->n_moved ? w->moved[k] : MATCH_SIZE + k - w->n_moved;
-        unit[k] = name[k] == MATCH_FREQUENCY ? w->turn : 1;
+        unit[k] = name[k] == MATCH_FREQUENCY ? w->o.turn : 1;
     }
     memset(m->covariance, 0, sizeof m->covariance);
     for (size_t k = 0; k < e->n; k++)
@@ -450,9 +440,8 @@ report(matching *w, const point *at, match *m)
     m->white = whiteness(w, left);
     m->compared = (size_t)w->used;
     m->scene = ss_candidate_resized(w->c, scene_at(w, at->p), at->size);
-    memcpy(m->key, at->p, sizeof m->key);
+    memcpy(m->p, at->p, sizeof m->p);
     m->origin = w->o;
-    memcpy(m->origin.p, at->p, sizeof at->p);
 }
 
 /* Descend with narrower and narrower weights; the slopes of the start are coarse until the last. */
@@ -508,7 +497,7 @@ solve(matching *w, point *at, double misfit, const match *others, size_t n_other
     else
         compare(w, &w->here, at);
     report(w, at, m);
-    memcpy(m->settled, m->key, sizeof m->settled);
+    memcpy(m->settled, m->p, sizeof m->settled);
     if (take_over(m, others, n_others))
         return;
     w->n_moved += 2;
@@ -566,7 +555,7 @@ ss_match_find(match *m, candidate *c, const candidate_start *start, double perio
         return SS_ENOMEM;
     *m = no_match(record);
     m->scene = settled(&w, start, period);
-    memcpy(m->key, start->key, sizeof m->key);
+    memcpy(m->p, start->key, sizeof start->key);
     begin_at_rest(&w, start, period, &at);
     if (start->size > 0)
         solve(&w, &at, start->misfit, others, n_others, m);
@@ -585,9 +574,8 @@ ss_match_other(match *m, candidate *c, const match *from, const rank_record *rec
         return SS_ENOMEM;
     *m = no_match(record);
     m->scene = from->scene;
-    memcpy(m->key, from->key, sizeof m->key);
-    memcpy(at.p, from->origin.p, sizeof at.p);
-    w.turn = turn_of_record(record, w.o.frequency);
+    memcpy(m->p, from->p, sizeof m->p);
+    memcpy(at.p, from->p, sizeof at.p);
     w.n_moved -= w.o.x_unit > 0 ? 0 : 2;
     if (stand_at(&w, &at)) {
         descend_all(&w, &at);
@@ -606,7 +594,7 @@ ss_match_excess(const match *m, double noise)
 int
 ss_match_same(const match *a, const match *b)
 {
-    return are_same(a, a->key, b->key);
+    return are_same(a, a->p, b->p);
 }
 
 int

@@ -23,17 +23,19 @@ enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_
  * it. */
 #define MATCH_QUIET 1e-6
 
-/* The start of the motion: the values of the unknowns, and their units. */
+/* The start of the motion, and the units of the unknowns. */
 typedef struct match_origin {
-    double p[MATCH_SIZE];
-    double frequency, lead;             /* [Hz]; time from the start to the first sample [s] */
-    double x_unit, v_unit;              /* 0: from rest */
+    double lead;                /* time from the start to the first sample [s] */
+    double frequency;           /* [Hz] */
+    double turn;                /* its unit: the relative change that shifts the ends of the record by
+                                   about a radian */
+    double x_unit, v_unit;      /* 0: from rest */
 } match_origin;
 
 typedef struct match {
     match_origin origin;
+    double p[MATCH_SIZE];       /* the unknowns that move the motion; the keys come first */
     ss_scene scene;             /* its motion is the record less offset and residual */
-    double key[CANDIDATE_KEYS];
     double settled[CANDIDATE_KEYS];     /* the keys of the best settled motion */
     double left;                /* mean square of the residual away from events */
     double left_all;            /* the same over all samples that are not missing */

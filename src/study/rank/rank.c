@@ -135,7 +135,7 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     ss_observation_free(&l);
     row->explained = 1 - m->left_all / m->power;
     row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(m->left, 1e-12 * m->power) / m->power);
-    row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&f->candidate, m->key);
+    row->value[SS_BY_ADJUSTMENT] = ss_candidate_distance(&f->candidate, m->p);
     row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? row->value[SS_BY_ADJUSTMENT] / log(1 + spread) : 0;
     return SS_OK;
 }
@@ -259,7 +259,7 @@ contradicted_key(const candidate *c, const match *a, const match *b, double *err
     double most = MATCH_DECISIVE;
     size_t worst = c->n;
     for (size_t i = 0; i < c->n; i++) {
-        double d = a->key[i] - b->key[i], squares = d * d / (variance_of(a, i) + variance_of(b, i));
+        double d = a->p[i] - b->p[i], squares = d * d / (variance_of(a, i) + variance_of(b, i));
         if (squares > most)             /* NaN is not: a key without an error */
             most = squares, worst = i;
     }
@@ -295,7 +295,7 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     else if (key < c.n)
         snprintf(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
                  "%.2g %% apart, %.2g standard errors", model, first, other,
-                 ss_candidate_key_name(&c, key), 100 * fabs(expm1(m.key[key] - named->match.key[key])),
+                 ss_candidate_key_name(&c, key), 100 * fabs(expm1(m.p[key] - named->match.p[key])),
                  errors);
     return SS_OK;
 }
