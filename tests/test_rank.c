@@ -103,7 +103,7 @@ folds_at_the_period_that_repeats(void **state)
     for (size_t i = 0; i < N; i++)
         x[i] = 500 + wave((double)i / 100.37);      /* the mean repeats after any time */
     ss_noise_add_once(x, N, 0.1, 3);
-    double period = ss_cycle_period(x, NULL, N, 1000, 0.1, 0.01);
+    double period = ss_cycle_period(x, NULL, N, 1000, 0.1);
     assert_true(fabs(period / 0.10037 - 1) <= 1. / 64 / (N / 100.37));
     assert_int_equal(ss_cycle_fold(&c, x, NULL, N, 1000, period, NULL), SS_OK);
     assert_int_equal(c.n, 64);

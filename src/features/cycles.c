@@ -147,7 +147,8 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
 {
     cycle c = { .lag = NAN };
     size_t i = first / q, m = (size_t)(period / (double)q), whole = (size_t)period;
-    size_t lo = (size_t)(period * (1 - WIDTH) / (double)q), hi = (size_t)(period * (1 + WIDTH) / (double)q) + 1;
+    size_t lo = (size_t)(period * (1 - WIDTH) / (double)q);
+    size_t hi = (size_t)(period * (1 + WIDTH) / (double)q) + 1;
     double a, b, ab, unit;
     difference(fine, first, whole, whole, &c.energy, &b, &ab);
     size_t rough = best_lag(coarse, i, m, lo > 2 ? lo : 2, hi);
@@ -307,7 +308,7 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
 
 /* Why the cycles are none; NULL if they are. */
 static ss_status
-judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cycles *out)
+judge(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
 {
     size_t used = 0;
     ss_status st = SS_OK;
@@ -324,7 +325,7 @@ judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cyc
     out->likeness = used > 0 ? median_of(v, used) : 0;
     if (out->n < 2)
         out->why = "under three cycles of what may repeat are in the record";
-    else if (2 * used < out->n || used < 2 || !(out->likeness >= likeness))
+    else if (2 * used < out->n || used < 2 || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
     else if (lasting(c, n) < LASTING || fades(c, n, least))
         out->why = "it rings once, or sounds in a small part of the record only";
@@ -335,14 +336,13 @@ judge(const cycle *c, size_t n, double least, double likeness, double *v, ss_cyc
 
 /* What the cycles found have in common; x has so many samples a step from one to the next. */
 static ss_status
-describe(const cycle *c, size_t n, const double *x, size_t step, double likeness, double *v,
-         ss_cycles *out)
+describe(const cycle *c, size_t n, const double *x, size_t step, double *v, ss_cycles *out)
 {
     double mean = 0;
     for (size_t i = 0; i < n; i++)
         mean += c[i].energy / (double)n;
     const double least = ACTIVE * mean;
-    ss_status st = judge(c, n, least, likeness, v, out);
+    ss_status st = judge(c, n, least, v, out);
     if (st != SS_OK || out->why != NULL)
         return st;
     summarise(c, n, least, v, out);
@@ -356,7 +356,7 @@ describe(const cycle *c, size_t n, const double *x, size_t step, double likeness
 }
 
 static ss_status
-find_at(const double *x, size_t n, double period, double likeness, ss_cycles *out)
+find_at(const double *x, size_t n, double period, ss_cycles *out)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
@@ -369,7 +369,7 @@ find_at(const double *x, size_t n, double period, double likeness, ss_cycles *ou
             averaged[i / q] += x[i] / (double)q;
         for (size_t i = 0; i + reach < n; i += step)
             c[found++] = measure(&fine, &coarse, q, i, period);
-        st = describe(c, found, x, step, likeness, v, out);
+        st = describe(c, found, x, step, v, out);
     }
     free(averaged);
     free(v);
@@ -378,7 +378,7 @@ find_at(const double *x, size_t n, double period, double likeness, ss_cycles *ou
 }
 
 ss_status
-ss_cycles_find(const double *x, size_t n, double likeness, ss_cycles *out)
+ss_cycles_find(const double *x, size_t n, ss_cycles *out)
 {
     ss_value start;
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
@@ -389,5 +389,5 @@ ss_cycles_find(const double *x, size_t n, double likeness, ss_cycles *out)
         out->why = "no cycle resembles the next one";
         return SS_OK;
     }
-    return find_at(x, n, start.value, likeness, out);
+    return find_at(x, n, start.value, out);
 }

@@ -17,12 +17,12 @@ typedef struct ss_cycles {
     const char *why;            /* there is no period; NULL where there is one */
 } ss_cycles;
 
-/* A cycle is accepted if it explains CYCLES_LIKE squared of the variance of the next. A caller who
- * knows from elsewhere that each cycle is an event may accept less, CYCLES_ALIKE. */
+/* The median cycle explains CYCLES_LIKE squared of the variance of the next where nothing else says that
+ * it repeats; CYCLES_ALIKE squared where each cycle is known to be an event. */
 #define CYCLES_LIKE 0.95
 #define CYCLES_ALIKE 0.70
 
-/* The cycles of the n samples of x, each of which has at least the likeness to the next. */
-ss_status ss_cycles_find(const double *x, size_t n, double likeness, ss_cycles *out);
+/* The cycles of the n samples of x, of a likeness of at least CYCLES_ALIKE. */
+ss_status ss_cycles_find(const double *x, size_t n, ss_cycles *out);
 
 #endif

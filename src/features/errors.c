@@ -30,7 +30,7 @@ errors_of_fit(const normal *h, double variance, ss_value value[2])
 static double
 variance_of(const fitter *k, const linear *fit)
 {
-    return fit->rss / (double)(fit->samples - k->fit.columns * fit->windows - 2);
+    return fit->rss / (double)(fit->samples - ss_varpro_columns(&k->fit) * fit->windows - 2);
 }
 
 /* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i. */
@@ -126,7 +126,7 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     const double at[2] = { k->fit.w, k->fit.s };
     double whole[2], bent[2], variance = -1;
     variances(k, window, n, &variance, whole);
-    ss_varpro_bend(&k->fit, 1);
+    k->fit.is_bent = 1;
     if (ss_varpro_fit(&k->fit, window, n, FIT_FINE)) {
         variances(k, window, n, &variance, bent);
         const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
@@ -134,7 +134,7 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
             if (moved[j] * moved[j] > SEEN * SEEN * fmax(bent[j] - whole[j], 0))
                 value[j].error = hypot(value[j].error, moved[j]);
     }
-    ss_varpro_bend(&k->fit, 0);
+    k->fit.is_bent = 0;
     k->fit.w = at[0], k->fit.s = at[1];
 }
 
@@ -142,7 +142,7 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 static double
 rss_with_line(fitter *k, const ss_window *window, size_t n, double line)
 {
-    ss_varpro_add_line(&k->fit, line);
+    k->fit.line = line;
     return ss_varpro_project_all(&k->fit, window, n).rss;
 }
 
@@ -163,12 +163,13 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
             best = line;
         }
     }
-    double more = 2 * (double)used, left = (double)(samples - (k->fit.columns + 2) * used);
+    double more = 2 * (double)used;
+    double left = (double)(samples - (ss_varpro_columns(&k->fit) + 2) * used);
     double noise = fmax(least / left, FIT_MISFIT * FIT_MISFIT * plain.ring / (double)samples);
     double F = (plain.rss - least) / more / noise;
     if (F > gsl_cdf_fdist_Qinv(FIT_CHANCE / LINES, more, left)) {
         double variance = -1, with[2];
-        ss_varpro_add_line(&k->fit, best);
+        k->fit.line = best;
         if (ss_varpro_fit(&k->fit, window, n, FIT_FINE)) {
             variances(k, window, n, &variance, with);
             const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
@@ -177,7 +178,7 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
         } else
             value[0].error = value[1].error = INFINITY;
     }
-    ss_varpro_add_line(&k->fit, 0);
+    k->fit.line = 0;
     k->fit.w = at[0], k->fit.s = at[1];
 }
 

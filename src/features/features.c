@@ -304,7 +304,7 @@ static ss_status
 find_repetition(search *s)
 {
     ss_features *out = s->out;
-    ss_status st = ss_cycles_find(s->x, s->n, CYCLES_ALIKE, &s->cycles);
+    ss_status st = ss_cycles_find(s->x, s->n, &s->cycles);
     out->why_repetition = s->cycles.why;
     if (st != SS_OK || s->cycles.why != NULL)
         return st;

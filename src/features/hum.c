@@ -191,6 +191,24 @@ less_harmonic(double period, void *user)
     return sum;
 }
 
+/* Where f is least, from *at on, to a thousandth of a bin (Brent). */
+static ss_status
+narrow(gsl_function *f, double bin, double *at)
+{
+    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    if (m == NULL)
+        return SS_ENOMEM;
+    int failed = gsl_min_fminimizer_set(m, f, *at, *at - 0.3 * bin, *at + 0.3 * bin);
+    double wide = 0.6 * bin;
+    for (int i = 0; i < 30 && !failed && wide > 1e-3 * bin; i++) {
+        failed = gsl_min_fminimizer_iterate(m);
+        *at = gsl_min_fminimizer_x_minimum(m);
+        wide = gsl_min_fminimizer_x_upper(m) - gsl_min_fminimizer_x_lower(m);
+    }
+    gsl_min_fminimizer_free(m);
+    return SS_OK;
+}
+
 /* The period at which the strongest harmonics have most, to a thousandth of a bin; as it was where
  * that has no maximum near it. */
 static ss_status
@@ -204,9 +222,6 @@ refine_period(const zoomed *zoom, double low, double high, double *period)
     double bin = *period * *period / (zoom->length * (double)h.k[0]), best = *period;
     double least = less_harmonic(best, &h);
     gsl_function f = { less_harmonic, &h };
-    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    if (m == NULL)
-        return SS_ENOMEM;
     for (int i = -4; i <= 4; i++) {     /* quarters of a bin */
         double at = *period + 0.25 * i * bin, found = less_harmonic(at, &h);
         if (found < least) {
@@ -214,13 +229,8 @@ refine_period(const zoomed *zoom, double low, double high, double *period)
             best = at;
         }
     }
-    if (gsl_min_fminimizer_set(m, &f, best, best - 0.3 * bin, best + 0.3 * bin) == 0)
-        for (int i = 0; i < 30 && gsl_min_fminimizer_x_upper(m) - gsl_min_fminimizer_x_lower(m) > 1e-3 * bin; i++)
-            if (gsl_min_fminimizer_iterate(m) != 0)
-                break;
-    *period = gsl_min_fminimizer_x_minimum(m);
-    gsl_min_fminimizer_free(m);
-    return SS_OK;
+    *period = best;
+    return narrow(&f, bin, period);
 }
 
 /* --- the lines ------------------------------------------------------------------------------- */

@@ -25,7 +25,7 @@ typedef struct task {
 
 /* As magnitude_of, all at once where none needs hypot. */
 VERSIONS static void
-take_levels(const double *restrict w, size_t n, double *restrict level)
+magnitudes_of(const double *restrict w, size_t n, double *restrict level)
 {
     int ordinary = 1;
     for (size_t k = 0; k < n; k++) {
@@ -47,7 +47,7 @@ compute_part(const levels *l, const level_part *part, double *scratch, double *w
         st = ss_morlet_part(l->plan, part->row, &l->rec, &l->spectra, scratch, NULL, now, &most, w,
                             NULL);
         if (st == SS_OK)
-            take_levels(w, now.n, part->level + k);
+            magnitudes_of(w, now.n, part->level + k);
     }
     return st;
 }
@@ -70,7 +70,7 @@ ss_levels_fill(const map_source *source, const level_part *part, size_t n)
 {
     const ss_coefficients *grid = source->grid;
     for (size_t i = 0; source->levels == NULL && i < n; i++)
-        take_levels(grid->w + 2 * (grid->scale[part[i].row].offset + part[i].first), part[i].n,
+        magnitudes_of(grid->w + 2 * (grid->scale[part[i].row].offset + part[i].first), part[i].n,
                     part[i].level);
     if (source->levels == NULL)
         return SS_OK;

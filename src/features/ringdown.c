@@ -49,7 +49,7 @@ static void
 fit_each(fitter *k, const ss_window *window, size_t n, ss_value *each)
 {
     for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > k->fit.columns + 2)
+        if (ss_window_length(window[i]) > ss_varpro_columns(&k->fit) + 2)
             fit_one(k, window[i], each + 2 * i);
 }
 
@@ -60,7 +60,7 @@ fit_rough(fitter *k, const size_t *anchor, size_t n, ss_window *window, ss_value
     for (size_t i = 0; i < n; i++) {
         ss_window win = ss_sticks_place(k, anchor[i], FIT_LEAST);
         ss_value own[2] = { nothing, nothing };
-        if (ss_window_length(win) <= k->fit.columns + 2)
+        if (ss_window_length(win) <= ss_varpro_columns(&k->fit) + 2)
             continue;
         linear fitted = fit_one(k, win, own);
         if (!(fabs(log(own[0].value / k->fit.w)) < M_LN2 / 2)

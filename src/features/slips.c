@@ -227,7 +227,7 @@ rings_there(fitter *k, tail behind)
     linear fitted = ss_varpro_project(&k->fit, behind.at);
     double m = (double)ss_window_length(behind.at);
     int is_one = fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss)
-        || ss_sticks_belong(k, fitted.rss, ss_window_length(behind.at) - k->fit.columns);
+        || ss_sticks_belong(k, fitted.rss, ss_window_length(behind.at) - ss_varpro_columns(&k->fit));
     return is_one && fitted.ring > LOUDER * LOUDER * m * behind.left
         + k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }

@@ -19,15 +19,15 @@ ss_status
 ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
 {
     double *variance = malloc(2 * n * sizeof *variance);
-    size_t used = 0;
+    size_t used = 0, columns = ss_varpro_columns(&k->fit);
     if (variance == NULL)
         return SS_ENOMEM;
     double *ring = variance + n;
     for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(window[i]) <= k->fit.columns)
+        if (ss_window_length(window[i]) <= columns)
             continue;
         linear fitted = ss_varpro_project(&k->fit, window[i]);
-        size_t freedom = ss_window_length(window[i]) - k->fit.columns;
+        size_t freedom = ss_window_length(window[i]) - columns;
         if (!(k->median[freedom] > 0))
             k->median[freedom] = gsl_cdf_chisq_Pinv(0.5, (double)freedom);
         variance[used] = fitted.rss / k->median[freedom];
@@ -67,7 +67,8 @@ ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 {
     size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1);
-    size = size > k->fit.columns + 2 ? size : k->fit.columns + 2;
+    size_t fewest = ss_varpro_columns(&k->fit) + 2;
+    size = size > fewest ? size : fewest;
     linear fitted[MOST_PLACES];
     ss_window place[MOST_PLACES], best = { 0, 0 };
     double most = 0, least = INFINITY;
@@ -138,7 +139,7 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     ss_varpro_sums_start(&k->fit, core.first - left, &sums);
     ss_varpro_sums_add(&k->fit, core, &sums);
     if (!ss_sticks_belong(k, ss_varpro_solve(&sums, NULL).rss,
-                          ss_window_length(core) - k->fit.columns))
+                          ss_window_length(core) - ss_varpro_columns(&k->fit)))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, &sums, left, 1);
     size_t right = high - win.end;

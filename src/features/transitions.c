@@ -12,21 +12,6 @@
 #define CLEAR 15.0              /* [dB] below the strongest: single events */
 enum { SHORT = 64 };            /* samples: in fewer no single event has quiet beside it */
 
-ss_status
-ss_transitions_new(ss_features *out, size_t n)
-{
-    free(out->transition);
-    out->n = 0;
-    out->transition = calloc(n + 1, sizeof *out->transition);
-    if (out->transition == NULL)
-        return SS_ENOMEM;
-    out->n = n;
-    for (size_t i = 0; i < n; i++)
-        out->transition[i] = (ss_transition){ .maximum = no_maximum, .frequency = unknown,
-                                              .damping_ratio = unknown, .from = NAN, .to = NAN };
-    return SS_OK;
-}
-
 static int
 has_strong_event(const ss_spikes *found)
 {

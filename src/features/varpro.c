@@ -41,35 +41,21 @@ ss_varpro_free(varpro *v)
     free(v->table.sum);
 }
 
-static void
-count_columns(varpro *v)
-{
-    enum { RING = 2, LINE = 2 };
-    size_t slow = (v->forcing > 0 ? 3 : 2) + (v->is_bent ? v->forcing > 0 ? 1 : 2 : 0);
-    v->columns = slow + RING + (v->line > 0 ? LINE : 0);
-}
-
 void
 ss_varpro_start(varpro *v, double w, double s, double forcing)
 {
     v->w = w, v->s = s;
     v->forcing = forcing;
+    v->is_bent = 0;
     v->line = 0;
-    ss_varpro_bend(v, 0);
 }
 
-void
-ss_varpro_bend(varpro *v, int is_bent)
+size_t
+ss_varpro_columns(const varpro *v)
 {
-    v->is_bent = is_bent;
-    count_columns(v);
-}
-
-void
-ss_varpro_add_line(varpro *v, double line)
-{
-    v->line = line;
-    count_columns(v);
+    enum { RING = 2, LINE = 2 };
+    size_t slow = (v->forcing > 0 ? 3 : 2) + (v->is_bent ? v->forcing > 0 ? 1 : 2 : 0);
+    return slow + RING + (v->line > 0 ? LINE : 0);
 }
 
 /* --- columns and their sums ------------------------------------------------------------------ */
@@ -91,7 +77,7 @@ turn(wave *z)
 /* As many differ from 0 as are in use.  The slow part, about the origin, is scaled so that it may be
  * told from rounding where the forcing is slow: sin, 1 - cos and t - sin are t, t^2 and t^3 about. */
 static void
-make_row(const columns *tab, double t, double row[COLUMNS])
+make_row(const varpro_table *tab, double t, double row[COLUMNS])
 {
     double phase = tab->forcing * t;
     memset(row, 0, COLUMNS * sizeof *row);
@@ -147,7 +133,7 @@ add_samples(const double *restrict x, double level, double (*restrict row)[COLUM
 
 /* The sums over the first n rows, of which the last may not have theirs yet. */
 static void
-sum_rows(const columns *tab, size_t n, double (*g)[COLUMNS])
+sum_rows(const varpro_table *tab, size_t n, double (*g)[COLUMNS])
 {
     size_t known = n > 0 ? (n - 1) / OFTEN : 0;
     if (known > 0)
@@ -161,7 +147,7 @@ sum_rows(const columns *tab, size_t n, double (*g)[COLUMNS])
 static void
 restart(varpro *v)
 {
-    columns *tab = &v->table;
+    varpro_table *tab = &v->table;
     if (tab->w == v->w && tab->s == v->s && tab->forcing == v->forcing && tab->line == v->line
         && tab->is_bent == v->is_bent)
         return;
@@ -178,7 +164,7 @@ restart(varpro *v)
 static void
 extend(varpro *v, size_t n)
 {
-    columns *tab = &v->table;
+    varpro_table *tab = &v->table;
     restart(v);
     for (; tab->n < n; tab->n++) {
         make_row(tab, (double)tab->n, tab->row[tab->n]);

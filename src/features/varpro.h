@@ -35,24 +35,25 @@ typedef struct wave {           /* now, and what a sample turns it by */
 
 /* The columns, row by row, for as long as was asked for yet, and at every so many the sums over all rows
  * before. */
-typedef struct columns {
+typedef struct varpro_table {
     double w, s, forcing, line;
     int is_bent;
     size_t n;
     wave ring, slow, steady;
     double (*row)[VARPRO_COLUMNS];
     double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS];
-} columns;
+} varpro_table;
 
 typedef struct varpro {
     const double *x;
     size_t room;                /* samples of the longest window */
+    /* these may be changed at any time: */
     double w, s;                /* of the oscillation, per sample */
     double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
     int is_bent;                /* t^2 and t^3, or t beside the forcing, are in the slow part, too */
     double line;                /* per sample: a steady line that each window has, too; 0: none */
-    size_t columns;             /* of the slow part, the line and the oscillation */
-    columns table;
+    /* what is computed for them: */
+    varpro_table table;
     size_t factored;            /* length of the window whose factor is known; 0: none */
     varpro_factor factor;
 } varpro;
@@ -75,14 +76,11 @@ typedef struct linear {         /* the fit of the amplitudes to one window, or t
 ss_status ss_varpro_init(varpro *v, const double *x, size_t room);
 void ss_varpro_free(varpro *v);
 
-/* Start from w and s; forcing: see above. */
+/* Start from w and s with this slow part, which does not bend, and no line. */
 void ss_varpro_start(varpro *v, double w, double s, double forcing);
 
-/* Let the slow part bend, or no more. */
-void ss_varpro_bend(varpro *v, int is_bent);
-
-/* Let each window have a steady line of this frequency per sample, too; 0: no more. */
-void ss_varpro_add_line(varpro *v, double line);
+/* How many columns are in use: those of the slow part, the line and the oscillation. */
+size_t ss_varpro_columns(const varpro *v);
 
 /* Fit the amplitudes to a window of more samples than columns. */
 linear ss_varpro_project(varpro *v, ss_window win);

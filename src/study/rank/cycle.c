@@ -91,12 +91,11 @@ repeating(const double *x, const char *missing, size_t n, double samples)
 }
 
 double
-ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period,
-                double part)
+ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period)
 {
     double best = period;
     /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
-    for (double width = part; width > 1e-6; width /= GRID) {
+    for (double width = 0.01; width > 1e-6; width /= GRID) {
         double middle = best, most = -1;
         for (int i = -GRID; i <= GRID; i++) {
             double p = middle * (1 + width * i / GRID);
@@ -141,8 +140,7 @@ ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *mis
     }
     double period = samples.value / rate;
     if (!(frequency > 0))
-        period = shortest(x, missing, n, rate,
-                          ss_cycle_period(x, missing, n, rate, period, 0.01));
+        period = shortest(x, missing, n, rate, ss_cycle_period(x, missing, n, rate, period));
     if (ss_cycle_fold(c, x, missing, n, rate, period, &err) != SS_OK) {
         snprintf(why, size, "%s", err.text);
         c->period = 0;

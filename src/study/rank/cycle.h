@@ -22,9 +22,8 @@ typedef struct cycle {
  * gap and is left out; NULL: none does. */
 ss_status ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double rate,
                         double period, ss_error *err);
-/* The period near the given one (part 0.01: from 0.99 to 1.01 of it) at which most power repeats. */
-double ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period,
-                       double part);
+/* The period within 1 % of the given one at which most power repeats. */
+double ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period);
 
 /* The cycle of a signal whose values are finite, at the given frequency [Hz], or at the one found if that
  * is 0.  If no cycle is significant, c->period is 0 and why (of the given size) states the reason.
