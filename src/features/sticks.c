@@ -13,8 +13,8 @@
 #define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
 enum { PLACES = 16, MOST_PLACES = 4 * PLACES };         /* of the core: a period; at all */
 
-/* What of the sum of squares the noise makes: its median over the windows, robust to those that
- * hold something else; not less than the misfit allowed for. */
+/* By the median over the windows, as some may hold more than the oscillation; not less than the
+ * misfit that is allowed. */
 ss_status
 ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
 {
@@ -97,12 +97,12 @@ ss_sticks_belong(fitter *k, double rise, size_t q)
     return rise <= k->noise * k->limit[q];
 }
 
-/* Move one end of the window, of which the sums are at hand, outwards, in steps down to one sample, at
- * most room samples. */
+/* Move one end of the window outwards, by at most room samples, in steps down to one sample.  sums are
+ * those of the window. */
 static ss_window
 grow(fitter *k, ss_window win, varpro_sums *sums, size_t room, int backwards)
 {
-    double start = ss_varpro_solve(sums, NULL).rss, rss = start;
+    double start = ss_varpro_solve(sums).rss, rss = start;
     size_t added = 0;
     for (size_t step = periods(k, FIT_BLOCK); step > 0; step /= 2)
         while (added + step <= room) {
@@ -111,7 +111,7 @@ grow(fitter *k, ss_window win, varpro_sums *sums, size_t room, int backwards)
             if (backwards)
                 block = (ss_window){ win.first - step, win.first };
             ss_varpro_sums_add(&k->fit, block, &more);
-            double now = ss_varpro_solve(&more, NULL).rss;
+            double now = ss_varpro_solve(&more).rss;
             if (!ss_sticks_belong(k, now - rss, step)
                 || !ss_sticks_belong(k, now - start, added + step))
                 break;
@@ -138,7 +138,7 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     left = left < most ? left : most;
     ss_varpro_sums_start(&k->fit, core.first - left, &sums);
     ss_varpro_sums_add(&k->fit, core, &sums);
-    if (!ss_sticks_belong(k, ss_varpro_solve(&sums, NULL).rss,
+    if (!ss_sticks_belong(k, ss_varpro_solve(&sums).rss,
                           ss_window_length(core) - ss_varpro_columns(&k->fit)))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, &sums, left, 1);

@@ -7,12 +7,12 @@
  * 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows at once, by
  * Levenberg-Marquardt.
  *
- * All that this needs of a window are the products of its samples with the columns: the products of the
- * columns with each other are those of all windows of its length.  With g = l l' (Cholesky) and y = l^-1 x'
- * columns, the last two being the derivatives t exp(-s t) cos(w t) and t exp(-s t) sin(w t), |y|^2 of the
- * others is what they explain, and J and J'r lie along the last two.  The sum of squares that is left is
- * known to some 1e-15 of the whole, so that its root is known to 3e-8 of the signal: misfits that pass for
- * noise are far larger. */
+ * The fit of a window needs only the products of its samples with the columns: all windows of one
+ * length share g, the products of the columns with each other.  The last two columns are the
+ * derivatives t exp(-s t) cos(w t) and t exp(-s t) sin(w t).  With g = l l' (Cholesky) and y = l^-1 x',
+ * x' the products with the samples, the other columns explain their |y|^2, and J and J'r lie along the
+ * last two.  The sum of squares that is left is known to some 1e-15 of the whole, so that its root is
+ * known to 3e-8 of the signal: misfits that pass for noise are far larger. */
 #include "features/varpro.h"
 
 #include <math.h>
@@ -74,8 +74,8 @@ turn(wave *z)
     z->cos = next;
 }
 
-/* As many differ from 0 as are in use.  The slow part, about the origin, is scaled so that it may be
- * told from rounding where the forcing is slow: sin, 1 - cos and t - sin are t, t^2 and t^3 about. */
+/* Columns that are not in use are 0.  Where the forcing is slow, sin, 1 - cos and t - sin are about t,
+ * t^2 and t^3: cos and t themselves would differ from the others by rounding only. */
 static void
 make_row(const varpro_table *tab, double t, double row[COLUMNS])
 {
@@ -105,7 +105,7 @@ add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COL
                 g[j][k] += row[i][j] * row[i][k];
 }
 
-/* Add those with x less level. */
+/* Add the products of n rows with x less level. */
 VERSIONS static void
 add_samples(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
             double *restrict to, double *restrict xx)
@@ -143,7 +143,7 @@ sum_rows(const varpro_table *tab, size_t n, double (*g)[COLUMNS])
     add_products(tab->row + known * OFTEN, n - known * OFTEN, g);
 }
 
-/* The columns of w, s, forcing and line as they are now. */
+/* Begin the columns again if w, s, forcing, is_bent or line have changed. */
 static void
 restart(varpro *v)
 {
@@ -160,7 +160,7 @@ restart(varpro *v)
     v->factored = 0;
 }
 
-/* The first n rows. */
+/* Compute the first n rows, of which some may be there. */
 static void
 extend(varpro *v, size_t n)
 {
@@ -249,13 +249,12 @@ linear_of(const varpro_factor *f, double xx)
 }
 
 linear
-ss_varpro_solve(varpro_sums *sums, varpro_factor *factor)
+ss_varpro_solve(varpro_sums *sums)
 {
-    varpro_factor own, *f = factor != NULL ? factor : &own;
-    memset(f, 0, sizeof *f);
-    factorise(sums->g, f->l);
-    ss_varpro_substitute(f, sums->x, f->y);
-    return linear_of(f, sums->xx);
+    varpro_factor f = { .y = { 0 } };
+    factorise(sums->g, f.l);
+    ss_varpro_substitute(&f, sums->x, f.y);
+    return linear_of(&f, sums->xx);
 }
 
 /* The factor of windows of n samples. */
@@ -305,7 +304,7 @@ ss_varpro_project_all(varpro *v, const ss_window *window, size_t n)
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
 
-/* What all windows leave at w and s. */
+/* The fit to all windows at a w and s. */
 static linear
 project_at(varpro *v, const ss_window *window, size_t n, const double at[2])
 {
@@ -313,7 +312,7 @@ project_at(varpro *v, const ss_window *window, size_t n, const double at[2])
     return ss_varpro_project_all(v, window, n);
 }
 
-/* To where w and s may go next; 0: there is no such place. */
+/* The next w and s of Levenberg and Marquardt; 0: they are out of range. */
 static int
 next_place(const normal *h, double damping, const double at[2], double next[2])
 {

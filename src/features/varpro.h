@@ -7,9 +7,9 @@
 #include <stickslip/status.h>
 #include "features/window.h"
 
-/* What a window consists of, t samples behind an origin: a slow part (1, t, t^2, t^3, or the forcing), a
- * steady line, exp(-s t) cos(w t) and exp(-s t) sin(w t); and t times these two, the derivatives.  Columns
- * that are not in use are 0. */
+/* What a window consists of, t samples behind an origin: a slow part (1, t, t^2, t^3, or the
+ * forcing), a steady line, exp(-s t) cos(w t) and exp(-s t) sin(w t); and t times these two, the
+ * derivatives.  Columns that are not in use are 0. */
 enum {
     VARPRO_SLOW = 0, VARPRO_LINE = 4, VARPRO_COS = 6, VARPRO_SIN, VARPRO_T_COS, VARPRO_T_SIN,
     VARPRO_COLUMNS,
@@ -33,7 +33,7 @@ typedef struct wave {           /* now, and what a sample turns it by */
     double cos, sin, turn_cos, turn_sin;
 } wave;
 
-/* The columns, row by row, for as long as was asked for yet, and at every so many the sums over all rows
+/* The first n rows of the columns, and, at regular places, the sums of products over all rows
  * before. */
 typedef struct varpro_table {
     double w, s, forcing, line;
@@ -94,8 +94,8 @@ void ss_varpro_sums_start(const varpro *v, size_t origin, varpro_sums *sums);
 /* Add those of samples up to room behind the origin. */
 void ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums);
 
-/* The same fit by the sums; the factor, too, unless NULL. */
-linear ss_varpro_solve(varpro_sums *sums, varpro_factor *factor);
+/* The same fit by the sums. */
+linear ss_varpro_solve(varpro_sums *sums);
 
 /* to = l^-1 of. */
 void ss_varpro_substitute(const varpro_factor *f, const double of[VARPRO_COLUMNS],

@@ -2,21 +2,18 @@
  * signals are apart by it. */
 #include "study/rank/observation.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <stickslip/features.h>
 #include <stickslip/spikes.h>
-#include "base/sort.h"
 
 #define SPAN 80.0                       /* [dB] of a contour map */
 
 static double
 median(double *x, size_t n)
 {
-    if (n == 0)
-        return NAN;
-    qsort(x, n, sizeof *x, ss_ascending);
-    return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
+    return n > 0 ? gsl_stats_median(x, 1, n) : NAN;
 }
 
 static double
