@@ -1,5 +1,5 @@
-/* test_pulls.c -- events of sliders that a spring pulls, read from the spring's force, against the closed
- * form of their motion: with D = f_s - f_k, w = sqrt(k/m), q = D w / (k U) a slip lasts
+/* test_pulls.c -- events of sliders that a spring pulls, read from the spring's force, against the
+ * closed form of their motion: with D = f_s - f_k, w = sqrt(k/m), q = D w / (k U) a slip lasts
  * 2 (pi - atan q) / w and a stick 2 D / (k U), and the force falls by 2 D. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -139,7 +139,8 @@ count(coverage *c, ss_value v, double truth)
     c->beyond_5 += fabs(v.value - truth) > 5 * v.error;
 }
 
-/* From 10 to 90 % of the fall of 2 D: f_k + A cos(phase), A = D sqrt(1 + 1 / q^2), passes f_k +- .8 D. */
+/* From 10 to 90 % of the fall of 2 D: f_k + A cos(phase), A = D sqrt(1 + 1 / q^2), passes
+ * f_k +- .8 D. */
 static double
 length_of_middle(const rig *r)
 {
@@ -436,7 +437,8 @@ pulls_are_named_rightly_or_not_at_all(void **state)
     }
 }
 
-/* A law that falls with speed fits no Coulomb slip, though each is one nearly: its k/m is a quarter off. */
+/* A law that falls with speed fits no Coulomb slip, though each is one nearly: its k/m is a quarter
+ * off. */
 static void
 falling_friction_is_not_named(void **state)
 {

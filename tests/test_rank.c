@@ -270,8 +270,8 @@ what_no_scene_explains_is_not_named(void **state)
     gsl_rng_free(rng);
 }
 
-/* The acceleration of one rig beside the displacement of itself, of another model, or of a rig with 30 %
- * less friction. */
+/* The acceleration of one rig beside the displacement of itself, of another model, or of a rig with
+ * 30 % less friction. */
 static void
 columns_that_contradict_each_other_are_not_named(void **state)
 {

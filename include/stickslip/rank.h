@@ -82,14 +82,15 @@ typedef struct ss_ranking {
     ss_rank_row *row;           /* best first */
 } ss_ranking;
 
-/* Rank n >= 1 scenes, which are forced, by one column of a signal, whose values must be finite.  Each is adjusted within
- * the spread to the signal's mean cycle and then to the samples of some cycles, run with white noise
- * of the signal's own level and its gaps, and compared; what lies within the reach of a gap is left
- * out of both, as ss_features_find does.  Noise is what is neither slow nor repeated, see ss-rank(1).
- * "None fits" and "undecided" are answers, with SS_OK.  SS_EBUDGET for a scene that takes more
- * than 2e7 integration steps to be adjusted.  opts may be NULL. To be freed with ss_ranking_free.
- * If the first scene is pulled all must be, as ss_pull_fit takes them, and the column the spring's force:
- * each is adjusted to its slips, and only what these leave and the adjustment are compared. */
+/* Rank n >= 1 scenes, which are forced, by one column of a signal, whose values must be finite.
+ * Each is adjusted within the spread to the signal's mean cycle and then to the samples of some
+ * cycles, run with white noise of the signal's own level and its gaps, and compared; what lies
+ * within the reach of a gap is left out of both, as ss_features_find does.  Noise is what is
+ * neither slow nor repeated, see ss-rank(1).  "None fits" and "undecided" are answers, with SS_OK.
+ * SS_EBUDGET for a scene that takes more than 2e7 integration steps to be adjusted.  opts may be
+ * NULL.  To be freed with ss_ranking_free.  If the first scene is pulled all must be, as
+ * ss_pull_fit takes them, and the column the spring's force: each is adjusted to its slips, and
+ * only what these leave and the adjustment are compared. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */

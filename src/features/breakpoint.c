@@ -1,9 +1,9 @@
 /* breakpoint.c -- a two-sided fit with a free break.
  *
- * On either side of the break a cubic, the two being free of each other (a jump), or the same at the break
- * (a kink).  Two free cubics leave r; that they differ by d at the break, where their variances are u and
- * v, adds d^2 / (u + v) if they may not.  The place of the break is where least is left.  Between two
- * samples a jump has no place (any gives the same samples), so it is put half way. */
+ * A cubic is fitted to the samples on either side of the break.  At a jump the two cubics are free;
+ * at a kink they must meet.  Free cubics leave r.  If they differ by d at the break, where their
+ * variances are u and v, cubics that meet leave d^2 / (u + v) more.  The break is where least is left.
+ * Between two samples all places of a jump give the same samples, so it is put half way. */
 #include "features/breakpoint.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ polynomials(size_t n, double s, double p[DEGREE + 1])
     p[3] = s * p[2] - (nn - 4) / 15 * p[1];
 }
 
-/* Of n samples, more than DEGREE + 1, from first on. */
+/* The cubic through n samples, more than DEGREE + 1, from first on. */
 static side
 fit_side(const double *x, size_t first, size_t n)
 {
@@ -63,7 +63,7 @@ fit_side(const double *x, size_t first, size_t n)
     return f;
 }
 
-/* Its value at t, and the variance of that, of samples of variance 1. */
+/* The value of the cubic at t, and the variance of that for samples of variance 1. */
 static double
 value_at(const side *f, double t, double *variance)
 {
@@ -153,7 +153,7 @@ least_jump(piece *p, double lo, double hi, double *sum)
     return best;
 }
 
-/* 0: all samples are the same. */
+/* Fill p->x; 0 if all samples are the same. */
 static int
 fill(piece *p, const double *x)
 {

@@ -103,7 +103,7 @@ best_lag(const view *v, size_t i, size_t m, size_t lo, size_t hi)
     return best > lo && best < hi ? best : 0;
 }
 
-/* From a lag known to within reach, by halving steps. */
+/* The lag of least difference near one that is known to within reach, by halving steps. */
 static size_t
 refine(const view *v, size_t i, size_t m, size_t lag, size_t reach)
 {
@@ -306,7 +306,7 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
 }
 
-/* Why the cycles are none; NULL if they are. */
+/* How many cycles there are, how alike they are, and the reason if they are none. */
 static ss_status
 judge(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
 {
@@ -334,7 +334,7 @@ judge(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
     return st;
 }
 
-/* What the cycles found have in common; x has so many samples a step from one to the next. */
+/* What the n cycles of x have in common, which begin step samples apart. */
 static ss_status
 describe(const cycle *c, size_t n, const double *x, size_t step, double *v, ss_cycles *out)
 {

@@ -17,8 +17,8 @@ typedef struct ss_cycles {
     const char *why;            /* there is no period; NULL where there is one */
 } ss_cycles;
 
-/* The median cycle explains CYCLES_LIKE squared of the variance of the next where nothing else says that
- * it repeats; CYCLES_ALIKE squared where each cycle is known to be an event. */
+/* The median cycle explains CYCLES_LIKE squared of the variance of the next where nothing else says
+ * that it repeats; CYCLES_ALIKE squared where each cycle is known to be an event. */
 #define CYCLES_LIKE 0.95
 #define CYCLES_ALIKE 0.70
 

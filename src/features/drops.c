@@ -1,11 +1,11 @@
 /* drops.c -- how often and how far a force drops: a sawtooth of stick and slip, read by height.
  *
- * Turning points are those that the signal leaves by DROPS_RELOAD of the height asked for; falls between
- * them that are higher than it are drops, so that no slow drift adds up to one.  They are read
- * behind a running median, which takes single wrong samples away and leaves edges as they are.  Its
- * width follows from the noise: extremes of what it leaves (3 standard deviations at either end)
- * may change a height by ERROR of the one asked for; but it is no wider than half a fall, so that
- * it does not flatten the turning points.
+ * Turning points are those that the signal leaves by DROPS_RELOAD of the height asked for; falls
+ * between them that are higher than it are drops, so that no slow drift adds up to one.  They are
+ * read behind a running median, which takes single wrong samples away and leaves edges as they
+ * are.  Its width follows from the noise: extremes of what it leaves (3 standard deviations at
+ * either end) may change a height by ERROR of the one asked for; but it is no wider than half a
+ * fall, so that it does not flatten the turning points.
  *
  * The height need not be asked for where falls have one.  Falls above h, between turning points left
  * by h, have a median M(h).  A signal without a scale of its own has M = c h at all h: c is 1.7 for a

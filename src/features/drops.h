@@ -12,11 +12,11 @@ typedef struct ss_typical {
     size_t more, less;          /* falls above half of it, or above the noise, and above twice it */
 } ss_typical;
 
-/* Of the n samples of x. */
+/* Find the height of the falls of x, which has n samples. */
 ss_status ss_drops_typical(const double *x, size_t n, ss_typical *out);
 
-/* The n samples of x into y, but for single wrong ones, which stand out of their neighbours by more than
- * the noise and a part of the median drop: in their place is the median of these. */
+/* Copy the n samples of x to y.  A single wrong sample, which differs from its neighbours by more than
+ * the noise and a part of the median drop, is replaced by their median. */
 ss_status ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *drop,
                                     size_t n_drops);
 

@@ -67,8 +67,8 @@ jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     return SS_OK;
 }
 
-/* The variances of w and s from the curvature of the sum of squares of all windows; *variance: of
- * the samples, found if it is not known (negative). */
+/* The variances of w and s from the curvature of the sum of squares of all windows; *variance is that
+ * of the samples, and is found if it is negative. */
 static void
 variances(fitter *k, const ss_window *window, size_t n, double *variance, double of[2])
 {
@@ -81,7 +81,7 @@ variances(fitter *k, const ss_window *window, size_t n, double *variance, double
     of[1] = value[1].error * value[1].error;
 }
 
-/* Half of what w and s move by when all windows are cut by FIT_TRIM_END, at one end or the other, beyond
+/* Cut all windows by FIT_TRIM_END, at one end or the other, and add half of what w and s move by beyond
  * what noise moves them by: its variance is that of the cut fit less that of the whole (Hausman
  * 1978). */
 static ss_status

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { CYCLES = 3, FEWEST = 4 };        /* made; worth averaging */
+enum { CYCLES = 3, FEWEST = 4 };        /* cycles of the mean; cycles that are worth averaging */
 
 ss_status
 ss_fold_spikes(const search *s, ss_spikes **out, double *period)

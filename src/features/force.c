@@ -123,7 +123,7 @@ break_away(const double *x, size_t i, size_t end, double retreat)
     return top;
 }
 
-/* One that the record begins in has broken away before.  A half-cycle reaches from where x passes half
+/* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x passes half
  * of the level, to either side of the middle, to where it does so for the last time before the other
  * side: ringing may go farther. */
 static ss_status

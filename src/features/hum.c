@@ -93,8 +93,8 @@ power_of_two(double least)
     return size;
 }
 
-/* Those at n angular frequencies, by apart from w on, by one convolution: the phase k i of line k at
- * sample i is half of k^2 + i^2 - (k - i)^2 (Bluestein 1970). */
+/* The sums at n angular frequencies from w on, `by` apart, as one convolution: the phase k i of line k
+ * at sample i is half of k^2 + i^2 - (k - i)^2 (Bluestein 1970). */
 static ss_status
 sums_at(const zoomed *zoom, double w, double by, size_t n, double complex *to)
 {
@@ -128,7 +128,8 @@ static ss_status
 zoom_in(zoomed *zoom, const double *x, size_t n, double f)
 {
     size_t size = power_of_two((double)n), middle = (size_t)(f * (double)size);
-    size_t half = (size_t)((BAND + BEYOND) * f * (double)size), few = power_of_two(2. * (double)half + 1);
+    size_t half = (size_t)((BAND + BEYOND) * f * (double)size);
+    size_t few = power_of_two(2. * (double)half + 1);
     double *r = calloc(size + 2, sizeof *r);
     zoom->z = calloc(few + LANES, sizeof *zoom->z);
     if (r != NULL)

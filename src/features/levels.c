@@ -23,7 +23,7 @@ typedef struct task {
     ss_status status;
 } task;
 
-/* As magnitude_of, all at once where none needs hypot. */
+/* magnitude_of each; none needs hypot as a rule, and then this is faster. */
 VERSIONS static void
 magnitudes_of(const double *restrict w, size_t n, double *restrict level)
 {

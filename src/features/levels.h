@@ -1,4 +1,4 @@
-/* levels.h -- |W| of a map, part by part: of coefficients that are there, or computed when asked for. */
+/* levels.h -- |W| of a map, part by part: of given coefficients, or computed when asked for. */
 #ifndef LEVELS_H
 #define LEVELS_H
 
@@ -34,12 +34,12 @@ typedef struct level_part {
  * those of gaps replaced.  SS_ESCALE as ss_morlet_new. */
 ss_status ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
                         const ss_morlet_opts *opts, ss_error *err);
-/* The same without a grid: of n samples. */
+/* The same of n samples, without a grid. */
 ss_status ss_levels_of_samples(map_source *out, const double *x, size_t n, double rate,
                                const ss_morlet_opts *opts, ss_error *err);
 /* Row 0 is that of the longest scale. */
 const ss_scale *ss_levels_scale(const map_source *source, size_t row);
-/* Of what these have made, failed or not. */
+/* Free what these have made, also if they failed. */
 void ss_levels_free(map_source *source);
 
 ss_status ss_levels_fill(const map_source *source, const level_part *part, size_t n);

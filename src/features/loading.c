@@ -1,12 +1,13 @@
 /* loading.c -- how each stick loads a force, and how each slip lets it fall.
  *
- * While the slider sticks, the drive loads the force along a line.  The line is laid through the
- * middle half of the rise from one fall to the next, and reaches as far as the samples stay within
- * NEAR of its standard deviations; but not into the slips that are fitted to the falls (slip.c), with the
- * median slope of these lines.  Then it is laid through all of that, and its length is the stick.
- * A fall that is no slip of a pulled slider has no drop, duration and friction, and a stick beside it
- * has no length.  Samples of a measured force are not independent, so the standard error of the slope counts only
- * (1 - rho) / (1 + rho) of them, rho the correlation of neighbours about the line.
+ * While the slider sticks, the drive loads the force along a line.  The line is fitted to the
+ * middle half of the rise from one fall to the next.  The stick is as much of the rise as stays
+ * within NEAR of the line's standard deviations and is not in the slips that are fitted to the
+ * falls (slip.c), with the median slope of these lines.  Then the line is fitted to the whole
+ * stick.  A fall that is no slip of a pulled slider has no drop, duration and friction, and a stick
+ * beside it has no length.  Samples of a measured force are not independent, so the standard error
+ * of the slope counts only (1 - rho) / (1 + rho) of them, rho the correlation of neighbours about
+ * the line.
  *
  * A slope of a force over time is the stiffness that loads it, times the speed of the drive.  Where
  * there is a column of displacement, the slope against it is a stiffness by itself. */
@@ -59,7 +60,7 @@ fit(const double *y, const double *x, ss_window w)
     return l;
 }
 
-/* From sample i on, forwards or backwards and not beyond end, the last that is near the line. */
+/* The last sample near the line, from sample i on towards end. */
 static size_t
 follow(const double *y, const line *l, size_t i, size_t end)
 {
@@ -177,7 +178,7 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
     return (ss_median){ median, sqrt(M_PI / 2 / (double)used) * fmax(scatter, error), scatter };
 }
 
-/* Of one number of each loading, offset bytes from its start. */
+/* The median of one number of all loadings, which stands offset bytes behind their starts. */
 static ss_median
 median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
 {
@@ -229,9 +230,8 @@ leave_out_slips(fall *f, size_t n)
     }
 }
 
-/* The falls of x that the drops are.  Lines that still have parts of slips in them are too steep or too
- * flat, and so are the slips wrong that are fitted with them, but less:
- * three passes are enough. */
+/* The falls of x that the drops are.  A line that still has a part of a slip in it is too steep or
+ * too flat.  The slips fitted with such lines are wrong, too, but less: three passes are enough. */
 static ss_status
 find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_t n, ss_value *v,
            double *scratch)

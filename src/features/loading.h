@@ -4,7 +4,7 @@
 
 #include "features/search.h"
 
-/* The loadings before the n drops of x, which is the signal in s or its negative, into s->out, with
+/* Write the loadings before the n drops of x, which is the signal in s or its negative, into s->out, with
  * their medians. */
 ss_status ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n);
 

@@ -1,11 +1,11 @@
 /* maxima.c -- local maxima of |W| and how far they stand out.
  *
- * From every point a way leads to a higher neighbour, and so on up to a peak: all the points whose ways
- * end there are its basin.  Ways only rise, whichever they are, so the basins of two peaks join at the
- * highest point of their border, and the borders alone say what flooding the whole map from above would: they
- * are taken from the highest down, and where two pools meet, the one with the lower peak ends.  That
- * border is the highest saddle between this peak and any higher one: the prominence is the fall from
- * peak to saddle.
+ * From every point a way leads to a higher neighbour, and so on up to a peak: all the points whose
+ * ways end there are its basin.  Ways only rise, whichever they are, so the basins of two peaks
+ * join at the highest point of their border, and the borders alone say what flooding the whole map
+ * from above would: they are taken from the highest down, and where two pools meet, the one with
+ * the lower peak ends.  That border is the highest saddle between this peak and any higher one: the
+ * prominence is the fall from peak to saddle.
  *
  * The map is passed over strip by strip in time, so that only a strip of it is in memory: its points
  * and, of each row, HALO more at either side.  A way that leaves a strip ends in a peak of level -1,
@@ -91,7 +91,7 @@ scale_of(const map *m, size_t row)
     return &m->grid->scale[row];
 }
 
-/* The rows' points up to time t; their number. */
+/* Move all rows on to their points up to time t; returns the number of points. */
 static size_t
 next_strip(map *m, double t)
 {
@@ -123,7 +123,7 @@ make_room(map *m, size_t n)
     return m->room > 0 ? SS_OK : SS_ENOMEM;
 }
 
-/* Of the levels of a row, the largest ones; 0 where it is dry, and where the cone of influence is. */
+/* Note the largest levels of a row; then set those that are dry, or in the cone of influence, to 0. */
 static void
 dry_out(map *m, size_t row)
 {
@@ -165,8 +165,8 @@ fill(map *m)
 
 /* --- passing over a strip -------------------------------------------------------------------- */
 
-/* The point of a row nearest in time to point i of another, the first and the last beyond: its steps over
- * theirs are ratio. */
+/* The point of a row nearest in time to point i of another, the first and the last beyond: its
+ * steps over theirs are ratio. */
 static inline size_t
 nearest(size_t i, double ratio, const ss_scale *in)
 {
@@ -258,7 +258,8 @@ shorten(map *m, size_t at)
     }
 }
 
-/* The ends of ways in a row: its peaks, what the strip before has found, and what the next will find. */
+/* The ends of ways in a row: its peaks, those that the strip before has found, and those that the
+ * next will find. */
 static void
 find_ends(map *m, size_t row)
 {
@@ -283,7 +284,8 @@ find_ends(map *m, size_t row)
     }
 }
 
-/* All ways lead to their ends: the peaks of the strip before get their pools, and the next strip its ways. */
+/* All ways lead to their ends: the peaks of the strip before get their pools, and the next strip
+ * its ways. */
 static void
 close_ends(map *m, size_t row)
 {
@@ -377,7 +379,7 @@ find_borders(map *m)
     }
 }
 
-/* Strip by strip, of as many points as there is room for, about. */
+/* Pass over the map in strips of about STRIP points. */
 static ss_status
 survey(map *m)
 {

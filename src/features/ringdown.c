@@ -218,7 +218,7 @@ fit_with(fitter *k, const size_t *anchor, size_t n, double white, ss_window *win
     return st;
 }
 
-/* With either slow part; the one whose w is known better is kept. */
+/* Fit with either slow part, and keep the fit whose w is known better. */
 static ss_status
 fit_both(fitter *k, const size_t *anchor, size_t n, double white, ss_window *window,
          ss_value value[2], ss_value *each, double forcing)

@@ -164,7 +164,7 @@ fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale
     return SS_OK;
 }
 
-/* What computes the rows of an octave. */
+/* Prepare the rows of an octave. */
 static ss_status
 open_octave(row_source *source, double octave, ss_error *err)
 {

@@ -20,8 +20,8 @@ typedef struct row_source {
     double rounding;            /* rms of |W| that the rounding of the samples makes */
     const ss_span *gap;         /* in time order [s]: what stands there is not of the signal */
     size_t n_gaps;
-    /* what computes the rows of scales 2^octave s up to twice that, with margin samples before x; levels
-     * is NULL before there are any */
+    /* computes the rows of scales from 2^octave s up to twice that, from x with margin samples before
+     * it; levels is NULL before the first row */
     map_source rows;
     double octave;
     size_t margin;
@@ -44,9 +44,9 @@ typedef struct row {
                                    reach of gaps, in time order */
 } row;
 
-/* The row whose scale is nearest to the label f, of 2^(j / ROW_VOICES): cheaper where it is of the octave
- * of the row before.  Its noise is read where no
- * spike of loud is near, NULL for everywhere.  free(row->peak) when done. */
+/* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows of one octave should
+ * be asked for together, as they share spectra.  The noise is read where no spike of loud is near;
+ * NULL: everywhere.  r->peak is to be freed with free(). */
 ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
 

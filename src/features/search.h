@@ -56,8 +56,8 @@ ss_status ss_ringing_find(search *s, double prominence);
 /* The ringing behind the transitions in s->out, if there is any. */
 ss_status ss_ringing_behind(search *s);
 
-/* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and judge
- * it; singly: each by itself, as they need not be alike. */
+/* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and
+ * judge it; singly: each by itself, as they need not be alike. */
 ss_status ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly);
 
 #endif

@@ -5,10 +5,10 @@
  *
  *     s = f_k + D cos(w u) + (k U / w) sin(w u),    D = f_s - f_k, w = sqrt(k/m), q = D w / (k U),
  *
- * u after the onset, until s' is k U again, at u = 2 (pi - atan q) / w, where s = f_k - D.  This and
- * the loadings on either side are fitted to the samples by least squares: onset, f_s, f_k and w.  The
- * maximum of the samples is above f_s by noise and by the momentum of the drive, and what follows a line
- * to within the noise goes on into the slip; the fit has neither error.
+ * u after the onset, until s' is k U again, at u = 2 (pi - atan q) / w, where s = f_k - D.  This
+ * and the loadings on either side are fitted to the samples by least squares: onset, f_s, f_k and
+ * w.  The maximum of the samples is above f_s by noise and by the momentum of the drive, and what
+ * follows a line to within the noise goes on into the slip; the fit has neither error.
  *
  * What it leaves of measured slips is not white, so errors count only (1 - rho) / (1 + rho) of the
  * samples, rho the correlation of neighbours in what is left. */

@@ -60,8 +60,8 @@ step_column(const varpro_sums *sums, double c, double s, double of[VARPRO_COLUMN
         of[j] = c * sums->g[VARPRO_COS][j] + s * sums->g[VARPRO_SIN][j];
 }
 
-/* Add what a change of a window's gain, as the sums say, has to do with w, s and the residual: y is what
- * its columns are along the orthonormal ones, the last two of which the derivatives lie in. */
+/* Add the products of a change of a window's gain with w, s and the residual.  y is the change in the
+ * orthonormal columns; the derivatives lie in the last two of these. */
 static void
 add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
           const varpro_sums *twice, score *to)
@@ -91,7 +91,8 @@ add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
             to->h[p * PARAMETERS + q] += j[p][0] * j[q][0] + j[p][1] * j[q][1];
 }
 
-/* Add a window's at the places first, first + step, ..., at each once, or once a period from there. */
+/* Add the scores of a window at the places first, first + step, ...; again: the gain changes at the
+ * place and once a period behind it. */
 static void
 add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int again, score *to)
 {

@@ -47,8 +47,8 @@ ss_status ss_candidate_search(candidate *c, const cycle *goal, size_t starts, si
 ss_scene ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double period);
 /* The scene whose motion is size times that of s. */
 ss_scene ss_candidate_resized(const candidate *c, ss_scene s, double size);
-/* The distance of keys from the scene's own: the root mean square of the differences of their logarithms
- * and of the mass's, for the mass that minimises it. */
+/* The distance of keys from the scene's own: the root mean square of the differences of their
+ * logarithms and of the mass's, for the mass that minimises it. */
 double ss_candidate_distance(const candidate *c, const double key[CANDIDATE_KEYS]);
 /* The name of a key in scenes. */
 const char *ss_candidate_key_name(const candidate *c, size_t key);

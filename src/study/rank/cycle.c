@@ -107,8 +107,8 @@ ss_cycle_period(const double *x, const char *missing, size_t n, double rate, dou
     return best;
 }
 
-/* A signal that repeats after a period does so after two and three of them: if nearly all of its power is
- * left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
+/* A signal that repeats after a period does so after two and three of them: if nearly all of its
+ * power is left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
 static double
 shortest(const double *x, const char *missing, size_t n, double rate, double period)
 {

@@ -25,14 +25,14 @@ ss_status ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n
 /* The period within 1 % of the given one at which most power repeats. */
 double ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period);
 
-/* The cycle of a signal whose values are finite, at the given frequency [Hz], or at the one found if that
- * is 0.  If no cycle is significant, c->period is 0 and why (of the given size) states the reason.
- * SS_STOP if progress asks for it. */
+/* The cycle of a signal whose values are finite, at the given frequency [Hz], or at the one found
+ * if that is 0.  If no cycle is significant, c->period is 0 and why (of the given size) states the
+ * reason.  SS_STOP if progress asks for it. */
 ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing,
                         size_t n, double rate, double frequency, const ss_stretch *progress);
 
-/* The mean square of c less *a times m shifted by *shift cycles, for the best *a >= 0 and *shift.  m has
- * c's n bins. */
+/* The mean square of c less *a times m shifted by *shift cycles, for the best *a >= 0 and *shift.
+ * m has c's n bins. */
 double ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift);
 
 #endif

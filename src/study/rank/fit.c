@@ -103,8 +103,8 @@ search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stret
     return st;
 }
 
-/* The part of the matches that is done before the one of start i: the first takes the longest, as others
- * often take it over. */
+/* The part of the matches' work before the match of start i.  The first match takes the longest, as
+ * others often are taken over from it. */
 static double
 part_before(size_t i, size_t n)
 {

@@ -1,10 +1,10 @@
 /* match.c -- fit a scene to a record, sample by sample.
  *
  * The mean cycle finds the right motion (candidate.c), but a record is seldom settled to the last
- * digit, and the rest of the transient would shift the parameters or seem an error of the model.  So the
- * motion is fitted to the record itself, from a start of its own: position and velocity within a slip,
- * half a cycle or more before the record.  There they are the whole state, or the rest of the state has
- * died out when the record begins.
+ * digit, and the rest of the transient would shift the parameters or seem an error of the model.
+ * So the motion is fitted to the record itself, from a start of its own: position and velocity
+ * within a slip, half a cycle or more before the record.  There they are the whole state, or the
+ * rest of the state has died out when the record begins.
  *
  * Size and offset are linear and follow from the rest in closed form; the other unknowns are found
  * by least squares (Levenberg 1944, Marquardt 1963).  When a parameter moves an event across a sample,
@@ -14,8 +14,8 @@
  * problem.  The weights reach 1 after many samples first, then after fewer and fewer.  In the end some
  * two samples an event are lost, of hundreds a cycle, with their information on the event's time.
  *
- * A fit that explains a record leaves white noise.  Half the mean square difference of the residual over
- * any lag is the variance of that noise if it is white, and less at some lag if it is not. */
+ * A fit that explains a record leaves white noise.  Half the mean square difference of the residual
+ * over any lag is the variance of that noise if it is white, and less at some lag if it is not. */
 #include "study/rank/match.h"
 
 #include <math.h>
@@ -165,7 +165,8 @@ stand_at(matching *w, const point *at)
 /* --- least squares ------------------------------------------------------------------------- */
 
 /* The step of an unknown for the differences that give slopes: as small as a method of simulation
- * resolves, but wider for the start while weights are wide, as the motion can change unevenly with it. */
+ * resolves, but wider for the start while weights are wide, as the motion can change unevenly with
+ * it. */
 static double
 step_of(const matching *w, size_t j)
 {
@@ -332,8 +333,8 @@ begin_at_rest(matching *w, const candidate_start *start, double period, point *a
     at->p[MATCH_PHASE] = 2 * M_PI * (w->r->from / period - start->shift + cycles / 2);
 }
 
-/* Does the record depend on the start?  A change by less than MATCH_QUIET of the power for a whole unit of
- * the start does not count. */
+/* Does the record depend on the start?  A change by less than MATCH_QUIET of the power for a whole
+ * unit of the start does not count. */
 static int
 remembers(matching *w, const point *at, double power)
 {
@@ -349,9 +350,9 @@ remembers(matching *w, const point *at, double power)
     return squares > MATCH_QUIET * power;
 }
 
-/* Free the start of the motion, `cycles` cycles before the record or up to half a cycle later: it is moved
- * to the fastest slip if x and v are the whole state there.  0 if the motion does not slip, or if the
- * record does not depend on the start. */
+/* Free the start of the motion, `cycles` cycles before the record or up to half a cycle later: it
+ * is moved to the fastest slip if x and v are the whole state there.  0 if the motion does not
+ * slip, or if the record does not depend on the start. */
 static int
 free_start(matching *w, double cycles, point *at, double power)
 {
@@ -481,9 +482,9 @@ take_over(match *m, const match *others, size_t n)
     return 0;
 }
 
-/* Fit the settled motion first, then motions from any start if they leave less.  The record hardly depends
- * on a start three cycles before it, so that the residual changes slowly with that start.  For a start one
- * cycle before it, descents end too early unless they begin near the solution. */
+/* Fit the settled motion first, then motions from any start if they leave less.  The record hardly
+ * depends on a start three cycles before it, so that the residual changes slowly with that start.
+ * For a start one cycle before it, descents end too early unless they begin near the solution. */
 static void
 solve(matching *w, point *at, double misfit, const match *others, size_t n_others, match *m)
 {

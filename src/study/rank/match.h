@@ -45,10 +45,10 @@ typedef struct match {
     double covariance[MATCH_UNKNOWNS][MATCH_UNKNOWNS];  /* for noise of variance 1; NaN: no fit */
 } match;
 
-/* Fit the scene of one start of a candidate, its keys within their ranges, to a record.  If the scene
- * does not slip, cannot be run, or the candidate's budget is used up, the residual is the record.  If its
- * settled motion is that of one of the n matches of other starts, it is that match.  SS_STOP if the
- * progress function stops it. */
+/* Fit the scene of one start of a candidate, its keys within their ranges, to a record.  If the
+ * scene does not slip, cannot be run, or the candidate's budget is used up, the residual is the
+ * record.  If its settled motion is that of one of the n matches of other starts, it is that
+ * match.  SS_STOP if the progress function stops it. */
 ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, double period,
                         const rank_record *record, const match *others, size_t n_others,
                         const ss_stretch *progress);

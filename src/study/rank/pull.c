@@ -6,8 +6,9 @@
  * the slope k U.  The scene has the medians.  Its stiffness is that given: the force says k U and k/m
  * only, so that mass and speed follow from it, to be held against those given.
  *
- * In a ranking a scene stands for all rigs within the spread of its parameters.  Of these m, k and U are
- * moved by the least that gives the k U and k/m of the slips; the frictions are those of the slips. */
+ * In a ranking a scene stands for all rigs within the spread of its parameters.  Of these m, k and
+ * U are moved by the least that gives the k U and k/m of the slips; the frictions are those of the
+ * slips. */
 #include "study/rank/pull.h"
 
 #include <math.h>
@@ -154,8 +155,8 @@ enum { ADJUSTED = 5 };          /* k, m, U, f_k, f_s */
 static const char *const adjusted_name[ADJUSTED] = { "stiffness", "mass", "base_velocity", "friction",
                                                      "static_friction" };
 
-/* The changes of a scene's parameters, as logarithms, that give the medians of the slips: of k, m and U those
- * with the least sum of squares that give k/m and k U. */
+/* The changes of a scene's parameters, as logarithms, that give the medians of the slips: of k, m
+ * and U those with the least sum of squares that give k/m and k U. */
 static void
 find_changes(const ss_scene *own, const ss_features *f, double change[ADJUSTED])
 {

@@ -56,7 +56,7 @@ ss_record_power(const rank_record *r)
     return sum / fmax(n, 1);
 }
 
-/* Of n numbers as Gaussian ones have it: by the median of their sizes. */
+/* The variance of n numbers, by the median of their sizes, as if they were Gaussian. */
 static double
 gaussian_variance(double *d, size_t n)
 {
