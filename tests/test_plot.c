@@ -176,6 +176,7 @@ long_labels_have_two_lines_and_smaller_letters(void **state)
         { "napkip", "kip", "napkip / kip", 0 },
         { "_kip", "kip", "_kip / kip", 0 },
         { "a", "m/s", "a / (m/s)", 0 },
+        { "v", "(m/s)^2/Hz", "v / \\133(m/s)\\302\\262/Hz\\135", 0 },
         { "displacementofthemass", "", "displacementofthemass", 1 },
     };
     (void)state;

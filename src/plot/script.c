@@ -200,18 +200,19 @@ text_width(const char *text, size_t n)
     return width;
 }
 
-/* The unit of a label, with its power of ten. */
+/* The unit of a label, with its power of ten; square brackets go round round ones. */
 static void
 add_scale(script_label *l, const char *unit, int exponent, int brackets)
 {
-    add(l, brackets ? "(" : "");
+    int square = strchr(unit, '(') != NULL;
+    add(l, !brackets ? "" : square ? "[" : "(");
     if (exponent != 0) {
         add(l, "10");
         add_superscript(l, exponent);
         add(l, unit[0] != '\0' ? " " : "");
     }
     add_unit(l, unit);
-    add(l, brackets ? ")" : "");
+    add(l, !brackets ? "" : square ? "]" : ")");
 }
 
 /* The length of a column's name without the unit at its end: "slip_mm_s" of mm/s, "accel_g" of g. */
