@@ -166,7 +166,7 @@ kind_hint(ss_kind found, ss_kind wanted)
         [SS_KIND_SWEEP] = "; ss-plot --map reads it",
         [SS_KIND_TRADE] = "; ss-trade -o FILE.png draws one",
         [SS_KIND_SCENE] = "; ss-sim makes a signal of it",
-        [SS_KIND_TABLE] = "; ss-cat, ss-morlet, ss-features and ss-plot read a signal in it",
+        [SS_KIND_TABLE] = "; ss-cat, ss-morlet, ss-contour, ss-features and ss-plot read a signal in it",
         [SS_KIND_AU] = "; ss-cat, ss-morlet and ss-contour read it",
         [SS_KIND_HDF5] = "; ss-cat, ss-morlet and ss-contour read it",
     };
