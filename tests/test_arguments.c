@@ -60,6 +60,10 @@ readers_refuse_null(void **state)
     assert_refused(ss_signal_read(&signal, NULL, "in", NULL, &e), &e);
     assert_refused(ss_coefficients_read(NULL, in, "in", &e), &e);
     assert_refused(ss_coefficients_read(&c, NULL, "in", &e), &e);
+    assert_refused(ss_store_signal_reader(NULL, "x.h5", NULL, NULL, &e), &e);
+    assert_refused(ss_store_signal_reader(&reader, NULL, NULL, NULL, &e), &e);
+    assert_refused(ss_reader_load(NULL, "x", NULL, &e), &e);
+    assert_refused(ss_reader_load(&reader, NULL, NULL, &e), &e);
     assert_refused(ss_store_read_signal(NULL, "x.h5", NULL, NULL, &e), &e);
     assert_refused(ss_store_read_signal(&signal, NULL, NULL, NULL, &e), &e);
     assert_refused(ss_store_read_coefficients(NULL, "x.h5", &e), &e);

@@ -406,6 +406,42 @@ as_many_columns_are_attached_to_t_as_its_header_can_list(void **state)
     assert_false(write_columns(4001));
 }
 
+/* Chunks of one length (a whole signal), of another (one that grew), and none. */
+static void
+rows_are_those_of_the_whole_signal(void **state)
+{
+    static const size_t length[] = { 0, 1, 100, 200000 };
+    ss_signal *small = new_signal(500);
+    ss_coefficients *c = transform(small, 0);
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        int grew = i == 4;
+        size_t n = grew ? small->n : length[i], done = 0, got;
+        ss_signal *signal = new_signal(n);
+        ss_reader *reader = NULL;
+        ss_error err = { 0 };
+        double x[3 * 1000];
+        if (!grew)
+            write_ok(&(ss_record){ .signal = signal });
+        else
+            assert_int_equal(write_pieces(small, c, 0, &err), SS_OK);
+        if (ss_reader_load(&reader, path, NULL, &err) != SS_OK)
+            fail_msg("%s", err.text);
+        assert_string_equal(ss_reader_header(reader)->column[2].name, "t");
+        do {
+            assert_int_equal(ss_reader_rows(reader, x, draw(1000), &got, &err), SS_OK);
+            for (size_t k = 0; k < 3 * got; k++)
+                assert_same_bits(&x[k], &signal->values[k % 3 * n + done + k / 3], 1);
+            done += got;
+        } while (got > 0);
+        assert_int_equal(done, n);
+        ss_reader_free(reader);
+        ss_signal_free(signal);
+    }
+    ss_coefficients_free(c);
+    ss_signal_free(small);
+}
+
 int
 main(void)
 {
@@ -421,6 +457,7 @@ main(void)
         cmocka_unit_test(the_same_record_gives_the_same_bytes_a_second_later),
         cmocka_unit_test(only_large_datasets_are_compressed),
         cmocka_unit_test(as_many_columns_are_attached_to_t_as_its_header_can_list),
+        cmocka_unit_test(rows_are_those_of_the_whole_signal),
     };
     return cmocka_run_group_tests_name("store", tests, make_dir, remove_dir);
 }

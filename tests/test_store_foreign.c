@@ -32,6 +32,134 @@ arrays_of_others_are_read_by_their_path(void **state)
     }
 }
 
+/* Value c of row i. */
+static double
+value_at(size_t i, size_t c)
+{
+    return ldexp((double)(i * 7919 % 10007), -3) - (double)c;
+}
+
+/* An array of rows x columns of 32-bit floats, rows along the dimension `along`, in chunks of these rows
+ * and columns (0: not in chunks). */
+static void
+write_array(size_t rows, size_t columns, int along, hsize_t chunk_rows, hsize_t chunk_columns)
+{
+    hsize_t dims[2], chunk[2];
+    double *x = malloc(rows * columns * sizeof *x);
+    dims[along] = rows;
+    dims[1 - along] = columns;
+    chunk[along] = chunk_rows;
+    chunk[1 - along] = chunk_columns;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t c = 0; c < columns; c++)
+            x[along == 0 ? i * columns + c : c * rows + i] = value_at(i, c);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(2, dims, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
+    if (chunk_rows > 0) {
+        H5Pset_chunk(how, 2, chunk);
+        H5Pset_deflate(how, 1);
+    }
+    hid_t id = H5Dcreate2(file, "x", H5T_IEEE_F32LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x) >= 0);
+    H5Dclose(id);
+    H5Pclose(how);
+    H5Sclose(space);
+    H5Fclose(file);
+    free(x);
+}
+
+/* Rows of the array in portions of any size, from a time on. */
+static void
+assert_rows(size_t rows, size_t columns, double from)
+{
+    enum { MOST = 5000 };
+    const ss_read_opts opts = { .rate = 1, .from = from, .to = from > 0 ? 1e9 : 0 };
+    ss_reader *reader = NULL;
+    ss_error err = { 0 };
+    size_t n, i = (size_t)from;
+    double *x = malloc(MOST * columns * sizeof *x);
+    if (ss_store_signal_reader(&reader, path, "/x", &opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    assert_true(ss_reader_header(reader)->start == from);
+    assert_int_equal(ss_reader_waits(reader), 0);
+    do {
+        assert_int_equal(ss_reader_rows(reader, x, draw(MOST), &n, &err), SS_OK);
+        for (size_t k = 0; k < n; k++, i++)
+            for (size_t c = 0; c < columns; c++)
+                assert_true(x[k * columns + c] == value_at(i, c));
+    } while (n > 0);
+    assert_int_equal(i, rows);
+    ss_reader_free(reader);
+    free(x);
+}
+
+/* Chunks that divide a piece and that do not, that are longer than one, and that split columns. */
+static void
+rows_in_pieces_are_those_of_the_array(void **state)
+{
+    static const struct { size_t rows, columns; hsize_t chunk_rows, chunk_columns; } row[] = {
+        { 300001, 3, 0, 0 }, { 300001, 3, 1000, 2 }, { 300001, 3, 200000, 1 }, { 600000, 1, 65536, 1 },
+        { 700, 600, 11, 7 }, { 1, 1, 0, 0 },
+    };
+    const ss_read_opts opts = { .rate = 1 }, filled = { .rate = 1, .gaps = SS_GAPS_SPLIT };
+    (void)state;
+    for (size_t r = 0; r < sizeof row / sizeof *row; r++)
+        for (int along = 0; along < 2; along++) {
+            size_t rows = row[r].rows, columns = row[r].columns;
+            ss_signal *all = NULL, *same = NULL;
+            write_array(rows, columns, along, row[r].chunk_rows, row[r].chunk_columns);
+            assert_rows(rows, columns, 0);
+            if (rows > 500)
+                assert_rows(rows, columns, 500);
+            assert_int_equal(ss_store_read_signal(&all, path, "/x", &opts, NULL), SS_OK);
+            assert_int_equal(all->n, rows);
+            for (size_t i = 0; i < rows; i++)
+                for (size_t c = 0; c < columns; c++)
+                    assert_true(all->values[c * rows + i] == value_at(i, c));
+            assert_int_equal(ss_store_read_signal(&same, path, "/x", &filled, NULL), SS_OK);
+            assert_same_bits(same->values, all->values, rows * columns);
+            ss_signal_free(all);
+            ss_signal_free(same);
+        }
+}
+
+/* Of a value that is not finite in the third piece, the rows before are there. */
+static void
+a_bad_value_is_found_where_it_stands(void **state)
+{
+    const ss_read_opts opts = { .rate = 1 }, filled = { .rate = 1, .gaps = SS_GAPS_SPLIT };
+    const hsize_t at = 600000, one = 1, n = 700000;
+    const double bad = NAN;
+    ss_reader *reader = NULL;
+    ss_signal *signal = NULL;
+    ss_error err = { 0 };
+    double x[1000];
+    size_t done = 0, got = 1;
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &n, NULL), memory = H5Screate_simple(1, &one, NULL);
+    hid_t id = H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, &at, NULL, &one, NULL);
+    assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &bad) >= 0);
+    H5Dclose(id);
+    H5Sclose(memory);
+    H5Sclose(space);
+    H5Fclose(file);
+    assert_int_equal(ss_store_signal_reader(&reader, path, "/x", &opts, &err), SS_OK);
+    ss_status st = SS_OK;
+    while (got > 0 && (st = ss_reader_rows(reader, x, 1000, &got, &err)) == SS_OK)
+        done += got;
+    assert_int_equal(st, SS_EDATA);
+    assert_string_equal(err.text + strlen(path), ":/x: value 600001 is not finite");
+    assert_true(done > 300000 && done <= 600000);
+    ss_reader_free(reader);
+    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+    assert_null(signal);
+    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &filled, &err), SS_OK);
+    assert_string_equal(ss_header_find_note(signal->head, "gaps"), "600000:600001");
+    ss_signal_free(signal);
+}
+
 static void
 a_dataset_of_our_own_brings_its_clock(void **state)
 {
@@ -154,6 +282,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(arrays_of_others_are_read_by_their_path),
+        cmocka_unit_test(rows_in_pieces_are_those_of_the_array),
+        cmocka_unit_test(a_bad_value_is_found_where_it_stands),
         cmocka_unit_test(a_dataset_of_our_own_brings_its_clock),
         cmocka_unit_test(what_cannot_be_read_is_refused_in_clear_words),
         cmocka_unit_test(a_file_without_coefficients_says_so),

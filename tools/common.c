@@ -272,6 +272,18 @@ resampled(ss_signal *signal, const char *path, double rate)
     return other;
 }
 
+ss_reader *
+tool_read_rows(const char *path, const ss_read_opts *opts)
+{
+    ss_reader *reader = NULL;
+    ss_error err = { 0 };
+    if (strcmp(tool_reads(path), "-") == 0)
+        tool_check(ss_reader_new(&reader, stdin, "<stdin>", opts, &err), &err);
+    else
+        tool_check(ss_reader_load(&reader, path, opts, &err), &err);
+    return reader;
+}
+
 ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {

@@ -55,6 +55,8 @@ const char *tool_reads(const char *path);
 void tool_writes(const char *path);
 /* Open for reading, or die; "-" is stdin. */
 FILE *tool_open(const char *path);
+/* Begin to read a signal from "-", a file or HDF5 (with ":/dataset") row by row, or die. */
+ss_reader *tool_read_rows(const char *path, const ss_read_opts *opts);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read coefficients from "-", a file or HDF5, or die. */
@@ -65,7 +67,7 @@ ss_scene tool_read_scene(const char *path, const tool_texts *settings);
 /* The name by which it is known, without its directories, and what was changed in its physics; to be
  * freed. */
 char *tool_name_scene(const char *path, const tool_texts *settings);
-/* 1 if path holds HDF5 or names a dataset in it, which cannot be read row by row, else 0. */
+/* 1 if path holds HDF5 or names a dataset in it, else 0. */
 int tool_is_hdf5(const char *path);
 /* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
 void tool_list(char *list, size_t size, const char *word);

@@ -45,8 +45,9 @@ FORWARD(ss_store_writer_rows,
          size_t samples, ss_error *err),
         (writer, scale, first, n, w, samples, err))
 FORWARD(ss_store_writer_end, (ss_store_writer *writer, size_t samples, ss_error *err), (writer, samples, err))
-FORWARD(ss_store_read_signal,
-        (ss_signal **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err),
+FORWARD(ss_store_signal_reader,
+        (ss_reader **out, const char *path, const char *dataset, const ss_read_opts *opts,
+         ss_error *err),
         (out, path, dataset, opts, err))
 FORWARD(ss_store_read_coefficients, (ss_coefficients **out, const char *path, ss_error *err), (out, path, err))
 FORWARD(ss_store_reader_new, (ss_store_reader **out, const char *path, ss_error *err), (out, path, err))

@@ -53,7 +53,7 @@ choose_columns(const ss_header *head, size_t *n)
     return column;
 }
 
-/* The columns asked for of a whole signal: HDF5 is not read or written piece by piece. */
+/* The columns asked for of a whole signal: HDF5 is not written piece by piece. */
 static void
 copy_whole(tool_kind kind, const ss_read_opts *opts)
 {
@@ -71,13 +71,11 @@ copy_whole(tool_kind kind, const ss_read_opts *opts)
 static void
 copy_stream(tool_kind kind, const ss_read_opts *opts)
 {
-    ss_reader *reader;
+    ss_reader *reader = tool_read_rows(path, opts);
     ss_writer *writer;
     ss_header *chosen;
     ss_error err = { 0 };
     size_t n, got;
-    FILE *in = tool_open(path);
-    tool_check(ss_reader_new(&reader, in, tool_input_name(path), opts, &err), &err);
     const ss_header *head = ss_reader_header(reader);
     size_t *column = choose_columns(head, &n), all = head->n_columns;
     double *rows = malloc(PIECE * all * sizeof *rows), *part = malloc(PIECE * n * sizeof *part);
@@ -116,7 +114,7 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
-    if (kind == TOOL_H5 || tool_is_hdf5(path) || reading.opts.resample > 0)
+    if (kind == TOOL_H5 || reading.opts.resample > 0)
         copy_whole(kind, &reading.opts);
     else
         copy_stream(kind, &reading.opts);

@@ -383,9 +383,7 @@ static void
 transform_stream(const request *req, const char *path)
 {
     flow f = { .text = NULL };
-    ss_error err = { 0 };
-    ss_reader *reader;
-    if (tool_is_hdf5(path) || req->reading.opts.resample > 0) {     /* not read row by row */
+    if (req->reading.opts.resample > 0) {       /* not read row by row */
         ss_signal *signal = tool_read_signal(path, &req->reading.opts);
         size_t column = tool_column(signal->head, path, req->column);
         open_flow(&f, req, signal->head, column, path);
@@ -395,16 +393,13 @@ transform_stream(const request *req, const char *path)
         ss_signal_free(signal);
         return;
     }
-    FILE *in = tool_open(path);
-    tool_check(ss_reader_new(&reader, in, tool_input_name(path), &req->reading.opts, &err), &err);
+    ss_reader *reader = tool_read_rows(path, &req->reading.opts);
     size_t column = tool_column(ss_reader_header(reader), path, req->column);
     tool_end_at_rows(req->output);
     open_flow(&f, req, ss_reader_header(reader), column, path);
     follow(&f, reader, column, req, path);
     close_flow(&f, path);
     ss_reader_free(reader);
-    if (in != stdin)
-        fclose(in);
 }
 
 int

@@ -143,13 +143,11 @@ change_whole(tool_kind kind, ss_noise *noise)
 static void
 change_stream(tool_kind kind, ss_noise *noise)
 {
-    ss_reader *reader;
+    ss_reader *reader = tool_read_rows(path, &reading.opts);
     ss_writer *writer;
     ss_error err = { 0 };
     size_t n;
     char text[128];
-    FILE *in = tool_open(path), *out;
-    tool_check(ss_reader_new(&reader, in, tool_input_name(path), &reading.opts, &err), &err);
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     double *rows = head != NULL ? malloc(PIECE * head->n_columns * sizeof *rows) : NULL;
     if (rows == NULL)
@@ -158,16 +156,17 @@ change_stream(tool_kind kind, ss_noise *noise)
     for (size_t c = 0; c < head->n_columns; c++)
         level[c] *= isnan(rms) ? 0 : rms;
     add_notes(head);
-    out = tool_output(output);
+    FILE *out = tool_output(output);
     tool_check(ss_writer_new(&writer, out, tool_stream(kind), head, &err), &err);
     for (;;) {
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         if (n == 0)
             break;
         tool_check(ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level), NULL);
-        for (size_t i = 0; i < n * head->n_columns && bits > 0; i++)
+        size_t step = head->n_columns == 1 ? n : 1;     /* values of one column, side by side */
+        for (size_t i = 0; i < n * head->n_columns && bits > 0; i += step)
             if (chosen[i % head->n_columns] == 1)
-                convert(&rows[i], 1);
+                convert(&rows[i], step);
         tool_check(ss_writer_rows(writer, rows, n), NULL);
         tool_check(ss_writer_flush(writer), NULL);
     }
@@ -215,7 +214,7 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
-    if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0 || kind == TOOL_H5 || tool_is_hdf5(path))
+    if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0 || kind == TOOL_H5)
         change_whole(kind, noise);
     else
         change_stream(kind, noise);

@@ -9,7 +9,10 @@
 SS_BEGIN_DECLARATIONS
 
 /* Open path, with any contents: a stream, delimited text, HDF5, or HDF5 followed by
- * ":/path/to/dataset". */
+ * ":/path/to/dataset".  The reader closes what it has opened. */
+ss_status ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err);
+
+/* All rows of it. */
 ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts,
                          ss_error *err);
 

@@ -58,9 +58,13 @@ int ss_store_is_hdf5(const char *path);
 /* 1 if the file is HDF5 with a /signal in it, damaged or not. */
 int ss_store_has_signal(const char *path);
 
-/* Read /signal of one of our files (dataset NULL or ""), or any 1-D or 2-D real dataset by its
+/* Begin to read /signal of one of our files (dataset NULL or ""), or any 1-D or 2-D real dataset by its
  * path (columns are the shorter dimension), MATLAB v7.3 among them; its clock from opts->rate.
- * /signal has a clock of its own: SS_EDATA if opts ask for another. */
+ * /signal has a clock of its own: SS_EDATA if opts ask for another.  Rows are read chunk by chunk, in
+ * memory that does not grow with their number, but all at once where gaps are to be filled. */
+ss_status ss_store_signal_reader(ss_reader **out, const char *path, const char *dataset,
+                                 const ss_read_opts *opts, ss_error *err);
+/* All rows of it. */
 ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
                                const ss_read_opts *opts, ss_error *err);
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);

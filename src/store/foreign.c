@@ -3,14 +3,13 @@
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
  * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
  * or its group, which our own files have. */
-#include "store/h5.h"
+#include "store/groups.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "signal/gaps.h"
 #include "signal/header.h"
 #include "stream/clock.h"
 
@@ -106,7 +105,7 @@ ss_h5_fail_listing(h5_file *file)
                    file->path, file->path, list.text);
 }
 
-/* --- reading ------------------------------------------------------------------------------- */
+/* --- one dataset --------------------------------------------------------------------------- */
 
 /* Rate and start: the caller's, else those noted at the dataset or its group. */
 static ss_status
@@ -164,61 +163,28 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
     return status;
 }
 
-static ss_status
-read_array(h5_file *file, hid_t id, const char *dataset, const array *shape, int gaps,
-           double *values)
-{
-    size_t n = shape->rows * shape->columns;
-    double *raw = malloc(n * sizeof *raw);
-    if (raw == NULL)
-        return SS_ENOMEM;
-    ss_status status = SS_OK;
-    if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw) < 0)
-        status = ss_h5_fail(file, SS_EIO, 0, dataset, "cannot be read");
-    for (size_t i = 0; status == SS_OK && i < n; i++) {
-        size_t row = shape->transposed ? i % shape->rows : i / shape->columns;
-        size_t column = shape->transposed ? i / shape->rows : i % shape->columns;
-        values[column * shape->rows + row] = raw[i];
-        if (!isfinite(raw[i]) && gaps)
-            values[column * shape->rows + row] = NAN;
-        else if (!isfinite(raw[i])) {
-            char text[64];
-            snprintf(text, sizeof text, "value %zu is not finite", i + 1);
-            status = ss_h5_fail(file, SS_EDATA, 0, dataset, text);
-        }
-    }
-    free(raw);
-    return status;
-}
-
 ss_status
-ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset, const ss_read_opts *opts)
+ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss_read_opts *opts)
 {
-    array shape;
-    double rate = opts != NULL ? opts->rate : 0;
-    int gaps = opts != NULL && opts->gaps != SS_GAPS_REFUSE;
-    ss_header *head = NULL;
-    hid_t id = ss_h5_open_dataset(file->id, dataset);
+    array shape = { .rows = 0 };
+    h5_file *file = &s->file;
+    hid_t id = ss_h5_open_pieces(file->id, dataset);
+    s->dataset = malloc(sizeof *s->dataset);
+    if (s->dataset == NULL)
+        return SS_ENOMEM;
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
     const char *wrong;
     ss_status status = check_type(file, id, &wrong);
     if (status == SS_OK)
         wrong = get_shape(id, &shape);
-    if (status == SS_OK && wrong == NULL && opts != NULL && opts->time != NULL)
+    if (status == SS_OK && wrong == NULL && opts->time != NULL)
         wrong = "an array has no column of time to choose, only a rate";
     if (wrong != NULL)
         status = ss_h5_fail(file, SS_EDATA, 0, dataset, wrong);
-    if (status == SS_OK)
-        status = make_header(file, id, dataset, &shape, rate, &head);
-    if (status == SS_OK)
-        status = ss_signal_new(out, head, shape.rows);
-    if (status == SS_OK)
-        status = read_array(file, id, dataset, &shape, gaps, (*out)->values);
-    if (status == SS_OK && gaps)
-        status = ss_fill_gaps((*out)->values, shape.rows, 1, shape.rows, (*out)->head, opts->gaps,
-                              dataset, file->err);
-    ss_header_free(head);
-    H5Dclose(id);
-    return status;
+    s->dataset[s->n_datasets++] = id;
+    s->n = shape.rows;
+    s->by_columns = shape.transposed;
+    s->gaps = opts->gaps != SS_GAPS_REFUSE;
+    return status == SS_OK ? make_header(file, id, dataset, &shape, opts->rate, head) : status;
 }

@@ -4,6 +4,7 @@
 
 #include "store/h5.h"
 #include "store/h5_write.h"
+#include "stream/reader.h"
 
 /* /signal (signal_writer.c, signal_reader.c).  The samples come in pieces; the datasets stay open. */
 typedef struct signal_writer {
@@ -20,9 +21,27 @@ ss_status ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_he
 ss_status ss_signal_writer_append(signal_writer *w, const double *x, size_t n, size_t row,
                                   size_t column);
 
-/* As ss_store_read_signal, for an open file.  On failure *out may hold a part of the signal. */
-ss_status ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset,
+/* The rows of /signal (signal_reader.c), or of an array of another program (foreign.c), which are read
+ * in pieces (signal_rows.c). */
+typedef struct signal_rows {
+    h5_file file;
+    char *path;                 /* of the file */
+    hid_t *dataset;             /* one for all columns, or one for each */
+    size_t n_datasets, n, row;  /* n: rows; row: of these, the next to be read */
+    int by_columns;             /* what is read at a time from a dataset is column after column */
+    int gaps;                   /* values that are not finite are missing, not wrong */
+    size_t piece;               /* rows that are read at a time */
+    double *raw;                /* a piece of a dataset, if by columns */
+} signal_rows;
+
+/* Begin to read a signal of an open file, as ss_store_signal_reader does, but for ss_reader_adjust.  The
+ * file is the reader's from here on, also after a failure. */
+ss_status ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *dataset,
                             const ss_read_opts *opts);
+/* Find the datasets, their shape and the header; datasets stay open. */
+ss_status ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts);
+ss_status ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset,
+                           const ss_read_opts *opts);
 
 /* /events (events_writer.c). */
 ss_status ss_h5_write_events(h5_file *file, const ss_event *event, size_t n);

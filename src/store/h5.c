@@ -83,6 +83,16 @@ ss_h5_open_dataset(hid_t group, const char *name)
 }
 
 hid_t
+ss_h5_open_pieces(hid_t group, const char *name)
+{
+    hid_t access = inside_only(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(access, 0, 0, 0);
+    hid_t id = H5Dopen2(group, name, access);
+    H5Pclose(access);
+    return id;
+}
+
+hid_t
 ss_h5_open_group(hid_t group, const char *name)
 {
     hid_t access = inside_only(H5P_GROUP_ACCESS);

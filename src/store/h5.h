@@ -44,6 +44,8 @@ hid_t ss_h5_disk_access(h5_disk *disk);
 /* Objects by their path, links out of the file not followed; < 0 if there is none. */
 hid_t ss_h5_open_dataset(hid_t group, const char *name);
 hid_t ss_h5_open_group(hid_t group, const char *name);
+/* A dataset of which whole chunks are read, so that none is kept in memory. */
+hid_t ss_h5_open_pieces(hid_t group, const char *name);
 /* The reason why the values of a dataset must not be read, or NULL: they are not plain real numbers of
  * this file, or more than the file can hold. */
 const char *ss_h5_refuse_values(hid_t dataset);
@@ -51,6 +53,15 @@ const char *ss_h5_refuse_values(hid_t dataset);
 /* Load no plugin from here on, for any filter of a file; returns the value that restores it. */
 unsigned ss_h5_forbid_plugins(void);
 void ss_h5_restore_plugins(unsigned mask);
+
+/* HDF5 without its messages, and without the plugins that a file may name. */
+#define QUIETLY(work) do { \
+        H5E_BEGIN_TRY { \
+            unsigned plugins = ss_h5_forbid_plugins(); \
+            work \
+            ss_h5_restore_plugins(plugins); \
+        } H5E_END_TRY \
+    } while (0)
 
 /* A required attribute of a group, lo <= value <= hi. */
 ss_status ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
@@ -73,9 +84,6 @@ ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *
  * notes of the file. */
 ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
 
-/* The dataset at a path, from any program (foreign.c). */
-ss_status ss_h5_read_foreign(ss_signal **out, h5_file *file, const char *dataset,
-                             const ss_read_opts *opts);
 /* Fail with the list of datasets that the file has. */
 ss_status ss_h5_fail_listing(h5_file *file);
 

@@ -11,15 +11,6 @@ struct ss_store_reader {
     wavelet_reader wavelet;
 };
 
-/* HDF5 without its messages, and without the plugins that a file may name. */
-#define QUIETLY(work) do { \
-        H5E_BEGIN_TRY { \
-            unsigned plugins = ss_h5_forbid_plugins(); \
-            work \
-            ss_h5_restore_plugins(plugins); \
-        } H5E_END_TRY \
-    } while (0)
-
 /* --- public -------------------------------------------------------------------------------- */
 
 static ss_status
@@ -47,24 +38,45 @@ ss_store_has_signal(const char *path)
 }
 
 ss_status
+ss_store_signal_reader(ss_reader **out, const char *path, const char *dataset,
+                       const ss_read_opts *opts, ss_error *err)
+{
+    static const ss_read_opts no_opts;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    h5_file file = { .id = -1, .path = path, .err = err };
+    ss_reader *reader = calloc(1, sizeof *reader);
+    ss_status status = reader != NULL ? SS_OK : SS_ENOMEM;
+    opts = opts != NULL ? opts : &no_opts;
+    QUIETLY(
+        if (status == SS_OK)
+            status = ss_h5_open(&file);
+        if (status == SS_OK)
+            status = ss_h5_open_signal(reader, &file, dataset, opts);
+    );
+    if (status == SS_ENOMEM)
+        ss_fail(err, status, "%s: %s", path, ss_strerror(status));
+    if (status == SS_OK)
+        status = ss_reader_adjust(reader, opts, err);
+    if (status == SS_OK)
+        *out = reader;
+    else
+        ss_reader_free(reader);
+    return status;
+}
+
+ss_status
 ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
                      const ss_read_opts *opts, ss_error *err)
 {
-    h5_file file = { .id = -1, .path = path, .err = err };
-    ss_signal *signal = NULL;
-    ss_status status;
-    if (out == NULL || path == NULL)
+    ss_reader *reader;
+    if (out == NULL)
         return SS_FAIL_NULL(err);
-    QUIETLY(
-        status = ss_h5_open(&file);
-        if (status == SS_OK)
-            status = ss_h5_read_signal(&signal, &file, dataset, opts);
-        status = finish(&file, status);
-    );
-    if (status == SS_OK)
-        *out = signal;
-    else
-        ss_signal_free(signal);
+    ss_status status = ss_store_signal_reader(&reader, path, dataset, opts, err);
+    if (status != SS_OK)
+        return status;
+    status = ss_reader_all(out, reader, err);
+    ss_reader_free(reader);
     return status;
 }
 

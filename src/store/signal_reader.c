@@ -1,4 +1,4 @@
-/* signal_reader.c -- the samples of /signal, value by value as they were written. */
+/* signal_reader.c -- the columns of /signal. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,18 +53,21 @@ list_links(h5_file *file, hid_t group, struct links *links)
     return links->status;
 }
 
-/* Add the dataset at a link, of n values, as a column of the header. */
+/* Add the dataset at a link, of n values, as a column of the header; it stays open. */
 static ss_status
-add_column(h5_file *file, hid_t group, const char *link, size_t n, ss_header *head)
+add_column(signal_rows *s, hid_t group, const char *link, ss_header *head)
 {
     size_t own;
     char *name = NULL, *unit = NULL;
+    h5_file *file = &s->file;
     ss_status status = ss_h5_read_size(file, group, link, &own);
     if (status != SS_OK)
         return status;
-    if (own != n)
+    hid_t id = s->dataset[s->n_datasets++] = ss_h5_open_pieces(group, link), space = H5Dget_space(id);
+    int rank = H5Sget_simple_extent_ndims(space);
+    H5Sclose(space);
+    if (own != s->n || rank != 1)
         return ss_h5_fail(file, SS_EDATA, group, link, "not as long as t");
-    hid_t id = ss_h5_open_dataset(group, link);
     status = ss_h5_get_text(file, id, "column", &name);
     if (status == SS_OK)
         status = ss_h5_get_text(file, id, "units", &unit);
@@ -72,64 +75,41 @@ add_column(h5_file *file, hid_t group, const char *link, size_t n, ss_header *he
         status = ss_header_add_column(head, name != NULL && *name != '\0' ? name : link, unit);
     free(name);
     free(unit);
-    H5Dclose(id);
     return status;
 }
 
 static ss_status
-read_columns(h5_file *file, hid_t group, ss_header *head, const struct links *links,
-             ss_signal **out)
+add_columns(signal_rows *s, hid_t group, const struct links *links, ss_header *head)
 {
-    size_t n;
-    ss_status status = ss_h5_read_size(file, group, "t", &n);
+    ss_status status = ss_h5_read_size(&s->file, group, "t", &s->n);
+    s->dataset = calloc(links->n + 1, sizeof *s->dataset);
+    if (s->dataset == NULL)
+        return SS_ENOMEM;
     for (size_t i = 0; status == SS_OK && i < links->n; i++)
         if (strcmp(links->name[i], "t") != 0)
-            status = add_column(file, group, links->name[i], n, head);
-    if (status == SS_OK)
-        status = ss_signal_new(out, head, n);
-    double *values = status == SS_OK ? (*out)->values : NULL;
-    for (size_t i = 0; status == SS_OK && i < links->n; i++) {
-        const char *name = links->name[i];
-        if (strcmp(name, "t") == 0)
-            continue;
-        status = ss_h5_read_values(file, group, name, values, n);
-        if (status == SS_OK)
-            status = ss_h5_check_finite(file, group, name, values, n);
-        values += n;
-    }
-    return status;
-}
-
-static ss_status
-read_signal(h5_file *file, ss_signal **out)
-{
-    hid_t group = ss_h5_open_group(file->id, "/signal");
-    struct links links = { .name = NULL };
-    ss_header *head = NULL;
-    if (group < 0)
-        return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
-    ss_status status = ss_h5_read_header(file, group, &head);
-    if (status == SS_OK)
-        status = list_links(file, group, &links);
-    if (status == SS_OK)
-        status = read_columns(file, group, head, &links, out);
-    for (size_t i = 0; i < links.n; i++)
-        free(links.name[i]);
-    free(links.name);
-    ss_header_free(head);
-    H5Gclose(group);
+            status = add_column(s, group, links->name[i], head);
+    s->by_columns = s->n_datasets > 1;
     return status;
 }
 
 ss_status
-ss_h5_read_signal(ss_signal **out, h5_file *file, const char *dataset, const ss_read_opts *opts)
+ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts)
 {
-    if (dataset != NULL && dataset[0] != '\0')
-        return ss_h5_read_foreign(out, file, dataset, opts);
+    h5_file *file = &s->file;
     if (H5Lexists(file->id, "signal", H5P_DEFAULT) <= 0)
         return ss_h5_fail_listing(file);
-    ss_status status = read_signal(file, out);
-    if (status != SS_OK || opts == NULL)
-        return status;
-    return ss_refuse_clock(file->path, (*out)->head->rate, opts, file->err);
+    hid_t group = ss_h5_open_group(file->id, "/signal");
+    struct links links = { .name = NULL };
+    if (group < 0)
+        return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
+    ss_status status = ss_h5_read_header(file, group, head);
+    if (status == SS_OK)
+        status = list_links(file, group, &links);
+    if (status == SS_OK)
+        status = add_columns(s, group, &links, *head);
+    for (size_t i = 0; i < links.n; i++)
+        free(links.name[i]);
+    free(links.name);
+    H5Gclose(group);
+    return status == SS_OK ? ss_refuse_clock(file->path, (*head)->rate, opts, file->err) : status;
 }

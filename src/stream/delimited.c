@@ -574,11 +574,7 @@ table_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err
         st = read_piece(reader, reader->table, err);
     if (st != SS_OK)
         return st;
-    size_t columns = reader->head->n_columns, left = reader->n_rows - reader->next;
-    *n = left < max ? left : max;
-    memcpy(rows, reader->values + reader->next * columns, *n * columns * sizeof *rows);
-    reader->next += *n;
-    reader->row += *n;
+    ss_reader_give(reader, rows, max, n);
     return SS_OK;
 }
 

@@ -30,9 +30,8 @@ open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     return fits ? found->open(reader, opts, err) : ss_fail_magic(err, in->name, "", reader->kind);
 }
 
-/* Apply the options that hold for every format, after the header has been read. */
-static ss_status
-adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+ss_status
+ss_reader_adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     ss_status st = ss_refuse_range(reader->in.name, reader->head->rate, reader->head->start, err);
     reader->start = reader->head->start;
@@ -41,6 +40,9 @@ adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     ss_select_rows(reader->head, opts, &reader->first, &reader->end_row);
     reader->from = opts->from;
     reader->to = opts->to;
+    uint64_t end = reader->length < reader->end_row ? reader->length : reader->end_row;
+    if (opts->from < opts->to && reader->first >= end && reader->length < UINT64_MAX)
+        return ss_fail_no_rows(reader->in.name, opts->from, opts->to, err);
     return ss_calibrate_header(reader->head, opts, reader->in.name, &reader->factor, err);
 }
 
@@ -50,18 +52,21 @@ ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind, cons
 {
     static const ss_read_opts no_opts;
     reader->kind = kind;
+    reader->length = UINT64_MAX;
     reader->head = ss_header_new(0, 0);
     ss_status st = ss_input_open(&reader->in, in, name, err);
     if (st == SS_OK && reader->head == NULL)
         st = ss_fail_memory(err, name);
     if (st == SS_OK)
         st = open_format(reader, opts != NULL ? opts : &no_opts, err);
-    return st == SS_OK ? adjust(reader, opts != NULL ? opts : &no_opts, err) : st;
+    return st == SS_OK ? ss_reader_adjust(reader, opts != NULL ? opts : &no_opts, err) : st;
 }
 
 void
 ss_reader_close(ss_reader *reader)
 {
+    if (reader->close != NULL)
+        reader->close(reader);
     ss_input_close(&reader->in);
     ss_header_free(reader->head);
     ss_delimited_free(reader->table);
@@ -164,27 +169,71 @@ read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
     return SS_OK;
 }
 
+/* Rows to columns: n rows from the first one on. */
+static void
+put_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
+{
+    size_t columns = signal->head->n_columns;
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < columns; c++)
+            signal->values[c * signal->n + first + i] = rows[i * columns + c];
+}
+
+/* The rows of a signal that has room for all. */
+static ss_status
+read_into(ss_signal *signal, ss_reader *reader, ss_error *err)
+{
+    size_t columns = signal->head->n_columns, piece = 1 + 16384 / (columns + 1), done = 0, got;
+    double *rows = malloc(piece * (columns + 1) * sizeof *rows);
+    if (rows == NULL)
+        return ss_fail_memory(err, reader->in.name);
+    ss_status st;
+    do {
+        st = ss_reader_rows(reader, rows, piece, &got, err);
+        put_rows(signal, done, rows, got);
+        done += got;
+    } while (st == SS_OK && got > 0);
+    free(rows);
+    return st;
+}
+
+ss_status
+ss_reader_all(ss_signal **out, ss_reader *reader, ss_error *err)
+{
+    double *rows = NULL;
+    ss_status st = SS_OK;
+    ss_signal *signal = NULL;
+    int known = reader->length < UINT64_MAX;
+    uint64_t end = reader->length < reader->end_row ? reader->length : reader->end_row;
+    size_t n = known ? (size_t)(end - reader->first) : 0;
+    if (!known)
+        st = read_all(reader, &rows, &n, err);
+    if (st == SS_OK && ss_signal_new(&signal, reader->head, n) != SS_OK)
+        st = ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", reader->in.name);
+    if (st == SS_OK && known)
+        st = read_into(signal, reader, err);
+    else if (st == SS_OK)
+        put_rows(signal, 0, rows, n);
+    free(rows);
+    if (st == SS_OK)
+        *out = signal;
+    else
+        ss_signal_free(signal);
+    return st;
+}
+
 ss_status
 ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
                ss_error *err)
 {
     ss_reader *reader;
-    double *rows = NULL;
-    size_t n = 0;
     if (out == NULL)
         return SS_FAIL_NULL(err);
     *out = NULL;
     ss_status st = ss_reader_new(&reader, in, name, opts, err);
     if (st != SS_OK)
         return st;
-    st = read_all(reader, &rows, &n, err);
-    if (st == SS_OK && ss_signal_new(out, reader->head, n) != SS_OK)
-        st = ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", name);
-    size_t columns = reader->head->n_columns;
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        for (size_t c = 0; c < columns; c++)
-            (*out)->values[c * n + i] = rows[i * columns + c];
-    free(rows);
+    st = ss_reader_all(out, reader, err);
     ss_reader_free(reader);
     return st;
 }

@@ -30,8 +30,11 @@ struct ss_reader {
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
     uint64_t end;               /* frames: their end in the file, unless that is unknown */
     int is_chunk;               /* frames: behind them, another chunk of a WAV file is no error */
-    double *values;             /* delimited text: rows, one after the other: all, or a piece */
+    double *values;             /* delimited text, HDF5: rows, one after the other: all, or a piece */
     size_t n_rows, next;        /* next: of these, to be given */
+    uint64_t length;            /* rows of the source; UINT64_MAX: not known before its end */
+    void *source;               /* what the reader has opened itself */
+    void (*close)(ss_reader *reader);   /* closes that, or NULL */
     struct table *table;        /* delimited text that is read piece by piece, or NULL */
 };
 
@@ -39,5 +42,13 @@ struct ss_reader {
 ss_status ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind,
                          const ss_read_opts *opts, ss_error *err);
 void ss_reader_close(ss_reader *reader);
+/* The last step of opening: apply the options that hold for every format; needs the header, length and
+ * in.name. */
+ss_status ss_reader_adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+
+/* Up to max of the values, as rows. */
+void ss_reader_give(ss_reader *reader, double *rows, size_t max, size_t *n);
+/* All rows that are left. */
+ss_status ss_reader_all(ss_signal **out, ss_reader *reader, ss_error *err);
 
 #endif

@@ -16,63 +16,59 @@ open_image(const uint8_t *bytes, size_t size)
     return id;
 }
 
-/* As if the file were opened again. */
 static void
-begin(h5_file *file)
+read_signal(const uint8_t *bytes, size_t size, const char *dataset, const ss_read_opts *opts)
 {
-    h5_file again = { .id = -1, .path = file->path, .err = file->err, .seen = file->seen };
-    ss_h5_close(&again);
-    again.id = file->id;
-    *file = again;
-    file->err->text[0] = '\0';
-}
-
-static void
-read_signal(h5_file *file, const char *dataset, const ss_read_opts *opts)
-{
+    ss_reader reader = { .head = NULL };
     ss_signal *signal = NULL;
-    begin(file);
-    ss_status status = ss_h5_read_signal(&signal, file, dataset, opts);
+    ss_error err = { 0 };
+    h5_file file = { .id = open_image(bytes, size), .path = "in", .err = &err };
+    if (file.id < 0)
+        return;
+    ss_status status = ss_h5_open_signal(&reader, &file, dataset, opts);
+    if (status == SS_OK)
+        status = ss_reader_adjust(&reader, opts, &err);
+    if (status == SS_OK)
+        status = ss_reader_all(&signal, &reader, &err);
     if (status == SS_OK)
         fuzz_check_signal(signal);
     else if (status != SS_ENOMEM)
-        fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
+        fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, &err);
     ss_signal_free(signal);
+    ss_reader_close(&reader);
 }
 
 static void
-read_coefficients(h5_file *file)
+read_coefficients(const uint8_t *bytes, size_t size)
 {
-    wavelet_reader reader = { .file = file };
-    begin(file);
-    ss_status status = ss_wavelet_reader_open(&reader, file);
+    ss_error err = { 0 };
+    h5_file file = { .id = open_image(bytes, size), .path = "in", .err = &err };
+    if (file.id < 0)
+        return;
+    wavelet_reader reader = { .file = &file };
+    ss_status status = ss_wavelet_reader_open(&reader, &file);
     const ss_coefficients *c = reader.grid;
     double *w = status == SS_OK ? malloc(2 * reader.total * sizeof *w) : NULL;
     for (size_t i = 0; w != NULL && status == SS_OK && i < c->n_scales; i++)
         status = ss_wavelet_reader_scale(&reader, i, w + 2 * c->scale[i].offset);
     if (status != SS_OK && status != SS_ENOMEM)
-        fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, file->err);
+        fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, &err);
     free(w);
     ss_wavelet_reader_close(&reader);
+    ss_h5_close(&file);
 }
 
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT };
-    ss_error err = { 0 };
-    h5_file file = { .id = -1, .path = "in", .err = &err };
+    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT }, none;
     if (size == 0)
         return 0;
     H5E_BEGIN_TRY {
-        file.id = open_image(bytes, size);
-        if (file.id >= 0) {
-            read_signal(&file, NULL, NULL);
-            read_signal(&file, "/y", &opts);
-            read_signal(&file, "/signal/a", NULL);
-            read_coefficients(&file);
-            ss_h5_close(&file);
-        }
+        read_signal(bytes, size, NULL, &none);
+        read_signal(bytes, size, "/y", &opts);
+        read_signal(bytes, size, "/signal/a", &none);
+        read_coefficients(bytes, size);
     } H5E_END_TRY
     return 0;
 }

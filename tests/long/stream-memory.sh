@@ -29,10 +29,11 @@ watch 'dense into HDF5' 200 --dense --voices 2 --octaves=-8:1.5 -o x.h5
 watch 'stepped into HDF5' 1000 --voices 2 --octaves=-8:1.5 -o x.h5
 rm x.h5
 
-# Delimited text in a file, of one kind or another, in constant memory.
+# Delimited text in a file, of one kind or another, and HDF5, in constant memory.
 ss-signal noise --rate 10000 --duration 1000 --format csv > long.csv
 { tr ',' ';' < long.csv | tr . ,; } > comma.csv
-for file in long.csv comma.csv; do
+ss-cat -o long.h5 long.csv
+for file in long.csv comma.csv long.h5 long.h5:/signal/a; do
     for command in 'ss-cat --format au' 'ss-noise --rms 1 --format au' \
             'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au'; do
         $command $file > /dev/null &
@@ -41,4 +42,4 @@ for file in long.csv comma.csv; do
         [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command $file: $most KiB"
     done
 done
-rm long.csv comma.csv
+rm long.csv comma.csv long.h5

@@ -1,0 +1,172 @@
+/* signal_rows.c -- the rows of a signal in HDF5, in pieces of whole chunks, none of which is unpacked
+ * twice. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "signal/gaps.h"
+#include "store/groups.h"
+
+enum { PIECE = 1 << 18 };       /* values that are read at a time, if chunks are not larger */
+
+/* The dimension of a dataset, of one or two, along which its rows go. */
+static int
+rows_dimension(int rank, int by_columns)
+{
+    return rank == 2 && by_columns;
+}
+
+/* Read n rows of a dataset, from the row-th on; 0 if HDF5 fails. */
+static int
+read_rows_of(hid_t id, int by_columns, size_t row, size_t n, double *to)
+{
+    hsize_t first[H5S_MAX_RANK] = { 0 }, count[H5S_MAX_RANK];
+    hid_t space = H5Dget_space(id);
+    int rank = H5Sget_simple_extent_dims(space, count, NULL), along = rows_dimension(rank, by_columns);
+    first[along] = row;
+    count[along] = n;
+    hid_t memory = H5Screate_simple(rank, count, NULL);
+    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, first, NULL, count, NULL) >= 0
+        && H5Dread(id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, to) >= 0;
+    H5Sclose(memory);
+    H5Sclose(space);
+    return good;
+}
+
+/* The rows in a chunk of a dataset; 0: it is not in chunks. */
+static hsize_t
+chunk_rows(hid_t id, int by_columns)
+{
+    hsize_t chunk[H5S_MAX_RANK];
+    hid_t how = H5Dget_create_plist(id);
+    int rank = H5Pget_layout(how) == H5D_CHUNKED ? H5Pget_chunk(how, H5S_MAX_RANK, chunk) : 0;
+    H5Pclose(how);
+    return rank > 0 ? chunk[rows_dimension(rank, by_columns)] : 0;
+}
+
+/* Whole chunks of the dataset whose chunks are the longest, about PIECE values, or all rows. */
+static size_t
+piece_rows(const signal_rows *s, size_t columns)
+{
+    hsize_t chunk = 1, target = PIECE / (columns + 1) + 1;
+    for (size_t d = 0; d < s->n_datasets; d++) {
+        hsize_t own = chunk_rows(s->dataset[d], s->by_columns);
+        chunk = own > chunk ? own : chunk;
+    }
+    hsize_t rows = chunk < target ? target / chunk * chunk : chunk;
+    return rows < s->n && !s->gaps ? (size_t)rows : s->n;
+}
+
+/* Of n rows of dataset d, in x, of so many columns. */
+static ss_status
+check_finite(signal_rows *s, size_t d, double *x, size_t n, size_t columns)
+{
+    char text[64];
+    for (size_t i = 0; i < n * columns; i++) {
+        if (isfinite(x[i]))
+            continue;
+        x[i] = NAN;
+        if (s->gaps)
+            continue;
+        size_t place = s->by_columns ? i / n * s->n + s->row + i % n : s->row * columns + i;
+        snprintf(text, sizeof text, "value %zu is not finite", place + 1);
+        return ss_h5_fail(&s->file, SS_EDATA, s->dataset[d], "", text);
+    }
+    return SS_OK;
+}
+
+/* The next n rows into the values of the reader. */
+static ss_status
+read_piece(ss_reader *reader, signal_rows *s, size_t n)
+{
+    size_t all = reader->head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
+    for (size_t d = 0; d < s->n_datasets; d++) {
+        double *x = s->by_columns ? s->raw : reader->values;
+        if (n > 0 && !read_rows_of(s->dataset[d], s->by_columns, s->row, n, x))
+            return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
+        ss_status status = check_finite(s, d, x, n, columns);
+        if (status != SS_OK)
+            return status;
+        for (size_t c = 0; s->by_columns && c < columns; c++)
+            for (size_t i = 0; i < n; i++)
+                reader->values[i * all + d + c] = x[c * n + i];
+    }
+    s->row += n;
+    reader->n_rows = n;
+    reader->next = 0;
+    return SS_OK;
+}
+
+static ss_status
+give_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    signal_rows *s = reader->source;
+    size_t left = s->n - s->row;
+    ss_status status = SS_OK;
+    s->file.err = err;
+    if (reader->next == reader->n_rows)
+        QUIETLY(
+            status = read_piece(reader, s, left < s->piece ? left : s->piece);
+        );
+    if (status == SS_OK)
+        ss_reader_give(reader, rows, max, n);
+    return status;
+}
+
+static void
+close_rows(ss_reader *reader)
+{
+    signal_rows *s = reader->source;
+    QUIETLY(
+        ss_h5_close(&s->file);
+    );
+    free(s->path);
+    free(s->dataset);
+    free(s->raw);
+    free(s);
+}
+
+/* Room for a piece; where gaps are to be filled, all is read. */
+static ss_status
+begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
+{
+    size_t all = reader->head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
+    reader->rows = give_rows;
+    reader->length = s->n;
+    s->piece = piece_rows(s, all);
+    reader->values = malloc((s->piece * all + 1) * sizeof *reader->values);
+    if (s->by_columns)
+        s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);
+    if (reader->values == NULL || (s->by_columns && s->raw == NULL))
+        return SS_ENOMEM;
+    ss_status status = s->gaps ? read_piece(reader, s, s->n) : SS_OK;
+    if (status != SS_OK || !s->gaps)
+        return status;
+    return ss_fill_gaps(reader->values, s->n, all, 1, reader->head, opts->gaps, reader->in.name,
+                        s->file.err);
+}
+
+ss_status
+ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *dataset, const ss_read_opts *opts)
+{
+    int is_array = dataset != NULL && dataset[0] != '\0';
+    signal_rows *s = calloc(1, sizeof *s);
+    char *name = malloc(strlen(file->path) + (is_array ? strlen(dataset) : 0) + 2);
+    reader->in.name = name;
+    if (s == NULL || name == NULL || (s->path = strdup(file->path)) == NULL) {
+        ss_h5_close(file);
+        free(s);
+        return SS_ENOMEM;
+    }
+    char *end = stpcpy(name, file->path);
+    if (is_array)
+        stpcpy(stpcpy(end, ":"), dataset);
+    s->file = *file;
+    s->file.path = s->path;
+    reader->source = s;
+    reader->close = close_rows;
+    ss_status status = is_array ? ss_h5_find_array(s, &reader->head, dataset, opts)
+        : ss_h5_find_signal(s, &reader->head, opts);
+    return status == SS_OK ? begin_rows(reader, s, opts) : status;
+}
