@@ -94,22 +94,29 @@ bench_read(ss_scene *scene, const ss_shipped_scene *s)
     scene->settle = 0;
 }
 
-/* The scene from rest, with the exact motion as reference; for the state variable rk8pd at 1e-13. */
+/* A scene from rest, with the exact motion as reference; where there is no closed form rk8pd at 1e-13. */
 static inline bench_scene
-bench_scene_new(const ss_shipped_scene *s, double duration)
+bench_scene_of(const char *name, const ss_scene *scene, double duration)
 {
-    bench_scene b = { .name = s->name };
+    bench_scene b = { .name = name, .scene = *scene };
     size_t events;
-    bench_read(&b.scene, s);
     b.scene.duration = duration;
     size_t n = ss_scene_samples(&b.scene);
     b.x = bench_alloc(n);
-    int smooth = b.scene.model == SS_STATE_VARIABLE;
-    if (cost_simulate(&b.scene, smooth ? "rk8pd" : "exact", 1e-13, b.x, &events) != SS_OK)
+    int linear = strcmp(ss_sim_method_for(scene), "rk8pd") == 0;
+    if (cost_simulate(&b.scene, linear ? "exact" : "rk8pd", 1e-13, b.x, &events) != SS_OK)
         exit(1);
     for (size_t i = 0; i < n; i++)
         b.max_x = fmax(b.max_x, fabs(b.x[i]));
     return b;
+}
+
+static inline bench_scene
+bench_scene_new(const ss_shipped_scene *s, double duration)
+{
+    ss_scene scene;
+    bench_read(&scene, s);
+    return bench_scene_of(s->name, &scene, duration);
 }
 
 static inline void
