@@ -5,13 +5,16 @@
  *     W(a, b) = a^-1/2 (1/rate) sum_n x_n conj h((n/rate - b) / a),
  *
  * the signal being zero outside the record.  Scales are a = 2^(j/V) s, j an integer, V voices an
- * octave; translations are b = n B (stepped) or n / rate (dense), from the first sample.  B is the
- * largest of 2^p/m samples, p an integer and m one of 1 3 5 7 9 15 21 25 35 45, m B_0 <= 17, that is
- * no more than B_0 a; that is what short FFTs give.  B is B_0 a itself if exact is asked for, with
- * B_0 > 1, and where V is 1 and B_0 a a power of two, as on the paper's dyadic grid.  A
- * scale is labelled with the frequency f = omega_c / (2 pi a): the maximum over a of the response
- * to a steady sinusoid carries its frequency with the 1/a norm, and reads low by the factor
- * 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) with the a^-1/2 norm (1.35 % at omega_c = 6). */
+ * octave; translations are b = n B (stepped) or n / rate (dense), from the first sample.
+ *
+ * B is the largest step of 2^p/m samples that does not exceed B_0 a: p is an integer, and m one of
+ * 1 3 5 7 9 15 21 25 35 45, at most 17/B_0.  Short FFTs give these translations.  B is B_0 a itself
+ * if exact is asked for, if B_0 > 1, and if V is 1 and B_0 a a power of two, as on the paper's
+ * dyadic grid.
+ *
+ * A scale is labelled with the frequency f = omega_c / (2 pi a).  With the 1/a norm a steady sinusoid
+ * has its largest |W| at its own frequency; with the a^-1/2 norm that label is lower by the factor
+ * 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)), 1.35 % at omega_c = 6. */
 #ifndef STICKSLIP_MORLET_H
 #define STICKSLIP_MORLET_H
 
@@ -88,8 +91,9 @@ typedef struct ss_scale {
  * lies outside the cone of influence, 2 sqrt(2) a <= n / rate. */
 typedef struct ss_morlet ss_morlet;     /* a plan: a grid for records of one length and rate */
 
-/* FFTW's planner is not safe for threads: plans are made and freed one at a time here, and a
- * program that plans with FFTW itself keeps clear of that.  SS_ESCALE if scales are asked for that are not usable (unless force) or none is left. */
+/* FFTW's planner is not safe for threads.  Plans are made and freed one at a time here; a program that
+ * calls FFTW's planner itself must not do so at the same time.  SS_ESCALE: a requested scale is not
+ * usable (unless force), or no scale is. */
 ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts,
                         ss_error *err);
 /* The measurements of FFTW's planner in this process, which are FFTW's own state.  After reading them,
@@ -143,11 +147,11 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
 /* --- streams --------------------------------------------------------------------------------
  *
- * The transform of a signal whose length is not known, in memory bounded by the longest scale, on a
- * stepped grid by the logarithm of that.  A
- * coefficient is complete when the samples up to 8.5 a after b have arrived: later samples, however
- * large, change it by less than the floor of the accuracy.  So the error is the one promised for
- * the whole record; even the largest |W| is only that of its scale so far.
+ * The transform of a signal whose length is not known.  Its memory is bounded by the longest scale,
+ * on a stepped grid by the logarithm of that.  A coefficient is complete when the samples up to 8.5
+ * a after b have arrived: later samples, however large, change it by less than the floor of the
+ * accuracy.  So the promise for a whole record holds, even against the largest |W| of the scale so
+ * far.
  *
  * Windows lie at fixed times and are computed with their last sample.  So the coefficients and their
  * order depend on the samples and on where the stream was drained, not on how many samples were
@@ -155,16 +159,16 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
 typedef struct ss_stream ss_stream;
 
-/* The sink gets scales in any order, of which n and offset mean nothing.  SS_EINVAL without fmin or
- * octaves, or with detrend, which takes the whole record.  Scales longer than the record will be are
- * no error: all they give lies inside the cone of influence. */
+/* The sink gets scales in any order; their n and offset mean nothing.  SS_EINVAL: neither fmin nor
+ * octaves is given, or detrend is, which needs the whole record.  A scale may be longer than the record
+ * will be: all its coefficients then lie inside the cone of influence. */
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);
 size_t ss_stream_scales(const ss_stream *stream);                   /* long to short */
 const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* an array that it owns */
 size_t ss_stream_samples(const ss_stream *stream);                  /* so far */
-/* 0 if there is no scale i: without ss_stream_drain a coefficient comes less than so many samples
- * behind b. */
+/* Without ss_stream_drain a coefficient of scale i comes less than so many samples behind b; 0 if there
+ * is no scale i. */
 size_t ss_stream_window(const ss_stream *stream, size_t i);
 
 /* Append n samples.  When a window is full, the sink gets its complete coefficients.  SS_EINVAL: a
@@ -184,8 +188,9 @@ void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
 typedef struct ss_coefficients {
     ss_header *head;            /* the one column transformed, rate, start and notes of its signal,
                                    and the options as notes: samples, column, unit, center, voices,
-                                   step (or dense: yes), lattice (if B is a fraction of samples), norm, admissible, detrend, accuracy, method,
-                                   and label, what frequencies mean */
+                                   step (or dense: yes), lattice (if B is a fraction of samples),
+                                   norm, admissible, detrend, accuracy, method, and label, the
+                                   formula of the frequencies */
     size_t n;                   /* samples of the record, > 0 */
     double center;              /* omega_c */
     size_t n_scales;            /* > 0 */
@@ -209,14 +214,18 @@ void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is a
 int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k);
 
 /* The signal that has these coefficients, by conjugate gradients on the frame operator: least squares
- * in the coefficients, weighted as the integral over a and b weights them.  What the scales do not
- * reach, below the lowest and above the highest label, is absent from it, a mean or a line too.
- * *error, unless that is NULL: about its root mean square error within the labels, relative to its
- * own: what of the coefficients it fails to explain, times the square root of the ratio of the grid's
- * frame bounds there.  With steps above 0.5 more than that may be wrong beyond the labels.
+ * in the coefficients, weighted as the integral over a and b weights them.  It lacks the frequencies
+ * below the lowest and above the highest label, and so a mean or a line.
+ *
+ * *error, unless that is NULL, becomes about its root mean square error within the labels, relative to
+ * its own root mean square: the part of the coefficients that it does not explain, times the square
+ * root of the ratio of the grid's frame bounds there.  With steps above 0.5 the error beyond the labels
+ * may be larger.
+ *
  * SS_ESCALE: the ratio exceeds 100, the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ... 0.1, of
  * the coefficients stays unexplained, so that they are those of no signal, or is left after 500 passes.
- * SS_EDATA: notes lack options, or scales are missing.  SS_STOP if progress asks for it.  Costs three to 500 transforms and as many adjoints by the sum. */
+ * SS_EDATA: notes lack options, or scales are missing.  SS_STOP if progress asks for it.  The cost is
+ * three to 500 transforms and as many adjoints by the sum. */
 ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
                             double *error, ss_progress progress, ss_error *err);
 

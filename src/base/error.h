@@ -24,8 +24,8 @@ ss_status ss_fail_memory(ss_error *err, const char *name);
 
 /* The first line of text of a kind; NULL: it has none. */
 const char *ss_kind_magic(ss_kind kind);
-/* SS_EKIND, with both kinds, for a file whose first n bytes show a known kind other than the wanted one.
- * Else SS_OK. */
+/* SS_EKIND, with both kinds, for a file whose first n bytes show a known kind other than the wanted
+ * one.  Else SS_OK. */
 ss_status ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, ss_kind wanted);
 /* The same for text whose first line is not that of the wanted kind; NULL: it has no line. */
 ss_status ss_fail_magic(ss_error *err, const char *name, const char *line, ss_kind wanted);

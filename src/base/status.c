@@ -35,7 +35,8 @@ ss_version(void)
     return SS_VERSION;
 }
 
-/* A byte from 0x80 to 0x9f is a control character by itself and behind 0xc2, else a part of a letter. */
+/* A byte from 0x80 to 0x9f is a control character by itself and behind 0xc2, else a part of a letter.
+ */
 char *
 ss_printable(char *text)
 {

@@ -208,8 +208,8 @@ compute_window(ss_stream *s, const window *win, ss_error *err)
 
 /* --- a window of a group ---------------------------------------------------------------------- */
 
-/* The samples of a window, of a size whose squares neither overflow nor underflow; *scaled: the caller's
- * to free. */
+/* The samples of a window, of a size whose squares neither overflow nor underflow; *scaled: the
+ * caller's to free. */
 static ss_status
 fill_record(window *win, double **scaled)
 {

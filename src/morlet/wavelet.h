@@ -22,8 +22,8 @@ wavelet_cone(double a)
     return sqrt(2) * a;
 }
 
-/* 1 if coefficient k of a scale lies in the cone of influence of an end of the record, which has n samples
- * from start on, or of one of its gaps. */
+/* 1 if coefficient k of a scale lies in the cone of influence of an end of the record, which has n
+ * samples from start on, or of one of its gaps. */
 static inline int
 wavelet_edge(const ss_scale *scale, size_t k, size_t n, double rate, double start, const ss_span *gap,
              size_t n_gaps)

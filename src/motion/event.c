@@ -17,9 +17,9 @@
  * there is rounded to about 1e-16 of its size over the step, so less would be noise. */
 #define EVENT_WIDTH 0x1p-50
 
-/* Look for a negative guard in (0, *h), where the slope goes from falling to rising: then it is put
- * into *h and the answer is 1.  The search ends early where the steeper of the two slopes could not
- * carry the guard down to 0 over the whole bracket. */
+/* Look for a negative guard in (0, *h), where the slope goes from falling to rising.  Returns 1 if
+ * there is one; *h becomes its time.  The search ends early where the steeper of the two slopes
+ * could not carry the guard down to 0 over the whole bracket. */
 static int
 dips_below(guard_fn *guard, void *user, guard_value at_0, guard_value at_h, double *h)
 {

@@ -105,7 +105,8 @@ taylor_begin(engine *e)
     m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
 }
 
-/* Expand the series in units that neither overflow nor are too long for the mode; 0 if there are none. */
+/* Expand the series in units that neither overflow nor are too long for the mode; 0 if there are none.
+ */
 static double
 longest_step(taylor *t)
 {

@@ -211,7 +211,7 @@ nearest_key(const char *name)
     return best;
 }
 
-/* The key nearest to a name, if few letters differ: the name may be mistyped. */
+/* A name that differs from a key in few letters may be mistyped: then the key is named. */
 static ss_status
 fail_unknown(const char *name, struct key_origin at, ss_error *err)
 {

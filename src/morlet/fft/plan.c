@@ -217,8 +217,8 @@ interpolation_cost(struct fft *f, const level *lev, const ss_scale *scale, int d
         + (double)scale->n * ((dense ? COST_DENSE : COST_PLACE) + tap);
 }
 
-/* Interpolation between the number of points that is cheapest, twice as many as the circle has or fewer,
- * if it costs less than best; the least cost. */
+/* Choose the cheapest number of points to interpolate between, at most twice as many as the circle has,
+ * if that costs less than best.  Returns the least cost. */
 static double
 choose_points(struct fft *f, const ss_morlet *plan, size_t i, double terms, double best)
 {
@@ -244,7 +244,7 @@ choose_points(struct fft *f, const ss_morlet *plan, size_t i, double terms, doub
     return best;
 }
 
-/* Choose how a scale is computed on its level; its cost. */
+/* Choose the route of a scale on its level.  Returns its cost. */
 static double
 choose_route(struct fft *f, const ss_morlet *plan, size_t i)
 {

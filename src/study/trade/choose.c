@@ -15,7 +15,7 @@
 
 const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
 
-/* What a right-hand side costs with all that goes with it, in those of rk8pd, and how many a step,
+/* The cost of a right-hand side with all that goes with it, in units of rk8pd's, and how many a step,
  * or a sample within one, needs: measured with ss-trade on the state-variable scene, for the order
  * of the methods only. */
 static const struct cost { const char *method; double rhs; unsigned a_step; int at_samples; }

@@ -1,9 +1,9 @@
 /* transform.c -- what accuracy costs in the transform of a signal, measured.
  *
  * The reference is the definition with nothing left out but what rounding hides, at translations
- * drawn at random and where |W| is largest, which is where a signal's own features are.  What it
- * took also tells what the definition would take on the whole grid, so that this is not begun if it
- * is too much. */
+ * drawn at random and where |W| is largest, which is where a signal's own features are.  Its time also
+ * gives an estimate for the definition on the whole grid, which is not begun if it would take too long.
+ */
 #include "study/trade/common.h"
 
 #include <float.h>
