@@ -26,9 +26,9 @@ typedef struct ss_trade_row {
 
 typedef struct ss_trade {
     char reference[64];         /* "exact", or two methods that agree */
-    double known_x, known_a, known_t;   /* the error of the reference itself, as above: for exact,
-                                   twice the change when m, k and K_y change by their last bit; else
-                                   the distance of the two methods.  No row has a smaller error */
+    double known_x, known_a, known_t;   /* the error of the reference itself, as above: the distance of
+                                   two methods, of which one simulates a mass that is larger by its
+                                   last bit.  No row has a smaller error */
     size_t samples, events;     /* compared */
     size_t n;
     ss_trade_row *row;

@@ -140,7 +140,7 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
     char *end = newline != NULL ? newline : in->buffer + in->hi;
     *line = in->buffer + in->lo;
     in->lo = (size_t)(end - in->buffer) + (newline != NULL);
-    if (end > *line && end[-1] == '\r')
+    while (end > *line && end[-1] == '\r')
         end--;
     *end = '\0';
     *length = (size_t)(end - *line);
