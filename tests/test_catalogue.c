@@ -11,17 +11,10 @@
 #include <cmocka.h>
 
 #include "extremes/runs.h"
+#include "near.h"
 #include "shipped.h"
 
 #define BIT(m) (1u << (m))
-
-static void
-near(const char *what, double got, double truth, double allowed)
-{
-    print_message("%s: %.13g, off by %.1e\n", what, got, fabs(got - truth));
-    if (!(fabs(got - truth) <= allowed))
-        fail_msg("%s: %.17g, not %.17g +- %.2g", what, got, truth, allowed);
-}
 
 static run
 run_of(const ss_scene *scene)
@@ -165,6 +158,22 @@ stops_come_in_the_published_numbers(void **state)
     }
 }
 
+/* The r between these where the symmetric motion, of about this amplitude, loses its stability: a slip turns
+ * a change into its opposite. */
+static long double
+broken_symmetry(two_stops *q, long double a, long double low, long double high)
+{
+    for (int i = 0; i < 40; i++) {
+        q->r = (low + high) / 2;
+        a = symmetric(q, a);
+        if (slope_at(q, a) > -1)
+            low = q->r;
+        else
+            high = q->r;
+    }
+    return low;
+}
+
 /* --- static above kinetic friction: Shaw (1986) ------------------------------------------------ */
 
 static void
@@ -181,16 +190,7 @@ symmetry_breaks(void **state)
     near("max|x|", at.value[SS_X_MAX], (double)a, 1e-13);
     near("floquet", at.value[SS_FLOQUET], (double)(slope * slope), 1e-9);
 
-    /* it loses its stability where a slip turns a change into its opposite */
-    long double low = .45L, high = .47L;
-    for (int i = 0; i < 40; i++) {
-        q.r = (low + high) / 2;
-        a = symmetric(&q, a);
-        if (slope_at(&q, a) > -1)
-            low = q.r;
-        else
-            high = q.r;
-    }
+    long double low = broken_symmetry(&q, a, .45L, .47L);
     near("r", (double)low, .459753, 5e-7);
     for (int side = -1; side <= 1; side += 2) {
         s.base_frequency = (double)low + side * 1e-4;
@@ -248,20 +248,13 @@ chaos_begins_with_a_broken_symmetry(void **state)
     ss_scene s = read_shipped_named("chaos");
     two_stops q = { .r = .46L, .f_k = s.friction, .f_s = s.static_friction };
     (void)state;
-    long double a = symmetric(&q, 1.76L), slope = slope_at(&q, a), low = .46L, high = .47L;
+    long double a = symmetric(&q, 1.76L), slope = slope_at(&q, a);
     s.base_frequency = .46;
     ss_steady at = steady_of(&s);
     near("amplitude", at.value[SS_AMPLITUDE], (double)a, 1e-13);
     near("floquet", at.value[SS_FLOQUET], (double)(slope * slope), 1e-9);
     near("lyapunov", at.value[SS_LYAPUNOV], (double)(q.r * logl(slope * slope)), 1e-9);
-    for (int i = 0; i < 40; i++) {
-        q.r = (low + high) / 2;
-        a = symmetric(&q, a);
-        if (slope_at(&q, a) > -1)
-            low = q.r;
-        else
-            high = q.r;
-    }
+    long double low = broken_symmetry(&q, a, .46L, .47L);
     near("r", (double)low, .461652, 5e-7);
     for (int side = -1; side <= 1; side += 2) {
         s.base_frequency = (double)low + side * 1e-4;

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "oracle.h"
+#include "near.h"
 #include "shipped.h"
 
 #define BIT(m) (1u << (m))
@@ -53,14 +54,6 @@ find(ss_steady *out, const ss_scene *s, const ss_steady_opts *opts)
     if (st != SS_OK && st != SS_EDATA)
         fail_msg("%s", err.text);
     return st;
-}
-
-static void
-near(const char *what, double got, double truth, double allowed)
-{
-    print_message("%s: %.12g, off by %.1e\n", what, got, fabs(got - truth));
-    if (!(fabs(got - truth) <= allowed))
-        fail_msg("%s: %.17g, not %.17g +- %.2g", what, got, truth, allowed);
 }
 
 /* --- exponents ------------------------------------------------------------------------------- */

@@ -11,22 +11,10 @@
 #include <string.h>
 #include <stickslip.h>
 #include "plot/contour.h"
+#include "contour_script.h"
 #include "shipped.h"
 
 static const char *const scene[] = { "coulomb", "state-variable", "compliant-heavy", "compliant-light" };
-
-static char *
-script_of(const ss_coefficients *c, const ss_contour_opts *contour)
-{
-    char *text = NULL;
-    size_t size;
-    ss_error err = { 0 };
-    FILE *out = open_memstream(&text, &size);
-    if (ss_plot_contour(out, c, contour, &ss_plot_defaults, &err) != SS_OK)
-        fail_msg("%s", err.text);
-    fclose(out);
-    return text;
-}
 
 static ss_coefficients *
 transform(const ss_signal *signal, const ss_morlet_opts *opts)
@@ -40,7 +28,7 @@ transform(const ss_signal *signal, const ss_morlet_opts *opts)
 static double
 noise_of(const ss_coefficients *c)
 {
-    char *script = script_of(c, &ss_contour_defaults), *line = strstr(script, "\nnoise = ");
+    char *script = contour_script(c, &ss_contour_defaults), *line = strstr(script, "\nnoise = ");
     double noise = line != NULL ? strtod(line + strlen("\nnoise = "), NULL) : NAN;
     free(script);
     return noise;
@@ -167,16 +155,16 @@ a_span_that_is_given_stays(void **state)
     ss_contour_opts opts = ss_contour_defaults;
     (void)state;
     opts.noise = 0;
-    char *script = script_of(c, &opts);
+    char *script = contour_script(c, &opts);
     assert_non_null(strstr(script, "\nspan = 80 "));
     assert_null(strstr(script, "noise"));
     free(script);
     opts.noise = ss_coefficients_max(c) / 100;
-    script = script_of(c, &opts);
+    script = contour_script(c, &opts);
     assert_non_null(strstr(script, "\nspan = 40 "));
     assert_non_null(strstr(script, "\nnoise = -40 "));
     free(script);
-    script = script_of(c, &ss_contour_defaults);
+    script = contour_script(c, &ss_contour_defaults);
     assert_non_null(strstr(script, "\nspan = 10 "));        /* the least */
     free(script);
     ss_coefficients_free(c);
@@ -322,7 +310,7 @@ the_ridge_lies_on_a_steady_oscillation(void **state)
         opts.norm = (ss_norm)norm;
         contour.ridge = 1;
         ss_coefficients *c = transform(signal, &opts);
-        char *script = script_of(c, &contour), *line = strchr(strstr(script, "$ridge"), '\n') + 1;
+        char *script = contour_script(c, &contour), *line = strchr(strstr(script, "$ridge"), '\n') + 1;
         double truth = 20 * (norm == SS_NORM_L1 ? 1 : 12 / (6 + sqrt(38))), h = log(2) / 16, t, f;
         size_t n = 0;
         for (; sscanf(line, "%lf %lf", &t, &f) == 2; line = strchr(line, '\n') + 1) {
@@ -352,7 +340,7 @@ labels_that_are_asked_for_are_drawn(void **state)
     (void)state;
     opts.fmin = 20;
     opts.fmax = 90.5;
-    char *script = script_of(c, &opts), *line = strchr(strstr(script, "$contour"), '\n') + 1;
+    char *script = contour_script(c, &opts), *line = strchr(strstr(script, "$contour"), '\n') + 1;
     assert_non_null(strstr(script, "\nfmin = 20 "));
     assert_non_null(strstr(script, "\nfmax = 90.5 "));
     for (; strncmp(line, "EOD", 3) != 0; line = strchr(line, '\n') + 1) {
@@ -424,7 +412,7 @@ marks_beyond_the_map_are_arrows(void **state)
     plot = ss_plot_defaults;
     opts.fmin = opts.fmax = 0;
     opts.n_events = 2, overlay.n_spikes = 1, overlay.n_maxima = 3, overlay.n_spans = 1;
-    script = script_of(c, &opts);
+    script = contour_script(c, &opts);
     assert_null(strstr(script, "arrows"));
     free(script);
     ss_coefficients_free(c);

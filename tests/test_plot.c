@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "contour_script.h"
 #include "plot/isoline.h"
 
 /* --- ss_isolines ------------------------------------------------------------------------------ */
@@ -332,19 +333,6 @@ new_coefficients(void)
         c->scale[i] = (ss_scale){ 0, log2(a), a, f, 1, 1000, 1000, 1000 * i };
     }
     return c;
-}
-
-static char *
-contour_script(const ss_coefficients *c, const ss_contour_opts *contour)
-{
-    char *text = NULL;
-    size_t size;
-    ss_error err = { 0 };
-    FILE *out = open_memstream(&text, &size);
-    if (ss_plot_contour(out, c, contour, &ss_plot_defaults, &err) != SS_OK)
-        fail_msg("%s", err.text);
-    fclose(out);
-    return text;
 }
 
 /* |W| falls by 100 dB/s from the 0.2 s where the widest cone ends: vertical lines. */
