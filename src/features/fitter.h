@@ -67,8 +67,8 @@ ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at
 /* Does the gain change once a period, as in a train of micro-slips? */
 int ss_slips_recur(fitter *k, const ss_window *window, size_t n);
 
-/* Empty the window whose gain, taken by itself, changes most at a place. */
-void ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at);
+/* Empty the windows whose gains, each taken by itself, change most at a place: one of up to 31. */
+ss_status ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at);
 
 /* *is: it rings on behind the windows, or hums. */
 ss_status ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is);

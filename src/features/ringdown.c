@@ -149,15 +149,17 @@ grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int 
 static ss_status
 leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
 {
+    ss_status st = SS_OK;
     for (;;) {
         size_t at = 0;
-        ss_status st = fit_shared(k, window, n, FIT_FINE, ok);
+        if (st == SS_OK)
+            st = fit_shared(k, window, n, FIT_FINE, ok);
         if (st == SS_OK && *ok)
             st = ss_slips_find(k, window, n, &at);
-        if (at == 0)
+        if (at == 0 || st != SS_OK)
             return st;
         if (at < periods(k, FIT_LEAST))
-            ss_slips_drop_worst(k, window, n, at);
+            st = ss_slips_drop_worst(k, window, n, at);
         else
             for (size_t i = 0; i < n; i++)
                 window[i] = ss_sticks_cut(k, window[i], at);

@@ -5,6 +5,7 @@
 #include <gsl/gsl_linalg.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/sort.h"
 
 #define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
 #define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
@@ -179,24 +180,33 @@ ss_slips_recur(fitter *k, const ss_window *window, size_t n)
     return 0;
 }
 
-void
+typedef struct change {
+    double statistic;           /* of the gain */
+    size_t window;
+} change;
+
+/* One by one, many windows would take as many fits. */
+ss_status
 ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
 {
-    size_t worst = n;
-    double most = 0;
+    enum { PART = 32 };         /* of the windows is dropped, and one */
+    change *found = malloc((n + 1) * sizeof *found);
+    size_t count = 0;
+    if (found == NULL)
+        return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
         score s = { { 0 }, { 0 } };
         if (ss_window_length(window[i]) <= at)
             continue;
         add_scores(k, window[i], at, 1, 1, 0, &s);
-        double found = statistic(&s);
-        if (found > most) {
-            most = found;
-            worst = i;
-        }
+        found[count++] = (change){ statistic(&s), i };
     }
-    if (worst < n)
-        window[worst].end = window[worst].first;
+    if (count > 1)
+        qsort(found, count, sizeof *found, ss_ascending);
+    for (size_t left = count - count / PART; count > 0 && count >= left; count--)
+        window[found[count - 1].window].end = window[found[count - 1].window].first;
+    free(found);
+    return SS_OK;
 }
 
 /* --- oscillations that go on behind the windows -------------------------------------------- */
