@@ -175,6 +175,8 @@ write_axis(FILE *out, const char *name, const map_axis *a)
     ss_map_write_coordinate(out, a, a->value[0], ':');
     ss_map_write_coordinate(out, a, a->value[a->n - 1], ']');
     fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
+    if (a->log)
+        ss_script_write_decades(out, name, a->value[0], a->value[a->n - 1]);
 }
 
 /* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten

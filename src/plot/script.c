@@ -14,6 +14,7 @@
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
 #define SCREEN 1.5              /* how much wider and higher on a screen */
+#define DECADES 8              /* powers of ten that stand at an axis, at most */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
 const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
@@ -294,6 +295,37 @@ ss_script_write_side_label(FILE *out, int n, const script_label *l)
     fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.018" : "0.03");
     write_font(out, l);
     putc('\n', out);
+}
+
+void
+ss_script_write_decades(FILE *out, const char *axis, double lo, double hi)
+{
+    int first = (int)ceil(log10(lo) - 1e-9), last = (int)floor(log10(hi) + 1e-9);
+    int every = 1 + (last - first) / DECADES;
+    if (last <= first || (lo >= 1e-3 && hi <= 1e5))
+        return;
+    fprintf(out, "set %stics (", axis);
+    for (int i = first - 1; i <= last; i++) {
+        script_label l = { .n = 0 };
+        if (i % every == 0) {
+            add(&l, "10");
+            add_superscript(&l, i);
+        }
+        fprintf(out, "'%s' 1e%d", l.text, i);
+        for (int j = 2; j < 10 && every == 1; j++)
+            fprintf(out, ", '' %de%d 1", j, i);
+        fputs(i < last ? ", " : ")\n", out);
+    }
+}
+
+void
+ss_script_write_decade_range(FILE *out, const char *axis, double lo, double hi)
+{
+    if (lo > hi)
+        return;
+    int first = (int)floor(log10(lo)), last = (int)floor(log10(hi)) + 1;
+    fprintf(out, "set %srange [1e%d:1e%d]; set %stics autofreq\n", axis, first, last, axis);
+    ss_script_write_decades(out, axis, pow(10, first), pow(10, last));
 }
 
 /* --- top and end --------------------------------------------------------------------------- */

@@ -70,6 +70,12 @@ void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 /* set AXIS STEP: at most so many intervals over the range, of 1, 2 or 5 times a power of ten. */
 void ss_script_write_tics(FILE *out, const char *axis, double range, int intervals);
 
+/* Tics of a logarithmic axis at powers of ten, written as such; none are set, so that gnuplot's own stay,
+ * where the range has less than two powers or its numbers are short: 0.001 to 100000. */
+void ss_script_write_decades(FILE *out, const char *axis, double lo, double hi);
+/* The same for a range that is widened to powers of ten; nothing if lo > hi. */
+void ss_script_write_decade_range(FILE *out, const char *axis, double lo, double hi);
+
 /* A datablock of time and x 10^-exponent: the smallest and largest of each pixel column, so that
  * no spike is lost.  span as found; x points at the whole record.  Returns the range of the values. */
 double ss_script_write_trace(FILE *out, const char *name, const double *x, const ss_header *head,

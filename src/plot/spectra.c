@@ -58,10 +58,23 @@ write_densities(FILE *out, size_t panel, const ss_spectrum *s, int decibels)
     fputs("EOD\n", out);
 }
 
+static void
+write_decades(FILE *out, const ss_spectrum *s)
+{
+    double least = INFINITY, most = 0;
+    for (size_t k = 1; k < s->n; k++) {
+        least = s->density[k] > 0 ? fmin(least, s->density[k]) : least;
+        most = fmax(most, s->density[k]);
+    }
+    ss_script_write_decade_range(out, "y", least, most);
+}
+
 /* One panel of n; the lowest has the labels of frequency. */
 static void
-plot_panel(FILE *out, const script_label *label, size_t i, size_t n)
+plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i, size_t n, int decibels)
 {
+    if (!decibels)
+        write_decades(out, s);
     if (i == n)
         fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
               "noenhanced offset 0,0.5\n", out);
@@ -90,11 +103,11 @@ write_script(FILE *out, const ss_signal *signal, const size_t column[], size_t n
         write_densities(out, i + 1, spectrum[i], decibels);
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - TITLE / height, n);
     fputs(layout, out);
-    fputs(decibels ? "" : "set logscale y; set format y '%.0e'\n", out);
+    fputs(decibels ? "" : "set logscale y\n", out);
     for (size_t i = 1; i <= n; i++) {
         script_label label;
         label_of(&label, &signal->head->column[column[i - 1]], decibels);
-        plot_panel(out, &label, i, n);
+        plot_panel(out, spectrum[i - 1], &label, i, n, decibels);
     }
     fputs("unset multiplot\n", out);
     return ss_script_end(out);

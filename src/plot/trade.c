@@ -59,7 +59,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
 {
     if (out == NULL || trade == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    double fastest = INFINITY;
+    double fastest = INFINITY, least = INFINITY, most = 0;
     for (size_t i = 0; i < trade->n; i++) {
         const ss_trade_row *row = &trade->row[i];
         if (row->status != SS_OK)
@@ -68,6 +68,8 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
             return ss_fail(err, SS_EINVAL, "row %zu cannot be drawn: an error of %.3g in %.3g s", i + 1,
                            row->error_x, row->seconds);
         fastest = fmin(fastest, row->seconds);
+        least = row->error_x > 0 ? fmin(least, row->error_x) : least;
+        most = fmax(most, row->error_x);
     }
     if (isinf(fastest))
         return ss_fail(err, SS_EINVAL, "nothing to draw: no row was measured");
@@ -85,13 +87,14 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
             write_point(out, &trade->row[i], fastest);
     fputs("EOD\n"
           "set lmargin at screen 0.19; set rmargin at screen 0.94\n"
-          "set logscale xy; set format x '%g'; set format y '%.0e'\n"
+          "set logscale xy; set format x '%g'\n"
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
           "set bmargin at screen 0.38; set tmargin at screen 0.93\n"
           "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
           "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
           "set key at screen 0.54,screen 0.265 center top horizontal maxcols 3 samplen 2 "
           "noenhanced\n", out);
+    ss_script_write_decade_range(out, "y", least, most);
     fprintf(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
             trade->transform ? "W / largest |W| of its scale" : "x / max|x|");
     write_plot(out, trade);

@@ -12,6 +12,9 @@ draw --map friction,base_frequency,amplitude a.tsv | grep -c 'region' || true
 printf '2\t0.1\n4\t0.5\n\n5\t1\n' | draw --map base_frequency,friction,stops --line - a.tsv | sed -n '/^\$curve/,/^EOD/p'
 ss-sweep -m stops,amplitude --vary mass=-1:1:3 --vary stiffness=1000:4000:4:log coulomb -o b.tsv
 draw --map stiffness,mass,stops b.tsv | grep 'logscale\|none' | grep -o 'logscale x\|title .none.'
+# powers of ten where numbers are long, and gnuplot's own tics where they are short
+ss-sweep -m stops --vary contact_stiffness=1e4:1e6:3:log --vary contact_damping=0.1:10:3:log compliant-light |
+    draw --map contact_stiffness,contact_damping,stops | sed -n "s/^set \\(.\\)tics (/\\1 /p" | tr ',' '\n' | grep "'1" | paste -sd ' '
 if command -v gnuplot > /dev/null; then
     draw --map base_frequency,friction,stops,amplitude a.tsv -o a.png && test -s a.png
     draw --map base_frequency,friction,amplitude a.tsv -o a.pdf && test -s a.pdf
