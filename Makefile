@@ -258,34 +258,40 @@ bench: all bench-errors
 		$(PYTHON) tests/bench/compare_morlet.py $(BUILD)/$(SHARED)
 
 # --- install ---------------------------------------------------------------------------------
+# DESTDIR may have blanks; PREFIX may not, it stands in rpath.
+to     = $(call quote,$(DESTDIR)$($1))
+remove = ! cd $(call to,$1) 2> /dev/null || rm -f $2
+
 install: all
-	$(INSTALL) -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(SCENEDIR) \
-		$(DESTDIR)$(INCLUDEDIR)/stickslip
-	$(INSTALL) -m 644 include/stickslip.h $(DESTDIR)$(INCLUDEDIR)
-	$(INSTALL) -m 644 $(HEADERS) $(DESTDIR)$(INCLUDEDIR)/stickslip
-	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)
-	$(INSTALL) -m 755 $(BUILD)/$(SHARED) $(DESTDIR)$(LIBDIR)
-	cd $(DESTDIR)$(LIBDIR) && for l in $(LINKS); do ln -sf $(SHARED) $$l; done
+	$(INSTALL) -d $(call to,BINDIR) $(call to,LIBDIR)/pkgconfig $(call to,SCENEDIR) \
+		$(call to,INCLUDEDIR)/stickslip
+	$(INSTALL) -m 644 include/stickslip.h $(call to,INCLUDEDIR)
+	$(INSTALL) -m 644 $(HEADERS) $(call to,INCLUDEDIR)/stickslip
+	$(INSTALL) -m 644 $(STATIC) $(call to,LIBDIR)
+	$(INSTALL) -m 755 $(BUILD)/$(SHARED) $(call to,LIBDIR)
+	cd $(call to,LIBDIR) && for l in $(LINKS); do ln -sf $(SHARED) $$l; done
 	sed -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' -e 's|@VERSION@|$(VERSION)|' \
-		-e 's|@LIBS@|$(LIBS)|' stickslip.pc.in > $(DESTDIR)$(LIBDIR)/pkgconfig/stickslip.pc
-	$(INSTALL) -m 644 $(SCENES) $(DESTDIR)$(SCENEDIR)
-	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(DESTDIR)$(BINDIR) || exit 1; done
-	for m in $(MANUAL); do d=$(DESTDIR)$(MANDIR)/man$${m##*.}; \
-		$(INSTALL) -d $$d && $(INSTALL) -m 644 $$m $$d || exit 1; done
-	$(INSTALL) -d $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
-	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 644 data/completion/stickslip.bash $(DESTDIR)$(BASHDIR)/$$t || \
+		-e 's|@LIBS@|$(LIBS)|' stickslip.pc.in > $(call to,LIBDIR)/pkgconfig/stickslip.pc
+	$(INSTALL) -m 644 $(SCENES) $(call to,SCENEDIR)
+	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(call to,BINDIR) || exit 1; done
+	for m in $(MANUAL); do d=$(call to,MANDIR)/man$${m##*.}; \
+		$(INSTALL) -d "$$d" && $(INSTALL) -m 644 $$m "$$d" || exit 1; done
+	$(INSTALL) -d $(call to,BASHDIR) $(call to,ZSHDIR)
+	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 644 data/completion/stickslip.bash $(call to,BASHDIR)/$$t || \
 		exit 1; done
-	$(INSTALL) -m 644 data/completion/_stickslip $(DESTDIR)$(ZSHDIR)
+	$(INSTALL) -m 644 data/completion/_stickslip $(call to,ZSHDIR)
 
 # Directories that only we use go too.
 uninstall:
-	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc) \
-		$(DESTDIR)$(INCLUDEDIR)/stickslip.h $(HEADERS:include/%=$(DESTDIR)$(INCLUDEDIR)/%) \
-		$(addprefix $(DESTDIR)$(SCENEDIR)/,$(notdir $(SCENES))) $(patsubst %,$(DESTDIR)$(BINDIR)/%,$(TOOLS) $(SCRIPTS)) \
-		$(patsubst %,$(DESTDIR)$(BASHDIR)/%,$(TOOLS) $(SCRIPTS)) $(DESTDIR)$(ZSHDIR)/_stickslip \
-		$(foreach m,$(MANUAL),$(DESTDIR)$(MANDIR)/man$(subst .,,$(suffix $m))/$(notdir $m))
-	for d in $(INCLUDEDIR)/stickslip $(SCENEDIR) $(PREFIX)/share/stickslip; do \
-		rmdir $(DESTDIR)$$d 2> /dev/null || :; done
+	$(call remove,LIBDIR,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc)
+	$(call remove,INCLUDEDIR,stickslip.h $(HEADERS:include/%=%))
+	$(call remove,SCENEDIR,$(notdir $(SCENES)))
+	$(call remove,BINDIR,$(TOOLS) $(SCRIPTS))
+	$(call remove,BASHDIR,$(TOOLS) $(SCRIPTS))
+	$(call remove,ZSHDIR,_stickslip)
+	$(call remove,MANDIR,$(foreach m,$(MANUAL),man$(subst .,,$(suffix $m))/$(notdir $m)))
+	for d in $(call to,INCLUDEDIR)/stickslip $(call to,SCENEDIR) $(call to,PREFIX)/share/stickslip; do \
+		rmdir "$$d" 2> /dev/null || :; done
 
 # The same commit gives the same bytes.
 dist:

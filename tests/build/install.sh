@@ -1,19 +1,21 @@
 # What make install puts somewhere is complete, and make uninstall takes all of it away.
+root="$PWD/a 'root'"
 make_() {
-    "$MAKE" -s -C "$SRC" BUILD="$BUILD" PREFIX=/usr DESTDIR="$PWD/root" "$@" > log 2>&1 || cat log
+    "$MAKE" -s -C "$SRC" BUILD="$BUILD" PREFIX=/usr DESTDIR="$root" "$@" > log 2>&1 || cat log
 }
 make_ install
-(cd root/usr && find . ! -type d | sort) > files
+(cd "$root/usr" && find . ! -type d | sort) > files
 for path in include/stickslip.h include/stickslip/sim.h lib/libstickslip.a lib/pkgconfig/stickslip.pc \
         share/stickslip/scenes/compliant-light.scene; do
     grep -qx "./$path" files || echo "not installed: $path"
 done
 for tool in "$SRC"/tools/ss-*.*; do
     name=$(basename "${tool%.*}")
-    root/usr/bin/"$name" --version > installed
+    "$root/usr/bin/$name" --version > installed
     "$BUILD/bin/$name" --version | diff - installed || echo "$name: not the one that was built"
-    [ -f "root/usr/share/man/man1/$name.1" ] || echo "not installed: $name.1"
+    [ -f "$root/usr/share/man/man1/$name.1" ] || echo "not installed: $name.1"
 done
 make_ uninstall
-find root ! -type d
-find root -name '*stickslip*'
+make_ uninstall          # what is gone already is no error
+find "$root" ! -type d
+find "$root" -name '*stickslip*'
