@@ -31,7 +31,7 @@ fail_lost(const engine *e, ss_error *err)
 void
 ss_engine_begin(engine *e)
 {
-    e->has_start = 0;
+    e->has_start = e->has_guard = 0;
     e->type->begin(e);
 }
 
@@ -64,21 +64,32 @@ ss_engine_derive(engine *e)
 }
 
 /* A guard is its value at the origin and a sum of q and v, whose factors follow from its rates of
- * change; in stick that sum is limited on either side. */
-static step_guard
-guard_of_step(const engine *e, double *of_q, double *of_v)
+ * change. */
+static void
+find_guard(engine *e)
 {
     static const double origin[MAX_DIM] = { 0 }, q[MAX_DIM] = { 1, 0 }, v[MAX_DIM] = { 0, 1 };
     const state *m = &e->m->now;
-    step_guard g = { .either_side = m->mode == 0, .h = e->h };
-    g.level = m->model->guard(m, origin, origin, of_q);
-    m->model->guard(m, q, q, of_q);
-    m->model->guard(m, q, v, of_v);
+    e->level = m->model->guard(m, origin, origin, &e->of_q);
+    m->model->guard(m, q, q, &e->of_q);
+    m->model->guard(m, q, v, &e->of_v);
+    e->has_guard = 1;
+}
+
+/* Within the step, but for p; in stick the sum is limited on either side. */
+static void
+guard_of_step(engine *e, step_guard *g)
+{
+    const state *m = &e->m->now;
+    if (!e->has_guard)
+        find_guard(e);
+    g->level = e->level;
+    g->either_side = m->mode == 0;
+    g->h = e->h;
     double base = m->scene->base != NULL ? m->scene->stiffness * m->scene->base->size : m->drive;
     double a = (base + fabs(m->ramp * (m->u + e->h)) + fabs(m->drag) + fabs(m->f0)
                 + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1])) / m->scene->mass;
-    g.rounding = a * e->h * (fabs(*of_v) + fabs(*of_q) * e->h / 8);     /* of v' */
-    return g;
+    g->rounding = a * e->h * (fabs(e->of_v) + fabs(e->of_q) * e->h / 8);    /* of v' */
 }
 
 /* By what the guard and its slope are at the ends, and by steps repeated. */
@@ -96,12 +107,13 @@ ends_by_steps(engine *e, double *s_event)
 static int
 ends_by_derivatives(engine *e, double *s_event, int *unresolved)
 {
-    double of_q, of_v, at_0[ORDERS + 1], at_h[ORDERS + 1];
+    double at_0[ORDERS + 1], at_h[ORDERS + 1];
+    step_guard g;
     ss_engine_derive(e);
-    step_guard g = guard_of_step(e, &of_q, &of_v);
+    guard_of_step(e, &g);
     for (int i = 0; i <= ORDERS; i++) {
-        at_0[i] = of_q * e->start[i][0] + of_v * e->start[i][1];
-        at_h[i] = of_q * e->end[i][0] + of_v * e->end[i][1];
+        at_0[i] = e->of_q * e->start[i][0] + e->of_v * e->start[i][1];
+        at_h[i] = e->of_q * e->end[i][0] + e->of_v * e->end[i][1];
     }
     ss_guard_by_ends(&g, at_0, at_h);
     return ss_first_zero(&g, s_event, unresolved);
@@ -110,11 +122,12 @@ ends_by_derivatives(engine *e, double *s_event, int *unresolved)
 static int
 ends_by_curve(engine *e, double *s_event, int *unresolved)
 {
-    double of_q, of_v, c[MOST_DEGREE + 1][MAX_DIM], p[MOST_DEGREE + 1];
-    step_guard g = guard_of_step(e, &of_q, &of_v);
+    double c[MOST_DEGREE + 1][MAX_DIM], p[MOST_DEGREE + 1];
+    step_guard g;
+    guard_of_step(e, &g);
     int degree = e->type->curve(e, c);
     for (int i = 0; i <= degree; i++)
-        p[i] = of_q * c[i][0] + of_v * c[i][1];
+        p[i] = e->of_q * c[i][0] + e->of_v * c[i][1];
     ss_guard_by_series(&g, degree, p);
     return ss_first_zero(&g, s_event, unresolved);
 }

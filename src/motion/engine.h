@@ -41,6 +41,9 @@ struct engine {
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
     int clear;                              /* step() has proven that no event is in it */
+    /* The guard in this mode is level + of_q q + of_v v, or level less the size of the rest. */
+    int has_guard;
+    double level, of_q, of_v;
     /* The state and its first ORDERS derivatives at both ends, once asked for. */
     int has_start, has_end;
     double start[ORDERS + 1][MAX_DIM], end[ORDERS + 1][MAX_DIM];

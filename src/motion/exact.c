@@ -60,7 +60,7 @@ swing_at(const exact *x, double u)
 
 /* C, S, G and the first two's derivatives follow from these: C' = -(k/m) S, S' = C - 2 s S.  The
  * swing serves where the motion swings, u where it creeps. */
-static void
+static inline void
 free_motion(const exact *x, double u, turn swing, double *C, double *S, double *G)
 {
     if (x->overdamped) {
@@ -72,9 +72,9 @@ free_motion(const exact *x, double u, turn swing, double *C, double *S, double *
     }
     *S = x->w > 0 ? swing.si / x->w : swing.co * u;
     *C = swing.co + x->s * *S;
-    *G = (1 - *C) / x->k_m;
-    if (x->s == 0 && swing.co > 0)          /* the same without cancellation */
-        *G = swing.si * swing.si / (1 + swing.co) / x->k_m;
+    double fall = x->s == 0 && swing.co > 0 ? swing.si * swing.si / (1 + swing.co)  /* no cancellation */
+        : 1 - *C;
+    *G = fall / x->k_m;
 }
 
 /* (exp(z) - 1) / z */

@@ -14,9 +14,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/versions.h"
 
 /* The way of the pull, in units of the scale of x, beyond which x - U t would lose digits. */
 #define FAR 1e3
+
+/* The state's parts in a curve: as many as fill a vector of the machine. */
+enum { LANES = 4 };
 
 typedef struct ode {
     engine base;
@@ -25,7 +29,7 @@ typedef struct ode {
     gsl_odeiv2_step *side;                  /* NULL if not needed */
     int multistep;
     int has_curve;                          /* of the last step; asked for by the first at() in it */
-    double curve[2 * ORDERS + 2][MAX_DIM];  /* its coefficients in s / h */
+    double curve[2 * ORDERS + 2][LANES];    /* its coefficients in s / h */
     double h_next;
     double tol;
     double shortest;                        /* of all steps [s] */
@@ -194,7 +198,7 @@ ode_step(engine *e, double h_max, ss_error *err)
 
 /* The Taylor coefficients in s / h of a state and its derivatives. */
 static void
-taylor(double h, double d[ORDERS + 1][MAX_DIM], double c[ORDERS + 1][MAX_DIM])
+taylor(double h, double d[ORDERS + 1][MAX_DIM], double c[ORDERS + 1][LANES])
 {
     double scale = 1;
     for (int k = 0; k <= ORDERS; scale *= h / ++k)
@@ -210,7 +214,7 @@ draw_curve(ode *o)
 {
     static const double over_x5[ORDERS + 1] = { 1, -5, 15, -35, 70 };
     engine *e = &o->base;
-    double end[ORDERS + 1][MAX_DIM];
+    double end[ORDERS + 1][LANES];
     ss_engine_derive(e);
     taylor(e->h, e->start, o->curve);
     taylor(e->h, e->end, end);
@@ -231,18 +235,17 @@ draw_curve(ode *o)
     o->has_curve = 1;
 }
 
-static void
+VERSIONS static void
 read_curve(const ode *o, double x, double q[])
 {
-    double x5 = x * x * x * x * x;
-    for (size_t i = 0; i < o->system.dimension; i++) {
-        double T = 0, g = 0;
-        for (int k = ORDERS; k >= 0; k--) {
-            T = T * x + o->curve[k][i];
-            g = g * (x - 1) + o->curve[ORDERS + 1 + k][i];
+    double x5 = x * x * x * x * x, T[LANES] = { 0 }, g[LANES] = { 0 };
+    for (int k = ORDERS; k >= 0; k--)
+        for (int i = 0; i < LANES; i++) {
+            T[i] = T[i] * x + o->curve[k][i];
+            g[i] = g[i] * (x - 1) + o->curve[ORDERS + 1 + k][i];
         }
-        q[i] = T + x5 * g;
-    }
+    for (int i = 0; i < MAX_DIM; i++)
+        q[i] = T[i] + x5 * g[i];
 }
 
 static void

@@ -33,8 +33,10 @@ typedef struct sampler {
     double work;                        /* right-hand sides allowed where there is no max_steps */
     turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
     size_t filled;
-    ss_sample buffer[256];
+    ss_sample *buffer;                  /* BUFFERED of them */
 } sampler;
+
+enum { BUFFERED = 256 };
 
 /* Base and motion are carried from sample to sample by turning further, and computed anew at each
  * sample whose number divides by this: the error is at most 16 times 3 eps / 2 of their size. */
@@ -96,22 +98,26 @@ fill_sample(ss_sample *sample, sampler *r, engine *e, int still, double s)
 }
 
 static ss_status
-fail_sample(const sampler *r, const ss_sample *s, ss_error *err)
+check_each(const sampler *r, const ss_sample *s, ss_error *err)
 {
     static const char name[] = "xvafsyz";
     const double value[] = { s->x, s->v, s->a, s->f, s->s, s->y, s->z };
     int i = 0;
-    while (isfinite(value[i]))
+    while (name[i] != '\0' && isfinite(value[i]))
         i++;
+    if (name[i] == '\0')
+        return SS_OK;
     return ss_fail(err, SS_ERANGE, "%c is not finite at t = %.9g s after %.9g s of settling: numbers "
                    "of this scene lie beyond double precision", name[i], s->t, r->scene->settle);
 }
 
-/* 0 times a number is 0 if the number is finite, else NaN. */
-static int
-is_finite(const ss_sample *s)
+/* SS_ERANGE unless all its numbers are finite, as they are if their sum is. */
+static inline ss_status
+check_sample(const sampler *r, const ss_sample *s, ss_error *err)
 {
-    return 0 * s->x + 0 * s->v + 0 * s->a + 0 * s->f + 0 * s->s + 0 * s->y + 0 * s->z == 0;
+    if (isfinite(s->x + s->v + s->a + s->f + s->s + s->y + s->z))
+        return SS_OK;
+    return check_each(r, s, err);
 }
 
 /* All samples up to, not including, h from now. */
@@ -122,8 +128,8 @@ write_samples(sampler *r, engine *e, int still, double h, ss_error *err)
     if (r->i == r->n)
         return SS_OK;
     double first = until_sample(r, e->m, r->i), s = first;
-    for (size_t n = 1; r->i < r->n && s < h; r->i++, s = first + (double)n++ * r->interval) {
-        if (r->filled == sizeof r->buffer / sizeof *r->buffer) {
+    for (double n = 1; r->i < r->n && s < h; r->i++, s = first + n++ * r->interval) {
+        if (r->filled == BUFFERED) {
             st = flush(r);
             if (st == SS_OK)
                 st = report(r, instant_of_sample(r, r->i).hi);
@@ -132,8 +138,9 @@ write_samples(sampler *r, engine *e, int still, double h, ss_error *err)
         }
         ss_sample *sample = &r->buffer[r->filled++];
         fill_sample(sample, r, e, still, s);
-        if (!is_finite(sample))
-            return fail_sample(r, sample, err);
+        st = check_sample(r, sample, err);
+        if (st != SS_OK)
+            return st;
     }
     return SS_OK;
 }
@@ -337,7 +344,8 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
         st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err);
     if (st != SS_OK)
         return st;
-    sampler r = { .scene = scene, .opts = opts,
+    ss_sample buffer[BUFFERED];
+    sampler r = { .scene = scene, .opts = opts, .buffer = buffer,
                  .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate, .work = work_allowed(scene),
