@@ -1,15 +1,17 @@
 /* maxima.c -- local maxima of |W| and how far they stand out.
  *
- * From every point a way leads to a higher neighbour, and so on up to a peak: all the points whose
- * ways end there are its basin.  Ways only rise, whichever they are, so the basins of two peaks
+ * Each row falls into hills, from valley to valley.  A hill leads to the highest neighbour of its top
+ * in the rows beside, and so to another hill, if that is higher, and so on up to a peak: all the hills
+ * that lead to a peak are its basin.  Ways only rise, whichever they are, so the basins of two peaks
  * join at the highest point of their border, and the borders alone say what flooding the whole map
  * from above would: they are taken from the highest down, and where two pools meet, the one with
  * the lower peak ends.  That border is the highest saddle between this peak and any higher one: the
  * prominence is the fall from peak to saddle.
  *
- * The map is passed over strip by strip in time, so that only a strip of it is in memory: its points
- * and, of each row, HALO more at either side.  A way that leaves a strip ends in a peak of level -1,
- * whose pool is that of the next strip's point.
+ * The map is passed over strip by strip in time, so that only a strip of it is in memory, and of each
+ * row the last HALO points of the strip before, as hills of one point whose peaks are known.  A top
+ * that is higher only than what its strip shows is a peak as well; its border with the next strip is
+ * as high as it is, so that its prominence is 0.
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
  * where the map was cut, not a maximum; it is not reported, but it is higher ground for others.  So
@@ -19,16 +21,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/list.h"
+#include "base/versions.h"
 #include "features/levels.h"
 #include "features/maxima.h"
 #include "morlet/plan.h"
 
-#define DRY SIZE_MAX            /* a way that leads nowhere: no point of the map */
+#define DRY SIZE_MAX            /* a way that leads nowhere: no hill */
 #define PEAK (SIZE_MAX / 2 + 1) /* a way's end: plus the number of the peak */
 
 typedef struct peak {
     size_t row, k;              /* its coefficient */
-    double level;               /* |W| > 0, or -1 */
+    double level;               /* |W| > 0 */
     double saddle;              /* the level where its pool ended, 0 if it did not */
     size_t pool;                /* towards its pool's highest peak, which is its own */
 } peak;
@@ -44,12 +47,18 @@ enum {
     STRIP = 1 << 21             /* points of a strip, about */
 };
 
-/* A row in a strip: points lo ... hi - 1, of which from ... end - 1 are the strip's own. */
+/* Points of a row from the end of the hill before on. */
+typedef struct hill {
+    size_t top, end;
+    size_t way;                 /* to another hill, or to a peak; or DRY */
+} hill;
+
+/* A row in a strip: points lo ... end - 1, of which those before from are of the strip before. */
 typedef struct line {
-    size_t lo, from, end, hi;
+    size_t lo, from, end;
     size_t at;                  /* of point lo among the strip's points */
-    size_t left[HALO];          /* the ways of the points before end in the strip before, */
-    size_t right[HALO];         /* and the peaks, plus PEAK, at those from end on; or DRY */
+    size_t hill, hill_end;      /* its hills */
+    size_t before[HALO];        /* the peaks of the points before from, from the last on; or DRY */
 } line;
 
 typedef struct map {
@@ -61,13 +70,14 @@ typedef struct map {
     line *line;                 /* of row first and on */
     size_t room;                /* points */
     double *level;              /* of a strip's points; 0: dry */
-    size_t *way;                /* to another point, or to a peak */
+    size_t n_hills, hill_room;
+    hill *hill;                 /* of a strip, row by row */
     size_t n_peaks, peak_room;
     peak *peak;
     size_t n_borders, border_room;
     border *border;
     border recent[RECENT];
-    int failed;                 /* 1: no memory for peaks or borders */
+    int failed;                 /* 1: no memory for hills, peaks or borders */
 } map;
 
 static void
@@ -77,7 +87,7 @@ map_free(map *m)
         return;
     free(m->line);
     free(m->level);
-    free(m->way);
+    free(m->hill);
     free(m->peak);
     free(m->border);
     free(m);
@@ -103,9 +113,8 @@ next_strip(map *m, double t)
         l->from = l->end;
         l->end = count > l->from ? count < scale->n ? count : scale->n : l->from;
         l->lo = l->from > HALO ? l->from - HALO : 0;
-        l->hi = scale->n - l->end > HALO ? l->end + HALO : scale->n;
         l->at = n;
-        n += l->hi - l->lo;
+        n += l->end - l->lo;
     }
     return n;
 }
@@ -116,11 +125,33 @@ make_room(map *m, size_t n)
     if (n <= m->room)
         return SS_OK;
     free(m->level);
-    free(m->way);
     m->level = malloc(n * sizeof *m->level);
-    m->way = malloc(n * sizeof *m->way);
-    m->room = m->level != NULL && m->way != NULL ? n : 0;
+    m->room = m->level != NULL ? n : 0;
     return m->room > 0 ? SS_OK : SS_ENOMEM;
+}
+
+/* The largest of n levels. */
+VERSIONS static double
+largest_of(const double *level, size_t n)
+{
+    enum { LANES = 8 };
+    double top[LANES] = { 0 };
+    size_t k = 0;
+    for (; k + LANES <= n; k += LANES)
+        for (size_t i = 0; i < LANES; i++)
+            top[i] = level[k + i] > top[i] ? level[k + i] : top[i];
+    for (; k < n; k++)
+        top[0] = level[k] > top[0] ? level[k] : top[0];
+    for (size_t i = 1; i < LANES; i++)
+        top[0] = top[i] > top[0] ? top[i] : top[0];
+    return top[0];
+}
+
+VERSIONS static void
+dry_below(double *level, size_t n, double floor)
+{
+    for (size_t k = 0; k < n; k++)
+        level[k] = level[k] > floor ? level[k] : 0;
 }
 
 /* Note the largest levels of a row; then set those that are dry, or in the cone of influence, to 0. */
@@ -129,20 +160,18 @@ dry_out(map *m, size_t row)
 {
     const line *l = &m->line[row - m->first];
     const ss_scale *scale = scale_of(m, row);
-    double *level = m->level + l->at, rate = m->grid->head->rate, floor = m->floor;
-    size_t from = l->lo, to = l->hi;
-    for (size_t k = l->lo; k < l->hi; k++) {
-        double here = level[k - l->lo];
-        if (here > m->outside && !ss_coefficients_edge(m->grid, row, k))
-            m->outside = here;
-        if (here > m->all)
-            m->all = here;
-        level[k - l->lo] = here > floor ? here : 0;
-    }
-    while (from < to && ss_scale_edge(scale, from, m->grid->n, rate))
-        level[from++ - l->lo] = 0;
-    while (to > from && ss_scale_edge(scale, to - 1, m->grid->n, rate))
-        level[--to - l->lo] = 0;
+    double *level = m->level + l->at, rate = m->grid->head->rate;
+    size_t n = l->end - l->lo, from = 0, to = n;
+    double top = largest_of(level, n);
+    for (size_t k = 0; k < n && top > m->outside; k++)
+        if (level[k] > m->outside && !ss_coefficients_edge(m->grid, row, l->lo + k))
+            m->outside = level[k];
+    m->all = fmax(m->all, top);
+    dry_below(level, n, m->floor);
+    while (from < to && ss_scale_edge(scale, l->lo + from, m->grid->n, rate))
+        level[from++] = 0;
+    while (to > from && ss_scale_edge(scale, l->lo + to - 1, m->grid->n, rate))
+        level[--to] = 0;
 }
 
 static ss_status
@@ -154,7 +183,7 @@ fill(map *m)
         return SS_ENOMEM;
     for (size_t i = 0; i < rows; i++) {
         const line *l = &m->line[i];
-        part[i] = (level_part){ m->first + i, l->lo, l->hi - l->lo, m->level + l->at };
+        part[i] = (level_part){ m->first + i, l->lo, l->end - l->lo, m->level + l->at };
     }
     ss_status st = ss_levels_fill(m->source, part, rows);
     for (size_t row = m->first; st == SS_OK && row <= m->last; row++)
@@ -163,7 +192,7 @@ fill(map *m)
     return st;
 }
 
-/* --- passing over a strip -------------------------------------------------------------------- */
+/* --- neighbours ------------------------------------------------------------------------------ */
 
 /* The point of a row nearest in time to point i of another, the first and the last beyond: its
  * steps over theirs are ratio. */
@@ -180,53 +209,122 @@ ratio_of(const ss_scale *from, const ss_scale *to)
     return from->b_num / from->b_den / (to->b_num / to->b_den);
 }
 
-/* --- ways and peaks ------------------------------------------------------------------------ */
+/* Two rows one beside the other: a point of the finer one has a neighbour in the coarser one, the
+ * nearest. */
+typedef struct pair {
+    const line *fine, *coarse;
+    const ss_scale *to;         /* of the coarse one */
+    double ratio;               /* of their steps, <= 1 */
+} pair;
 
-/* Of equals, the first is the higher.  Without branches: they would be guessed wrong. */
+static pair
+pair_of(const map *m, size_t row)
+{
+    double ratio = ratio_of(scale_of(m, row), scale_of(m, row + 1));
+    const line *here = &m->line[row - m->first], *next = here + 1;
+    return ratio <= 1 ? (pair){ here, next, scale_of(m, row + 1), ratio }
+        : (pair){ next, here, scale_of(m, row), ratio_of(scale_of(m, row + 1), scale_of(m, row)) };
+}
+
+/* The first point of the fine row, from i on, whose neighbour is not before j. */
+static size_t
+first_beside(const pair *p, size_t i, size_t j)
+{
+    double at = ((double)j - 0.5) / p->ratio - 1;
+    if (at > (double)i)
+        i = at < (double)p->fine->end ? (size_t)at : p->fine->end;
+    while (i < p->fine->end && nearest(i, p->ratio, p->to) < j)
+        i++;
+    return i;
+}
+
+/* --- hills and peaks ------------------------------------------------------------------------- */
+
+static void
+add_hill(map *m, size_t top, size_t end, size_t way)
+{
+    hill *list = ss_list_room(m->hill, &m->hill_room, m->n_hills, sizeof *list);
+    if (list == NULL) {
+        m->failed = 1;
+        return;
+    }
+    m->hill = list;
+    m->hill[m->n_hills++] = (hill){ top, end, way };
+}
+
+/* The hills of a row: a top is the first of equals. */
+static void
+find_hills(map *m, size_t row)
+{
+    line *l = &m->line[row - m->first];
+    const double *level = m->level + l->at;
+    size_t n = l->end - l->lo, k = l->from - l->lo;
+    l->hill = m->n_hills;
+    for (size_t i = l->lo; i < l->from; i++)
+        add_hill(m, i, i + 1, l->before[l->from - 1 - i]);
+    while (k < n) {
+        size_t top = k;
+        while (top + 1 < n && level[top + 1] > level[top])
+            top++;
+        for (k = top + 1; k < n && level[k] <= level[k - 1];)
+            k++;
+        add_hill(m, l->lo + top, l->lo + k, level[top] > 0 ? m->n_hills : DRY);
+    }
+    l->hill_end = m->n_hills;
+}
+
+/* Of equals, the one in the first row is the higher, and in it the first. */
 static inline int
 is_higher(const double *level, size_t p, size_t q)
 {
-    return (level[p] > level[q]) | ((level[p] == level[q]) & (p < q));
+    return level[p] > level[q] || (level[p] == level[q] && p < q);
 }
 
-/* The highest of a point and of its neighbours in a row beside, those that it is nearest to, too. */
-static size_t
-highest_beside(const map *m, size_t row, size_t i, size_t beside, size_t highest)
-{
-    const ss_scale *from = scale_of(m, row), *to = scale_of(m, beside);
-    const line *b = &m->line[beside - m->first];
-    double ratio = ratio_of(from, to), back = ratio_of(to, from);
-    size_t mine = nearest(i, ratio, to), reach = (size_t)(ratio / 2) + 2;
-    for (size_t j = mine > reach ? mine - reach : 0; j <= mine + reach && j < to->n; j++)
-        if (j >= b->lo && j < b->hi && (j == mine || nearest(j, back, from) == i)
-            && is_higher(m->level, b->at + (j - b->lo), highest))
-            highest = b->at + (j - b->lo);
-    return highest;
-}
+/* From a row to one beside it. */
+typedef struct side {
+    pair pair;
+    const line *to;
+    size_t hill;                /* the first that may hold the next point */
+} side;
 
-static size_t
-highest_across(const map *m, size_t row, size_t i, size_t highest)
-{
-    if (row > m->first)
-        highest = highest_beside(m, row, i, row - 1, highest);
-    return row < m->last ? highest_beside(m, row, i, row + 1, highest) : highest;
-}
-
-/* The ways of a row: along it if they rise there, as it does not matter which way up is taken; from its
- * maxima to the rows beside. */
+/* Let a hill lead to the highest neighbour of its top in the row beside, if that is higher than all seen
+ * before. */
 static void
-climb(map *m, size_t row)
+lead_beside(map *m, hill *h, size_t *highest, side *s)
 {
-    const double *level = m->level;
+    const pair *p = &s->pair;
+    const line *to = s->to;
+    int is_coarse = to == p->coarse;
+    size_t j = is_coarse ? nearest(h->top, p->ratio, p->to) : first_beside(p, to->lo, h->top);
+    size_t end = is_coarse ? j + 1 : first_beside(p, j, h->top + 1);
+    for (; j < end && j < to->end; j++) {
+        if (j < to->lo || !is_higher(m->level, to->at + (j - to->lo), *highest))
+            continue;
+        while (m->hill[s->hill].end <= j)
+            s->hill++;
+        h->way = s->hill;
+        *highest = to->at + (j - to->lo);
+    }
+}
+
+/* The ways of the hills of a row that have none yet. */
+static void
+find_ways(map *m, size_t row)
+{
     const line *l = &m->line[row - m->first];
-    size_t end = l->at + (l->hi - l->lo);
-    for (size_t p = l->at; p < end; p++) {
-        size_t before = p > l->at ? p - 1 : p, behind = p + 1 < end ? p + 1 : p;
-        size_t way = is_higher(level, before, p) ? before : p;
-        way = is_higher(level, behind, way) ? behind : way;
-        m->way[p] = level[p] > 0 ? way : DRY;
-        if (m->way[p] == p)
-            m->way[p] = highest_across(m, row, l->lo + (p - l->at), p);
+    side beside[2];
+    int n = 0;
+    if (row > m->first)
+        beside[n++] = (side){ pair_of(m, row - 1), l - 1, l[-1].hill };
+    if (row < m->last)
+        beside[n++] = (side){ pair_of(m, row), l + 1, l[1].hill };
+    for (size_t i = l->hill; i < l->hill_end; i++) {
+        hill *h = &m->hill[i];
+        size_t highest = l->at + (h->top - l->lo);
+        if (h->way != i)
+            continue;
+        for (int k = 0; k < n; k++)
+            lead_beside(m, h, &highest, &beside[k]);
     }
 }
 
@@ -244,76 +342,59 @@ new_peak(map *m, size_t row, size_t k, double level)
     return PEAK + m->n_peaks++;
 }
 
-/* Let the way from a point, and from all those on it, lead to the peak at once. */
-static inline void
-shorten(map *m, size_t at)
+/* Hills that lead to no other end in a peak. */
+static void
+find_peaks(map *m, size_t row)
 {
-    size_t end = m->way[at];
+    const line *l = &m->line[row - m->first];
+    for (size_t i = l->hill; i < l->hill_end; i++) {
+        hill *h = &m->hill[i];
+        if (h->way == i)
+            h->way = new_peak(m, row, h->top, m->level[l->at + (h->top - l->lo)]);
+    }
+}
+
+/* Let the way of a hill, and those of all hills on it, lead to the peak at once. */
+static void
+shorten(map *m, size_t i)
+{
+    size_t end = m->hill[i].way;
     while (end < PEAK)
-        end = m->way[end];
-    while (m->way[at] < PEAK) {
-        size_t next = m->way[at];
-        m->way[at] = end;
-        at = next;
+        end = m->hill[end].way;
+    while (m->hill[i].way < PEAK) {
+        size_t next = m->hill[i].way;
+        m->hill[i].way = end;
+        i = next;
     }
 }
 
-/* The ends of ways in a row: its peaks, those that the strip before has found, and those that the
- * next will find. */
+/* Keep the peaks of a row's last points for the next strip. */
 static void
-find_ends(map *m, size_t row)
+keep_ends(map *m, size_t row)
 {
     line *l = &m->line[row - m->first];
-    size_t *way = m->way + l->at, right[HALO];
-    for (size_t k = l->lo; k < l->from; k++)
-        way[k - l->lo] = l->left[l->from - 1 - k];
-    for (size_t k = l->from; k < l->end; k++)
-        if (way[k - l->lo] == l->at + (k - l->lo))
-            way[k - l->lo] = new_peak(m, row, k, m->level[l->at + (k - l->lo)]);
-    for (size_t i = 0; i < HALO; i++) {
-        size_t k = l->end + i, before = k - l->from;
-        right[i] = DRY;
-        if (k >= l->hi || way[k - l->lo] == DRY)
-            continue;
-        int known = before < HALO && l->right[before] != DRY;
-        right[i] = way[k - l->lo] = known ? l->right[before] : new_peak(m, row, k, -1);
-    }
-    for (size_t i = 0; i < HALO; i++) {     /* left serves for those that this strip has found */
-        l->left[i] = l->from + i < l->end ? l->right[i] : DRY;
-        l->right[i] = right[i];
+    size_t i = l->hill_end;
+    for (size_t k = 0; k < HALO && l->end - k > l->lo; k++) {
+        while (i > l->hill && (i == l->hill_end || m->hill[i - 1].end >= l->end - k))
+            i--;
+        l->before[k] = m->hill[i].way;
     }
 }
 
-/* All ways lead to their ends: the peaks of the strip before get their pools, and the next strip
- * its ways. */
 static void
-close_ends(map *m, size_t row)
+climb(map *m)
 {
-    line *l = &m->line[row - m->first];
-    size_t *way = m->way + l->at;
-    for (size_t k = l->from; k < l->end; k++)
-        shorten(m, l->at + (k - l->lo));
-    for (size_t i = 0; i < HALO; i++)
-        if (l->left[i] != DRY)
-            m->peak[l->left[i] - PEAK].pool = way[l->from + i - l->lo] - PEAK;
-    for (size_t i = 0; i < HALO; i++)
-        l->left[i] = l->end > l->lo + i ? way[l->end - 1 - i - l->lo] : DRY;
-}
-
-static void
-find_ways(map *m)
-{
+    m->n_hills = 0;
     for (size_t row = m->first; row <= m->last; row++)
-        climb(m, row);
-    for (size_t row = m->first; row <= m->last; row++)
-        find_ends(m, row);
+        find_hills(m, row);
     for (size_t row = m->first; row <= m->last && !m->failed; row++)
-        close_ends(m, row);
-    for (size_t i = 0; i <= m->last - m->first; i++) {
-        const line *l = &m->line[i];
-        for (size_t k = l->end; k < l->hi; k++)
-            m->way[l->at + (k - l->lo)] = DRY;          /* the next strip's */
-    }
+        find_ways(m, row);
+    for (size_t row = m->first; row <= m->last && !m->failed; row++)
+        find_peaks(m, row);
+    for (size_t i = 0; i < m->n_hills && !m->failed; i++)
+        shorten(m, i);
+    for (size_t row = m->first; row <= m->last && !m->failed; row++)
+        keep_ends(m, row);
 }
 
 /* --- borders ------------------------------------------------------------------------------- */
@@ -330,13 +411,10 @@ keep_border(map *m, border b)
     m->border[m->n_borders++] = b;
 }
 
-static inline void
-add_border(map *m, size_t at, size_t beside)
+/* Between two hills that lead to different peaks. */
+static void
+add_border(map *m, size_t p, size_t q, double level)
 {
-    size_t p = m->way[at], q = m->way[beside];
-    if (p == q || p == DRY || q == DRY)
-        return;
-    double level = fmin(m->level[at], m->level[beside]);
     border found = { 0, (p < q ? p : q) - PEAK, (p < q ? q : p) - PEAK };
     border *slot = &m->recent[(found.p * 31 + found.q) % RECENT];
     memcpy(&found.key, &level, sizeof level);
@@ -349,33 +427,71 @@ add_border(map *m, size_t at, size_t beside)
     *slot = found;
 }
 
-/* Between each point of a row and its neighbour beside. */
-static void
-find_borders_of(map *m, size_t row, size_t beside, double ratio)
+static int
+is_border(size_t p, size_t q)
 {
-    const line *a = &m->line[row - m->first], *b = &m->line[beside - m->first];
-    for (size_t i = a->lo, p = a->at; i < a->hi; i++, p++) {
-        if (m->way[p] == DRY)                           /* most of noise is */
+    return p != q && p != DRY && q != DRY;
+}
+
+/* Between the hills of a row. */
+static void
+find_borders_along(map *m, const line *l)
+{
+    const double *level = m->level + l->at;
+    for (size_t i = l->hill; i + 1 < l->hill_end; i++) {
+        size_t k = m->hill[i].end - l->lo, p = m->hill[i].way, q = m->hill[i + 1].way;
+        double low = fmin(level[k - 1], level[k]);
+        if (is_border(p, q) && low > 0)
+            add_border(m, p, q, low);
+    }
+}
+
+/* The highest of the lower ones of points i to end - 1 of the fine row and their neighbours. */
+static double
+highest_between(const map *m, const pair *p, size_t i, size_t end)
+{
+    const double *fine = m->level + p->fine->at, *coarse = m->level + p->coarse->at;
+    double most = 0;
+    for (; i < end; i++) {
+        double a = fine[i - p->fine->lo], b = coarse[nearest(i, p->ratio, p->to) - p->coarse->lo];
+        double low = a < b ? a : b;
+        most = low > most ? low : most;
+    }
+    return most;
+}
+
+/* Between the hills of two rows. */
+static void
+find_borders_across(map *m, const pair *p)
+{
+    const line *fine = p->fine, *coarse = p->coarse;
+    size_t a = fine->hill, b = coarse->hill, i = first_beside(p, fine->lo, coarse->lo);
+    while (i < fine->end) {
+        size_t j = nearest(i, p->ratio, p->to);
+        if (j >= coarse->end)
+            return;
+        while (m->hill[a].end <= i)
+            a++;
+        while (m->hill[b].end <= j)
+            b++;
+        size_t end = first_beside(p, i, m->hill[b].end), from = i;
+        i = end < m->hill[a].end ? end : m->hill[a].end;
+        if (!is_border(m->hill[a].way, m->hill[b].way))
             continue;
-        size_t j = nearest(i, ratio, scale_of(m, beside));
-        if (j >= b->lo && j < b->hi)
-            add_border(m, p, b->at + (j - b->lo));
+        double level = highest_between(m, p, from, i);
+        if (level > 0)
+            add_border(m, m->hill[a].way, m->hill[b].way, level);
     }
 }
 
 static void
 find_borders(map *m)
 {
-    for (size_t row = m->first; row <= m->last; row++) {
-        const line *l = &m->line[row - m->first];
-        for (size_t i = 1; i < l->hi - l->lo; i++)
-            add_border(m, l->at + i - 1, l->at + i);
-        if (row == m->last)
-            break;
-        const ss_scale *here = scale_of(m, row), *next = scale_of(m, row + 1);
-        find_borders_of(m, row, row + 1, ratio_of(here, next));
-        if (ratio_of(here, next) != 1 || here->n != next->n)    /* or they are the same */
-            find_borders_of(m, row + 1, row, ratio_of(next, here));
+    for (size_t row = m->first; row <= m->last; row++)
+        find_borders_along(m, &m->line[row - m->first]);
+    for (size_t row = m->first; row < m->last; row++) {
+        pair p = pair_of(m, row);
+        find_borders_across(m, &p);
     }
 }
 
@@ -392,7 +508,7 @@ survey(map *m)
         size_t n = next_strip(m, i < strips ? length * (double)i / (double)strips : INFINITY);
         if ((st = make_room(m, n)) != SS_OK || (st = fill(m)) != SS_OK)
             continue;
-        find_ways(m);
+        climb(m);
         if (!m->failed)
             find_borders(m);
         st = m->failed ? SS_ENOMEM : ss_levels_progress(m->source, (double)i / (double)strips);
@@ -489,8 +605,6 @@ report(ss_maximum **out, size_t *n, const map *m, double top, double range, doub
     for (size_t i = 0; i < m->n_peaks; i++) {
         const peak *p = &m->peak[i];
         const ss_scale *scale = scale_of(m, p->row);
-        if (p->level < 0)
-            continue;
         /* only the highest has no saddle */
         double below = p->saddle > 0 || p->level == highest ? p->saddle : m->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
@@ -529,9 +643,6 @@ map_new(map **out, const map_source *source, size_t first, size_t last, double f
     m->last = last;
     m->floor = floor;
     m->outside = -1;
-    for (size_t i = 0; i <= last - first; i++)
-        for (size_t k = 0; k < HALO; k++)
-            m->line[i].left[k] = m->line[i].right[k] = DRY;
     ss_status st = survey(m);
     if (st == SS_OK && (st = sort_borders(m)) == SS_OK)
         flood(m);
