@@ -430,8 +430,7 @@ a_pulled_slider_has_its_closed_form(void **state)
             is_near(at.value[SS_ENERGY], s.friction * speed * T, 1e-11 * s.friction * speed * T, "energy");
             is_near(at.value[SS_X_PHASE], -copysign(.0302 / s.stiffness, U - S), 1e-14, "x_phase");
             is_near(at.value[SS_V_PHASE], S, 0, "v_phase");
-            /* all slips begin alike: what is left is rounding of terms of size q = 160 */
-            is_near(at.value[SS_FLOQUET], 0, 1e-12, "floquet");
+            is_near(at.value[SS_FLOQUET], 0, 0, "floquet");
             assert_true(at.value[SS_PERIOD] == 1 && at.value[SS_STOPS] == 1);
             at = steady_of(&s, BIT(SS_AMPLITUDE), way);
             is_near(at.value[SS_AMPLITUDE], speed * root / w, 1e-9 * speed * root / w, "amplitude");
@@ -508,6 +507,45 @@ a_damped_slider_sticks_as_its_record_does(void **state)
         }
 }
 
+/* Whatever slips begin with, by another way: each stick that a record begins with lasts until the force is
+ * f_s, and from there on all records are one, so that nothing is left of a difference. */
+static void
+a_true_stick_forgets_every_difference(void **state)
+{
+    static const char *const method[] = { "exact", "taylor", "rk8pd", "msadams" };
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        ss_scene s = read_slider(i & 1 ? 0 : 1e-3, i & 1 ? -1e-3 : 0);
+        s.model = i & 2 ? SS_STRIBECK : SS_COULOMB;
+        s.stribeck_velocity = .01;
+        s.damping = i & 4 ? .1 : 0;
+        onsets first = onsets_of(s, 4);
+        for (int start = 0; start < 3; start++) {
+            s.x0 = (start - 1) * 2e-4;
+            s.v0 = s.surface_velocity + start * 3e-3;
+            onsets o = onsets_of(s, 4);
+            is_near(o.x[3], first.x[3], 1e-11 * .0602 / 168, "x of an onset");
+            is_near(o.t[3] - o.t[2], first.t[3] - first.t[2], 1e-11, "time between onsets");
+        }
+        for (int m = i & 2 ? 1 : 0; m < (i & 2 ? 2 : 4); m++)
+            for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
+                ss_steady_opts opts = ss_steady_defaults;
+                ss_steady at;
+                ss_error err = { 0 };
+                opts.method = method[m];
+                opts.search = way;
+                opts.measures = BIT(SS_CYCLE_TIME) | BIT(SS_X_PHASE) | BIT(SS_FLOQUET)
+                    | BIT(SS_FLOQUET_2) | BIT(SS_LYAPUNOV);
+                assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+                assert_string_equal(err.text, "lyapunov: neighbouring motions become one, within rounding");
+                assert_true(at.value[SS_FLOQUET] == 0 && at.value[SS_FLOQUET_2] == 0);
+                assert_true(isnan(at.value[SS_LYAPUNOV]));
+                is_near(at.value[SS_CYCLE_TIME], first.t[3] - first.t[2], 2e-9, "cycle_time");
+                is_near(at.value[SS_X_PHASE], first.x[3], 2e-9 * .0602 / 168, "x_phase");
+            }
+    }
+}
+
 /* An elastic contact still rings when it slips again, so slips begin unlike: the distance of an onset from
  * its limit shrinks by the multiplier, here on either side of it in turn. */
 static void
@@ -560,9 +598,11 @@ says_what_has_no_cycle(void **state)
     opts.method = "rk8pd";
     opts.search = SS_SEARCH_SHOOT;
     ss_scene slider = read_slider(.1, 0);
+    slider.model = SS_COMPLIANT;
+    slider.contact_stiffness = 20000;
     assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
-    assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting, multipliers and exponents need method "
-                        "exact");
+    assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting, multipliers and exponents of "
+                        "model compliant need method exact");
     opts = ss_steady_defaults;
     s.base_frequency = s.base_amplitude = 0;
     s.base_velocity = .1;
@@ -884,6 +924,7 @@ main(void)
         cmocka_unit_test(a_falling_friction_has_its_published_period),
         cmocka_unit_test(a_damped_slider_sticks_as_its_record_does),
         cmocka_unit_test(a_slider_on_a_contact_comes_nearer_by_its_multiplier),
+        cmocka_unit_test(a_true_stick_forgets_every_difference),
         cmocka_unit_test(says_what_has_no_cycle),
         cmocka_unit_test(methods_agree),
         cmocka_unit_test(hears_the_transition_frequency),

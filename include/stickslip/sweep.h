@@ -98,11 +98,11 @@ typedef struct ss_steady {
  * Newton's last step and residual are at most tol.  Settle, duration and rate of the scene do not
  * matter.
  *
- * Without forcing, x is what differs at an onset; shooting, multipliers and exponents need the closed form
- * then.
+ * Without forcing, x - U t is what differs at an onset.  True sticks end all at the same x - U t, so the
+ * multipliers are 0; an elastic contact needs the closed form for shooting, multipliers and exponents.
  *
- * The exponent of a periodic motion is that of its largest multiplier, and is absent where rounding hides
- * this, as where a stick ends every difference.  That of another is a mean over max_cycles (or settle)
+ * The exponent of a periodic motion is that of its largest multiplier, and is absent where this is 0 or
+ * hidden by rounding, as where a stick ends every difference.  That of another is a mean over max_cycles (or settle)
  * cycles more (Benettin et al. 1980), its error the scatter among 20 parts of them.
  *
  * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for

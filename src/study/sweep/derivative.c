@@ -1,7 +1,8 @@
 /* derivative.c -- the derivative of cycles by the state that they begin with.
  *
  * It comes from the closed form and the saltation matrices of events (tangent.c); where there
- * is no closed form, from walks of neighbouring states. */
+ * is no closed form, from walks of neighbouring states.  Without forcing it is 0 where sticks are true:
+ * each lasts until the pull has carried the force to f_s, which is at the same x - U t wherever it began. */
 #include "study/sweep/finder.h"
 
 #include <math.h>
@@ -73,7 +74,6 @@ differences(finder *f, int cycles, derivative_use use, tangent *t)
         unit[D_V] = f->unit.y * sqrt(start.now.k / f->scene->mass);
     }
     start.now.model->variation->free(&start.now, is_free);
-    *t = (tangent){ 0 };
     for (int j = 0; st == SS_OK && j < D_MOST; j++) {
         double up[D_MOST], by = size * unit[j], down[D_MOST], back = 0;
         if (!is_free[j])
@@ -94,6 +94,9 @@ differences(finder *f, int cycles, derivative_use use, tangent *t)
 ss_status
 ss_finder_derive(finder *f, int cycles, derivative_use use, tangent *t)
 {
+    *t = (tangent){ 0 };
+    if (f->autonomous && f->w.m.now.model->still != NULL)
+        return ss_finder_go(f, cycles, NULL, NULL);
     if (!f->in_closed_form)
         return differences(f, cycles, use, t);
     ss_tangent_begin(t, &f->w.m.now);

@@ -57,8 +57,8 @@ void ss_tangent_begin(tangent *t, const state *m);
  * and mode, whether that was an event. */
 void ss_tangent_leg(tangent *t, const walk *w);
 void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[]);
-/* At an onset of stick: from neighbouring states at one time to those at their own onsets, where only
- * x - U t differs. */
+/* At an onset of microstick: from neighbouring states at one time to those at their own onsets, where
+ * only x - U t differs. */
 void ss_tangent_on_onset(tangent *t, const state *m);
 /* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
  * is. */

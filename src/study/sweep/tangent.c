@@ -49,12 +49,9 @@ ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const do
 void
 ss_tangent_on_onset(tangent *t, const state *m)
 {
-    int is_free[D_MOST];
-    m->model->variation->free(m, is_free);
-    int place = is_free[D_REF] ? D_REF : D_Q;
     for (int i = 0; i < D_MOST; i++)
         for (int j = 0; j < D_MOST; j++)
-            t->d[i][j] = i == place && j == place ? t->d[i][j] - pull_of(m->scene) * t->later[j] : 0;
+            t->d[i][j] = i == D_REF && j == D_REF ? t->d[i][j] - pull_of(m->scene) * t->later[j] : 0;
 }
 
 void
