@@ -1,7 +1,6 @@
 /* features.c -- the maxima of |W| above the noise, and what the transitions have in common. */
 #include <stickslip/features.h>
 
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +40,7 @@ find_noise(search *s)
             level[n++] = level[k];
     double scale = s->opts->norm == SS_NORM_L1 ? last->a : 1;
     s->out->noise = n == 0 ? 0
-        : gsl_stats_select(level, 1, n, n / 2) * sqrt(scale * s->rate / M_LN2);
+        : ss_levels_middle(level, n) * sqrt(scale * s->rate / M_LN2);
     free(level);
     return st;
 }

@@ -1,5 +1,7 @@
 /* levels.c -- |W| of a map, part by part. */
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/pool.h"
 #include "base/progress.h"
 #include "base/versions.h"
@@ -83,6 +85,37 @@ ss_levels_fill(const map_source *source, const level_part *part, size_t n)
     for (size_t t = 0; t < threads; t++)
         st = st == SS_OK ? share[t].status : st;
     return st;
+}
+
+static inline size_t
+digit_of(double level, int shift, size_t mask)
+{
+    uint64_t bits;
+    memcpy(&bits, &level, sizeof bits);
+    return bits >> shift & mask;
+}
+
+/* Digit by digit of their bits, which are ordered as the numbers are: those that have not the digit of the
+ * middle one are left out. */
+double
+ss_levels_middle(double *level, size_t n)
+{
+    enum { BITS = 13, DIGITS = 1 << BITS };
+    size_t place = n / 2;
+    for (int shift = 64 - BITS; n > 1 && shift > -BITS; shift -= BITS) {
+        size_t count[DIGITS] = { 0 }, digit = 0, left = 0;
+        int low = shift > 0 ? shift : 0;
+        for (size_t i = 0; i < n; i++)
+            count[digit_of(level[i], low, DIGITS - 1)]++;
+        for (; place >= count[digit]; digit++)
+            place -= count[digit];
+        for (size_t i = 0; i < n; i++) {
+            level[left] = level[i];
+            left += digit_of(level[i], low, DIGITS - 1) == digit;
+        }
+        n = left;
+    }
+    return level[0];
 }
 
 ss_status

@@ -13,7 +13,6 @@
  * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
  * the reach of a gap, where something of another value and slope may stand. */
 #include <float.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -115,7 +114,7 @@ summit(const double *level, double t, double step)
     return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
 }
 
-/* The rms of |W| in the n levels, which lose their order, one every step from t on, by the median of
+/* The rms of |W| in the n levels, which are lost, one every step from t on, by the median of
  * those that are farther than QUIET scales from all spikes found so far and out of the reach of
  * gaps: all that there are, if these are less than LEAST of them. */
 static double
@@ -124,7 +123,8 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
 {
     double quiet = QUIET * a;
     size_t left = 0, i = 0;
-    for (size_t k = 0; k < n; k++) {
+    int all = source->n_gaps == 0 && (loud == NULL || loud->n == 0);
+    for (size_t k = 0; k < n && !all; k++) {
         double at = t + (double)k * step;
         while (loud != NULL && i < loud->n && loud->spike[i].t + quiet < at)
             i++;
@@ -135,9 +135,9 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
         level[left++] = level[k];
         level[k] = swap;
     }
-    if ((double)left < LEAST * (double)n)
+    if (all || (double)left < LEAST * (double)n)
         left = n;
-    return gsl_stats_select(level, 1, left, left / 2) / sqrt(M_LN2);
+    return ss_levels_middle(level, left) / sqrt(M_LN2);
 }
 
 /* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
