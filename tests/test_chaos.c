@@ -96,7 +96,10 @@ exponents_are_those_of_two_neighbours(void **state)
         double truth = growth(&s, 20, 2, 20);
         assert_int_equal(find(&at, &s, &opts), SS_EDATA);
         near("exponent", at.value[SS_LYAPUNOV], truth, 1e-5);
-        opts.method = "taylor";         /* by differences, without saltation */
+        opts.method = "taylor";
+        assert_int_equal(find(&at, &s, &opts), SS_EDATA);
+        near("by series", at.value[SS_LYAPUNOV], truth, 1e-5);
+        opts.method = "rk8pd";          /* by differences, without saltation */
         assert_int_equal(find(&at, &s, &opts), SS_EDATA);
         near("by differences", at.value[SS_LYAPUNOV], truth, 1e-4);
     }
@@ -105,22 +108,24 @@ exponents_are_those_of_two_neighbours(void **state)
 /* An elastic contact has a third direction, along which a stick does not forget, and its deflection is small
  * beside x. */
 static void
-contacts_have_their_multipliers_by_both_ways(void **state)
+contacts_have_their_multipliers_by_all_ways(void **state)
 {
+    static const char *const method[] = { "exact", "taylor", "rk8pd" };
     (void)state;
     for (double r = 0.55; r < 0.61; r += 0.01) {
         ss_scene s = rig(r);
         ss_steady_opts opts = ss_steady_defaults;
-        ss_steady at[2];
+        ss_steady at[3];
         s.model = SS_COMPLIANT;
         s.contact_stiffness = 300;
         s.contact_damping = 0.02;
         opts.measures = BIT(SS_LYAPUNOV) | BIT(SS_FLOQUET) | BIT(SS_FLOQUET_ANGLE);
-        assert_int_equal(find(&at[0], &s, &opts), SS_OK);
-        opts.method = "taylor";
-        assert_int_equal(find(&at[1], &s, &opts), SS_OK);
-        near("multiplier", at[0].value[SS_FLOQUET], at[1].value[SS_FLOQUET], 3e-6);
-        near("angle", at[0].value[SS_FLOQUET_ANGLE], at[1].value[SS_FLOQUET_ANGLE], 1e-5);
+        for (int i = 0; i < 3; i++) {
+            opts.method = method[i];
+            assert_int_equal(find(&at[i], &s, &opts), SS_OK);
+            near("multiplier", at[i].value[SS_FLOQUET], at[0].value[SS_FLOQUET], i < 2 ? 1e-8 : 3e-6);
+            near("angle", at[i].value[SS_FLOQUET_ANGLE], at[0].value[SS_FLOQUET_ANGLE], i < 2 ? 1e-7 : 1e-5);
+        }
     }
 }
 
@@ -225,7 +230,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exponents_are_those_of_two_neighbours),
-        cmocka_unit_test(contacts_have_their_multipliers_by_both_ways),
+        cmocka_unit_test(contacts_have_their_multipliers_by_all_ways),
         cmocka_unit_test(errors_are_honest),
         cmocka_unit_test(a_torus_has_none),
         cmocka_unit_test(points_and_multipliers_are_those_of_the_map),

@@ -31,16 +31,23 @@ den_hartog(double r, double beta)
 }
 
 static ss_steady
-steady_of(const ss_scene *scene, unsigned measures, ss_search search)
+steady_by(const char *method, const ss_scene *scene, unsigned measures, ss_search search)
 {
     ss_steady_opts opts = ss_steady_defaults;
     ss_steady out;
     ss_error err = { 0 };
     opts.measures = measures;
     opts.search = search;
+    opts.method = method;
     if (ss_steady_find(&out, scene, &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     return out;
+}
+
+static ss_steady
+steady_of(const ss_scene *scene, unsigned measures, ss_search search)
+{
+    return steady_by(NULL, scene, measures, search);
 }
 
 static void
@@ -298,7 +305,7 @@ shooting_ends_a_slow_approach(void **state)
 /* Where alpha v is small the friction is theta' = -gamma (theta - c v), c = f_k alpha: the multipliers are
  * exp(lambda T), lambda the roots of l^3 + g l^2 + (k + g c) / m l + g k / m. */
 static void
-differences_give_the_multipliers_of_a_linear_friction(void **state)
+a_linear_friction_has_its_multipliers(void **state)
 {
     ss_scene s = read_shipped_named("state-variable");
     const double T = 1 / s.base_frequency, c = 5;
@@ -311,13 +318,42 @@ differences_give_the_multipliers_of_a_linear_friction(void **state)
             real -= (((real + g) * real + (k + g * c) / m) * real + g * k / m)
                 / ((3 * real + 2 * g) * real + (k + g * c) / m);
         double decay = (g + real) / 2, swing = sqrt(-g * k / m / real - decay * decay);
-        ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE),
-                                 SS_SEARCH_AUTO);
-        /* what tolerance leaves of a walk, 1e-12 of x, over the size of the differences, 1e-4 */
-        is_near(at.value[SS_FLOQUET], exp(-decay * T), 1e-7, "modulus");
-        is_near(at.value[SS_FLOQUET_2], exp(-decay * T), 1e-7, "modulus");
-        is_near(cos(at.value[SS_FLOQUET_ANGLE]), cos(swing * T), 1e-7, "angle");
+        for (int i = 0; i < 2; i++) {
+            ss_steady at = steady_by(i == 0 ? NULL : "rk8pd", &s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2)
+                                     | BIT(SS_FLOQUET_ANGLE), SS_SEARCH_AUTO);
+            /* in differences what tolerance leaves of a walk, 1e-12 of x, over their size, 1e-4 */
+            double most = i == 0 ? 1e-9 : 1e-7;
+            is_near(at.value[SS_FLOQUET], exp(-decay * T), most, "modulus");
+            is_near(at.value[SS_FLOQUET_2], exp(-decay * T), most, "modulus");
+            is_near(cos(at.value[SS_FLOQUET_ANGLE]), cos(swing * T), most, "angle");
+        }
     }
+}
+
+/* Where friction varies within slip, neighbouring states tell the same multipliers as series do. */
+static void
+series_have_the_multipliers_of_differences(void **state)
+{
+    ss_scene s[2] = { read_shipped_named("state-variable"), read_shipped_named("coulomb") };
+    int n = 0;
+    (void)state;
+    s[1].model = SS_STRIBECK;
+    s[1].stribeck_velocity = 0.02;
+    for (int k = 0; k < 2; k++)
+        for (double f = 0.2; f < 1; f += 0.25)
+            for (double r = 2.1; r < 8; r += 0.9) {
+                s[k].friction = f;
+                s[k].static_friction = k == 0 ? 0 : 1.05 * f;
+                s[k].base_frequency = r;
+                unsigned wanted = BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2);
+                ss_steady a = steady_of(&s[k], wanted, SS_SEARCH_AUTO);
+                ss_steady b = steady_by("rk8pd", &s[k], wanted, SS_SEARCH_AUTO);
+                is_near(a.value[SS_FLOQUET], b.value[SS_FLOQUET], 2e-6, "first");
+                is_near(a.value[SS_FLOQUET_2], b.value[SS_FLOQUET_2], 2e-6, "second");
+                n += a.value[SS_FLOQUET] > 0.01;
+            }
+    print_message("%d multipliers above 0.01\n", n);
+    assert_true(n > 40);
 }
 
 /* Non-stop motion: no direction is lost, and the product of the multipliers is that of the two
@@ -450,10 +486,14 @@ a_falling_friction_has_its_published_period(void **state)
         s.stribeck_velocity = 1. / 3;
         s.surface_velocity = pull ? 0 : .2;
         s.base_velocity = pull ? -.2 : 0;
-        ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_STICK_FRACTION) | BIT(SS_PERIOD), 0);
-        is_near(at.value[SS_CYCLE_TIME], 12.001031294831, 1e-11, "cycle_time");
-        is_near(at.value[SS_STICK_FRACTION] * at.value[SS_CYCLE_TIME], 7.705031769350, 1e-11, "stick");
-        assert_true(at.value[SS_PERIOD] == 1);
+        for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
+            ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_STICK_FRACTION) | BIT(SS_PERIOD)
+                                     | BIT(SS_FLOQUET), way);
+            is_near(at.value[SS_CYCLE_TIME], 12.001031294831, 1e-11, "cycle_time");
+            is_near(at.value[SS_STICK_FRACTION] * at.value[SS_CYCLE_TIME], 7.705031769350, 1e-11, "stick");
+            is_near(at.value[SS_FLOQUET], 0, 0, "floquet");
+            assert_true(at.value[SS_PERIOD] == 1);
+        }
     }
 }
 
@@ -551,16 +591,18 @@ a_true_stick_forgets_every_difference(void **state)
 static void
 a_slider_on_a_contact_comes_nearer_by_its_multiplier(void **state)
 {
-    static const struct { double U, damping; size_t from; } row[] = { { 42e-6, .1, 9 }, { 1e-4, .2, 20 } };
+    static const struct { double U, damping; size_t from; const char *method; } row[] = {
+        { 42e-6, .1, 9, NULL }, { 1e-4, .2, 20, NULL }, { 42e-6, .1, 9, "taylor" } };
     (void)state;
-    for (size_t i = 0; i < 2; i++)
+    for (size_t i = 0; i < 3; i++)
         for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
             ss_scene s = read_slider(row[i].U, 0);
             s.model = SS_COMPLIANT;
             s.contact_stiffness = 20000;
             s.contact_damping = row[i].damping;
-            ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2)
-                                     | BIT(SS_FLOQUET_ANGLE) | BIT(SS_X_PHASE) | BIT(SS_PERIOD), way);
+            ss_steady at = steady_by(row[i].method, &s, BIT(SS_CYCLE_TIME) | BIT(SS_FLOQUET)
+                                     | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE) | BIT(SS_X_PHASE)
+                                     | BIT(SS_PERIOD), way);
             onsets o = onsets_of(s, 60 * at.value[SS_CYCLE_TIME]);
             size_t k = row[i].from, last = o.n - 1;
             double allow = (way == SS_SEARCH_SIMULATE ? 1e-9 : 1e-11) * .0602 / 168;
@@ -602,7 +644,7 @@ says_what_has_no_cycle(void **state)
     slider.contact_stiffness = 20000;
     assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
     assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting, multipliers and exponents of "
-                        "model compliant need method exact");
+                        "model compliant need method exact or taylor");
     opts = ss_steady_defaults;
     s.base_frequency = s.base_amplitude = 0;
     s.base_velocity = .1;
@@ -915,7 +957,8 @@ main(void)
         cmocka_unit_test(balances_energy),
         cmocka_unit_test(multipliers_are_the_rate_of_approach),
         cmocka_unit_test(shooting_ends_a_slow_approach),
-        cmocka_unit_test(differences_give_the_multipliers_of_a_linear_friction),
+        cmocka_unit_test(a_linear_friction_has_its_multipliers),
+        cmocka_unit_test(series_have_the_multipliers_of_differences),
         cmocka_unit_test(multipliers_have_the_product_of_the_jumps),
         cmocka_unit_test(free_decay_ends_where_it_must),
         cmocka_unit_test(finds_sub_harmonics),

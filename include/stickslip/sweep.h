@@ -99,7 +99,8 @@ typedef struct ss_steady {
  * matter.
  *
  * Without forcing, x - U t is what differs at an onset.  True sticks end all at the same x - U t, so the
- * multipliers are 0; an elastic contact needs the closed form for shooting, multipliers and exponents.
+ * multipliers are 0; an elastic contact needs the methods exact or taylor for shooting, multipliers
+ * and exponents.
  *
  * The exponent of a periodic motion is that of its largest multiplier, and is absent where this is 0 or
  * hidden by rounding, as where a stick ends every difference.  That of another is a mean over max_cycles (or settle)

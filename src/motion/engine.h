@@ -25,9 +25,15 @@ struct engine_type {
     /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change, of which a
      * sample needs only the first two parts; base is the phase there. */
     void (*at)(engine *e, reading where, double s, turn base, double q[], double dqdt[]);
+    /* The derivative by x_ref (or the state's third number), q[0] and v now of the same three s from
+     * now, within that step.  NULL if the engine does not know it. */
+    void (*response)(engine *e, double s, double d[D_MOST][D_MOST]);
     /* Write the Taylor coefficients in s / h of the state within that step to c and return the degree,
      * at most MOST_DEGREE.  NULL if the state is no polynomial. */
     int (*curve)(const engine *e, double c[][MAX_DIM]);
+    /* Keep another tolerance from the next step on.  NULL: this engine knows only that of its start, or
+     * none. */
+    void (*keep)(engine *e, double tol);
     /* The motion has reached the end of the step: count u from a new origin if the engine needs it. */
     void (*go_on)(engine *e);
     /* Free what the engine holds besides itself.  May be NULL. */
@@ -64,10 +70,6 @@ ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
 int ss_exact_applies(const ss_scene *scene);        /* has it a closed form? */
 ss_status ss_exact_check(const ss_scene *scene, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
-/* The displacement at time s from now, in the present mode of an exact engine, after a unit
- * displacement (C), a unit velocity (S) or under a unit of force over mass (G); their rates of
- * change are -(k/m) S, C - (c/m) S and S. */
-void ss_exact_response(const engine *e, double s, double *C, double *S, double *G);
 
 /* The motion has entered a mode. */
 void ss_engine_begin(engine *e);

@@ -268,11 +268,23 @@ exact_ahead(engine *e, double s_max, double *s_event)
     return -1;
 }
 
-void
-ss_exact_response(const engine *e, double s, double *C, double *S, double *G)
+/* By the displacement after a unit displacement (C), a unit velocity (S) and under a unit of force over
+ * mass (G), which have the rates of change -(k/m) S, C - (c/m) S and S. */
+static void
+exact_response(engine *e, double s, double d[D_MOST][D_MOST])
 {
     const exact *x = (const exact *)e;
-    free_motion(x, s, swing_at(x, s), C, S, G);
+    const state *m = &e->m->now;
+    double C, S, G, mass = m->scene->mass, pull = m->scene->stiffness / mass;
+    free_motion(x, s, swing_at(x, s), &C, &S, &G);
+    memset(d, 0, D_MOST * sizeof *d);
+    d[D_REF][D_REF] = 1;
+    d[D_Q][D_REF] = -pull * G;
+    d[D_Q][D_Q] = C;
+    d[D_Q][D_V] = S;
+    d[D_V][D_REF] = -pull * S;
+    d[D_V][D_Q] = -m->k / mass * S;
+    d[D_V][D_V] = C - m->c / mass * S;
 }
 
 static void
@@ -302,7 +314,7 @@ exact_go_on(engine *e)
 
 static const struct engine_type exact_type = {
     .begin = exact_begin, .step = exact_step, .ahead = exact_ahead, .at = exact_at,
-    .go_on = exact_go_on
+    .response = exact_response, .go_on = exact_go_on
 };
 
 int

@@ -78,7 +78,7 @@ struct variation {
     void (*free)(const state *m, int is_free[D_MOST]);
     /* Carry d across the event at q that ended `mode`; the rate of change was before and is after it.
      * A neighbouring state reaches the event at another time.  Each column of d is the difference
-     * caused by one of those at the start.  NULL if the model is not linear. */
+     * caused by one of those at the start.  NULL if the model has no events. */
     void (*cross)(const state *m, int mode, const double q[], const double before[],
                   const double after[], double d[D_MOST][D_MOST]);
     /* Move a state; 0 if its mode does not hold there. */
@@ -136,6 +136,10 @@ struct model {
      * of v', the last part, up to one order less, by step[n] = unit / (n + 1).  Parts that the model does
      * not have are left alone.  NULL if it has no recurrence for them. */
     void (*series)(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
+    /* The Taylor coefficients along the series c, up to the same order, of what the state's last rate of
+     * change gains with v.  NULL if that is the same everywhere in a mode. */
+    void (*slope)(const state *m, const double step[], int order, double c[][SERIES_PARTS],
+                  double slope[]);
     /* Shorten a step [unit] to the range in which those coefficients describe the motion: they may not
      * show a pole beyond which the motion is another.  NULL if they always describe it. */
     double (*reach)(const state *m, double c[][SERIES_PARTS], double step);
@@ -336,7 +340,6 @@ int ss_stick_still(const state *m, double *u_end);
 int ss_stick_next(state *m, ss_event *e);
 /* f in slip is f0. */
 void ss_stick_sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s);
-void ss_stick_free(const state *m, int is_free[D_MOST]);           /* of struct variation */
-int ss_stick_move(state *m, const double d[D_MOST]);
+extern const struct variation ss_stick_variation;
 
 #endif

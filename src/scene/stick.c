@@ -173,16 +173,31 @@ ss_stick_next(state *m, ss_event *e)
 
 /* --- neighbouring states ------------------------------------------------------------------- */
 
-void
-ss_stick_free(const state *m, int is_free[D_MOST])
+static void
+free_differences(const state *m, int is_free[D_MOST])
 {
     is_free[D_REF] = 0;
     is_free[D_Q] = 1;
     is_free[D_V] = m->mode != 0;
 }
 
-int
-ss_stick_move(state *m, const double d[D_MOST])
+/* A stick forgets v and the time at which it began, and it ends later where x is further on: then v is
+ * behind by what the drop of the friction has done since. */
+static void
+cross(const state *m, int mode, const double q[], const double before[], const double after[],
+      double d[D_MOST][D_MOST])
+{
+    const ss_scene *s = m->scene;
+    (void)q;
+    for (int i = 0; i < D_MOST; i++)
+        if (mode != 0)
+            d[D_V][i] *= m->mode == 0 ? 0 : after[1] / before[1];
+        else if (static_friction(s) > s->friction)
+            d[D_V][i] = -after[1] * s->stiffness * d[D_Q][i] / base_force_rate(m, m->u);
+}
+
+static int
+move(state *m, const double d[D_MOST])
 {
     double rates[MAX_DIM], slope;
     m->q[0] += d[D_Q];
@@ -193,6 +208,8 @@ ss_stick_move(state *m, const double d[D_MOST])
     m->model->rates(m, drive, m->q, rates);
     return m->model->guard(m, m->q, rates, &slope) > 0;
 }
+
+const struct variation ss_stick_variation = { free_differences, cross, move };
 
 void
 ss_stick_sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)

@@ -62,29 +62,47 @@ sight(const state *m, const double dqdt[])
                                               - (m->c + slope) * dqdt[1]) / m->scene->mass);
 }
 
-/* The fall w has w (1 + |v| / v_s) = 1. */
+/* p = 1 + |v| / v_s and the fall w = 1 / p, order by order. */
+static void
+next_fall(const state *m, const double c[], int n, double p[], double w[])
+{
+    p[n] = m->mode / m->scene->stribeck_velocity * c[1] + (n == 0);
+    w[n] = n == 0 ? 1 / p[0] : -w[0] * (w[0] * p[n] + inner_products(w, p, n));
+}
+
 static void
 series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
     double fall = m->mode * (static_friction(s) - s->friction), per_mass = 1 / s->mass;
-    double per_speed = m->mode / s->stribeck_velocity, force[N], w[N], p[N];
+    double force[N], w[N], p[N];
     base_force_series(m, step, order, force);
     force[0] -= m->f0;
     c[0][0] = m->q[0];
     c[0][1] = m->q[1];
     for (int n = 0; n < order; n++) {
-        p[n] = per_speed * c[n][1];
-        if (n == 0)
-            w[0] = 1 / (p[0] += 1);
-        else
-            w[n] = -w[0] * (w[0] * p[n] + inner_products(w, p, n));
+        next_fall(m, c[n], n, p, w);
         c[n + 1][0] = step[n] * c[n][1];
         double a = per_mass * (force[n] - fall * w[n] - m->k * c[n][0] - m->c * c[n][1]);
         c[n + 1][1] = step[n] * a;
         c[n][MAX_DIM] = a;
     }
+}
+
+/* f has the slope -(f_s - f_k) w^2 / v_s. */
+static void
+slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
+{
+    enum { N = MOST_SERIES + 1 };
+    const ss_scene *s = m->scene;
+    double factor = (static_friction(s) - s->friction) / s->stribeck_velocity / s->mass, w[N], p[N];
+    (void)step;
+    for (int n = 0; n <= order; n++) {
+        next_fall(m, c[n], n, p, w);
+        out[n] = factor * (n == 0 ? w[0] * w[0] : inner_products(w, w, n) + 2 * w[0] * w[n]);
+    }
+    out[0] -= m->c / s->mass;
 }
 
 static void
@@ -96,14 +114,12 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
         s->f = friction_at(m, q[1], &slope);
 }
 
-static const struct variation variation = { .free = ss_stick_free, .move = ss_stick_move };
-
 const struct model ss_stribeck_model = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
-    .rates = rates, .jacobian = jacobian, .series = series, .guard = ss_linear_slip_guard,
-    .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &variation
+    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .guard = ss_linear_slip_guard,
+    .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation
 };

@@ -1,7 +1,7 @@
 /* derivative.c -- the derivative of cycles by the state that they begin with.
  *
- * It comes from the closed form and the saltation matrices of events (tangent.c); where there
- * is no closed form, from walks of neighbouring states.  Without forcing it is 0 where sticks are true:
+ * It comes from the engine and the saltation matrices of events (tangent.c); where the engine does not
+ * know it, from walks of neighbouring states.  Without forcing it is 0 where sticks are true:
  * each lasts until the pull has carried the force to f_s, which is at the same x - U t wherever it began. */
 #include "study/sweep/finder.h"
 
@@ -97,7 +97,7 @@ ss_finder_derive(finder *f, int cycles, derivative_use use, tangent *t)
     *t = (tangent){ 0 };
     if (f->autonomous && f->w.m.now.model->still != NULL)
         return ss_finder_go(f, cycles, NULL, NULL);
-    if (!f->in_closed_form)
+    if (f->w.e->type->response == NULL)
         return differences(f, cycles, use, t);
     ss_tangent_begin(t, &f->w.m.now);
     if (f->autonomous)

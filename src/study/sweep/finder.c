@@ -44,10 +44,17 @@ section_units(const state *m)
     return unit;
 }
 
+/* Walks keep this part of the tolerance. */
+static double
+tolerance_of_walks(const finder *f)
+{
+    return fmax(1e-14, f->opts->tol / 1000);
+}
+
 ss_status
 ss_finder_begin(finder *f, const char *method)
 {
-    const ss_sim_opts sim = { .method = method, .tol = fmax(1e-14, f->opts->tol / 1000),
+    const ss_sim_opts sim = { .method = method, .tol = tolerance_of_walks(f),
                               .max_steps = f->opts->max_steps };
     ss_status st = ss_walk_begin(&f->w, f->scene, &sim, f->err);
     f->unit = section_units(&f->w.m.now);
@@ -61,6 +68,20 @@ ss_finder_begin_at(finder *f, const motion *from)
     f->n = 0;
     ss_walk_begin_at(&f->w, &copy);
     return SS_OK;
+}
+
+/* Of a distance and at most; an error grows a hundredfold in a cycle where v passes 0 steeply. */
+#define ROUGH 1e-4
+#define ROUGHEST 1e-6
+
+int
+ss_finder_keep(finder *f, double distance)
+{
+    double most = tolerance_of_walks(f), tol = fmax(most, fmin(ROUGH * distance, ROUGHEST));
+    if (f->w.e->type->keep == NULL)
+        return 1;
+    f->w.e->type->keep(f->w.e, tol);
+    return tol == most;
 }
 
 /* --- walking ------------------------------------------------------------------------------- */

@@ -27,7 +27,8 @@ typedef struct finder {
     section last[SECTIONS];             /* the latest, cycle after cycle, in a ring */
     unsigned long recorded;             /* of them */
     course course;                      /* of what was measured, where it is wanted */
-    unsigned long unresolved;           /* events in what was measured: see ss_sim_stats */
+    double missed;                      /* from the start of what was measured to its end */
+    unsigned long unresolved;           /* events in it: see ss_sim_stats */
 } finder;
 
 section ss_section_of(const state *m);
@@ -40,6 +41,9 @@ double ss_section_distance(const finder *f, section a, section b);
 ss_status ss_finder_begin(finder *f, const char *method);
 /* At a state, where a cycle begins. */
 ss_status ss_finder_begin_at(finder *f, const motion *from);
+/* Let the engine, if it can, walk on with errors that are small beside this distance, in units of the
+ * finder; 0: as small as the tolerance asks for.  1 if they are so. */
+int ss_finder_keep(finder *f, double distance);
 /* Walk so many cycles, with a meter and a tangent unless they are NULL.  SS_EDATA: an
  * autonomous scene slides on without a stick. */
 ss_status ss_finder_go(finder *f, int cycles, meter *r, tangent *t);

@@ -162,6 +162,18 @@ end_transition(meter *r, int closes)
     count_ring(r, &joined);
 }
 
+/* Of the friction. */
+static double
+power_at(walk *w, double s)
+{
+    const state *m = &w->m.now;
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    ss_sample sample;
+    ss_walk_at(w, s, q, dqdt);
+    m->model->sample(m, base_force(m, m->u + s), q, dqdt, &sample);
+    return sample.f * sample.v;
+}
+
 static double
 work_between(walk *w, double lo, double hi)
 {
@@ -170,8 +182,8 @@ work_between(walk *w, double lo, double hi)
                                      0.23692688505618908751 };
     double sum = 0, half = (hi - lo) / 2;
     for (int i = -2; i <= 2; i++) {
-        point p = point_at(w, lo + half + (i < 0 ? -1 : 1) * node[i < 0 ? -i : i] * half);
-        sum += weight[i < 0 ? -i : i] * p.f * p.slip;
+        double s = lo + half + (i < 0 ? -1 : 1) * node[i < 0 ? -i : i] * half;
+        sum += weight[i < 0 ? -i : i] * power_at(w, s);
     }
     return half * sum;
 }

@@ -46,7 +46,8 @@ void ss_meter_event(meter *r, const ss_event *event);
  * may be wrong. */
 void ss_meter_end(meter *r, int cycles, int closes, double value[]);
 
-/* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an exact engine. */
+/* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an engine that knows its response; x_ref is the third
+ * number of a state that has one. */
 typedef struct tangent {
     double d[D_MOST][D_MOST];
     double later[D_MOST];           /* by which the last event, where v has become 0, comes later [s] */

@@ -62,6 +62,7 @@ ss_finder_measure(finder *f, int cycles, int period, ss_steady *out)
         st = ss_finder_go(f, cycles, &r, NULL);
     if (st != SS_OK)
         return st;
+    f->missed = ss_section_distance(f, ss_section_of(&f->w.m.now), at);
     f->unresolved = ss_motion_unresolved(&f->w.m) - ss_motion_unresolved(&start);
     ss_meter_end(&r, cycles, period > 0, out->value);
     out->value[SS_PERIOD] = period;

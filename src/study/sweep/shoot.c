@@ -7,6 +7,8 @@
 enum { NEWTON_STEPS = 20 };
 /* The part of a distance by which a motion may miss what the derivative at its limit says. */
 #define NONLINEAR 0.3
+/* And the part of the first distance that it may be off by, as walks are no more accurate. */
+#define MEASURABLE 0.01
 enum { REPETITIONS = 4 };
 
 /* --- Newton's method ----------------------------------------------------------------------- */
@@ -80,13 +82,16 @@ static ss_status
 is_approached(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
 {
     double unit[D_MOST], centre[D_MOST], before[D_MOST], after[D_MOST], expected[D_MOST], left[D_MOST];
-    double rest = 0;
+    double rest = 0, first = 0;
     ss_status st = ss_finder_begin_at(f, from);
     ss_finder_coordinate_units(f, unit);
     ss_finder_coordinates(at, centre);
     ss_finder_coordinates(from, before);
-    for (int i = 0; i < D_MOST; i++)
+    for (int i = 0; i < D_MOST; i++) {
         before[i] -= centre[i];
+        first = fmax(first, fabs(before[i]) / unit[i]);
+    }
+    ss_finder_keep(f, first);
     at_last(t, before, left);
     for (int i = 0; i < D_MOST; i++)
         rest = fmax(rest, fabs(left[i]) / unit[i]);
@@ -102,34 +107,55 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
             far = fmax(far, fabs(before[i]) / unit[i]);
             before[i] = after[i];
         }
-        *yes = f->w.m.now.mode == at->now.mode && off <= NONLINEAR * far + f->opts->tol;
+        *yes = f->w.m.now.mode == at->now.mode && off <= NONLINEAR * far + MEASURABLE * first + f->opts->tol;
     }
+    ss_finder_keep(f, 0);
     return st;
 }
 
-/* Differences of walks cost as much as three steps.  So close to the limit the derivative of the last step
- * serves the next, unless such steps shrink too little, or it is near 1: then they magnify its error. */
-#define CLOSE 0.01
+/* Without a closed form a derivative costs as much as three steps.  So close to the limit that of the last
+ * step serves the next, unless such steps shrink too little; if it is near 1, they magnify its error. */
+#define CLOSE 0.05
 #define SHRINKS 0.1
-#define FAR_FROM_1 0.8
 
 /* Newton's steps until one is within tol, which *found says; *first: the largest multiplier by *t. */
 static ss_status
 converge(finder *f, int cycles, motion *at, tangent *t, int *found, double *first)
 {
     double off = INFINITY, second, angle;
-    int serves = 0;
+    int serves = 0, is_fine = 0;
     ss_status st = SS_OK;
-    for (int i = 0; st == SS_OK && off > f->opts->tol && i < NEWTON_STEPS; i++) {
+    for (int i = 0; st == SS_OK && !(is_fine && off <= f->opts->tol) && i < NEWTON_STEPS; i++) {
         double last = off;
         int old = serves;
+        is_fine = ss_finder_keep(f, off);
         st = newton_step(f, cycles, at, old, t, &off);
         if (st == SS_OK && !old && (!f->in_closed_form || off <= f->opts->tol))
             st = ss_tangent_multipliers(t, first, &second, &angle);
-        serves = !f->in_closed_form && off <= CLOSE && *first <= FAR_FROM_1
+        serves = !f->in_closed_form && off <= CLOSE * (1 - *first)
             && (!old || off <= SHRINKS * last);
     }
-    *found = st == SS_OK && off <= f->opts->tol;
+    *found = st == SS_OK && is_fine && off <= f->opts->tol;
+    ss_finder_keep(f, 0);
+    return st;
+}
+
+/* What Newton's method has found misses itself by a part of tol. */
+static ss_status
+measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
+{
+    double most = 2 * f->opts->tol;
+    ss_status st = ss_finder_begin_at(f, at);
+    *period = 1;
+    if (st == SS_OK && cycles > 1)
+        st = ss_finder_return(f, cycles, most, period);
+    if (*period == 0 || st != SS_OK)
+        return st;
+    st = ss_finder_begin_at(f, at);
+    if (st == SS_OK)
+        st = ss_finder_measure(f, *period, *period, out);
+    if (f->missed > most)
+        *period = 0;
     return st;
 }
 
@@ -147,14 +173,7 @@ look(finder *f, int approached, int *period, ss_steady *out)
         wanted = first <= 1 + (f->in_closed_form ? 1e-9 : 1e-5);
     if (wanted && approached)
         st = is_approached(f, &from, &at, &t, cycles, &wanted);
-    if (wanted && st == SS_OK)
-        st = ss_finder_begin_at(f, &at);
-    if (wanted && st == SS_OK)
-        st = ss_finder_return(f, cycles, 2 * f->opts->tol, period);   /* Newton's left a part of tol */
-    if (*period == 0 || st != SS_OK)
-        return st;
-    st = ss_finder_begin_at(f, &at);
-    return st == SS_OK ? ss_finder_measure(f, *period, *period, out) : st;
+    return wanted && st == SS_OK ? measure(f, &at, cycles, period, out) : st;
 }
 
 ss_status

@@ -127,13 +127,14 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
 }
 
 /* Without forcing, differences that are small beside x change the time of the next onset too much for a
- * derivative: it has to be in closed form, unless a true stick makes it 0. */
+ * derivative: the method has to know it, unless a true stick makes it 0. */
 static int
 can_shoot(const ss_scene *scene, const ss_steady_opts *opts)
 {
     const struct model *model = ss_model_of(scene);
-    return differs(model) && (scene->base_frequency > 0 || model->still != NULL
-                              || strcmp(method_of(opts, model), EXACT) == 0);
+    const char *method = method_of(opts, model);
+    int knows = model->still != NULL || strcmp(method, EXACT) == 0 || strcmp(method, TAYLOR) == 0;
+    return differs(model) && (scene->base_frequency > 0 || knows);
 }
 
 /* --- the search ------------------------------------------------------------------------------ */
@@ -261,7 +262,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, two models have no common phase");
     if (asks && !can_shoot(scene, opts))
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
-                       "exponents of model %s need method %s", ss_model_of(scene)->name, EXACT);
+                       "exponents of model %s need method %s or %s", ss_model_of(scene)->name, EXACT, TAYLOR);
     return SS_OK;
 }
 

@@ -1,6 +1,6 @@
 /* tangent.c -- the derivative of a walk by its initial state.
  *
- * Within a mode it is that of a linear equation.  At an event, which another initial state reaches
+ * Within a mode an engine knows it.  At an event, which another initial state reaches
  * at another time, it jumps by the saltation matrix (Aizerman and Gantmakher 1958; Leine and
  * Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  A Coulomb
  * stick forgets v and the time at which it began, so one direction of the derivative is lost in
@@ -25,16 +25,15 @@ ss_tangent_begin(tangent *t, const state *m)
 void
 ss_tangent_leg(tangent *t, const walk *w)
 {
-    const state *m = &w->m.now;
-    double C, S, G, mass = m->scene->mass;
+    double leg[D_MOST][D_MOST];
+    const tangent before = *t;
     if (w->still)
         return;
-    ss_exact_response(w->e, w->h, &C, &S, &G);
-    for (int i = 0; i < 3; i++) {
-        double force = m->scene->stiffness * t->d[D_REF][i] / mass, q = t->d[D_Q][i], v = t->d[D_V][i];
-        t->d[D_Q][i] = C * q + S * v - G * force;
-        t->d[D_V][i] = -m->k / mass * S * q + (C - m->c / mass * S) * v - S * force;
-    }
+    w->e->type->response(w->e, w->h, leg);
+    for (int i = 0; i < D_MOST; i++)
+        for (int j = 0; j < D_MOST; j++)
+            t->d[i][j] = leg[i][D_REF] * before.d[D_REF][j] + leg[i][D_Q] * before.d[D_Q][j]
+                + leg[i][D_V] * before.d[D_V][j];
 }
 
 void
