@@ -53,7 +53,8 @@ ss_motion_rebase(motion *m)
     m->origin = instant_add(m->origin, now->u);
     now->u = 0;
     now->theta = 2 * M_PI * instant_cycles(m->origin, now->scene->base_frequency) + m->phase;
-    ss_state_meet_base(now, m->origin.hi + m->origin.lo);
+    if (now->scene->base != NULL)
+        ss_state_meet_base(now, m->origin.hi + m->origin.lo);
 }
 
 /* The rounding error of x in closed form: an ulp for each of its four terms. */

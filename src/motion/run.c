@@ -30,6 +30,7 @@ typedef struct sampler {
     instant end;                        /* of the record, from the start of settling */
     size_t n, i;                        /* samples in all (that anyone wants), next sample */
     double interval;                    /* between samples */
+    double cap;                         /* the longest step in the present mode */
     double work;                        /* right-hand sides allowed where there is no max_steps */
     turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
     size_t filled;
@@ -162,6 +163,13 @@ write_event(sampler *r, const motion *m, ss_event *e)
 
 /* --- from event to event ------------------------------------------------------------------- */
 
+static void
+begin_mode(sampler *r, engine *e)
+{
+    r->cap = ss_step_cap(&e->m->now);
+    ss_engine_begin(e);
+}
+
 static ss_status
 change_mode(sampler *r, engine *e, int still, double s)
 {
@@ -170,7 +178,7 @@ change_mode(sampler *r, engine *e, int still, double s)
     if (ss_engine_next_mode(e, still, s, &event))
         st = write_event(r, e->m, &event);
     if (st == SS_OK)
-        ss_engine_begin(e);
+        begin_mode(r, e);
     return st;
 }
 
@@ -252,7 +260,7 @@ static ss_status
 step(const sampler *r, engine *e, double knot, double *h, int *ends, ss_error *err)
 {
     const motion *m = e->m;
-    double cap = fmin(ss_step_cap(&m->now), knot);
+    double cap = fmin(r->cap, knot);
     if (!has_budget(r, e))
         return over_budget(r, e, cap, err);
     if (e->lands_on_samples && r->i < r->n) {
@@ -317,7 +325,7 @@ begin(sampler *r, engine *e, int slips)
         st = write_event(r, e->m, &event);
     }
     if (st == SS_OK)
-        ss_engine_begin(e);
+        begin_mode(r, e);
     return st;
 }
 

@@ -79,8 +79,6 @@ void
 ss_state_meet_base(state *m, double t)
 {
     const ss_base *b = m->scene->base;
-    if (b == NULL)
-        return;
     double place = (t - b->start) * b->rate;
     double knot = fmin(fmax(floor(place + SAME_KNOT), 0), (double)(b->n - 2));
     size_t i = (size_t)knot;

@@ -14,7 +14,8 @@ ss_state_of(const ss_scene *scene, double tol)
                     || scene->base != NULL,
                 .x_scale = fmax(amplitude_of(scene), hold),
                 .tol = tol, .theta = atan2(sin(scene->phase), cos(scene->phase)) };
-    ss_state_meet_base(&m, 0);
+    if (scene->base != NULL)
+        ss_state_meet_base(&m, 0);
     return m;
 }
 
