@@ -102,7 +102,7 @@ ss_sticks_belong(fitter *k, double rise, size_t q)
 static ss_window
 grow(fitter *k, ss_window win, varpro_sums *sums, size_t room, int backwards)
 {
-    double start = ss_varpro_solve(sums).rss, rss = start;
+    double start = ss_varpro_left(sums), rss = start;
     size_t added = 0;
     for (size_t step = periods(k, FIT_BLOCK); step > 0; step /= 2)
         while (added + step <= room) {
@@ -111,7 +111,7 @@ grow(fitter *k, ss_window win, varpro_sums *sums, size_t room, int backwards)
             if (backwards)
                 block = (ss_window){ win.first - step, win.first };
             ss_varpro_sums_add(&k->fit, block, &more);
-            double now = ss_varpro_solve(&more).rss;
+            double now = ss_varpro_left(&more);
             if (!ss_sticks_belong(k, now - rss, step)
                 || !ss_sticks_belong(k, now - start, added + step))
                 break;
@@ -138,7 +138,7 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     left = left < most ? left : most;
     ss_varpro_sums_start(&k->fit, core.first - left, &sums);
     ss_varpro_sums_add(&k->fit, core, &sums);
-    if (!ss_sticks_belong(k, ss_varpro_solve(&sums).rss,
+    if (!ss_sticks_belong(k, ss_varpro_left(&sums),
                           ss_window_length(core) - ss_varpro_columns(&k->fit)))
         return (ss_window){ 0, 0 };
     ss_window win = grow(k, core, &sums, left, 1);

@@ -191,33 +191,41 @@ ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums)
 
 /* --- projection ------------------------------------------------------------------------------ */
 
-/* A column that depends on those before is left out: its row of l and what is below it are 0. */
+/* The first n columns.  A column that depends on those before is left out: its row of l and what is below
+ * it are 0. */
 static void
-factorise(double (*g)[COLUMNS], double (*l)[COLUMNS])
+factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], int n)
 {
-    for (int j = 0; j < COLUMNS; j++) {
+    for (int j = 0; j < n; j++) {
         double pivot = g[j][j];
         for (int k = 0; k < j; k++)
             pivot -= l[j][k] * l[j][k];
         l[j][j] = pivot > DEPENDENT * g[j][j] ? sqrt(pivot) : 0;
-        for (int i = j + 1; i < COLUMNS; i++) {
+        for (int i = j + 1; i < n; i++) {
             double sum = g[i][j];
-            for (int k = 0; k < j; k++)
+            for (int k = 0; k < j && l[j][j] > 0; k++)
                 sum -= l[i][k] * l[j][k];
             l[i][j] = l[j][j] > 0 ? sum / l[j][j] : 0;
         }
     }
 }
 
-void
-ss_varpro_substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS])
+/* The first n of l^-1 of. */
+static void
+substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS], int n)
 {
-    for (int j = 0; j < COLUMNS; j++) {
+    for (int j = 0; j < n; j++) {
         double sum = of[j];
-        for (int k = 0; k < j; k++)
+        for (int k = 0; k < j && f->l[j][j] > 0; k++)
             sum -= f->l[j][k] * to[k];
         to[j] = f->l[j][j] > 0 ? sum / f->l[j][j] : 0;
     }
+}
+
+void
+ss_varpro_substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS])
+{
+    substitute(f, of, to, COLUMNS);
 }
 
 /* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
@@ -229,14 +237,20 @@ ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2]
     by_s[0] = a * c[0] + b * s[0], by_s[1] = b * s[1];
 }
 
+/* What is left of the sum of squares xx. */
+static double
+left_of(const varpro_factor *f, double xx)
+{
+    for (int j = 0; j < VARPRO_T_COS; j++)
+        xx -= f->y[j] * f->y[j];
+    return fmax(xx, 0);
+}
+
 static linear
 linear_of(const varpro_factor *f, double xx)
 {
     const double *y = f->y, *left = y + VARPRO_T_COS;
-    linear fit = { .whole = xx, .rss = xx };
-    for (int j = 0; j < VARPRO_T_COS; j++)
-        fit.rss -= y[j] * y[j];
-    fit.rss = fmax(fit.rss, 0);
+    linear fit = { .whole = xx, .rss = left_of(f, xx) };
     fit.ring = y[VARPRO_COS] * y[VARPRO_COS] + y[VARPRO_SIN] * y[VARPRO_SIN];
     double c = f->l[VARPRO_COS][VARPRO_COS], s = f->l[VARPRO_SIN][VARPRO_SIN], w[2], d[2];
     fit.b = s > 0 ? y[VARPRO_SIN] / s : 0;
@@ -248,13 +262,13 @@ linear_of(const varpro_factor *f, double xx)
     return fit;
 }
 
-linear
-ss_varpro_solve(varpro_sums *sums)
+double
+ss_varpro_left(varpro_sums *sums)
 {
-    varpro_factor f = { .y = { 0 } };
-    factorise(sums->g, f.l);
-    ss_varpro_substitute(&f, sums->x, f.y);
-    return linear_of(&f, sums->xx);
+    varpro_factor f;
+    factorise(sums->g, f.l, VARPRO_T_COS);
+    substitute(&f, sums->x, f.y, VARPRO_T_COS);
+    return left_of(&f, sums->xx);
 }
 
 /* The factor of windows of n samples. */
@@ -267,7 +281,7 @@ find_factor(varpro *v, size_t n)
         return;
     sum_rows(&v->table, n, g);
     memset(&v->factor, 0, sizeof v->factor);
-    factorise(g, v->factor.l);
+    factorise(g, v->factor.l, COLUMNS);
     v->factored = n;
 }
 

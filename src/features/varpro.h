@@ -64,7 +64,7 @@ typedef struct normal {
 } normal;
 
 typedef struct linear {         /* the fit of the amplitudes to one window, or to several */
-    size_t windows, samples;    /* 0 where ss_varpro_solve gave it */
+    size_t windows, samples;
     double whole;               /* sum of squares of the samples, less the first */
     double rss;                 /* of what is left */
     double ring;                /* of what the oscillation explains */
@@ -94,8 +94,8 @@ void ss_varpro_sums_start(const varpro *v, size_t origin, varpro_sums *sums);
 /* Add those of samples up to room behind the origin. */
 void ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums);
 
-/* The same fit by the sums. */
-linear ss_varpro_solve(varpro_sums *sums);
+/* The sum of squares that the same fit leaves, by the sums. */
+double ss_varpro_left(varpro_sums *sums);
 
 /* to = l^-1 of. */
 void ss_varpro_substitute(const varpro_factor *f, const double of[VARPRO_COLUMNS],
