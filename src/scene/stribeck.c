@@ -18,15 +18,29 @@ static const ss_scene_range ranges[] = {
     { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, stribeck_speed },
 };
 
-/* The friction in slip and its rate of change by v.  A step that goes past its end at v = 0 sees the
- * law of |v| in the direction of the mode. */
+/* The part of f_s - f_k that is left at v. */
 static double
-friction_at(const state *m, double v, double *slope)
+part_at(const ss_scene *s, double v)
+{
+    return s->stribeck_velocity / (s->stribeck_velocity + fabs(v));
+}
+
+/* The friction in slip.  A step that goes past its end at v = 0 sees the law of |v| in the direction of
+ * the mode. */
+static double
+friction_at(const state *m, double v)
 {
     const ss_scene *s = m->scene;
-    double part = 1 / (1 + fabs(v) / s->stribeck_velocity), fall = static_friction(s) - s->friction;
-    *slope = -m->mode * sign(v) * fall * part * part / s->stribeck_velocity;
-    return m->mode * (s->friction + fall * part);
+    return m->mode * (s->friction + (static_friction(s) - s->friction) * part_at(s, v));
+}
+
+/* Its rate of change by v. */
+static double
+slope_at(const state *m, double v)
+{
+    const ss_scene *s = m->scene;
+    double part = part_at(s, v), fall = static_friction(s) - s->friction;
+    return -m->mode * sign(v) * fall * part * part / s->stribeck_velocity;
 }
 
 /* While the friction falls with speed, the tolerance sets the steps. */
@@ -39,25 +53,21 @@ quickest(const ss_scene *s)
 static void
 rates(const state *m, double drive, const double q[], double dqdt[])
 {
-    double slope, f = friction_at(m, q[1], &slope);
     dqdt[0] = q[1];
-    dqdt[1] = (drive - f - m->k * q[0] - m->c * q[1]) / m->scene->mass;
+    dqdt[1] = (drive - friction_at(m, q[1]) - m->k * q[0] - m->c * q[1]) / m->scene->mass;
 }
 
 static void
 jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
 {
-    double slope;
     ss_linear_jacobian(m, u, q, dfdq, dfdt);
-    friction_at(m, q[1], &slope);
-    dfdq[3] -= slope / m->scene->mass;
+    dfdq[3] -= slope_at(m, q[1]) / m->scene->mass;
 }
 
 static double
 sight(const state *m, const double dqdt[])
 {
-    double slope, front = m->scene->stribeck_velocity;
-    friction_at(m, m->q[1], &slope);
+    double slope = slope_at(m, m->q[1]), front = m->scene->stribeck_velocity;
     return sight_of(m->q[1], front, dqdt[1], (base_force_rate(m, m->u) - m->k * dqdt[0]
                                               - (m->c + slope) * dqdt[1]) / m->scene->mass);
 }
@@ -108,10 +118,9 @@ slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], 
 static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
-    double slope;
     ss_stick_sample(m, drive, q, dqdt, s);
     if (m->mode != 0)
-        s->f = friction_at(m, q[1], &slope);
+        s->f = friction_at(m, q[1]);
 }
 
 const struct model ss_stribeck_model = {
