@@ -315,9 +315,12 @@ base_force_series(const state *m, const double step[], int order, double c[])
 static inline double
 inner_products(const double a[], const double b[], int n)
 {
-    double sum = n % 2 == 0 && n > 0 ? a[n / 2] * b[n / 2] : 0;
-    for (int j = (n - 1) / 2; j > 0; j--)
-        sum += a[j] * b[n - j] + a[n - j] * b[j];
+    size_t j = (size_t)n / 2, i = (size_t)n - j;
+    double sum = 0;
+    if (i == j && j > 0)
+        sum = a[j--] * b[i++];
+    for (; j > 0; j--, i++)
+        sum += a[j] * b[i] + a[i] * b[j];
     return sum;
 }
 

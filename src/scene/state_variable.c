@@ -164,47 +164,55 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
 static void
 inner_of_both(const double u[], const double R[], const double a[], int n, double *uu, double *Ra)
 {
-    int even = n % 2 == 0 && n > 0;
-    double half = even ? u[n / 2] * u[n / 2] / 2 : 0, sum = even ? R[n / 2] * a[n / 2] : 0;
-    for (int j = (n - 1) / 2; j > 0; j--) {
-        half += u[j] * u[n - j];
-        sum += R[j] * a[n - j] + R[n - j] * a[j];
+    size_t j = (size_t)n / 2, i = (size_t)n - j;
+    double half = 0, sum = 0;
+    if (i == j && j > 0) {
+        half = u[j] * u[j] / 2;
+        sum = R[j] * a[j];
+        j--;
+        i++;
+    }
+    for (; j > 0; j--, i++) {
+        half += u[j] * u[i];
+        sum += R[j] * a[i] + R[i] * a[j];
     }
     *uu = 2 * half;
     *Ra = sum;
 }
 
 /* u = tanh(alpha v) has u' = alpha R v' with R = 1 - u^2, whose first coefficient is written for the
- * sake of its digits where u is almost 1. */
+ * sake of its digits where u is almost 1.  The present coefficients have names of their own: each waits
+ * for the one before, which then need not come from memory. */
 static void
 series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
-    double rate, goal, force[N], a[N], R[N], u[N] = { 0 }, per_mass = 1 / s->mass;
-    double v = s->alpha * m->q[1], e = exp(-2 * fabs(v));
-    int saturated = fabs(v) > SATURATED;
+    double rate, goal, force[N], a[N], R[N], u[N], per_mass = 1 / s->mass;
+    double x = m->q[0], v = m->q[1], theta = m->q[2];
+    double speed = s->alpha * fabs(v), e = exp(-2 * speed), tanh_v = copysign((1 - e) / (1 + e), v);
     law(s, &rate, &goal);
     base_force_series(m, step, order, force);
     memcpy(c[0], m->q, sizeof m->q);
-    u[0] = copysign((1 - e) / (1 + e), v);
+    u[0] = tanh_v;
     R[0] = 4 * e / ((1 + e) * (1 + e));
     for (int n = 0; n < order; n++) {
-        a[n] = (force[n] - s->stiffness * c[n][0] - s->damping * c[n][1] - c[n][2]) * per_mass;
-        c[n + 1][0] = step[n] * c[n][1];
-        c[n + 1][1] = step[n] * a[n];
-        c[n + 1][2] = step[n] * rate * (goal * u[n] - c[n][2]);
-        c[n][MAX_DIM] = a[n];
-        if (saturated)
+        double h = step[n], A = (force[n] - s->stiffness * x - s->damping * v - theta) * per_mass;
+        c[n][MAX_DIM] = a[n] = A;
+        c[n + 1][0] = x = h * v;
+        c[n + 1][1] = v = h * A;
+        c[n + 1][2] = theta = h * rate * (goal * tanh_v - theta);
+        tanh_v = 0;
+        if (speed > SATURATED || n + 1 == order)
             continue;
         double uu, Ra;
         inner_of_both(u, R, a, n, &uu, &Ra);
-        Ra += R[0] * a[n];
+        Ra += R[0] * A;
         if (n > 0) {
             R[n] = -uu - 2 * u[0] * u[n];
             Ra += R[n] * a[0];
         }
-        u[n + 1] = s->alpha * step[n] * Ra;
+        u[n + 1] = tanh_v = s->alpha * h * Ra;
     }
 }
 
