@@ -93,6 +93,32 @@ errors_are_about_the_tolerance(void **state)
     }
 }
 
+/* At a low rate a step holds one sample or none, at a high one some hundred of them. */
+static void
+samples_are_the_same_at_every_rate(void **state)
+{
+    enum { FACTOR = 5000, SPARSE = 400 };
+    static const char *const name[] = { "state-variable", "compliant-light" };
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        ss_scene s = read_shipped_named(name[i]);
+        s.settle = 0;
+        s.duration = 2;
+        s.rate = SPARSE / s.duration;
+        run sparse = run_with(&s, "taylor", 1e-12, 0);
+        s.rate *= FACTOR;
+        run dense = run_with(&s, "taylor", 1e-12, 0);
+        for (size_t k = 0; k < SPARSE; k++) {
+            const ss_sample *a = &sparse.sample[k], *b = &dense.sample[k * FACTOR];
+            assert_true(fabs(a->x - b->x) <= 1e-15 * scale_of(&s));
+            assert_true(fabs(a->v - b->v) <= 1e-13 * scale_of(&s));
+            assert_true(fabs(a->f - b->f) <= 1e-13 * s.friction);
+        }
+        run_free(&sparse);
+        run_free(&dense);
+    }
+}
+
 /* The front of tanh is passed in 1e-3 to 1e-7 of the speed of the base, so that its series shows
  * nothing of the front a step before.  A step that passes over it is wrong by a part of the motion. */
 static void
@@ -188,6 +214,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_about_the_tolerance),
+        cmocka_unit_test(samples_are_the_same_at_every_rate),
         cmocka_unit_test(no_step_passes_over_the_front),
         cmocka_unit_test(events_are_those_of_the_closed_form),
         cmocka_unit_test(events_of_a_falling_friction_are_those_of_rk8pd),

@@ -11,6 +11,7 @@
  * nor underflow.  One more than N is there for the sake of the rate of change. */
 #include "motion/engine.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
@@ -18,6 +19,9 @@
 
 /* Orders of the tolerances 1e-1 and 1e-14, even. */
 enum { LEAST_ORDER = 6, MOST_ORDER = 24 };
+
+/* Samples that are computed side by side: one vector of the widest kind. */
+enum { BATCH = 8 };
 
 /* A step is at most this much longer than the last: terms that are rounding at the last say nothing of
  * one that is much longer. */
@@ -37,6 +41,8 @@ typedef struct taylor {
     double unit, per_unit;                  /* [s], [1/s] */
     double per_order[MOST_ORDER + 2];       /* 1 / (n + 1) */
     double c[MOST_ORDER + 2][SERIES_PARTS]; /* of the state and of v' in s / unit */
+    double sample[SERIES_PARTS][BATCH];     /* of the present step, one interval after the other */
+    int taken;                              /* of these; BATCH: none are left */
 } taylor;
 
 static int
@@ -47,19 +53,21 @@ order_of(double tol)
 }
 
 /* The longest step [unit] that keeps the tolerance; 0 if the series is not finite.  The unit is near
- * it, so that one root serves both orders. */
+ * it, so that one root serves both orders; seven digits of it will do. */
 static double
 tolerated(const taylor *t)
 {
-    const double *q = t->base.m->now.q;
+    const double *q = t->base.m->now.q, *last = t->c[t->order], *before = t->c[t->order - 1];
     double largest = 0, sum = 0;
-    for (int n = t->order - 1; n <= t->order; n++)
-        for (size_t i = 0; i < MAX_DIM; i++) {
-            double size = fabs(t->c[n][i]) / (t->scale[i] + fabs(q[i]));
-            largest = size > largest ? size : largest;
-            sum += t->c[n][i];
-        }
-    return isfinite(sum) ? pow(t->tol / largest, t->per_order[t->order - 1]) : 0;
+    for (size_t i = 0; i < MAX_DIM; i++) {
+        double term = fabs(last[i]) > fabs(before[i]) ? fabs(last[i]) : fabs(before[i]);
+        double size = term / (t->scale[i] + fabs(q[i]));
+        largest = size > largest ? size : largest;
+        sum += last[i] + before[i];
+    }
+    if (!isfinite(sum))
+        return 0;
+    return powf((float)fmin(t->tol / largest, FLT_MAX), (float)t->per_order[t->order - 1]);
 }
 
 static void
@@ -92,6 +100,31 @@ evaluate(const taylor *t, double s, double q[], double dqdt[])
     dqdt[0] = q[1];
     dqdt[1] = sum[MAX_DIM] + x * sum[SERIES_PARTS + MAX_DIM];
     dqdt[2] = 0;
+}
+
+/* The next BATCH samples from s on: the same scheme with samples side by side. */
+VERSIONS static void
+evaluate_batch(taylor *t, double s, double interval)
+{
+    double x[BATCH], y[BATCH], even[BATCH], odd[BATCH];
+    for (int i = 0; i < BATCH; i++) {
+        x[i] = (s + i * interval) * t->per_unit;
+        y[i] = x[i] * x[i];
+    }
+    for (int part = 0; part < SERIES_PARTS; part++) {
+        for (int i = 0; i < BATCH; i++) {
+            even[i] = t->c[t->order][part];
+            odd[i] = t->c[t->order + 1][part];
+        }
+        for (int n = t->order - 2; n >= 0; n -= 2)
+            for (int i = 0; i < BATCH; i++) {
+                even[i] = even[i] * y[i] + t->c[n][part];
+                odd[i] = odd[i] * y[i] + t->c[n + 1][part];
+            }
+        for (int i = 0; i < BATCH; i++)
+            t->sample[part][i] = even[i] + x[i] * odd[i];
+    }
+    t->taken = 0;
 }
 
 static void
@@ -136,6 +169,7 @@ taylor_step(engine *e, double h_max, ss_error *err)
         e->dq0[i] = t->per_unit * t->c[1][i];
     e->h = m->scene->base != NULL ? fmin(t->next, m->u_knot - m->u) : t->next;
     e->steps++;
+    t->taken = BATCH;
     evaluate(t, e->h, e->q1, e->dq1);
     return SS_OK;
 }
@@ -143,11 +177,21 @@ taylor_step(engine *e, double h_max, ss_error *err)
 static void
 taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
 {
+    taylor *t = (taylor *)e;
     const state *m = &e->m->now;
     e->rhs++;
-    evaluate((taylor *)e, s, q, dqdt);
-    if (where == ANYWHERE)
+    if (where == ANYWHERE) {
+        evaluate(t, s, q, dqdt);
         m->model->rates(m, base_force_by(m, base, m->u + s), q, dqdt);
+        return;
+    }
+    if (t->taken == BATCH)
+        evaluate_batch(t, s, 1 / m->scene->rate);
+    int i = t->taken++;
+    for (int part = 0; part < MAX_DIM; part++)
+        q[part] = t->sample[part][i];
+    dqdt[0] = q[1];
+    dqdt[1] = t->sample[MAX_DIM][i];
 }
 
 /* --- neighbouring motions ---------------------------------------------------------------------- */
