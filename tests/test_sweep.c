@@ -302,6 +302,31 @@ shooting_ends_a_slow_approach(void **state)
     }
 }
 
+/* Friction that falls with speed hardly damps a motion at resonance, whose size is a hundred times that of
+ * the base. */
+static void
+shooting_finds_a_resonance_that_simulation_needs_10000_cycles_for(void **state)
+{
+    ss_scene s = read_shipped_named("coulomb");
+    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady at, truth;
+    (void)state;
+    s.model = SS_STRIBECK;
+    s.static_friction = 1.3;
+    s.stribeck_velocity = 0.01;
+    s.friction = 0.1;
+    s.base_frequency = 93. / 19;
+    opts.measures = BIT(SS_X_PHASE) | BIT(SS_V_PHASE) | BIT(SS_PERIOD);
+    opts.max_cycles = 100;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, NULL), SS_OK);
+    opts.max_cycles = 100000;
+    opts.search = SS_SEARCH_SIMULATE;
+    assert_int_equal(ss_steady_find(&truth, &s, &opts, NULL), SS_OK);
+    is_near(at.value[SS_X_PHASE], truth.value[SS_X_PHASE], 1e-8 * s.base_amplitude, "x_phase");
+    is_near(at.value[SS_V_PHASE], truth.value[SS_V_PHASE], 1e-8 * s.base_amplitude * 31, "v_phase");
+    assert_true(at.value[SS_PERIOD] == 1 && truth.value[SS_PERIOD] == 1);
+}
+
 /* Where alpha v is small the friction is theta' = -gamma (theta - c v), c = f_k alpha: the multipliers are
  * exp(lambda T), lambda the roots of l^3 + g l^2 + (k + g c) / m l + g k / m. */
 static void
@@ -957,6 +982,7 @@ main(void)
         cmocka_unit_test(balances_energy),
         cmocka_unit_test(multipliers_are_the_rate_of_approach),
         cmocka_unit_test(shooting_ends_a_slow_approach),
+        cmocka_unit_test(shooting_finds_a_resonance_that_simulation_needs_10000_cycles_for),
         cmocka_unit_test(a_linear_friction_has_its_multipliers),
         cmocka_unit_test(series_have_the_multipliers_of_differences),
         cmocka_unit_test(multipliers_have_the_product_of_the_jumps),

@@ -77,11 +77,12 @@ ss_finder_begin_at(finder *f, const motion *from)
 int
 ss_finder_keep(finder *f, double distance)
 {
-    double most = tolerance_of_walks(f), tol = fmax(most, fmin(ROUGH * distance, ROUGHEST));
+    double magnified = fmax(1 - f->multiplier, 0), tol = fmin(ROUGH * distance, ROUGHEST) * magnified;
+    double finest = fmax(1e-14, tolerance_of_walks(f) * magnified);
     if (f->w.e->type->keep == NULL)
         return 1;
-    f->w.e->type->keep(f->w.e, tol);
-    return tol == most;
+    f->w.e->type->keep(f->w.e, fmax(tol, finest));
+    return tol <= finest;
 }
 
 /* --- walking ------------------------------------------------------------------------------- */

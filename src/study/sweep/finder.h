@@ -27,6 +27,8 @@ typedef struct finder {
     section last[SECTIONS];             /* the latest, cycle after cycle, in a ring */
     unsigned long recorded;             /* of them */
     course course;                      /* of what was measured, where it is wanted */
+    double multiplier;                  /* the largest of the period that Newton's method is near to; its
+                                         * steps are off by what a walk is, over 1 - this */
     double missed;                      /* from the start of what was measured to its end */
     unsigned long unresolved;           /* events in it: see ss_sim_stats */
 } finder;

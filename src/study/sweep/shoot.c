@@ -75,6 +75,13 @@ at_last(const tangent *t, const double difference[D_MOST], double left[D_MOST])
     times(&power, difference, left);
 }
 
+/* Have they the same coordinates?  Slips in either direction have. */
+static int
+alike(const motion *a, const motion *b)
+{
+    return (a->now.mode == 0) == (b->now.mode == 0);
+}
+
 /* Whether the motion from a state goes, in some repetitions of so many cycles, towards the periodic one as
  * its derivative says: otherwise that is another motion than the one which is approached, or none is.  One
  * repetition would not do: a chaotic motion comes near many that it leaves again. */
@@ -95,7 +102,7 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     at_last(t, before, left);
     for (int i = 0; i < D_MOST; i++)
         rest = fmax(rest, fabs(left[i]) / unit[i]);
-    *yes = from->now.mode == at->now.mode && rest <= f->opts->tol;
+    *yes = alike(from, at) && rest <= f->opts->tol;
     for (int n = 0; st == SS_OK && *yes && n < REPETITIONS; n++) {
         double far = 0, off = 0;
         st = ss_finder_go(f, cycles, NULL, NULL);
@@ -107,7 +114,7 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
             far = fmax(far, fabs(before[i]) / unit[i]);
             before[i] = after[i];
         }
-        *yes = f->w.m.now.mode == at->now.mode && off <= NONLINEAR * far + MEASURABLE * first + f->opts->tol;
+        *yes = alike(&f->w.m, at) && off <= NONLINEAR * far + MEASURABLE * first + f->opts->tol;
     }
     ss_finder_keep(f, 0);
     return st;
@@ -118,21 +125,21 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
 #define CLOSE 0.05
 #define SHRINKS 0.1
 
-/* Newton's steps until one is within tol, which *found says; *first: the largest multiplier by *t. */
+/* Newton's steps until one is within tol, which *found says. */
 static ss_status
-converge(finder *f, int cycles, motion *at, tangent *t, int *found, double *first)
+converge(finder *f, int cycles, motion *at, tangent *t, int *found)
 {
-    double off = INFINITY, second, angle;
+    double off = INFINITY, nearest = off, second, angle;
     int serves = 0, is_fine = 0;
     ss_status st = SS_OK;
     for (int i = 0; st == SS_OK && !(is_fine && off <= f->opts->tol) && i < NEWTON_STEPS; i++) {
         double last = off;
         int old = serves;
-        is_fine = ss_finder_keep(f, off);
+        is_fine = ss_finder_keep(f, nearest = fmin(nearest, off));
         st = newton_step(f, cycles, at, old, t, &off);
         if (st == SS_OK && !old && (!f->in_closed_form || off <= f->opts->tol))
-            st = ss_tangent_multipliers(t, first, &second, &angle);
-        serves = !f->in_closed_form && off <= CLOSE * (1 - *first)
+            st = ss_tangent_multipliers(t, &f->multiplier, &second, &angle);
+        serves = !f->in_closed_form && off <= CLOSE * (1 - f->multiplier)
             && (!old || off <= SHRINKS * last);
     }
     *found = st == SS_OK && is_fine && off <= f->opts->tol;
@@ -163,14 +170,13 @@ static ss_status
 look(finder *f, int approached, int *period, ss_steady *out)
 {
     tangent t = { 0 };
-    double first = INFINITY;
     const motion from = f->w.m;
     motion at = from;
     int cycles = *period, wanted;
     *period = 0;
-    ss_status st = converge(f, cycles, &at, &t, &wanted, &first);
+    ss_status st = converge(f, cycles, &at, &t, &wanted);
     if (wanted)
-        wanted = first <= 1 + (f->in_closed_form ? 1e-9 : 1e-5);
+        wanted = f->multiplier <= 1 + (f->in_closed_form ? 1e-9 : 1e-5);
     if (wanted && approached)
         st = is_approached(f, &from, &at, &t, cycles, &wanted);
     return wanted && st == SS_OK ? measure(f, &at, cycles, period, out) : st;
@@ -180,6 +186,8 @@ ss_status
 ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
 {
     ss_status st = look(f, approached, period, out);
+    f->multiplier = 0;
+    ss_finder_keep(f, 0);
     if (st != SS_EDATA)
         return st;
     *period = 0;                        /* a step has led to where there are no cycles */

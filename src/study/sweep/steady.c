@@ -170,7 +170,7 @@ static ss_status
 search(finder *f, ss_steady *out)
 {
     const ss_steady_opts *o = f->opts;
-    int period = 0, may_shoot = o->search == SS_SEARCH_AUTO && !(o->measures & 1u << SS_CYCLES)
+    int period = 0, may_shoot = o->search != SS_SEARCH_SIMULATE && !(o->measures & 1u << SS_CYCLES)
         && can_shoot(f->scene, o);
     ss_status st = begin(f);
     if (st == SS_OK && o->search == SS_SEARCH_SHOOT)
