@@ -7,21 +7,28 @@
  * length of the window, and is exact where the signal is periodic.  The median of the cycles'
  * frequencies is the answer, so that ramps at the ends of a record do not move it.
  *
- * Its standard error is a sum in quadrature of three:
+ * Its standard error is a sum in quadrature of five:
  * - the scatter of the cycles, by its median where they are many, over the root of the number of
  *   independent ones: neighbours that are correlated by rho count (1 - rho) / (1 + rho); Student's
  *   factor is applied where they are few;
  * - the drift of the waveform: a change from cycle to cycle that doubles over two cycles is no noise.
  *   It may shift the lag of every cycle alike, by its rms over the rms of the derivative;
+ * - what the median of the lags differs by from their mean, as lags from jump to jump are whole samples;
+ * - by how much half the lag over two cycles differs from that over one: a steady hum pulls every lag
+ *   towards a multiple of its own period;
  * - the error of the interpolation between samples, from the vertices of two parabolas.
  *
  * A signal does not repeat itself
  * - if the median cycle explains less of the variance of the next than asked for;
- * - if half of the cycles have no best lag within WIDTH of the period;
+ * - if a quarter of the cycles have no best lag within WIDTH of the period, or are not like the next
+ *   one at it, as where something rings, but anew behind every slip;
  * - if the energy of the cycles has an effective number (sum E)^2 / sum E^2 of less than LASTING of
  *   them, or decays or grows exponentially, by more than FADE and e in QUICK cycles: it rings once;
  * - if the energies of the cycles themselves repeat: it is modulated, and the cycle is not what
- *   repeats. */
+ *   repeats; or their means do: then a hum or a ringing passes for it.
+ *
+ * The peak of the autocorrelation may be that of two cycles, where jumps lie between samples: a half is
+ * taken that repeats as well as the whole does when it is shifted by a sample. */
 #include "features/cycles.h"
 
 #include <gsl/gsl_cdf.h>
@@ -33,19 +40,27 @@
 
 #define WIDTH 0.2               /* a cycle's period may differ so much from the record's */
 #define POINTS 256.0            /* a period while the lag is searched: finer ones are averaged */
+#define AGREES 0.5              /* correlation with the next cycle: less is none */
+#define SPOILT 2                /* cycles by one gap, which do not agree */
+#define BROKEN 0.25             /* of the cycles: more do not agree where it rings anew behind slips */
 #define ACTIVE 0.01             /* of the mean energy: weaker cycles are no cycles */
 #define LASTING 0.25
 #define FADE 10.0               /* in energy, from the first cycle to the last */
 #define QUICK 16.0              /* cycles in which the energy falls by e: slower, they are alike */
 #define STRAIGHT 0.95           /* r^2 of log energy on time that makes a decay */
-#define DEPTH 0.1               /* of the energies' scatter re their mean: less is no modulation */
+#define DEPTH 0.1               /* of the scatter of energies or means: less is no modulation */
+#define BETWEEN 0.5             /* correlation with the cycles between two swells: no more */
+#define SLOWEST 512             /* cycles in a swell */
 #define ROBUST 8                /* cycles, for their scatter to be read by the median deviation */
+#define LATER 8.0               /* cycles */
 #define FEWEST 16               /* cycles, for modulation to show */
 
 typedef struct cycle {
-    double lag;                 /* in samples; NaN: no best one */
+    int is_two;                 /* its half repeats as well as it does itself, to a sample */
+    double lag, next;           /* in samples; NaN: no best one; half of the lag two cycles later */
     double likeness, symmetry;
-    double energy, slopes;      /* mean squares of the signal and of its differences */
+    double mean;
+    double energy, slopes;      /* mean squares of the signal, less its mean, and of its differences */
     double change, twice;       /* mean square differences from the next and from the one after */
     double bend;                /* of the two vertices, in samples */
 } cycle;
@@ -142,15 +157,25 @@ peak_correlation(const view *v, size_t i, size_t lag, size_t m)
     return fmin(1, at - 0.25 * (before - behind) * s);
 }
 
+/* The vertex about a lag of least difference. */
+static double
+lag_of_least(const view *v, size_t i, size_t m, size_t lag)
+{
+    return (double)lag + vertex(relative(v, i, lag - 1, m), relative(v, i, lag, m),
+                                relative(v, i, lag + 1, m), 1);
+}
+
 static cycle
 measure(const view *fine, const view *coarse, size_t q, size_t first, double period)
 {
-    cycle c = { .lag = NAN };
+    cycle c = { .lag = NAN, .next = NAN };
     size_t i = first / q, m = (size_t)(period / (double)q), whole = (size_t)period;
     size_t lo = (size_t)(period * (1 - WIDTH) / (double)q);
     size_t hi = (size_t)(period * (1 + WIDTH) / (double)q) + 1;
     double a, b, ab, unit;
     difference(fine, first, whole, whole, &c.energy, &b, &ab);
+    for (size_t k = first; k < first + whole; k++)
+        c.mean += fine->x[k] / (double)whole;
     size_t rough = best_lag(coarse, i, m, lo > 2 ? lo : 2, hi);
     if (rough == 0)
         return c;
@@ -164,11 +189,15 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     }
     if (lag < 3 || first + lag + whole + 2 > fine->n)
         return c;
+    double half = fmin(relative(fine, first, lag / 2, whole), relative(fine, first, (lag + 1) / 2, whole));
     double d[5];
     for (size_t k = 0; k < 5; k++)
         d[k] = relative(fine, first, lag + k - 2, whole);
+    c.is_two = lag >= 8 && half <= fmin(d[1], d[3]);
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.lag = (double)lag + near;
+    if (first + 2 * lag + whole + 4 < fine->n)
+        c.next = 0.5 * lag_of_least(fine, first, whole, refine(fine, first, whole, 2 * lag, 2));
     c.bend = fabs(near - far) / 3;
     c.change = difference(fine, first, lag, whole, &a, &b, &ab);
     c.slopes = difference(fine, first, 1, whole, &a, &b, &unit);
@@ -183,6 +212,13 @@ static double
 median_of(double *v, size_t n)
 {
     return gsl_stats_select(v, 1, n, n / 2);
+}
+
+/* Has the cycle energy, and a lag? */
+static int
+is_known(const cycle *c, double least)
+{
+    return c->energy > least && !isnan(c->lag);
 }
 
 /* The effective share of the cycles. */
@@ -213,32 +249,58 @@ fades(const cycle *c, size_t n, double least)
     return m >= 4 && rate * QUICK > 1 && rate * m > log(FADE) && cov * cov > STRAIGHT * vt * vy;
 }
 
-/* Do the energies of the cycles repeat, from one swell to the next? */
-static ss_status
-modulated(const cycle *c, size_t n, double *v, int *is)
+/* Does a number of theirs, v, repeat itself some cycles later, when it has been otherwise in between?  Not
+ * if its scatter is under DEPTH of a scale. */
+static int
+repeats(const double *v, size_t n, double scale)
 {
-    double mean = 0, scatter = 0;
-    ss_value swell;
-    *is = 0;
+    const view of = { v, n };
+    double power, other, product, least = 1;
+    difference(&of, 0, 0, n, &power, &other, &product);
+    if (n < FEWEST || !(sqrt(power) > DEPTH * scale))
+        return 0;
+    for (size_t lag = 1; lag <= n / 2 && lag <= SLOWEST; lag++) {
+        double r = correlation(&of, 0, lag, n - lag);
+        if (least < BETWEEN && r > CYCLES_LIKE)
+            return 1;
+        least = fmin(least, r);
+    }
+    return 0;
+}
+
+/* Do the energies of the cycles repeat, from one swell to the next? */
+static int
+is_modulated(const cycle *c, size_t n, double *v)
+{
+    double mean = 0;
     for (size_t i = 0; i < n; i++)
         mean += (v[i] = c[i].energy) / (double)n;
+    return repeats(v, n, mean);
+}
+
+/* Do their means repeat?  Then they are cycles of a hum, or of ringing, in a longer one. */
+static int
+is_in_longer(const cycle *c, size_t n, double *v)
+{
+    double power = 0;
+    for (size_t i = 0; i < n; i++) {
+        v[i] = c[i].mean;
+        power += c[i].energy / (double)n;
+    }
+    return repeats(v, n, sqrt(power));
+}
+
+/* Does half of a cycle repeat as well as a cycle does if it is shifted by a sample? */
+static int
+is_two(const cycle *c, size_t n, double least)
+{
+    size_t twice = 0, all = 0;
     for (size_t i = 0; i < n; i++)
-        scatter += (v[i] - mean) * (v[i] - mean) / (double)n;
-    if (n < FEWEST || !(sqrt(scatter) > DEPTH * mean))
-        return SS_OK;
-    ss_status st = ss_period_find(v, n, &swell);
-    if (st != SS_OK || isnan(swell.value) || 3 * swell.value > (double)n)
-        return st;
-    const view energies = { v, n };
-    size_t lag = (size_t)(swell.value + 0.5), used = 0;
-    double *r = malloc(n * sizeof *r);
-    if (r == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i + 2 * lag <= n; i += lag)
-        r[used++] = correlation(&energies, i, lag, lag);
-    *is = lag >= 4 && used >= 2 && median_of(r, used) > CYCLES_LIKE;
-    free(r);
-    return SS_OK;
+        if (is_known(&c[i], least)) {
+            all++;
+            twice += (size_t)c[i].is_two;
+        }
+    return all > 0 && 4 * twice >= 3 * all;
 }
 
 /* The share of the variance of a period that a sinusoid of that period leaves. */
@@ -267,11 +329,15 @@ neighbours(const double *v, size_t n, double mean, double variance)
         : fmax(0, fmin(0.9, sum / ((double)(n - 1) * variance)));
 }
 
-/* Has the cycle energy, and a lag? */
-static int
-is_known(const cycle *c, double least)
+/* By how much the lags over one cycle and over two disagree. */
+static double
+pull_of(const cycle *c, size_t n, double least, double *v)
 {
-    return c->energy > least && !isnan(c->lag);
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++)
+        if (is_known(&c[i], least) && !isnan(c[i].next))
+            v[used++] = c[i].next - c[i].lag;
+    return used > 0 ? fabs(gsl_stats_median(v, 1, used)) : 0;
 }
 
 /* Median and standard error of the frequencies of the cycles with energy. */
@@ -279,11 +345,11 @@ static void
 summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
 {
     size_t used = 0, drifting = 0;
-    double mean = 0, variance = 0, drift = 0, bend = 0;
+    double mean = 0, variance = 0, drift = 0, bend = 0, lags = 0;
     for (size_t i = 0; i < n; i++)
         if (is_known(&c[i], least)) {
             mean += v[used++] = 1 / c[i].lag;
-            bend += c[i].bend;
+            bend += c[i].bend, lags += c[i].lag;
         }
     mean /= (double)used, bend /= (double)used;
     for (size_t i = 0; i < used; i++)
@@ -301,17 +367,17 @@ summarise(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
             v[drifting++] = (c[i].twice - c[i].change) / 3 / c[i].slopes;
     if (drifting > 0)
         drift = sqrt(fmax(0, median_of(v, drifting)));
+    double pull = pull_of(c, n, least, v), skew = fabs(lags / (double)used - 1 / f);
     double scatter = student * sqrt(M_PI / 2 * variance / free_ones);
-    out->frequency = (ss_value){ f, hypot(scatter, hypot(drift, bend) * f * f) };
+    out->frequency = (ss_value){ f, hypot(scatter, hypot(hypot(pull, skew), hypot(drift, bend)) * f * f) };
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
 }
 
 /* How many cycles there are, how alike they are, and the reason if they are none. */
-static ss_status
+static void
 judge(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
 {
-    size_t used = 0;
-    ss_status st = SS_OK;
+    size_t used = 0, alike = 0;
     for (size_t i = 0; i < n; i++)
         if (is_known(&c[i], least))
             v[used++] = c[i].symmetry;
@@ -319,32 +385,31 @@ judge(const cycle *c, size_t n, double least, double *v, ss_cycles *out)
     used = 0;
     for (size_t i = 0; i < n; i++) {
         out->n += c[i].energy > least;
+        alike += is_known(&c[i], least) && c[i].likeness > AGREES;
         if (is_known(&c[i], least))
             v[used++] = c[i].likeness;
     }
     out->likeness = used > 0 ? median_of(v, used) : 0;
     if (out->n < 2)
         out->why = "under three cycles of what may repeat are in the record";
-    else if (2 * used < out->n || used < 2 || !(out->likeness >= CYCLES_ALIKE))
+    else if ((double)(out->n - alike) > fmax(SPOILT, BROKEN * (double)out->n) || used < 2
+             || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
     else if (lasting(c, n) < LASTING || fades(c, n, least))
         out->why = "it rings once, or sounds in a small part of the record only";
-    else if ((st = modulated(c, n, v, &out->modulated)) == SS_OK && out->modulated)
+    else if (is_in_longer(c, n, v))
+        out->why = "what hums or rings repeats sooner than the rest";
+    else if ((out->modulated = is_modulated(c, n, v)) != 0)
         out->why = "its cycles swell and fade in turn: it is modulated";
-    return st;
 }
 
 /* What the n cycles of x have in common, which begin step samples apart. */
-static ss_status
-describe(const cycle *c, size_t n, const double *x, size_t step, double *v, ss_cycles *out)
+static void
+describe(const cycle *c, size_t n, const double *x, size_t step, double least, double *v, ss_cycles *out)
 {
-    double mean = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += c[i].energy / (double)n;
-    const double least = ACTIVE * mean;
-    ss_status st = judge(c, n, least, v, out);
-    if (st != SS_OK || out->why != NULL)
-        return st;
+    judge(c, n, least, v, out);
+    if (out->why != NULL)
+        return;
     summarise(c, n, least, v, out);
     size_t first = 0, last = n - 1;
     while (!(c[first].energy > least))
@@ -352,35 +417,51 @@ describe(const cycle *c, size_t n, const double *x, size_t step, double *v, ss_c
     while (!(c[last].energy > least))
         last--;
     out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
-    return SS_OK;
 }
 
+/* *twice: the cycles are two, of half the period. */
 static ss_status
-find_at(const double *x, size_t n, double period, ss_cycles *out)
+find_at(const double *x, size_t n, double period, ss_cycles *out, int *twice)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
     double *averaged = calloc(n / q + 1, sizeof *averaged), *v = malloc(most * sizeof *v);
     cycle *c = malloc(most * sizeof *c);
-    ss_status st = SS_ENOMEM;
+    *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
     if (averaged != NULL && v != NULL && c != NULL) {
         const view fine = { x, n }, coarse = { averaged, n / q };
+        double least = 0;
         for (size_t i = 0; i < n / q * q; i++)
             averaged[i / q] += x[i] / (double)q;
-        for (size_t i = 0; i + reach < n; i += step)
-            c[found++] = measure(&fine, &coarse, q, i, period);
-        st = describe(c, found, x, step, v, out);
+        for (size_t i = 0; i + reach < n; i += step) {
+            c[found] = measure(&fine, &coarse, q, i, period);
+            least += c[found++].energy;
+        }
+        least *= ACTIVE / (double)found;
+        *twice = is_two(c, found, least);
+        describe(c, found, x, step, least, v, out);
     }
     free(averaged);
     free(v);
     free(c);
-    return st;
+    return averaged != NULL && v != NULL && c != NULL ? SS_OK : SS_ENOMEM;
+}
+
+/* The correlation of the record with itself LATER cycles later, or the most in a quarter of it. */
+static double
+lasting_of(const double *x, size_t n, double period)
+{
+    const view of = { x, n };
+    double cycles = fmax(1, fmin(LATER, floor(0.25 * (double)n / period)));
+    size_t lag = (size_t)(cycles * period + 0.5);
+    return lag < n ? correlation(&of, 0, lag, n - lag) : 0;
 }
 
 ss_status
 ss_cycles_find(const double *x, size_t n, ss_cycles *out)
 {
     ss_value start;
+    int twice = 0;
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
     ss_status st = ss_period_find(x, n, &start);
     if (st != SS_OK)
@@ -389,5 +470,11 @@ ss_cycles_find(const double *x, size_t n, ss_cycles *out)
         out->why = "no cycle resembles the next one";
         return SS_OK;
     }
-    return find_at(x, n, start.value, out);
+    do {
+        start.value *= twice ? 0.5 : 1;
+        st = find_at(x, n, start.value, out, &twice);
+    } while (st == SS_OK && twice);
+    if (!isnan(out->period.value))
+        out->lasting = lasting_of(x, n, out->period.value);
+    return st;
 }

@@ -10,6 +10,7 @@ typedef struct ss_cycles {
     ss_value frequency;         /* per sample */
     size_t n;                   /* cycles that hold energy */
     double likeness;            /* median correlation of a cycle with the next */
+    double lasting;             /* correlation of the record with itself 8 cycles later, or a quarter of it */
     double symmetry;            /* the same with the signal half a period later: -1 where the second
                                    half of a cycle mirrors the first */
     double overtones;           /* share of a cycle's power beyond its fundamental */
@@ -20,6 +21,7 @@ typedef struct ss_cycles {
 /* The median cycle explains CYCLES_LIKE squared of the variance of the next where nothing else says
  * that it repeats; CYCLES_ALIKE squared where each cycle is known to be an event. */
 #define CYCLES_LIKE 0.95
+#define CYCLES_LAST 0.5         /* narrow noise, and what rings behind slips at random times, lasts less */
 #define CYCLES_ALIKE 0.70
 
 /* The cycles of the n samples of x, of a likeness of at least CYCLES_ALIKE. */

@@ -19,6 +19,7 @@ const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displace
 #define SIGMAS 3.0
 #define JITTER 0.125            /* of a period, see slips_in_cycle */
 #define MOST 0.75
+#define ALONE 0.75              /* of a cycle, or of half of one that has two slips */
 #define OVERTONES 0.1           /* of the power: less makes no slip in a sinusoid */
 #define CONFIRMS 0.15           /* of the slip rate: a period so near to it is that of the slips */
 #define SLIGHT 0.5              /* [dB] maxima less prominent show no oscillation */
@@ -113,22 +114,75 @@ cycle_rate(const search *s)
     return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
 }
 
-/* How many transitions make a cycle: that many later a period has passed, for MOST of them, give or
- * take JITTER of it.  0: they do not repeat with the cycle. */
-static size_t
-slips_in_cycle(const search *s, double rate)
+/* Have so many transitions later a time of passed, for MOST of them, give or take JITTER of it? */
+static int
+recur(const search *s, size_t step, double time)
 {
     const ss_features *out = s->out;
-    double period = 1 / out->repetition_frequency.value, each = round(rate * period);
-    size_t step = each >= 1 && each < (double)out->n ? (size_t)each : 0, good = 0, all = 0;
-    for (size_t i = 0; step > 0 && i + step < out->n; i++) {
+    size_t good = 0, all = 0;
+    for (size_t i = 0; i + step < out->n; i++) {
         double from = out->transition[i].onset, passed = out->transition[i + step].onset - from;
         if (ss_gaps_near(s->gap, s->n_gaps, from + passed / 2, passed / 2))
             continue;
         all++;
-        good += fabs(passed / period - 1) <= JITTER;
+        good += fabs(passed / time - 1) <= JITTER;
     }
-    return all >= 2 && (double)good >= MOST * (double)all ? step : 0;
+    return all >= 2 && (double)good >= MOST * (double)all;
+}
+
+/* How many transitions make a cycle: that many later a period has passed.  0: they do not repeat with
+ * the cycle. */
+static size_t
+slips_in_cycle(const search *s)
+{
+    double period = 1 / s->out->repetition_frequency.value, each = round(mean_rate(s).value * period);
+    return each >= 1 && each < (double)s->out->n && recur(s, (size_t)each, period) ? (size_t)each : 0;
+}
+
+/* The slips that a cycle has at least: one, but two if its second half mirrors the first. */
+static size_t
+least_in_cycle(const search *s)
+{
+    return s->cycles.symmetry < -CYCLES_ALIKE ? 2 : 1;
+}
+
+/* A contact rings while it sticks: what does not ring, and stands beside what does, is an end of that stick
+ * or a micro-slip. */
+static void
+keep_ringing(search *s)
+{
+    ss_features *out = s->out;
+    double apart = ALONE / (out->repetition_frequency.value * (double)least_in_cycle(s));
+    size_t kept = 0;
+    for (size_t i = 0; i < out->n; i++) {
+        const ss_transition *tr = &out->transition[i], *last = &out->transition[kept - (kept > 0)];
+        size_t next = i;
+        while (next < out->n && isnan(out->transition[next].from))
+            next++;
+        int is_beside = (kept > 0 && tr->onset - last->onset < apart)
+            || (next < out->n && out->transition[next].onset - tr->onset < apart);
+        if (!isnan(tr->from) || !is_beside)
+            out->transition[kept++] = *tr;
+    }
+    out->n = kept;
+}
+
+/* May some of the events be no slips, but ends of sticks, or micro-slips?  Those that are as far apart as
+ * the next are alike. */
+static int
+is_doubtful(const search *s, size_t each)
+{
+    size_t least = least_in_cycle(s);
+    return each % least != 0
+        || (each > least && !recur(s, 1, 1 / ((double)each * s->out->repetition_frequency.value)));
+}
+
+static void
+forget_slips(ss_features *out, const char *why)
+{
+    out->slips.value = NAN;
+    out->slip_rate = unknown;
+    out->why_slips = why;
 }
 
 static void
@@ -156,8 +210,8 @@ count_cycles(search *s)
         out->slip_rate = out->repetition_frequency;
         out->why_slips = "counted as one a cycle, as nothing sharp repeats with it";
     } else
-        out->why_slips = more ? "there are more sharp events than slips that could repeat with the cycle"
-            : "there are fewer sharp events than cycles";
+        forget_slips(out, more ? "there are more sharp events than slips that could repeat with the cycle"
+            : "there are fewer sharp events than cycles");
 }
 
 /* Each slip of a force that falls ends a cycle, so its period needs no other proof. */
@@ -186,16 +240,26 @@ find_slip_rate(search *s)
         confirm_repetition(s);
         return;
     }
-    if (isnan(out->repetition_frequency.value) || isnan(out->slip_rate.value))
+    if (isnan(out->repetition_frequency.value)) {
+        if (out->n == 0)
+            out->why_slips = "nothing stands out: slips that are smooth or weak are not seen";
+        else if (!isnan(out->slip_rate.value))
+            out->why_slips = "counted by what rings, as nothing repeats that would confirm it";
         return;
-    size_t each = slips_in_cycle(s, out->slip_rate.value);
-    out->slip_rate = (ss_value){ (double)each * out->repetition_frequency.value,
-                                 (double)each * out->repetition_frequency.error };
-    if (each == 0) {
-        out->slips.value = NAN;
-        out->slip_rate = unknown;
-        count_cycles(s);
     }
+    size_t each = slips_in_cycle(s);
+    if (each > least_in_cycle(s) && !isnan(out->frequency.value)) {
+        keep_ringing(s);
+        out->slips.value = (double)out->n;
+        each = slips_in_cycle(s);
+    }
+    if (each == 0)
+        count_cycles(s);
+    else if (is_doubtful(s, each))
+        forget_slips(out, "of several sharp events a cycle some may be no slips of their own");
+    else
+        out->slip_rate = (ss_value){ (double)each * out->repetition_frequency.value,
+                                     (double)each * out->repetition_frequency.error };
 }
 
 /* --- stiffness and damping ----------------------------------------------------------------- */
@@ -253,6 +317,7 @@ find_slope(search *s)
 static ss_status
 report_progress(const search *s, double part)
 {
+    part = s->is_cleaned ? FITTED + (1 - FITTED) * part : part;     /* all is done again without the hum */
     return ss_progress_at(&s->opts->progress, part);
 }
 
@@ -264,7 +329,7 @@ report_transform(double done, void *user)
 
 /* From the lowest usable frequency on; SS_ESCALE where there is none. */
 static ss_status
-transform(search *s, size_t column, ss_error *err)
+transform(search *s, size_t column, const double *x, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
     double lowest = CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n);
@@ -273,7 +338,6 @@ transform(search *s, size_t column, ss_error *err)
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
-    const double *x = s->signal->values + column * s->n;
     if (s->n_gaps == 0)
         return ss_levels_new(&s->map, s->signal, column, x, &opts, err);
     double *bridged = malloc(s->n * sizeof *bridged);   /* zeros in a gap are steep */
@@ -307,10 +371,12 @@ find_repetition(search *s)
     out->why_repetition = s->cycles.why;
     if (st != SS_OK || s->cycles.why != NULL)
         return st;
-    if (s->cycles.likeness >= CYCLES_LIKE)
-        out->repetition_frequency = cycle_rate(s);
-    else
+    if (!(s->cycles.likeness >= CYCLES_LIKE))
         out->why_repetition = "a cycle does not resemble the next one enough";
+    else if (!(s->cycles.lasting >= CYCLES_LAST))
+        out->why_repetition = "cycles resemble the next one, but not those some cycles later";
+    else
+        out->repetition_frequency = cycle_rate(s);
     return SS_OK;
 }
 
@@ -368,19 +434,15 @@ normalised(const double *x, size_t n, double *largest)
     return copy;
 }
 
-ss_status
-ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
-                 const ss_features_opts *opts, ss_error *err)
+/* What is in the samples x of a column.  *cleaned, if it is not NULL: these without the hum that was
+ * subtracted from them; NULL: none was. */
+static ss_status
+find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
+     const ss_features_opts *opts, double **cleaned, ss_error *err)
 {
-    if (out == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
-    search s = { .signal = signal, .opts = opts != NULL ? opts : &ss_features_defaults };
-    ss_status st = check(signal, column, s.opts, err);
-    if (st != SS_OK)
-        return st;
-    s.n = signal->n;
-    s.rate = signal->head->rate;
-    s.x = normalised(signal->values + column * s.n, s.n, &s.largest);
+    search s = { .signal = signal, .opts = opts, .n = signal->n, .rate = signal->head->rate,
+                 .is_cleaned = cleaned == NULL };
+    s.x = normalised(x, s.n, &s.largest);
     s.out = calloc(1, sizeof *s.out);
     if (s.out == NULL || s.x == NULL
         || ss_gaps_of(&s.gap, &s.n_gaps, signal->head, s.n) != SS_OK) {
@@ -394,11 +456,10 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
     s.out->slip_rate = s.out->repetition_frequency = s.out->frequency_raw = s.out->frequency
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
         = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
-    st = s.n > 0 ? transform(&s, column, err) : SS_ESCALE;
+    ss_status st = s.n > 0 ? transform(&s, column, x, err) : SS_ESCALE;
     if (st == SS_OK && (st = find_all(&s)) != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));
     ss_levels_free(&s.map);
-    free(s.x);
     free(s.gap);
     free(s.found);
     if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* too short for anything to be in it */
@@ -406,10 +467,39 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
     if (st == SS_OK && s.out->spikes == NULL
         && (s.out->spikes = calloc(1, sizeof *s.out->spikes)) == NULL)
         st = ss_fail_memory(err, NULL);
+    int hums = st == SS_OK && cleaned != NULL && s.is_cleaned;
+    for (size_t i = 0; hums && i < s.n; i++)
+        s.x[i] *= s.largest;
+    if (hums)
+        *cleaned = s.x;
+    else
+        free(s.x);
     if (st == SS_OK)
         *out = s.out;
     else
         ss_features_free(s.out);
+    return st;
+}
+
+ss_status
+ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
+                 const ss_features_opts *opts, ss_error *err)
+{
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    opts = opts != NULL ? opts : &ss_features_defaults;
+    ss_features *found = NULL;
+    double *cleaned = NULL;
+    ss_status st = check(signal, column, opts, err);
+    if (st == SS_OK)
+        st = find(&found, signal, column, signal->values + column * signal->n, opts, &cleaned, err);
+    if (cleaned != NULL) {              /* the hum was in the period and the slips, too */
+        ss_features_free(found);
+        st = find(&found, signal, column, cleaned, opts, NULL, err);
+        free(cleaned);
+    }
+    if (st == SS_OK)
+        *out = found;
     return st;
 }
 

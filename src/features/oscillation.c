@@ -227,15 +227,16 @@ report(search *s, const ss_window *window, const ss_value all[2], const ss_value
 
 /* All transitions together, when a hum beside the oscillation is subtracted. */
 static ss_status
-fit_shared(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each,
-           ss_hum *hum)
+fit_shared(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each)
 {
+    ss_hum hum = SS_HUM_NONE;
     double repeats = s->out->repetition_frequency.value;
     ss_status st = isnan(repeats) ? SS_OK
-        : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, hum);
+        : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
     if (st == SS_OK)
         st = fit(s, anchor, s->out->n, f, window, all, each, &s->out->why_ringing);
-    if (*hum == SS_HUM_HIDDEN)
+    s->is_cleaned |= hum == SS_HUM_SUBTRACTED;
+    if (hum == SS_HUM_HIDDEN)
         s->out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
     return st;
 }
@@ -246,15 +247,14 @@ ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly)
     ss_features *out = s->out;
     ss_window *window = malloc((out->n + 1) * sizeof *window);
     ss_value *each = malloc(2 * (out->n + 1) * sizeof *each), all[2];
-    ss_hum hum = SS_HUM_NONE;
     ss_status st = SS_ENOMEM;
     if (window != NULL && each != NULL)
         st = singly ? fit_singly(s, anchor, f, window, all, each)
-            : fit_shared(s, anchor, f, window, all, each, &hum);
+            : fit_shared(s, anchor, f, window, all, each);
     if (st == SS_OK) {
         if (out->why_ringing != NULL)
             ss_ringdown_clear(anchor, out->n, window, all, each);
-        else if (hum == SS_HUM_SUBTRACTED)
+        else if (s->is_cleaned)
             out->why_ringing = "fitted to what is left when a steady hum near it is subtracted";
         report(s, window, all, each);
     }

@@ -32,6 +32,7 @@ typedef struct search {
     size_t n_found;
     column_quantity quantity;
     ss_cycles cycles;
+    int is_cleaned;             /* of a steady hum: x is no more the column */
     int spiked;                 /* transitions end with their last spike, anywhere before the next */
     ss_features *out;
 } search;

@@ -68,3 +68,15 @@ for seed in 1 3 4; do
         printf "%.17g,%.17g\n", t, 2 * (t + t * t / 800) % 1 - .5 + .02 * (rand() - .5) } }' | ss-features > found
     none transition_frequency < found
 done
+# a hum repeats sooner than the cycles that it hums in, and a begin and an end of each stick are no two slips
+ss-sim -s mass=0.0550638246 -s stiffness=0.496744497 -s contact_stiffness=794.950988 \
+    -s contact_damping=0.0271379499 -s friction=6.64303949e-06 -s base_amplitude=2.12359434e-05 \
+    -s base_frequency=0.128661453 -s settle=233.17007 -s duration=69.9510211 -s rate=153.032177 compliant-light |
+    awk '/^#/ { next } { x[n++] = $4; s += $4 * $4 } END { print "t,a"; for (i = 0; i < n; i++)
+        printf "%.17g,%.17g\n", i / 153.032177, x[i] + .1 * sqrt(2 * s / n) * sin(122.845 * i / 153.032177) }' |
+    ss-features | none repetition_frequency
+ss-sim -s mass=101.60294 -s stiffness=174571.499 -s contact_stiffness=5779049.89 -s contact_damping=8526.60509 \
+    -s friction=13.1001425 -s base_amplitude=9.9181572e-05 -s base_frequency=1.65960559 -s settle=18.0765841 \
+    -s duration=5.42297524 -s rate=616.421225 compliant-light | ss-features > found
+covers slip_rate 3.31921118 < found
+grep '^# slips:' found

@@ -1,0 +1,310 @@
+/* test_repetition.c -- what repeats, and what does not, in random draws of each kind.
+ *
+ * What does not repeat may have no repetition_frequency, or one after which it does repeat: over one of
+ * its periods, and over eight, as read from the samples themselves.  What repeats, with drift or jitter,
+ * has one with an error that covers its mean frequency. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <cmocka.h>
+#include <math.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <stickslip.h>
+
+enum { RATE = 1000, N = 6000, DRAWS = 100 };
+#define SECONDS ((double)N / RATE)
+
+static double
+between(gsl_rng *rng, double lo, double hi)
+{
+    return lo * pow(hi / lo, gsl_rng_uniform(rng));
+}
+
+static double
+turn(gsl_rng *rng)
+{
+    return 2 * M_PI * gsl_rng_uniform(rng);
+}
+
+static void
+add_noise(gsl_rng *rng, double *x, double rms)
+{
+    for (size_t i = 0; i < N; i++)
+        x[i] += gsl_ran_gaussian(rng, rms);
+}
+
+/* --- what does not repeat --------------------------------------------------------------------- */
+
+/* 3 to 12 swells, of 10 carrier periods each or more. */
+static void
+fill_modulated(gsl_rng *rng, double *x)
+{
+    double swell = between(rng, 3, 12) / SECONDS, f = swell * between(rng, 10, 25);
+    double depth = 0.3 + 0.7 * gsl_rng_uniform(rng), a = turn(rng), b = turn(rng);
+    for (size_t i = 0; i < N; i++) {
+        double t = (double)i / RATE;
+        x[i] = (1 + depth * cos(2 * M_PI * swell * t + a)) * cos(2 * M_PI * f * t + b);
+    }
+}
+
+static void
+fill_beats(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 10, 60), other = f + between(rng, 3, 12) / SECONDS;
+    double size = between(rng, 0.3, 1), a = turn(rng), b = turn(rng);
+    for (size_t i = 0; i < N; i++) {
+        double t = (double)i / RATE;
+        x[i] = cos(2 * M_PI * f * t + a) + size * cos(2 * M_PI * other * t + b);
+    }
+}
+
+static void
+fill_ringdown(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 10, 100), ratio = between(rng, 0.003, 0.1);
+    double start = (0.05 + 0.4 * gsl_rng_uniform(rng)) * SECONDS;
+    for (size_t i = 0; i < N; i++) {
+        double u = (double)i / RATE - start;
+        x[i] = u < 0 ? 0 : exp(-2 * M_PI * f * ratio * u) * sin(2 * M_PI * f * u);
+    }
+}
+
+/* Over an octave or more. */
+static void
+fill_chirp(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 3, 30), to = f * between(rng, 2, 5), phase = turn(rng);
+    for (size_t i = 0; i < N; i++) {
+        double t = (double)i / RATE;
+        x[i] = cos(2 * M_PI * (f * t + (to - f) * t * t / (2 * SECONDS)) + phase);
+    }
+}
+
+/* White, or through a pole up to that of a random walk. */
+static void
+fill_noise(gsl_rng *rng, double *x)
+{
+    double pole = 1 - between(rng, 1e-3, 1), last = 0;
+    for (size_t i = 0; i < N; i++)
+        x[i] = last = pole * last + gsl_ran_gaussian(rng, 1);
+}
+
+/* As through a resonance of 8 to 30 times its bandwidth: narrower ones keep time for some cycles. */
+static void
+fill_narrow_noise(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 10, 100), r = exp(-M_PI * f / between(rng, 8, 30) / RATE), y = 0, z = 0;
+    for (size_t i = 0; i < N + 4 * RATE; i++) {
+        double next = 2 * r * cos(2 * M_PI * f / RATE) * y - r * r * z + gsl_ran_gaussian(rng, 1);
+        z = y, y = next;
+        if (i >= 4 * RATE)
+            x[i - 4 * RATE] = y;
+    }
+}
+
+/* 10 to 40 impacts at random times, of random strength, each of which rings. */
+static void
+fill_impacts(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 20, 150), ratio = between(rng, 0.004, 0.1), t = 0;
+    double each = SECONDS / between(rng, 10, 40);
+    for (size_t i = 0; i < N; i++)
+        x[i] = 0;
+    for (t = gsl_ran_exponential(rng, each); t < SECONDS; t += gsl_ran_exponential(rng, each)) {
+        double strength = between(rng, 0.3, 1);
+        for (size_t i = (size_t)ceil(t * RATE); i < N; i++) {
+            double u = (double)i / RATE - t;
+            x[i] += strength * exp(-2 * M_PI * f * ratio * u) * sin(2 * M_PI * f * u);
+        }
+    }
+}
+
+/* A sawtooth with teeth of unequal length, jitter of their mean. */
+static size_t
+fill_teeth(gsl_rng *rng, double *x, double jitter, double *first, double *last)
+{
+    double each = SECONDS / between(rng, 10, 60), from = -each * gsl_rng_uniform(rng), to = from;
+    size_t n = 0;
+    for (size_t i = 0; i < N; i++) {
+        double t = (double)i / RATE;
+        while (t >= to) {
+            if (to > 0) {
+                *first = n == 0 ? to : *first;
+                *last = to;
+                n++;
+            }
+            from = to;
+            to += each * fmax(0.2, 1 + gsl_ran_gaussian(rng, jitter));
+        }
+        x[i] = (t - from) / each;
+    }
+    return n;
+}
+
+static void
+fill_irregular(gsl_rng *rng, double *x)
+{
+    double first, last;
+    fill_teeth(rng, x, between(rng, 0.25, 0.6), &first, &last);
+}
+
+typedef struct kind {
+    const char *name;
+    void (*fill)(gsl_rng *rng, double *x);
+} kind;
+
+static const kind kinds[] = {
+    { "modulated", fill_modulated }, { "beats", fill_beats }, { "rings once", fill_ringdown },
+    { "chirp", fill_chirp }, { "noise", fill_noise }, { "narrow noise", fill_narrow_noise },
+    { "impacts", fill_impacts }, { "irregular teeth", fill_irregular } };
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* The correlation of the record with itself so many samples later. */
+static double
+correlation(const double *x, double lag)
+{
+    size_t shift = (size_t)lag, m = N - shift - 1;
+    double part = lag - (double)shift, sx = 0, sy = 0, xx = 0, yy = 0, xy = 0;
+    for (size_t i = 0; i < m; i++) {
+        double y = x[i + shift] + part * (x[i + shift + 1] - x[i + shift]);
+        sx += x[i], sy += y;
+        xx += x[i] * x[i], yy += y * y, xy += x[i] * y;
+    }
+    double n = (double)m, vx = xx - sx * sx / n, vy = yy - sy * sy / n;
+    return (xy - sx * sy / n) / sqrt(vx * vy);
+}
+
+static ss_features *
+features_of(const double *x)
+{
+    ss_header *head = ss_header_new(RATE, 0);
+    ss_signal *signal = NULL;
+    ss_features *f = NULL;
+    assert_int_equal(ss_header_add_column(head, "signal", ""), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+    ss_header_free(head);
+    for (size_t i = 0; i < N; i++)
+        signal->values[i] = x[i];
+    assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+    ss_signal_free(signal);
+    return f;
+}
+
+static void
+nothing_repeats_that_does_not(void **state)
+{
+    static double x[N];
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int wrong = 0;
+    (void)state;
+    for (size_t k = 0; k < KINDS; k++)
+        for (unsigned long i = 0; i < DRAWS; i++) {
+            gsl_rng_set(rng, KINDS * i + k + 1);
+            kinds[k].fill(rng, x);
+            double power = 0;
+            for (size_t j = 0; j < N; j++)
+                power += x[j] * x[j] / N;
+            if (i % 2)
+                add_noise(rng, x, 0.01 * sqrt(power));
+            ss_features *f = features_of(x);
+            double lag = RATE / f->repetition_frequency.value;
+            double far = fmin(8, floor(N / lag / 4)) * lag;
+            if (!isnan(lag) && !(correlation(x, lag) > 0.9 && correlation(x, far) > 0.5)) {
+                print_message("%s %lu: %g +- %g Hz, correlation %.3f and %.3f\n", kinds[k].name, i,
+                              f->repetition_frequency.value, f->repetition_frequency.error,
+                              correlation(x, lag), correlation(x, far));
+                wrong++;
+            }
+            ss_features_free(f);
+        }
+    gsl_rng_free(rng);
+    assert_int_equal(wrong, 0);
+}
+
+/* --- what repeats ----------------------------------------------------------------------------- */
+
+/* The mean frequency of a sawtooth, a pulse train or a sum of harmonics whose clock drifts by up to 1 %
+ * over the record. */
+static double
+fill_drifting(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 8, 30) / SECONDS, drift = 0.02 * (gsl_rng_uniform(rng) - 0.5);
+    double phase = gsl_rng_uniform(rng), size[6], at[6];
+    int shape = (int)gsl_rng_uniform_int(rng, 3);
+    for (int k = 0; k < 6; k++)
+        size[k] = between(rng, 0.1, 1), at[k] = turn(rng);
+    for (size_t i = 0; i < N; i++) {
+        double u = (double)i / N, cycle = f * SECONDS * (u + drift * (u * u - u) / 2) + phase;
+        double part = cycle - floor(cycle), sum = 0;
+        for (int k = 0; k < 6; k++)
+            sum += size[k] * cos(2 * M_PI * (k + 1) * cycle + at[k]);
+        x[i] = shape == 0 ? part : shape == 1 ? exp(-part * 20) : sum;
+    }
+    return f;
+}
+
+static double
+fill_regular(gsl_rng *rng, double *x)
+{
+    double first = 0, last = 0;
+    size_t n = fill_teeth(rng, x, between(rng, 1e-3, 0.03), &first, &last);
+    return (double)(n - 1) / (last - first);
+}
+
+static void
+errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name)
+{
+    static double x[N];
+    static const double noise[] = { 0, 0.01, 0.1 };
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    double known = 0, within = 0, beyond = 0;
+    for (unsigned long i = 0; i < DRAWS; i++) {
+        gsl_rng_set(rng, i + 1);
+        double truth = fill(rng, x);
+        add_noise(rng, x, 0.3 * noise[i % 3]);
+        ss_features *f = features_of(x);
+        ss_value v = f->repetition_frequency;
+        if (!isnan(v.value)) {
+            known++;
+            within += fabs(v.value - truth) <= 2 * v.error;
+            beyond += fabs(v.value - truth) > 5 * v.error;
+            if (fabs(v.value - truth) > 5 * v.error)
+                print_message("%s %lu: %g +- %g Hz, not %g\n", name, i, v.value, v.error, truth);
+        }
+        ss_features_free(f);
+    }
+    gsl_rng_free(rng);
+    print_message("%s: %g of %d known, within 2 errors %.3g, beyond 5 %.3g\n", name, known, DRAWS,
+                  within / known, beyond / known);
+    assert_true(known >= 0.8 * DRAWS && within >= 0.88 * known && beyond <= 0.01 * known);
+}
+
+static void
+errors_cover_drift(void **state)
+{
+    (void)state;
+    errors_cover(fill_drifting, "drifting");
+}
+
+static void
+errors_cover_jitter(void **state)
+{
+    (void)state;
+    errors_cover(fill_regular, "jitter");
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_repeats_that_does_not),
+        cmocka_unit_test(errors_cover_drift),
+        cmocka_unit_test(errors_cover_jitter),
+    };
+    gsl_set_error_handler_off();
+    return cmocka_run_group_tests_name("repetition", tests, NULL, NULL);
+}
