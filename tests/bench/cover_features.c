@@ -5,7 +5,9 @@
  * with sticks of three periods of the contact and more, or of .2 to 2 periods, or of three and more with
  * a second forcing of another frequency.  Each is read as it is and under other conditions; a row a
  * condition: how many have a number, and of these, the share with the truth within 1 and 2 standard
- * errors, and beyond 5, for total stiffness, damping ratio and what repeats.
+ * errors, and beyond 5, for total stiffness, damping ratio and what repeats; how many have a number of
+ * slips and no doubt beside it, and of these, the share with as many as follow a stick of half the length
+ * of the longest or more, and as many a second, to one at either end of the record.
  * Exits 1 where a share misses what is aimed at (within 2: 88 %, beyond 5: 1 %, numbers: 90 % where
  * sticks are long and the signal is clean) by more than chance, 2 binomial standard deviations.
  * usage: cover_features [DRAWS [FIRST [CONDITION]]]
@@ -16,7 +18,7 @@
 #include <gsl/gsl_rng.h>
 #include "bench.h"
 
-enum { CYCLES = 9, MOST_SAMPLES = 250000 };
+enum { CYCLES = 9, MOST_SAMPLES = 250000, MOST_STICKS = 10000 };
 
 typedef enum stick_kind { LONG, SHORT, TWICE, KINDS } stick_kind;    /* of sticks; LONG, but forced twice */
 
@@ -28,6 +30,7 @@ typedef struct draw {
     double ratio;
     double hum;                 /* its frequency re that of the contact */
     double longest;             /* median over half-cycles of the longest stick, in periods */
+    double slips;               /* behind sticks of half of that or more */
 } draw;
 
 /* --- the conditions -------------------------------------------------------------------------- */
@@ -171,8 +174,9 @@ between(gsl_rng *rng, double from, double to)
 }
 
 typedef struct sticks {
-    double began, longest, half, *of;
-    size_t n, room;
+    double began, half, *of;            /* of: the longest of each half-cycle */
+    size_t room, n;
+    double length[MOST_STICKS];         /* NaN: it began before the record */
 } sticks;
 
 static int
@@ -181,10 +185,11 @@ watch(const ss_event *e, void *user)
     sticks *s = user;
     if (e->kind == SS_STICK)
         s->began = e->t;
-    else if (e->kind == SS_SLIP && !isnan(s->began)) {
+    else if (e->kind == SS_SLIP && s->n < MOST_STICKS) {
         size_t half = (size_t)(e->t / s->half);
         if (half < s->room)
             s->of[half] = fmax(s->of[half], e->t - s->began);
+        s->length[s->n++] = e->t - s->began;
         s->began = NAN;
     }
     return 0;
@@ -221,18 +226,23 @@ force_twice(gsl_rng *rng, ss_scene *s)
     return base;
 }
 
-/* The median over half-cycles of the longest stick [s]; NaN: the scene fails. */
-static double
-longest_stick(const ss_scene *s)
+/* The longest stick and the slips of the draw; NaN: the scene fails. */
+static void
+find_sticks(draw *d)
 {
     double of[2 * CYCLES + 1] = { 0 };
-    sticks st = { .began = NAN, .half = 0.5 / s->base_frequency, .of = of, .room = 2 * CYCLES };
+    sticks st = { .began = NAN, .half = 0.5 / d->scene.base_frequency, .of = of, .room = 2 * CYCLES };
     ss_sim_opts opts = ss_sim_defaults;
-    if (s->base == NULL)
+    if (d->scene.base == NULL)
         opts.method = "exact";
     opts.events = watch;
     opts.user = &st;
-    return ss_sim_run(s, &opts, NULL, NULL) == SS_OK ? bench_median(of, 2 * CYCLES) : NAN;
+    ss_status done = ss_sim_run(&d->scene, &opts, NULL, NULL);
+    double longest = done == SS_OK ? bench_median(of, 2 * CYCLES) : NAN;
+    d->longest = longest * d->f;
+    d->slips = 0;
+    for (size_t i = 0; i < st.n; i++)
+        d->slips += st.length[i] >= longest / 2 || (i == 0 && isnan(st.length[i]));
 }
 
 /* 0: that does not stick, or not as asked for. */
@@ -260,7 +270,7 @@ try_draw(gsl_rng *rng, stick_kind kind, draw *d)
     if (s->duration * s->rate > MOST_SAMPLES)
         return 0;
     ss_base *base = kind == TWICE ? force_twice(rng, s) : NULL;
-    d->longest = longest_stick(s) * d->f;
+    find_sticks(d);
     int is_right = kind == SHORT ? d->longest >= 0.2 && d->longest <= 1.9 : d->longest >= 3;
     is_right = is_right && ss_sim_signal(&d->signal, s, NULL) == SS_OK;
     ss_base_free(base);
@@ -289,6 +299,7 @@ enum { KNOWN = 3 };             /* total stiffness, damping ratio, repetition fr
 
 typedef struct tally {
     int n, answers, of[KNOWN], within[KNOWN][2], beyond[KNOWN];
+    int counted, right;         /* slips */
 } tally;
 
 static void
@@ -301,6 +312,15 @@ compare(tally *t, int which, ss_value got, double truth)
     t->within[which][0] += off <= 1;
     t->within[which][1] += off <= 2;
     t->beyond[which] += !(off <= 5);
+}
+
+/* Are the slips as many as they are, to one at either end of the record?  The rate need not be known. */
+static int
+are_right(const ss_features *f, const draw *d)
+{
+    double duration = CYCLES / d->scene.base_frequency;
+    int is_rate = isnan(f->slip_rate.value) || fabs(f->slip_rate.value * duration - d->slips) <= 2;
+    return is_rate && fabs(f->slips.value - d->slips) <= 2;
 }
 
 static void
@@ -333,12 +353,16 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
     compare(t, 1, f->damping_ratio, d->ratio);
     if (c->kind != TWICE)
         compare(t, 2, f->repetition_frequency, d->scene.base_frequency);
+    if (!isnan(f->slips.value) && f->why_slips == NULL) {
+        t->counted++;
+        t->right += are_right(f, d);
+    }
     if (verbose) {
         double K = f->total_stiffness.value / total - 1, z = f->damping_ratio.value / d->ratio - 1;
         double r = f->repetition_frequency.value / d->scene.base_frequency - 1;
-        fprintf(stderr, "%lu\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tK %.3g (%.2f) z %.3g (%.2f) r %.3g (%.2f)\t%s | %s\n",
+        fprintf(stderr, "%lu\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tslips %g of %g, %.4g a cycle\tK %.3g (%.2f) z %.3g (%.2f) r %.3g (%.2f)\t%s | %s\n",
                 d->number, d->f, d->ratio, d->f / d->scene.base_frequency, d->scene.rate / d->f, d->longest,
-                n, K, K * total / f->total_stiffness.error, z, z * d->ratio / f->damping_ratio.error,
+                n, f->slips.value, d->slips, f->slip_rate.value / d->scene.base_frequency, K, K * total / f->total_stiffness.error, z, z * d->ratio / f->damping_ratio.error,
                 r, r * d->scene.base_frequency / f->repetition_frequency.error,
                 f->why_ringing != NULL ? f->why_ringing : "", f->why_slips != NULL ? f->why_slips : "");
     }
@@ -393,7 +417,7 @@ main(int argc, char *argv[])
     }
     printf("# condition draws numbers/%% K_within_1/%% K_within_2/%% K_beyond_5/%% zeta_within_1/%% "
            "zeta_within_2/%% zeta_beyond_5/%% repetition_within_1/%% repetition_within_2/%% "
-           "repetition_beyond_5/%%\n");
+           "repetition_beyond_5/%% slips_numbers/%% slips_right/%%\n");
     for (size_t c = 0; c < CONDITIONS; c++) {
         const tally *t = &all[c];
         if (t->n == 0)
@@ -405,7 +429,7 @@ main(int argc, char *argv[])
                    share(t->within[k][1], t->of[k]), share(t->beyond[k], t->of[k]));
             errors += misses(t->within[k][1], t->of[k], 0.88, 0) + misses(t->beyond[k], t->of[k], 0.01, 1);
         }
-        putchar('\n');
+        printf("\t%.0f\t%.0f\n", share(t->counted, t->n), share(t->right, t->counted));
     }
     return errors > 0;
 }
