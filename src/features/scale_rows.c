@@ -23,6 +23,8 @@
 #define ACCURACY 1e-10          /* of W: 200 dB */
 #define QUIET 3.0               /* scales from a spike on that it is heard */
 #define LEAST 0.1               /* part of a row that its noise is read from at least */
+#define TOGETHER 6.0            /* octaves that share spectra */
+#define MARGIN 0.25             /* of the record: with longer margins, octaves share nothing */
 
 /* Does sample i stand in a gap? */
 static int
@@ -164,21 +166,23 @@ fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale
     return SS_OK;
 }
 
-/* Prepare the rows of an octave. */
+/* Prepare the rows of an octave and of those above it. */
 static ss_status
-open_octave(row_source *source, double octave, ss_error *err)
+open_octaves(row_source *source, double octave, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
-    opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
-    opts.octaves = 1;
-    opts.m0 = octave, opts.m1 = octave + (ROW_VOICES - 1.) / ROW_VOICES;
-    size_t margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
-    double *x = continued(source->x, source->n, margin);
+    double longest = log2(MARGIN * (double)source->n / (ROW_REACH * source->rate));
     ss_row_source_free(source);
     source->octave = octave;
-    source->margin = margin;
+    source->end = octave + fmax(1, fmin(TOGETHER, floor(longest - octave)));
+    opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
+    opts.octaves = 1;
+    opts.m0 = octave, opts.m1 = source->end - 1. / ROW_VOICES;
+    source->margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
+    double *x = continued(source->x, source->n, source->margin);
     ss_status st = x == NULL ? SS_ENOMEM
-        : ss_levels_of_samples(&source->rows, x, source->n + 2 * margin, source->rate, &opts, err);
+        : ss_levels_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts,
+                               err);
     free(x);
     return st;
 }
@@ -187,12 +191,12 @@ ss_status
 ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
 {
     double j = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))), octave = floor(j / ROW_VOICES);
-    size_t index = (size_t)((octave + 1) * ROW_VOICES - 1 - j);         /* long to short */
     ss_status st = SS_OK;
-    if (source->rows.levels == NULL || source->octave != octave)
-        st = open_octave(source, octave, err);
+    if (source->rows.levels == NULL || octave < source->octave || octave >= source->end)
+        st = open_octaves(source, octave, err);
     if (st != SS_OK)
         return st;
+    size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */
     const ss_scale *scale = ss_levels_scale(&source->rows, index);
     double *level = malloc((scale->n + 1) * sizeof *level);
     if (level == NULL)

@@ -20,10 +20,10 @@ typedef struct row_source {
     double rounding;            /* rms of |W| that the rounding of the samples makes */
     const ss_span *gap;         /* in time order [s]: what stands there is not of the signal */
     size_t n_gaps;
-    /* computes the rows of scales from 2^octave s up to twice that, from x with margin samples before
-     * it; levels is NULL before the first row */
+    /* computes the rows of scales from 2^octave s up to 2^end s, from x with margin samples before it;
+     * levels is NULL before the first row */
     map_source rows;
-    double octave;
+    double octave, end;
     size_t margin;
 } row_source;
 
@@ -44,8 +44,8 @@ typedef struct row {
                                    reach of gaps, in time order */
 } row;
 
-/* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows of one octave should
- * be asked for together, as they share spectra.  The noise is read where no spike of loud is near;
+/* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be
+ * asked for from short to long scales, as some octaves share spectra.  The noise is read where no spike of loud is near;
  * NULL: everywhere.  r->peak is to be freed with free(). */
 ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
