@@ -58,7 +58,7 @@ typedef struct ss_morlet_opts {
                                    |W| of its scale) + 16 DBL_EPSILON a^1/2 max|x|, with the
                                    1/a norm 16 DBL_EPSILON max|x|; or the least step of a double,
                                    where that is more */
-    int rounded;                /* 1: half of TOL is left for ss_store_writer, which rounds */
+    int rounded;                /* 1: 7/8 of TOL are left for ss_store_writer, which rounds */
     ss_norm norm;
     int admissible;             /* 1: keep the second term of h, -exp(-omega_c^2/2) in place of 0 */
     ss_detrend detrend;         /* the trend that is subtracted from the record first */

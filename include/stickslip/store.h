@@ -34,8 +34,8 @@ ss_status ss_store_write(const char *path, const ss_record *record, ss_error *er
  * their number.  Grid has head, n_scales, scale and center as in ss_coefficients; its n is the
  * length of the record, or 0 if that is not known yet: the datasets then have a time dimension
  * without limit.  Its head is ss_coefficients_header's; if its options say rounded, re and im
- * become multiples of a power of two that is at most TOL/sqrt(2) x the largest |W| of their scale
- * until then, which halves files and more: the error of what is read back is within TOL.  Signal is
+ * become multiples of a power of two that is at most 1.24 TOL x the largest |W| of their scale
+ * until then, which leaves a third of the bytes or less: the error of what is read back is within TOL.  Signal is
  * the header of the transformed signal, with all columns that are stored beside it, or NULL. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,

@@ -261,7 +261,7 @@ void
 ss_morlet_leave_rounding(ss_morlet_opts *opts)
 {
     if (opts->rounded)
-        opts->accuracy = fmax(opts->accuracy / 2, ss_morlet_ranges.accuracy.from);
+        opts->accuracy = fmax((1 - WAVELET_ROUNDED) * opts->accuracy, ss_morlet_ranges.accuracy.from);
 }
 
 ss_status

@@ -67,7 +67,7 @@ ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_
  * translations are not counted. */
 ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
-/* Half of the accuracy, where the other half is that of rounding, once the grid is chosen. */
+/* The part of the accuracy that rounding leaves, if there is any, once the grid is chosen. */
 void ss_morlet_leave_rounding(ss_morlet_opts *opts);
 /* The grid of a column's transform by plan, w being NULL; to be freed, failed or not. */
 ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,

@@ -9,7 +9,8 @@
 #include "store/groups.h"
 
 struct scale_datasets {
-    hid_t time, re, im, edge;
+    hid_t time, edge;
+    h5_row re, im;              /* if dense, ids of the same two datasets at each scale */
     size_t done;
     double most;                /* the largest |W| so far */
 };
@@ -52,9 +53,9 @@ open_datasets(wavelet_writer *w, hid_t group, size_t i)
         { .name = "time", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
           .chunk = chunk },
         { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient",
-          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .fast = w->tolerance > 0 },
+          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .in_rows = 1 },
         { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient",
-          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .fast = w->tolerance > 0 },
+          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .in_rows = 1 },
         { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
           .file_type = H5T_STD_U8LE, .chunk = chunk },
     };
@@ -62,12 +63,16 @@ open_datasets(wavelet_writer *w, hid_t group, size_t i)
     d->time = ss_h5_new_dataset(group, &v[0], 1, &length, NULL);
     if (d->time < 0)
         return ss_h5_fail_write(w->pieces->file, group, v[0].name);
-    hid_t *const id[] = { NULL, &d->re, &d->im, &d->edge };
+    hid_t *const id[] = { NULL, &d->re.id, &d->im.id, &d->edge };
     for (size_t k = 1; k < sizeof v / sizeof *v; k++) {
         *id[k] = ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
         /* CF: the label of a row that is not its index */
         if (*id[k] < 0 || (w->dense && !ss_h5_write_text(*id[k], "coordinates", "frequency")))
             return ss_h5_fail_write(w->pieces->file, group, v[k].name);
+    }
+    for (size_t k = 0; w->dense && k < w->n_scales; k++) {
+        w->datasets[k].re.id = d->re.id;
+        w->datasets[k].im.id = d->im.id;
     }
     return SS_OK;
 }
@@ -134,7 +139,7 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
         return SS_ENOMEM;
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->datasets[i] = (struct scale_datasets){ -1, -1, -1, -1, 0, 0 };
+        w->datasets[i] = (struct scale_datasets){ .time = -1, .edge = -1, .re.id = -1, .im.id = -1 };
     w->dense = is_dense(w);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
 }
@@ -175,10 +180,24 @@ ss_wavelet_writer_find(const wavelet_writer *w, const ss_scale *scale, size_t fi
     return i;
 }
 
+/* Write what is held of a scale. */
+static int
+end_rows(wavelet_writer *w, size_t i)
+{
+    struct scale_datasets *d = &w->datasets[i];
+    const hsize_t where[2] = { i, d->done }, *end = where + !w->dense;
+    int rank = w->dense ? 2 : 1;
+    int good = ss_h5_end_row(w->pieces, &d->re, rank, end) && ss_h5_end_row(w->pieces, &d->im, rank, end);
+    free(d->re.held);
+    free(d->im.held);
+    d->re.held = d->im.held = NULL;
+    return good;
+}
+
 static int
 close_datasets(struct scale_datasets *r)
 {
-    hid_t *const id[] = { &r->time, &r->re, &r->im, &r->edge };
+    hid_t *const id[] = { &r->time, &r->re.id, &r->im.id, &r->edge };
     int good = 1;
     for (size_t i = 0; i < sizeof id / sizeof *id; i++) {
         good &= *id[i] < 0 || H5Dclose(*id[i]) >= 0;
@@ -187,13 +206,13 @@ close_datasets(struct scale_datasets *r)
     return good;
 }
 
-/* Added and subtracted, this rounds to a multiple of the largest power of two that is at most
- * TOL/sqrt(2) x most: re and im are off by half of that, W by TOL/2 x most.  0: all bits are kept. */
+/* Added and subtracted, this rounds to a multiple of the largest power of two that is at most sqrt(2) x
+ * the error that is left for W, so that re and im are off by half of that.  0: all bits are kept. */
 static double
 rounding_of(double tolerance, double most)
 {
-    double unit = tolerance * M_SQRT1_2 * most;
-    return tolerance >= 2e-13 && unit > 1e-280 && unit < 1e280 ? ldexp(0x1.8p52, ilogb(unit)) : 0;
+    double unit = WAVELET_ROUNDED * tolerance * M_SQRT2 * most;
+    return tolerance >= 1e-12 && unit > 1e-280 && unit < 1e280 ? ldexp(0x1.8p52, ilogb(unit)) : 0;
 }
 
 static double
@@ -222,8 +241,8 @@ write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t sample
         p->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, p->rate, p->start, w->gap,
                                                  w->n_gaps);
     }
-    return ss_h5_write_piece(d->re, rank, at, n, H5T_NATIVE_DOUBLE, p->value[0])
-        && ss_h5_write_piece(d->im, rank, at, n, H5T_NATIVE_DOUBLE, p->value[1])
+    return ss_h5_write_row(p, &w->datasets[i].re, rank, at, n, p->value[0])
+        && ss_h5_write_row(p, &w->datasets[i].im, rank, at, n, p->value[1])
         && ss_h5_write_piece(d->edge, rank, at, n, H5T_NATIVE_UCHAR, p->edge)
         && (w->dense || ss_h5_write_times(p, d->time, scale, first, n));
 }
@@ -232,6 +251,9 @@ ss_status
 ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
     struct scale_datasets *d = &w->datasets[i];
+    if (d->done == 0 && n > 0
+        && (ss_h5_hold_row(&d->re) != SS_OK || ss_h5_hold_row(&d->im) != SS_OK))
+        return SS_ENOMEM;
     d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
     for (size_t m; n > 0; n -= m, x += 2 * m) {
         m = n < H5_PIECE ? n : H5_PIECE;
@@ -239,7 +261,8 @@ ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x,
             return ss_h5_fail_write(w->pieces->file, w->group, "re");
         d->done += m;
     }
-    if (!w->dense && !w->pieces->growing && d->done == w->scale[i].n && !close_datasets(d))
+    if (!w->pieces->growing && d->done == w->scale[i].n
+        && (!end_rows(w, i) || (!w->dense && !close_datasets(d))))
         return ss_h5_fail_write(w->pieces->file, w->group, "re");
     return SS_OK;
 }
@@ -263,6 +286,8 @@ ss_wavelet_writer_end(wavelet_writer *w, size_t samples)
     for (size_t i = 0; i < w->n_scales; i++)
         if (!is_full(w, i, samples))
             return ss_fail(file->err, SS_EINVAL, "coefficients of scale %g are missing", w->scale[i].m);
+        else if (!end_rows(w, i))
+            return ss_h5_fail_write(file, w->group, "re");
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
     if ((w->dense && !ss_h5_write_times(w->pieces, w->datasets->time, &w->scale[0], 0, samples))
@@ -275,6 +300,10 @@ ss_wavelet_writer_end(wavelet_writer *w, size_t samples)
 void
 ss_wavelet_writer_free(wavelet_writer *w)
 {
+    for (size_t i = 0; w->datasets != NULL && i < w->n_scales; i++) {
+        free(w->datasets[i].re.held);
+        free(w->datasets[i].im.held);
+    }
     free(w->unit);
     free(w->scale);
     free(w->datasets);
