@@ -81,16 +81,12 @@ comes_near(const finder *f, int p)
         && difference < ss_section_distance(f, before, section_before(f, 2 * p));
 }
 
-/* Where Newton's method lands on a limit at which a contact only touches, and which the motion approaches
- * from one side, simulation can tell how many events a cycle has. */
 static ss_status
 try_to_shoot(finder *f, int p, ss_steady *out, int *period)
 {
     const motion here = f->w.m;
     *period = p;
     ss_status st = ss_finder_shoot(f, 1, period, out);
-    if (f->unresolved > 0)
-        *period = 0;
     return st == SS_OK && *period == 0 ? ss_finder_begin_at(f, &here) : st;
 }
 

@@ -4,7 +4,8 @@
 #include <float.h>
 #include <math.h>
 
-enum { NEWTON_STEPS = 20 };
+/* At most so many, of which so many may come no nearer by half. */
+enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
 /* The part of a distance by which a motion may miss what the derivative at its limit says. */
 #define NONLINEAR 0.3
 /* And the part of the first distance that it may be off by, as walks are no more accurate. */
@@ -130,15 +131,17 @@ static ss_status
 converge(finder *f, int cycles, motion *at, tangent *t, int *found)
 {
     double off = INFINITY, nearest = off, second, angle;
-    int serves = 0, is_fine = 0;
+    int serves = 0, is_fine = 0, in_vain = 0;
     ss_status st = SS_OK;
-    for (int i = 0; st == SS_OK && !(is_fine && off <= f->opts->tol) && i < NEWTON_STEPS; i++) {
+    for (int i = 0; st == SS_OK && !(is_fine && off <= f->opts->tol) && i < NEWTON_STEPS
+             && in_vain < MOST_IN_VAIN; i++) {
         double last = off;
         int old = serves;
         is_fine = ss_finder_keep(f, nearest = fmin(nearest, off));
         st = newton_step(f, cycles, at, old, t, &off);
         if (st == SS_OK && !old && (!f->in_closed_form || off <= f->opts->tol))
             st = ss_tangent_multipliers(t, &f->multiplier, &second, &angle);
+        in_vain += off > last / 2;
         serves = !f->in_closed_form && off <= CLOSE * (1 - f->multiplier)
             && (!old || off <= SHRINKS * last);
     }
@@ -147,7 +150,9 @@ converge(finder *f, int cycles, motion *at, tangent *t, int *found)
     return st;
 }
 
-/* What Newton's method has found misses itself by a part of tol. */
+/* What Newton's method has found misses itself by a part of tol.  Where it is a limit at which a contact
+ * only touches, and which the motion approaches from one side, only simulation can tell how many events a
+ * cycle has. */
 static ss_status
 measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
 {
@@ -161,7 +166,7 @@ measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
     st = ss_finder_begin_at(f, at);
     if (st == SS_OK)
         st = ss_finder_measure(f, *period, *period, out);
-    if (f->missed > most)
+    if (f->missed > most || f->unresolved > 0)
         *period = 0;
     return st;
 }
