@@ -12,7 +12,6 @@
 #include <stdlib.h>
 
 #define WHITE 1.2               /* of the white noise's variance: more is coloured */
-#define SEEN 2.0                /* standard deviations: a move that noise does not make */
 #define LOWEST_LINE 0.7         /* re the oscillation's frequency, see add_line */
 #define HIGHEST_LINE 1.4
 enum { LINES = 15 };
@@ -33,7 +32,8 @@ variance_of(const fitter *k, const linear *fit)
     return fit->rss / (double)(fit->samples - ss_varpro_columns(&k->fit) * fit->windows - 2);
 }
 
-/* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i. */
+/* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i.  Of few windows
+ * it is uncertain itself, so that the error is no less than by the curvature of the sum of squares. */
 static ss_status
 jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
@@ -62,7 +62,7 @@ jackknife(fitter *k, const ss_window *window, size_t n, ss_value value[2])
             }
         }
     for (int j = 0; j < 2 && used >= FIT_FEW; j++)
-        value[j].error = sqrt(moved[j] * (double)(used - 1) / (double)used);
+        value[j].error = fmax(value[j].error, sqrt(moved[j] * (double)(used - 1) / (double)used));
     free(each);
     return SS_OK;
 }
@@ -118,8 +118,8 @@ add_misfit(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 }
 
 /* What a filter leaves of a slip goes on into every stick, slowly and alike: neither the jackknife nor
- * shorter windows see all of it.  If the fit moves by more than SEEN standard deviations of what noise
- * moves it by (Hausman again) where the slow part may bend as a cubic, it is off by as much. */
+ * shorter windows see all of it.  The fit is off by what it moves by beyond what noise moves it by
+ * (Hausman again) where the slow part may bend as a cubic. */
 static void
 add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
 {
@@ -131,8 +131,8 @@ add_slow_part(fitter *k, const ss_window *window, size_t n, ss_value value[2])
         variances(k, window, n, &variance, bent);
         const double moved[2] = { k->fit.w - at[0], k->fit.s - at[1] };
         for (int j = 0; j < 2; j++)
-            if (moved[j] * moved[j] > SEEN * SEEN * fmax(bent[j] - whole[j], 0))
-                value[j].error = hypot(value[j].error, moved[j]);
+            value[j].error = sqrt(value[j].error * value[j].error
+                                  + fmax(0, moved[j] * moved[j] - fmax(bent[j] - whole[j], 0)));
     }
     k->fit.is_bent = 0;
     k->fit.w = at[0], k->fit.s = at[1];

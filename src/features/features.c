@@ -456,6 +456,7 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
     s.out->slip_rate = s.out->repetition_frequency = s.out->frequency_raw = s.out->frequency
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
         = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
+    s.out->why_ringing = "the recording is too short";
     ss_status st = s.n > 0 ? transform(&s, column, x, err) : SS_ESCALE;
     if (st == SS_OK && (st = find_all(&s)) != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));

@@ -52,23 +52,24 @@ int ss_sticks_belong(fitter *k, double rise, size_t q);
 /* Grow windows of up to limit samples about n cores. */
 void ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit);
 
-/* Cut the window at a longest length of at least the least, if it is longer, and keep off that end. */
-ss_window ss_sticks_cut(const fitter *k, ss_window win, size_t longest);
+/* Cut all windows in two, so many samples behind their starts or before their ends, and keep what is
+ * longer in all, off that place; 0: too little would be left, and they are as they were. */
+int ss_sticks_split(const fitter *k, ss_window *window, size_t n, size_t at, int from_end);
 
-/* Keep off both ends as growth found them. */
+/* Keep off both ends as growth found them; empty: less than the least length is left. */
 ss_window ss_sticks_trim(const fitter *k, ss_window win);
 
 /* --- slips.c: micro-slips too weak for any one window, and what rings behind the windows ------ */
 
-/* Where the gain changes most, so many samples behind the starts of the windows; *at is 0 where it does
- * not change. */
-ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at);
+/* Where the gain changes most, so many samples behind the starts of the windows, or before their ends;
+ * *at is 0 where it does not change. */
+ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, int from_end, size_t *at);
 
 /* Does the gain change once a period, as in a train of micro-slips? */
 int ss_slips_recur(fitter *k, const ss_window *window, size_t n);
 
 /* Empty the windows whose gains, each taken by itself, change most at a place: one of up to 31. */
-ss_status ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at);
+ss_status ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at, int from_end);
 
 /* *is: it rings on behind the windows, or hums. */
 ss_status ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is);

@@ -178,14 +178,24 @@ move_to_sticks(const search *s, const size_t *anchor, size_t n, double f, size_t
     }
 }
 
+static void
+move_behind(const search *s, const size_t *anchor, size_t n, double by, size_t *moved)
+{
+    for (size_t i = 0; i < n; i++)
+        moved[i] = (size_t)fmin((double)anchor[i] + by * s->rate, (double)s->n - 1);
+}
+
 /* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
  * smaller one does little harm, so that windows are kept off jumps, and then off kinks, and then
- * moved behind trains of these, only where nothing can be fitted else that deserves it.  *why: it is
- * no ringing.  A train of micro-slips stays one, however it is barred: only what is behind may ring. */
+ * moved behind trains of these, only where nothing can be fitted else that deserves it; so are windows
+ * moved behind what a slip leaves in a filter.  *why: it is no ringing.  A train of micro-slips stays
+ * one, however it is barred: only what is behind may ring. */
 static ss_status
 fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window, ss_value all[2],
     ss_value *each, const char **why)
 {
+    enum { STICKS = 3 };
+    static const double behind[STICKS] = { 0, 2, 5 };   /* periods */
     size_t *moved = malloc((n + 1) * sizeof *moved);
     ss_status st = moved != NULL ? SS_OK : SS_ENOMEM;
     *why = "";
@@ -194,11 +204,14 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
         size_t n_bars = 0;
         st = find_bars(s, which, f, &bar, &n_bars);
         int barred = n_bars > s->n_gaps;
-        if (st == SS_OK && (which == BAR_GAPS || (barred && *why != trains)))
-            st = fit_once(s, anchor, n, f, bar, n_bars, window, all, each, why);
-        if (st == SS_OK && *why != NULL && which == BAR_EVENTS && n > 0
-            && (barred || *why != trains)) {
-            move_to_sticks(s, anchor, n, f, moved);
+        for (int k = 0; k <= STICKS && st == SS_OK && *why != NULL; k++) {
+            if (k == STICKS ? which != BAR_EVENTS || (!barred && *why == trains)
+                : *why == trains || (which != BAR_GAPS && !barred))
+                continue;
+            if (k == STICKS)
+                move_to_sticks(s, anchor, n, f, moved);
+            else
+                move_behind(s, anchor, n, behind[k] / f, moved);
             st = fit_once(s, moved, n, f, bar, n_bars, window, all, each, why);
         }
         free(bar);

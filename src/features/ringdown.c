@@ -22,6 +22,7 @@
 #define APART 3.0               /* periods a transition, or half-cycle of the base: two and a slip */
 
 #define GROWTH 1.25             /* of the longest window from one fit to the next */
+#define KEPT 0.4                /* of the windows where micro-slips are left out: a train keeps less */
 #define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
@@ -145,24 +146,34 @@ grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int 
     return st;
 }
 
-/* Cut all windows, or empty the worst of them, until no micro-slip shows in them. */
+static size_t
+samples_in(const ss_window *window, size_t n)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += ss_window_length(window[i]);
+    return sum;
+}
+
+/* Cut all windows at a place, or empty the worst of them, until no micro-slip shows in them.  In a
+ * small part of a train of them none shows, though all of it is one. */
 static ss_status
 leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
 {
+    const size_t grown = samples_in(window, n);
     ss_status st = SS_OK;
     for (;;) {
         size_t at = 0;
+        int from_end = 0;
         if (st == SS_OK)
             st = fit_shared(k, window, n, FIT_FINE, ok);
-        if (st == SS_OK && *ok)
-            st = ss_slips_find(k, window, n, &at);
-        if (at == 0 || st != SS_OK)
+        for (; st == SS_OK && *ok && at == 0 && from_end < 2; from_end++)
+            st = ss_slips_find(k, window, n, from_end, &at);
+        *ok = *ok && (double)samples_in(window, n) >= KEPT * (double)grown;
+        if (at == 0 || !*ok || st != SS_OK)
             return st;
-        if (at < periods(k, FIT_LEAST))
-            st = ss_slips_drop_worst(k, window, n, at);
-        else
-            for (size_t i = 0; i < n; i++)
-                window[i] = ss_sticks_cut(k, window[i], at);
+        if (!ss_sticks_split(k, window, n, at, --from_end))
+            st = ss_slips_drop_worst(k, window, n, at, from_end);
     }
 }
 

@@ -207,6 +207,7 @@ ss_ringing_find(search *s, double prominence)
     size_t n = 0;
     double label;
     ss_status st = find_recurrent(s, prominence, &label);
+    out->why_ringing = "no oscillation swells again and again";
     if (st != SS_OK || label == 0)
         return st;
     st = ss_maxima_of_row(&swell, &n, &s->map, row_of(s->map.grid, label), s->top, RANGE,
@@ -214,8 +215,12 @@ ss_ringing_find(search *s, double prominence)
     if (st == SS_OK)
         st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
-    if (ringing < FEW || 2 * ringing < out->n           /* that is chance */
-        || (isnan(out->repetition_frequency.value) && !begin_sharply(s, swell, label)))
+    int is_none = ringing < FEW || 2 * ringing < out->n;
+    if (!is_none && isnan(out->repetition_frequency.value) && !begin_sharply(s, swell, label)) {
+        out->why_ringing = "what swells again and again neither repeats with a cycle nor begins sharply";
+        is_none = 1;
+    }
+    if (is_none)
         forget_transitions(out);
     if (st == SS_OK && out->recurring > 0)
         st = read_raw(s);

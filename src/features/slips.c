@@ -92,21 +92,25 @@ add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
             to->h[p * PARAMETERS + q] += j[p][0] * j[q][0] + j[p][1] * j[q][1];
 }
 
-/* Add the scores of a window at the places first, first + step, ...; again: the gain changes at the
- * place and once a period behind it. */
+/* Add the scores of a window at the places first, first + step, ... behind its start, or before its
+ * end; again: the gain changes at the place and once a period behind it. */
 static void
-add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int again, score *to)
+add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int from_end, int again,
+           score *to)
 {
     linear fitted = ss_varpro_project(&k->fit, win);
     const normal *n = &fitted.normal;
     varpro_sums behind, once, twice;
-    size_t end = ss_window_length(win);
+    const size_t length = ss_window_length(win);
+    size_t end = length;
     ss_varpro_sums_start(&k->fit, win.first, &behind);
-    for (size_t l = n_places; l-- > 0;) {
-        size_t at = first + l * step;
+    for (size_t i = 0; i < n_places; i++) {     /* the last place first */
+        size_t l = from_end ? i : n_places - 1 - i, at = first + l * step;
+        if (from_end)
+            at = at < length ? length - at : length;
         to[l].h[0] += n->ww, to[l].h[PARAMETERS] += n->ws, to[l].h[PARAMETERS + 1] += n->ss;
         to[l].g[0] += n->w, to[l].g[1] += n->s;
-        if (at >= ss_window_length(win))
+        if (at >= length)
             continue;
         if (again) {
             count_changes(k, win, at, &once, &twice);
@@ -136,7 +140,7 @@ statistic(score *at)
 }
 
 ss_status
-ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
+ss_slips_find(fitter *k, const ss_window *window, size_t n, int from_end, size_t *at)
 {
     size_t step = periods(k, FIT_BLOCK), longest = 0;
     for (size_t i = 0; i < n; i++)
@@ -147,11 +151,12 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, size_t *at)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++)
         if (ss_window_length(window[i]) > 0)
-            add_scores(k, window[i], step, step, n_places, 0, place);
+            add_scores(k, window[i], step, step, n_places, from_end, 0, place);
     double most = 1;
     *at = 0;
     for (size_t l = 0; l < n_places; l++) {
-        double chance = (l + 1) * step < periods(k, FIT_LEAST) ? BREAK_EARLY : BREAK;
+        int is_early = !from_end && (l + 1) * step < periods(k, FIT_LEAST);
+        double chance = is_early ? BREAK_EARLY : BREAK;
         double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
         double over = statistic(&place[l]) / limit;
         if (over > most) {
@@ -172,7 +177,7 @@ ss_slips_recur(fitter *k, const ss_window *window, size_t n)
     size_t step = periods(k, 1. / PHASES);
     for (size_t i = 0; i < n; i++)
         if (ss_window_length(window[i]) > 0)
-            add_scores(k, window[i], step, step, PHASES, 1, phase);
+            add_scores(k, window[i], step, step, PHASES, 0, 1, phase);
     double limit = k->noise * gsl_cdf_chisq_Qinv(BREAK / PHASES, 2);
     for (size_t l = 0; l < PHASES; l++)
         if (statistic(&phase[l]) > limit)
@@ -187,7 +192,7 @@ typedef struct change {
 
 /* One by one, many windows would take as many fits. */
 ss_status
-ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
+ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at, int from_end)
 {
     enum { PART = 32 };         /* of the windows is dropped, and one */
     change *found = malloc((n + 1) * sizeof *found);
@@ -198,7 +203,7 @@ ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at)
         score s = { { 0 }, { 0 } };
         if (ss_window_length(window[i]) <= at)
             continue;
-        add_scores(k, window[i], at, 1, 1, 0, &s);
+        add_scores(k, window[i], at, 1, 1, from_end, 0, &s);
         found[count++] = (change){ statistic(&s), i };
     }
     if (count > 1)

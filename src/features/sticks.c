@@ -147,26 +147,52 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     return grow(k, win, &sums, right < most ? right : most, 0);
 }
 
-ss_window
-ss_sticks_cut(const fitter *k, ss_window win, size_t longest)
+/* What is left of a window off which ends are cut; empty: less than the least length. */
+static ss_window
+keep_off(const fitter *k, ss_window win, size_t start, size_t end)
 {
-    size_t least = periods(k, FIT_LEAST), end = periods(k, FIT_TRIM_END);
-    if (ss_window_length(win) <= longest)
-        return win;
-    win.end = win.first + longest;
-    win.end -= end < longest - least ? end : longest - least;
-    return win;
+    if (ss_window_length(win) < start + end + periods(k, FIT_LEAST))
+        return (ss_window){ win.first, win.first };
+    return (ss_window){ win.first + start, win.end - end };
+}
+
+/* The part of a window before a place in it, or behind it; all of one that does not reach there. */
+static ss_window
+part(const fitter *k, ss_window win, size_t at, int from_end, int behind)
+{
+    size_t off = periods(k, FIT_TRIM_END), length = ss_window_length(win);
+    if (at >= length)
+        return behind != from_end ? (ss_window){ win.first, win.first } : win;
+    if (from_end)
+        at = length - at;
+    return behind ? keep_off(k, win, at + off, 0) : keep_off(k, win, 0, length - at + off);
+}
+
+int
+ss_sticks_split(const fitter *k, ss_window *window, size_t n, size_t at, int from_end)
+{
+    size_t all = 0, left[2] = { 0, 0 };
+    for (size_t i = 0; i < n; i++) {
+        all += ss_window_length(window[i]);
+        for (int behind = 0; behind < 2; behind++)
+            left[behind] += ss_window_length(part(k, window[i], at, from_end, behind));
+    }
+    int behind = left[1] > left[0];
+    if (3 * left[behind] < all)
+        return 0;
+    for (size_t i = 0; i < n; i++)
+        window[i] = part(k, window[i], at, from_end, behind);
+    return 1;
 }
 
 ss_window
 ss_sticks_trim(const fitter *k, ss_window win)
 {
-    size_t least = periods(k, FIT_LEAST), start = periods(k, TRIM_START);
-    if (ss_window_length(win) < least)
-        return (ss_window){ win.first, win.first };
-    size_t spare = ss_window_length(win) - least;
-    win.first += start < spare ? start : spare;
-    return ss_sticks_cut(k, win, ss_window_length(win) - 1);
+    size_t least = periods(k, FIT_LEAST), start = periods(k, TRIM_START), end = periods(k, FIT_TRIM_END);
+    size_t spare = ss_window_length(win) > least ? ss_window_length(win) - least : 0;
+    start = start < spare ? start : spare;
+    end = end < spare - start ? end : spare - start;
+    return keep_off(k, win, start, end);
 }
 
 void
