@@ -220,7 +220,7 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
     return st;
 }
 
-/* Write what was fitted to the transitions. */
+/* Write what was fitted to the transitions; what rings behind the next one is that one's. */
 static void
 report(search *s, const ss_window *window, const ss_value all[2], const ss_value *each)
 {
@@ -230,6 +230,9 @@ report(search *s, const ss_window *window, const ss_value all[2], const ss_value
         out->damping_ratio = unknown;
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
+        if (i + 1 < out->n && tr[1].onset > tr->onset
+            && (double)window[i].first >= tr[1].onset * s->rate)
+            continue;
         set_oscillation(each + 2 * i, s->rate, &tr->frequency, &tr->damping_ratio);
         if (window[i].end > window[i].first) {
             tr->from = (double)window[i].first / s->rate;
