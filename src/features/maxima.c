@@ -214,25 +214,25 @@ ratio_of(const ss_scale *from, const ss_scale *to)
 typedef struct pair {
     const line *fine, *coarse;
     const ss_scale *to;         /* of the coarse one */
-    double ratio;               /* of their steps, <= 1 */
+    double ratio, back;         /* of their steps, fine to coarse <= 1, and coarse to fine */
 } pair;
 
 static pair
 pair_of(const map *m, size_t row)
 {
-    double ratio = ratio_of(scale_of(m, row), scale_of(m, row + 1));
     const line *here = &m->line[row - m->first], *next = here + 1;
-    return ratio <= 1 ? (pair){ here, next, scale_of(m, row + 1), ratio }
-        : (pair){ next, here, scale_of(m, row), ratio_of(scale_of(m, row + 1), scale_of(m, row)) };
+    const ss_scale *of = scale_of(m, row), *to = scale_of(m, row + 1);
+    double ratio = ratio_of(of, to), back = ratio_of(to, of);
+    return ratio <= 1 ? (pair){ here, next, to, ratio, back } : (pair){ next, here, of, back, ratio };
 }
 
 /* The first point of the fine row, from i on, whose neighbour is not before j. */
 static size_t
 first_beside(const pair *p, size_t i, size_t j)
 {
-    double at = ((double)j - 0.5) / p->ratio - 1;
-    if (at > (double)i)
-        i = at < (double)p->fine->end ? (size_t)at : p->fine->end;
+    double at = ((double)(ptrdiff_t)j - 0.5) * p->back - 1;
+    if (at > (double)(ptrdiff_t)i)
+        i = at < (double)(ptrdiff_t)p->fine->end ? (size_t)(ptrdiff_t)at : p->fine->end;
     while (i < p->fine->end && nearest(i, p->ratio, p->to) < j)
         i++;
     return i;
@@ -296,8 +296,9 @@ lead_beside(map *m, hill *h, size_t *highest, side *s)
     const line *to = s->to;
     int is_coarse = to == p->coarse;
     size_t j = is_coarse ? nearest(h->top, p->ratio, p->to) : first_beside(p, to->lo, h->top);
-    size_t end = is_coarse ? j + 1 : first_beside(p, j, h->top + 1);
-    for (; j < end && j < to->end; j++) {
+    for (size_t first = j; j < to->end; j++) {
+        if (is_coarse ? j > first : nearest(j, p->ratio, p->to) != h->top)
+            return;
         if (j < to->lo || !is_higher(m->level, to->at + (j - to->lo), *highest))
             continue;
         while (m->hill[s->hill].end <= j)

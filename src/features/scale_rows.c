@@ -142,11 +142,12 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     return ss_levels_middle(level, left) / sqrt(M_LN2);
 }
 
-/* Levels of |W| in level, of which those before t = 0 and behind the record are not its own. */
+/* source->level holds |W| of the row, of which those before t = 0 and behind the record are not its own. */
 static ss_status
 fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale *scale,
-         double *level, double margin)
+         double margin)
 {
+    double *level = source->level;
     double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
     double length = (double)(source->n - 1) / source->rate;
     size_t first = (size_t)ceil((margin + cone) / step);
@@ -172,7 +173,8 @@ open_octaves(row_source *source, double octave, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
     double longest = log2(MARGIN * (double)source->n / (ROW_REACH * source->rate));
-    ss_row_source_free(source);
+    ss_levels_free(&source->rows);
+    source->rows.levels = NULL;
     source->octave = octave;
     source->end = octave + fmax(1, fmin(TOGETHER, floor(longest - octave)));
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
@@ -187,6 +189,15 @@ open_octaves(row_source *source, double octave, ss_error *err)
     return st;
 }
 
+static ss_status
+make_room(row_source *source, size_t n)
+{
+    free(source->level);
+    source->level = malloc(n * sizeof *source->level);
+    source->room = source->level != NULL ? n : 0;
+    return source->level != NULL ? SS_OK : SS_ENOMEM;
+}
+
 ss_status
 ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
 {
@@ -198,15 +209,13 @@ ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error
         return st;
     size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */
     const ss_scale *scale = ss_levels_scale(&source->rows, index);
-    double *level = malloc((scale->n + 1) * sizeof *level);
-    if (level == NULL)
-        return SS_ENOMEM;
+    if (scale->n + 1 > source->room && (st = make_room(source, scale->n + 1)) != SS_OK)
+        return st;
     *r = (row){ .a = scale->a, .f = scale->f };
-    st = ss_levels_fill(&source->rows, &(level_part){ index, 0, scale->n, level }, 1);
+    st = ss_levels_fill(&source->rows, &(level_part){ index, 0, scale->n, source->level }, 1);
     if (st == SS_OK)
-        st = fill_row(r, source, loud, scale, level, (double)source->margin / source->rate);
+        st = fill_row(r, source, loud, scale, (double)source->margin / source->rate);
     r->rms = hypot(r->rms, source->rounding);
-    free(level);
     return st;
 }
 
@@ -214,7 +223,9 @@ void
 ss_row_source_free(row_source *source)
 {
     ss_levels_free(&source->rows);
-    source->rows.levels = NULL;
+    free(source->level);
+    source->level = NULL;
+    source->room = 0;
 }
 
 double

@@ -25,6 +25,8 @@ typedef struct row_source {
     map_source rows;
     double octave, end;
     size_t margin;
+    double *level;              /* room for so many of a row */
+    size_t room;
 } row_source;
 
 /* Checks the samples and the rate.  precision: of a sample, re the largest change. */
