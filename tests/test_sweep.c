@@ -640,6 +640,29 @@ a_slider_on_a_contact_comes_nearer_by_its_multiplier(void **state)
         }
 }
 
+/* Where the symmetry of a motion with two stops has just broken, a pair of motions lies side by side, and
+ * the start decides which is approached: as simulation alone finds, from starts all over the plane. */
+static void
+finds_the_one_of_two_close_motions_that_is_approached(void **state)
+{
+    static const double r[] = { .462, .465, .47, .478 };
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        size_t of_a_pair[2] = { 0 };
+        ss_scene s = read_shipped_named("shaw");
+        s.base_frequency = r[i];
+        for (int x = -22; x <= 22; x++)
+            for (int v = -3; v <= 3; v += 2) {
+                s.x0 = x / 10.;
+                s.v0 = v;
+                double truth = steady_of(&s, BIT(SS_X_PHASE), SS_SEARCH_SIMULATE).value[SS_X_PHASE];
+                is_near(steady_of(&s, BIT(SS_X_PHASE), SS_SEARCH_AUTO).value[SS_X_PHASE], truth, 1e-8, "x_phase");
+                of_a_pair[truth > 1.32]++;
+            }
+        assert_true(of_a_pair[0] > 0 && of_a_pair[1] > 0);
+    }
+}
+
 static void
 says_what_has_no_cycle(void **state)
 {
@@ -994,6 +1017,7 @@ main(void)
         cmocka_unit_test(a_damped_slider_sticks_as_its_record_does),
         cmocka_unit_test(a_slider_on_a_contact_comes_nearer_by_its_multiplier),
         cmocka_unit_test(a_true_stick_forgets_every_difference),
+        cmocka_unit_test(finds_the_one_of_two_close_motions_that_is_approached),
         cmocka_unit_test(says_what_has_no_cycle),
         cmocka_unit_test(methods_agree),
         cmocka_unit_test(hears_the_transition_frequency),

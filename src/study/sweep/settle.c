@@ -105,13 +105,14 @@ settle(finder *f, int may_shoot, int *period, int *measured, ss_steady *out)
         *period = find_period(f);
         if (!may_shoot || i < next_try || st != SS_OK)
             continue;
-        for (int p = 1; st == SS_OK && *period == 0 && p <= f->opts->max_period; p++) {
-            if (!comes_near(f, p))
-                continue;
-            next_try = 2 * i;
-            st = try_to_shoot(f, p, out, period);
-            *measured = *period > 0;
-        }
+        int p = 1;
+        while (p <= f->opts->max_period && !comes_near(f, p))
+            p++;
+        if (p > f->opts->max_period)
+            continue;
+        next_try = 2 * i;
+        st = try_to_shoot(f, p, out, period);
+        *measured = *period > 0;
     }
     return st;
 }

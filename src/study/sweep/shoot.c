@@ -3,11 +3,14 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* At most so many, of which so many may come no nearer by half. */
 enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
 /* The part of a distance by which a motion may miss what the derivative at its limit says. */
 #define NONLINEAR 0.3
+/* The same for the change of the part that shrinks least: it must go the same way. */
+#define SAME_WAY 0.8
 /* And the part of the first distance that it may be off by, as walks are no more accurate. */
 #define MEASURABLE 0.01
 enum { REPETITIONS = 4 };
@@ -50,6 +53,8 @@ newton_step(finder *f, int period, motion *at, int known, tangent *t, double *of
     return SS_OK;
 }
 
+/* --- which motion is approached ------------------------------------------------------------- */
+
 static void
 times(const tangent *t, const double d[D_MOST], double out[D_MOST])
 {
@@ -60,20 +65,44 @@ times(const tangent *t, const double d[D_MOST], double out[D_MOST])
     }
 }
 
-/* What 2^30 repetitions leave of a difference. */
-static void
-at_last(const tangent *t, const double difference[D_MOST], double left[D_MOST])
+static double
+size_of(const double d[D_MOST])
+{
+    return fmax(fabs(d[D_REF]), fmax(fabs(d[D_Q]), fabs(d[D_V])));
+}
+
+/* What 2^30 repetitions leave of a difference, but for the factor exp(*scale): the part that shrinks
+ * least. */
+static tangent
+slow_part(const tangent *t, double *scale)
 {
     tangent power = *t;
+    *scale = 0;
     for (int n = 0; n < 30; n++) {
         tangent square = { 0 };
+        double size = 0;
         for (int i = 0; i < D_MOST; i++)
-            for (int j = 0; j < D_MOST; j++)
+            for (int j = 0; j < D_MOST; j++) {
                 for (int k = 0; k < D_MOST; k++)
                     square.d[i][j] += power.d[i][k] * power.d[k][j];
+                size = fmax(size, fabs(square.d[i][j]));
+            }
+        *scale = 2 * *scale + log(size);
+        for (int i = 0; i < D_MOST * D_MOST && size > 0; i++)
+            square.d[i / D_MOST][i % D_MOST] /= size;
         power = square;
     }
-    times(&power, difference, left);
+    return power;
+}
+
+static void
+away_from(const motion *centre, const motion *m, const double unit[D_MOST], double d[D_MOST])
+{
+    double c[D_MOST];
+    ss_finder_coordinates(centre, c);
+    ss_finder_coordinates(m, d);
+    for (int i = 0; i < D_MOST; i++)
+        d[i] = (d[i] - c[i]) / unit[i];
 }
 
 /* Have they the same coordinates?  Slips in either direction have. */
@@ -83,39 +112,51 @@ alike(const motion *a, const motion *b)
     return (a->now.mode == 0) == (b->now.mode == 0);
 }
 
+/* Whether a difference has become after what the derivative makes of it, once.  Motions that lie side by
+ * side are told apart by the part that shrinks least, of which little goes in a cycle: it must shrink as
+ * the derivative says. */
+static int
+goes_as_expected(const tangent *once, const tangent *slow, const double before[D_MOST],
+                 const double after[D_MOST], double allowed, double allowed_slow)
+{
+    double off[D_MOST], change[D_MOST], slow_off[D_MOST], slow_change[D_MOST];
+    times(once, before, off);
+    for (int i = 0; i < D_MOST; i++) {
+        change[i] = off[i] - before[i];
+        off[i] = after[i] - off[i];
+    }
+    times(slow, off, slow_off);
+    times(slow, change, slow_change);
+    return size_of(off) <= NONLINEAR * size_of(before) + allowed
+        && size_of(slow_off) <= SAME_WAY * size_of(slow_change) + allowed_slow;
+}
+
 /* Whether the motion from a state goes, in some repetitions of so many cycles, towards the periodic one as
  * its derivative says: otherwise that is another motion than the one which is approached, or none is.  One
  * repetition would not do: a chaotic motion comes near many that it leaves again. */
 static ss_status
 is_approached(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
 {
-    double unit[D_MOST], centre[D_MOST], before[D_MOST], after[D_MOST], expected[D_MOST], left[D_MOST];
-    double rest = 0, first = 0;
+    double unit[D_MOST], before[D_MOST], after[D_MOST], left[D_MOST], scale, tol = f->opts->tol;
+    tangent once = *t;
     ss_status st = ss_finder_begin_at(f, from);
     ss_finder_coordinate_units(f, unit);
-    ss_finder_coordinates(at, centre);
-    ss_finder_coordinates(from, before);
-    for (int i = 0; i < D_MOST; i++) {
-        before[i] -= centre[i];
-        first = fmax(first, fabs(before[i]) / unit[i]);
-    }
-    ss_finder_keep(f, first);
-    at_last(t, before, left);
     for (int i = 0; i < D_MOST; i++)
-        rest = fmax(rest, fabs(left[i]) / unit[i]);
-    *yes = alike(from, at) && rest <= f->opts->tol;
+        for (int j = 0; j < D_MOST; j++)
+            once.d[i][j] *= unit[j] / unit[i];
+    const tangent slow = slow_part(&once, &scale);
+    away_from(at, from, unit, before);
+    times(&slow, before, left);
+    double size = size_of(before), slow_size = size * fmax(1 - f->multiplier, 0);
+    ss_finder_keep(f, size);
+    *yes = alike(from, at) && size_of(left) * exp(scale) <= tol;
     for (int n = 0; st == SS_OK && *yes && n < REPETITIONS; n++) {
-        double far = 0, off = 0;
         st = ss_finder_go(f, cycles, NULL, NULL);
-        times(t, before, expected);
-        ss_finder_coordinates(&f->w.m, after);
-        for (int i = 0; i < D_MOST; i++) {
-            after[i] -= centre[i];
-            off = fmax(off, fabs(after[i] - expected[i]) / unit[i]);
-            far = fmax(far, fabs(before[i]) / unit[i]);
-            before[i] = after[i];
-        }
-        *yes = alike(&f->w.m, at) && off <= NONLINEAR * far + MEASURABLE * first + f->opts->tol;
+        away_from(at, &f->w.m, unit, after);
+        *yes = alike(&f->w.m, at)
+            && goes_as_expected(&once, &slow, before, after, MEASURABLE * size + tol,
+                                MEASURABLE * slow_size + tol);
+        memcpy(before, after, sizeof before);
     }
     ss_finder_keep(f, 0);
     return st;
