@@ -11,6 +11,8 @@ enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
 #define NONLINEAR 0.3
 /* The same for the change of the part that shrinks least: it must go the same way. */
 #define SAME_WAY 0.8
+/* So near 1, a multiplier says nothing of how a motion is approached, as at the end of a line of motions. */
+#define NEUTRAL 1e-6
 /* And the part of the first distance that it may be off by, as walks are no more accurate. */
 #define MEASURABLE 0.01
 enum { REPETITIONS = 4 };
@@ -147,15 +149,15 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     const tangent slow = slow_part(&once, &scale);
     away_from(at, from, unit, before);
     times(&slow, before, left);
-    double size = size_of(before), slow_size = size * fmax(1 - f->multiplier, 0);
+    double size = size_of(before), shrinks = 1 - f->multiplier;
+    double allowed_slow = shrinks > NEUTRAL ? MEASURABLE * size * shrinks + tol : INFINITY;
     ss_finder_keep(f, size);
     *yes = alike(from, at) && size_of(left) * exp(scale) <= tol;
     for (int n = 0; st == SS_OK && *yes && n < REPETITIONS; n++) {
         st = ss_finder_go(f, cycles, NULL, NULL);
         away_from(at, &f->w.m, unit, after);
         *yes = alike(&f->w.m, at)
-            && goes_as_expected(&once, &slow, before, after, MEASURABLE * size + tol,
-                                MEASURABLE * slow_size + tol);
+            && goes_as_expected(&once, &slow, before, after, MEASURABLE * size + tol, allowed_slow);
         memcpy(before, after, sizeof before);
     }
     ss_finder_keep(f, 0);
