@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* At most so many, of which so many may come no nearer by half. */
+/* At most so many, of which so many may come no nearer by a quarter (at the end of a line of motions, where
+ * the root is a double one, each comes nearer by half). */
 enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
 /* The part of a distance by which a motion may miss what the derivative at its limit says. */
 #define NONLINEAR 0.3
@@ -184,7 +185,7 @@ converge(finder *f, int cycles, motion *at, tangent *t, int *found)
         st = newton_step(f, cycles, at, old, t, &off);
         if (st == SS_OK && !old && (!f->in_closed_form || off <= f->opts->tol))
             st = ss_tangent_multipliers(t, &f->multiplier, &second, &angle);
-        in_vain += off > last / 2;
+        in_vain += off > 0.75 * last;
         serves = !f->in_closed_form && off <= CLOSE * (1 - f->multiplier)
             && (!old || off <= SHRINKS * last);
     }
