@@ -205,16 +205,6 @@ ss_errors_of_one(const fitter *k, const linear *fit, ss_value value[2])
     errors_of_fit(&fit->normal, variance_of(k, fit), value);
 }
 
-/* Has every window enough samples for all the columns that there are? */
-static int
-are_long(const ss_window *window, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
-            return 0;
-    return 1;
-}
-
 ss_status
 ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2])
 {
@@ -223,10 +213,8 @@ ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_va
         st = add_misfit(k, window, n, value);
     if (st != SS_OK)
         return st;
-    if (are_long(window, n)) {
-        add_slow_part(k, window, n, value);
-        add_line(k, window, n, value);
-    }
+    add_slow_part(k, window, n, value);
+    add_line(k, window, n, value);
     add_colour(k, window, n, white, value);
     return SS_OK;
 }

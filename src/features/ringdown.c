@@ -22,7 +22,7 @@
 #define APART 3.0               /* periods a transition, or half-cycle of the base: two and a slip */
 
 #define GROWTH 1.25             /* of the longest window from one fit to the next */
-#define KEPT 0.4                /* of the windows where micro-slips are left out: a train keeps less */
+#define KEPT 0.6                /* of the windows where micro-slips are left out: a train keeps less */
 #define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
@@ -177,6 +177,16 @@ leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
     }
 }
 
+/* Has every window enough samples for all the columns that there are?  What has fewer is not tested. */
+static int
+are_long(const ss_window *window, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (ss_window_length(window[i]) > 0 && ss_window_length(window[i]) <= VARPRO_MOST + 2)
+            return 0;
+    return 1;
+}
+
 static ss_status
 fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core, ss_window *window,
         ss_value value[2], ss_value *each)
@@ -194,7 +204,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
         return st;
     st = ss_slips_ring_on(k, window, n, &is_on);
     k->is_train = ss_slips_recur(k, window, n);
-    if (st == SS_OK && (is_on || !stands_out(k, window, n))) {
+    if (st == SS_OK && (is_on || !are_long(window, n) || !stands_out(k, window, n))) {
         for (size_t i = 0; i < n; i++)
             window[i].end = window[i].first;
         return SS_OK;
