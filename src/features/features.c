@@ -238,6 +238,8 @@ find_slip_rate(search *s)
     out->slip_rate = mean_rate(s);
     if (out->loading != NULL) {
         confirm_repetition(s);
+        if (s->has_offset)
+            out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
         return;
     }
     if (isnan(out->repetition_frequency.value)) {

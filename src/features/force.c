@@ -20,6 +20,8 @@
 #include "signal/gaps.h"
 
 #define OUTLIERS 0.02           /* of the samples at either end may be wrong */
+enum { FEW_FALLS = 3, PARTS = 16 };     /* to tell up from down; in the time between them */
+#define SKEWED 0.3              /* a third moment re the second */
 #define LEVEL 0.5               /* of the level: less is no half-cycle */
 #define RETREAT 0.05            /* of the level: a fall by which the force has broken away */
 
@@ -62,6 +64,23 @@ falls_are_quick(const ss_drop *drop, size_t n)
     return quick - all / 2 > 1.5 * sqrt(all);
 }
 
+/* The steps of a force over a part of the time from drop to drop are skewed down, as it falls sooner than it
+ * is loaded.  A force whose steps are skewed up is upside down: its sign is that of an offset. */
+static int
+is_upside_down(const search *s, const double *x, const ss_drop *drop, size_t n)
+{
+    double squares = 0, cubes = 0;
+    if (n < FEW_FALLS)
+        return 0;
+    size_t part = 1 + (size_t)((drop[n - 1].t - drop[0].t) / (double)(n - 1) * s->rate / PARTS), m = s->n - part;
+    for (size_t i = 0; i < m; i++) {
+        double step = x[i + part] - x[i];
+        squares += step * step / (double)m;
+        cubes += step * step * step / (double)m;
+    }
+    return cubes > SKEWED * pow(squares, 1.5);
+}
+
 static ss_status
 find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
 {
@@ -70,6 +89,11 @@ find_falls(search *s, const double *x, double height, double reload, int named, 
     ss_status st = ss_drops_find(&drop, &n, x, s->n, s->rate,
                                  &(ss_drop_opts){ height, reload, s->gap, s->n_gaps }, NULL);
     *decided = st == SS_OK && (named || falls_are_quick(drop, n));
+    if (*decided && !s->has_offset && s->opts->drop == 0 && is_upside_down(s, x, drop, n)) {
+        s->has_offset = 1;
+        free(drop);
+        return SS_OK;
+    }
     if (*decided)
         st = set_falls(s, drop, n);
     if (*decided && st == SS_OK)
@@ -78,9 +102,10 @@ find_falls(search *s, const double *x, double height, double reload, int named, 
     return st;
 }
 
-/* Falls of x, which is the signal or its negative, of the height that they have. */
+/* Falls of x, which is the signal or its negative, of the height that they have; of -x, if x is upside
+ * down. */
 static ss_status
-find_typical_falls(search *s, const double *x, int *decided)
+find_typical_falls(search *s, double *x, int *decided)
 {
     ss_typical typical;
     int named = s->quantity == QUANTITY_FORCE;
@@ -91,7 +116,13 @@ find_typical_falls(search *s, const double *x, int *decided)
             s->out->why_slips = "the falls of the force have no typical height above its noise";
         return st;
     }
+    int had_offset = s->has_offset;
     st = find_falls(s, x, typical.height, typical.height, named, decided);
+    if (s->has_offset && !had_offset) {
+        for (size_t i = 0; i < s->n; i++)
+            x[i] = -x[i];
+        return find_typical_falls(s, x, decided);
+    }
     if (st == SS_OK && *decided)
         s->out->slips.error = 0.5 * fabs((double)typical.more - (double)typical.less);
     return st;

@@ -6,8 +6,7 @@
  * falls (slip.c), with the median slope of these lines.  Then the line is fitted to the whole
  * stick.  A fall that is no slip of a pulled slider has no drop, duration and friction, and a stick
  * beside it has no length.  Samples of a measured force are not independent, so the standard error
- * of the slope counts only (1 - rho) / (1 + rho) of them, rho the correlation of neighbours about
- * the line.
+ * of the slope counts fewer of them, see colour.c.
  *
  * A slope of a force over time is the stiffness that loads it, times the speed of the drive.  Where
  * there is a column of displacement, the slope against it is a stiffness by itself. */
@@ -19,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/gauss.h"
+#include "features/colour.h"
 #include "features/drops.h"
 #include "features/slip.h"
 #include "features/window.h"
@@ -36,7 +36,7 @@ typedef struct line {
 static line
 fit(const double *y, const double *x, ss_window w)
 {
-    double m = (double)ss_window_length(w), xx = 0, xy = 0, rr = 0, neighbours = 0, last = 0;
+    double m = (double)ss_window_length(w), xx = 0, xy = 0, rr = 0;
     line l = { 0, NAN, 0, 0, 0 };
     for (size_t i = w.first; i < w.end; i++) {
         l.x += (x != NULL ? x[i] : (double)i) / m;
@@ -51,12 +51,10 @@ fit(const double *y, const double *x, ss_window w)
     for (size_t i = w.first; i < w.end; i++) {
         double r = y[i] - l.y - l.slope * ((x != NULL ? x[i] : (double)i) - l.x);
         rr += r * r;
-        neighbours += i > w.first ? r * last : 0;
-        last = r;
     }
-    double rho = rr > 0 ? fmax(0, fmin(0.99, neighbours / rr)) : 0;
     l.rms = sqrt(rr / (m - 2));
-    l.error = l.rms * sqrt((1 + rho) / (1 - rho) / xx);
+    l.error = l.rms * sqrt(ss_colour(y + w.first, x != NULL ? x + w.first : NULL, ss_window_length(w),
+                                     l.slope) / xx);
     return l;
 }
 
@@ -117,12 +115,21 @@ read_slip(ss_loading *l, const search *s, const ss_slip *slip)
 {
     l->drop = times(slip->drop, s->largest);
     l->duration = times(slip->duration, 1 / s->rate);
-    l->static_friction = times(slip->top, s->largest);
-    l->friction = times(slip->middle, s->largest);
+    if (!s->has_offset) {
+        l->static_friction = times(slip->top, s->largest);
+        l->friction = times(slip->middle, s->largest);
+    }
     l->k_over_m = times(slip->k_over_m, s->rate * s->rate);
     l->left = slip->left * s->largest * s->largest;
     l->power = slip->power * s->largest * s->largest;
     l->n = slip->n;
+}
+
+/* An end of a stick that its line puts elsewhere than the slip beside it. */
+static ss_value
+moved_to(ss_value end, double to)
+{
+    return (ss_value){ to, hypot(end.error, 0.5 * (to - end.value)) };
 }
 
 /* The samples of the rise, as far as they stay near the line. */
@@ -136,8 +143,10 @@ find_stick(const double *x, const fall *f, const fall *before, ss_value *length)
     if (before == NULL || !before->is_slip || !f->is_slip)
         return stick;
     ss_value begin = before->slip.end, end = f->slip.onset;
-    begin.value = stick.first > f->rise.first + AWAY ? (double)stick.first : begin.value;
-    end.value = stick.end + AWAY < f->rise.end ? (double)stick.end : end.value;
+    if (stick.first > f->rise.first + AWAY)
+        begin = moved_to(begin, (double)stick.first);
+    if (stick.end + AWAY < f->rise.end)
+        end = moved_to(end, (double)stick.end);
     *length = difference(end, begin);
     return stick;
 }
@@ -158,6 +167,8 @@ read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const
     l->stiffness = times((ss_value){ fabs(found.slope), found.error }, s->largest);
 }
 
+/* Errors that are larger than the scatter are not by chance: all have that part in common, and it does not
+ * become less with their number. */
 ss_median
 ss_median_of(const ss_value *v, size_t n, double *scratch)
 {
@@ -175,7 +186,8 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
         if (isfinite(v[i].value) && isfinite(v[i].error))
             scratch[known++] = v[i].error;
     double error = known > 0 ? gsl_stats_median(scratch, 1, known) : 0;
-    return (ss_median){ median, sqrt(M_PI / 2 / (double)used) * fmax(scatter, error), scatter };
+    double common = sqrt(fmax(0, error * error - scatter * scatter));
+    return (ss_median){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter };
 }
 
 /* The median of one number of all loadings, which stands offset bytes behind their starts. */

@@ -33,6 +33,7 @@ typedef struct search {
     column_quantity quantity;
     ss_cycles cycles;
     int is_cleaned;             /* of a steady hum: x is no more the column */
+    int has_offset;             /* a force whose sign is not that of friction, but of its zero */
     int spiked;                 /* transitions end with their last spike, anywhere before the next */
     ss_features *out;
 } search;

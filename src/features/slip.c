@@ -10,8 +10,7 @@
  * w.  The maximum of the samples is above f_s by noise and by the momentum of the drive, and what
  * follows a line to within the noise goes on into the slip; the fit has neither error.
  *
- * What it leaves of measured slips is not white, so errors count only (1 - rho) / (1 + rho) of the
- * samples, rho the correlation of neighbours in what is left. */
+ * What it leaves of measured slips is not white, so errors count fewer samples, see colour.c. */
 #include "features/slip.h"
 
 #include <gsl/gsl_errno.h>
@@ -19,6 +18,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <string.h>
+#include "features/colour.h"
 
 enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* SPEED: of the phase, w */
 enum { FEWEST = 8, STEPS = 60 };                /* samples in the fall; iterations */
@@ -136,16 +136,11 @@ static int
 explains(const problem *f, const gsl_vector *left, ss_slip *out, double *inflation)
 {
     size_t n = ss_window_length(f->used);
-    double squares = 0, neighbours = 0, last = 0;
+    double squares = 0;
     out->power = gsl_stats_tss(f->x + f->used.first, 1, n);
-    for (size_t i = 0; i < n; i++) {
-        double r = gsl_vector_get(left, i);
-        squares += r * r;
-        neighbours += r * last;
-        last = r;
-    }
-    double rho = squares > 0 ? fmax(0, fmin(0.99, neighbours / squares)) : 0;
-    *inflation = squares / (double)(n - FITTED) * (1 + rho) / (1 - rho);
+    for (size_t i = 0; i < n; i++)
+        squares += gsl_vector_get(left, i) * gsl_vector_get(left, i);
+    *inflation = squares / (double)(n - FITTED) * ss_colour(left->data, NULL, n, 0);
     out->left = squares;
     out->n = (double)n;
     return squares <= (1 - EXPLAINED) * out->power;
