@@ -49,8 +49,9 @@ ss_window ss_sticks_place(fitter *k, size_t anchor, double size_in_periods);
 /* Do the q samples that raise the sum of squares by rise belong to the stick? */
 int ss_sticks_belong(fitter *k, double rise, size_t q);
 
-/* Grow windows of up to limit samples about n cores. */
-void ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit);
+/* Grow windows of up to limit samples about every so many of n cores. */
+void ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t every,
+                    size_t limit);
 
 /* Cut all windows in two, so many samples behind their starts or before their ends, and keep what is
  * longer in all, off that place; 0: too little would be left, and they are as they were. */

@@ -23,6 +23,7 @@
 
 #define GROWTH 1.25             /* of the longest window from one fit to the next */
 #define KEPT 0.6                /* of the windows where micro-slips are left out: a train keeps less */
+enum { ENOUGH = 256 };          /* windows for a fit while they still grow */
 #define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
 #define START 0.03              /* s / w that the fit starts from */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
@@ -125,25 +126,32 @@ stands_out(fitter *k, const ss_window *window, size_t n)
     return all.ring > (double)all.windows * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }
 
-/* Windows about the cores, longer and longer, as long as the fit to them converges near its start. */
+/* Windows about some of the cores, longer and longer, as long as the fit to them converges near its start;
+ * then about all of them. */
 static ss_status
 grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int *ok)
 {
     const double start = k->fit.w;
+    size_t every = 1 + n / ENOUGH, longest = 0;
     int more = 1;
-    ss_status st = fit_shared(k, core, n, COARSE, ok);
+    for (size_t i = 0; i < n; i++)
+        window[i].end = i % every == 0 ? core[i].end : core[i].first;
+    ss_status st = fit_shared(k, window, n, COARSE, ok);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
         *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* or it is something else */
         if (st != SS_OK || !*ok)
             return st;
-        size_t longest = periods(k, limit);
-        ss_sticks_find(k, core, window, n, longest);
+        longest = periods(k, limit);
+        ss_sticks_find(k, core, window, n, every, longest);
         more = 0;
-        for (size_t i = 0; i < n; i++)
+        for (size_t i = 0; i < n; i += every)
             more |= ss_window_length(window[i]) == longest;
         st = fit_shared(k, window, n, COARSE, ok);
     }
-    return st;
+    if (every == 1 || st != SS_OK || !*ok)
+        return st;
+    ss_sticks_find(k, core, window, n, 1, longest);
+    return fit_shared(k, window, n, COARSE, ok);
 }
 
 static size_t

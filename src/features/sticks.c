@@ -196,9 +196,9 @@ ss_sticks_trim(const fitter *k, ss_window win)
 }
 
 void
-ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t limit)
+ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t every, size_t limit)
 {
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i += every) {
         size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
         size_t g = gaps_before(k, core[i].end);
         if (g > 0 && k->gap[g - 1].end > low)
