@@ -63,11 +63,12 @@ choose_given(choice *s, const char *method, ss_error *err)
 {
     ss_status st = loosest(s, method, (unsigned long)s->max_steps, err);
     if (st == SS_EBUDGET && isfinite(s->reached))
-        return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g; with fewer x "
-                       "was %.2g of its maximum off", method, s->max_steps, s->accuracy, s->reached);
+        return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g, %d times the error with "
+                       "every event in place; with fewer x was %.2g of its maximum off", method,
+                       s->max_steps, s->accuracy, MARGIN, s->reached);
     if (st == SS_ETOL && isfinite(s->reached))
-        return ss_fail(err, st, "%s keeps no accuracy of %g: x was %.2g of its maximum off at best",
-                       method, s->accuracy, s->reached);
+        return ss_fail(err, st, "%s keeps no accuracy of %g, %d times the error with every event in place: "
+                       "x was %.2g of its maximum off at best", method, s->accuracy, MARGIN, s->reached);
     return st;
 }
 
