@@ -94,7 +94,7 @@ bench_read(ss_scene *scene, const ss_shipped_scene *s)
     scene->settle = 0;
 }
 
-/* A scene from rest, with the exact motion as reference; where there is no closed form rk8pd at 1e-13. */
+/* A scene from rest, with the exact motion as reference; where there is no closed form rk8pd at 1e-14. */
 static inline bench_scene
 bench_scene_of(const char *name, const ss_scene *scene, double duration)
 {
@@ -104,7 +104,7 @@ bench_scene_of(const char *name, const ss_scene *scene, double duration)
     size_t n = ss_scene_samples(&b.scene);
     b.x = bench_alloc(n);
     int linear = strcmp(ss_sim_method_for(scene), "rk8pd") == 0;
-    if (cost_simulate(&b.scene, linear ? "exact" : "rk8pd", 1e-13, b.x, &events) != SS_OK)
+    if (cost_simulate(&b.scene, linear ? "exact" : "rk8pd", 1e-14, b.x, &events) != SS_OK)
         exit(1);
     for (size_t i = 0; i < n; i++)
         b.max_x = fmax(b.max_x, fabs(b.x[i]));

@@ -7,9 +7,9 @@ mkdir -p "$out"
 PATH=$(cd "$BUILD/bin" && pwd):$PATH
 : "${PYTHON:=python3}" "${LONG_RECORD:=1}"
 
-compile() {     # NAME LIBRARIES: is it there?
+compile() {     # NAME LIBRARIES [ENDING]: is it there?
     # shellcheck disable=SC2086  # lists of flags
-    $CCLD -o "$out/$1" "tests/bench/$1.c" "$BUILD/libstickslip.a" $2 $LIBS
+    $CCLD -o "$out/$1${3-}" "tests/bench/$1.c" "$BUILD/libstickslip.a" $2 $LIBS
 }
 
 # Ratios: CPU time over that of our fastest method by steps, and of the closed form, with no larger error.
@@ -53,6 +53,7 @@ fi
 
 if "$PYTHON" -c 'import heyoka' 2> /dev/null; then
     heyoka=1
+    compile cost_sim '-shared -fvisibility=default' .so
 else
     heyoka=0
     echo "heyoka left out: $PYTHON has none (PYTHON=... names another)"
@@ -63,7 +64,7 @@ for seconds in 10 1000; do
     rows=$out/rows-$seconds.tsv
     "$out/cost_sim" compare $seconds > "$rows"
     [ $cvode = 0 ] || "$out/cost_cvode" $seconds >> "$rows"
-    [ $heyoka = 0 ] || "$PYTHON" tests/bench/cost_heyoka.py $seconds 1e-6 1e-8 1e-9 1e-11 1e-12 1e-13 >> "$rows"
+    [ $heyoka = 0 ] || "$PYTHON" tests/bench/cost_heyoka.py "$out/cost_sim.so" $seconds >> "$rows"
     if [ $seconds != 10 ]; then
         echo "SciPy left out at $seconds s: it would take a quarter of an hour"
     elif [ $scipy = 1 ]; then
