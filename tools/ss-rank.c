@@ -160,11 +160,11 @@ note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
         tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the signal within %.3g %%",
               r->forcing_frequency, opts->forcing_frequency > 0 ? "as given" : "found", r->n,
               r->n == 1 ? "" : "s", 100 * opts->spread);
-    for (size_t i = 0; i < r->n; i++)
+    for (size_t i = 0; i < r->n && !isnan(r->row[i].total); i++)
         tool_note("%s: total %.4g, leaves %.3g %% of the signal's power, %.3g times the noise",
                   name[r->row[i].scene], r->row[i].total,
                   100 * pow(10, r->row[i].value[SS_BY_RESIDUAL] / 10), r->row[i].excess);
-    if (r->n > 1)
+    if (r->n > 1 && !isnan(r->row[1].total))
         tool_note("%s is ahead of %s by %.3g thresholds%s%s", name[r->row[0].scene],
                   name[r->row[1].scene], r->row[1].total - r->row[0].total,
                   r->verdict == SS_NAMED ? "" : ", but ", r->why);
@@ -209,8 +209,9 @@ fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene
         { "base_frequency", f.base_frequency }, { "contact_stiffness", f.contact_stiffness },
         { "contact_damping", f.contact_damping } };
     FILE *out = tool_output(j->output);
-    fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness and release rule\n"
-            "# are those given; standard errors:\n", signal_name(j->signal_path),
+    fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness, damping,\n"
+            "# static_friction / friction and release rule are those given; standard errors:\n",
+            signal_name(j->signal_path),
             signal->head->column[column].name);
     for (size_t i = 0; i < sizeof found / sizeof *found; i++)
         fprintf(out, "#   %-17s %.2g %%\n", found[i].key, 100 * found[i].v.error / found[i].v.value);
@@ -228,7 +229,7 @@ write_median(FILE *out, const char *what, ss_median m, const char *unit, double 
 {
     char nominal[64] = "";
     double off = 100 * (m.value / given - 1);
-    if (given > 0)
+    if (isfinite(given) && given != 0)
         snprintf(nominal, sizeof nominal, "; given: %.4g, %+.0f %%", given, off);
     fprintf(out, "#   %-17s %.4g +- %.2g %s, scatter %.2g%s\n", what, m.value, m.error, unit, m.scatter,
             nominal);
@@ -255,11 +256,65 @@ write_events(FILE *out, const ss_features *f, double start)
     }
 }
 
+/* A Coulomb slider without damping, slip by slip. */
+static void
+write_slips(FILE *out, const ss_pull *p, const ss_signal *signal, double k_over_m, double loading)
+{
+    const ss_features *f = p->features;
+    fprintf(out, "# %zu of %zu falls of the force are its slips.  Medians, standard errors, and the standard\n"
+            "# deviation of the slips; the stiffness is that given, mass and speed follow.\n"
+            "# Left of the power of the falls: %.3g %%, %.3g times the noise.\n",
+            p->n_slips, f->n, 100 * p->left, p->excess);
+    write_median(out, "static_friction", f->static_friction, "N", NAN);
+    write_median(out, "friction", f->friction, "N", NAN);
+    write_median(out, "drop", f->drop, "N", NAN);
+    write_median(out, "k/m", f->k_over_m, "1/s^2", k_over_m);
+    write_median(out, "loading", f->slope, "N/s", loading);
+    write_events(out, f, signal->head->start);
+}
+
+/* Another scene: what all slips have in common, and the frictions of each. */
+static void
+write_common(FILE *out, const ss_pull *p)
+{
+    fprintf(out, "# %zu of %zu falls of the force, fitted together by simulation: standard errors; of the\n"
+            "# frictions medians, and the standard deviation of the slips.  The stiffness%s that given.\n"
+            "# Left of the power of the falls: %.3g %%, %.3g times the noise.\n",
+            p->n_slips, p->features->n, p->scene.surface_velocity != 0 && p->scene.base_velocity != 0
+            ? " and the belt's speed are" : " is", 100 * p->left, p->excess);
+    for (size_t i = 0; i < p->n_keys; i++) {
+        const ss_pull_key *k = &p->key[i];
+        fprintf(out, "#   %-17s %.4g +- %.2g %s; given: %.4g, %+.0f %%\n", k->name, k->found.value,
+                k->found.error, k->unit, k->given, 100 * (k->found.value / k->given - 1));
+    }
+    write_median(out, "static_friction", p->static_friction, "N", NAN);
+    write_median(out, "friction", p->friction, "N", NAN);
+}
+
+static void
+warn_of_pull(const ss_pull *p, double k_over_m, double loading, double spread)
+{
+    if (p->n_keys == 0) {
+        warn_of_rig("k/m", p->features->k_over_m, k_over_m, spread);
+        warn_of_rig("loading", p->features->slope, loading, spread);
+    }
+    for (size_t i = 0; i < p->n_keys; i++)
+        if (fabs(p->key[i].found.value / p->key[i].given - 1) > spread)
+            tool_warn("%s of the slips is %.2g times that of the given scene", p->key[i].name,
+                      p->key[i].found.value / p->key[i].given);
+    if (!p->explains && p->n_keys == 0)
+        tool_warn("the slips leave %.3g times the noise: friction is not constant in slip, so k/m may be off by "
+                  "more than its error", p->excess);
+    else if (!p->explains)
+        tool_warn("the slips leave %.3g times the noise: friction is not that of the scene, so its numbers may "
+                  "be off by more than their errors", p->excess);
+}
+
 static void
 fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *start)
 {
     const double k_over_m = start->stiffness / start->mass;
-    const double loading = fabs(start->stiffness * start->base_velocity);
+    const double loading = fabs(start->stiffness * (start->base_velocity - start->surface_velocity));
     ss_pull *p = NULL;
     ss_error err = { 0 };
     if (j->opts.quantity != SS_SPRING)
@@ -269,25 +324,14 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
     if (p->verdict != SS_NAMED)
         tool_die("%s: %s: %s", tool_input_name(j->signal_path),
                  p->verdict == SS_NONE_FITS ? "none of these" : "cannot tell", p->why);
-    const ss_features *f = p->features;
-    warn_of_rig("k/m", f->k_over_m, k_over_m, j->opts.spread);
-    warn_of_rig("loading", f->slope, loading, j->opts.spread);
-    if (!p->explains)
-        tool_warn("the slips leave %.3g times the noise: friction is not constant in slip, so k/m may be off by "
-                  "more than its error", p->excess);
+    warn_of_pull(p, k_over_m, loading, j->opts.spread);
     FILE *out = tool_output(j->output);
-    fprintf(out, "# Pulled slider with Coulomb friction, fitted to %s, column %s.\n"
-            "# %zu of %zu falls of the force are its slips.  Medians, standard errors, and the standard\n"
-            "# deviation of the slips; the stiffness is that given, mass and base_velocity follow.\n"
-            "# Left of the power of the falls: %.3g %%, %.3g times the noise.\n",
-            signal_name(j->signal_path), signal->head->column[column].name, p->n_slips, f->n,
-            100 * p->left, p->excess);
-    write_median(out, "static_friction", f->static_friction, "N", NAN);
-    write_median(out, "friction", f->friction, "N", NAN);
-    write_median(out, "drop", f->drop, "N", NAN);
-    write_median(out, "k/m", f->k_over_m, "1/s^2", k_over_m);
-    write_median(out, "loading", f->slope, "N/s", loading);
-    write_events(out, f, signal->head->start);
+    fprintf(out, "# Pulled slider with %s friction, fitted to %s, column %s.\n", p->n_keys == 0 ? "Coulomb"
+            : ss_model_name(start->model), signal_name(j->signal_path), signal->head->column[column].name);
+    if (p->n_keys == 0)
+        write_slips(out, p, signal, k_over_m, loading);
+    else
+        write_common(out, p);
     if (ss_scene_write(&p->scene, out) != SS_OK)
         tool_die("write failed");
     ss_pull_free(p);

@@ -82,15 +82,15 @@ typedef struct ss_ranking {
     ss_rank_row *row;           /* best first */
 } ss_ranking;
 
-/* Rank n >= 1 scenes, which are forced, by one column of a signal, whose values must be finite.
- * Each is adjusted within the spread to the signal's mean cycle and then to the samples of some
+/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Those that are forced
+ * are adjusted within the spread to the signal's mean cycle and then to the samples of some
  * cycles, run with white noise of the signal's own level and its gaps, and compared; what lies
  * within the reach of a gap is left out of both, as ss_features_find does.  Noise is what is
- * neither slow nor repeated, see ss-rank(1).  "None fits" and "undecided" are answers, with SS_OK.
- * SS_EBUDGET for a scene that takes more than 2e7 integration steps to be adjusted.  opts may be
- * NULL.  To be freed with ss_ranking_free.  If the first scene is pulled all must be, as
- * ss_pull_fit takes them, and the column the spring's force: each is adjusted to its slips, and
- * only what these leave and the adjustment are compared. */
+ * neither slow nor repeated, see ss-rank(1).  Those that are pulled, if the column is the spring's
+ * force, are adjusted to its falls, and only what they leave and the adjustment are compared.  If there
+ * are both, the verdict is that of the kind of the signal; rows of the other have no total.  "None
+ * fits" and "undecided" are answers, with SS_OK.  SS_EBUDGET for a forced scene that takes more than
+ * 2e7 integration steps to be adjusted.  opts may be NULL.  To be freed with ss_ranking_free. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
@@ -131,7 +131,8 @@ typedef struct ss_fit {
 } ss_fit;
 
 /* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column
- * of SI units, whose values must be finite; m, k and the release rule are taken from the scene.
+ * of SI units, whose values must be finite; m, k, damping, f_s / f_k and the release rule are taken from
+ * the scene.
  * Samples in gaps are left out.  Errors are those of white noise of the residual's size.  The fit
  * is conclusive if its residual is no more than noise, no other scene has as small a residual, and
  * its sticks last long enough.  A fit that is not conclusive is an answer, with SS_OK.  opts may be
@@ -142,22 +143,35 @@ ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, cons
 
 /* --- a slider pulled at constant speed ------------------------------------------------------ */
 
+/* A number of the scene that all slips have in common. */
+typedef struct ss_pull_key {
+    const char *name, *unit;
+    ss_value found;
+    double given;
+} ss_pull_key;
+enum { SS_PULL_KEYS = 5 };
+
 typedef struct ss_pull {
     ss_verdict verdict;         /* SS_NAMED: the scene explains three of four falls, and at least five */
     char why[256];              /* empty if it does */
     ss_scene scene;             /* begins to slip with the record, then goes its own way */
-    size_t n_slips;             /* falls of the force that are slips of a Coulomb slider */
+    size_t n_slips;             /* falls of the force that are fitted */
     double left;                /* part of the power of their samples that these leave */
     double excess;              /* the same over the noise */
-    int explains;               /* what they leave is noise; else friction is not constant in slip */
+    int explains;               /* what they leave is noise; else friction is not that of the scene */
     double noise;               /* power of the noise over that of the record, at most; all NaN: no slip */
     ss_features *features;      /* its loadings are the events [N], their medians the scene's */
+    ss_median static_friction, friction;        /* [N] of the slips */
+    size_t n_keys;              /* 0: it is Coulomb's without damping, and all is in features */
+    ss_pull_key key[SS_PULL_KEYS];
 } ss_pull;
 
-/* Fit a Coulomb scene that is pulled to the force of its spring [N], event by event: f_s and f_k,
- * the mass by k/m and the speed by the slope of loading are medians; the stiffness is that given.
- * A scene that does not explain the record is an answer, with SS_OK.  opts may be NULL; its quantity
- * must be SS_SPRING.  SS_EINVAL for another scene or column.  To be freed with ss_pull_free. */
+/* Fit a scene that only a pull or a belt moves to the force of its spring [N].  Coulomb's without
+ * damping goes event by event: f_s and f_k, the mass by k/m and the speed by the slope of loading are
+ * medians; the stiffness is that given.  Others are simulated: what key lists is fitted to up to 16
+ * falls together, f_s and f_k to each, and SS_NAMED are those with no error above 30 %.  A scene that
+ * does not explain the record is an answer, with SS_OK.  opts may be NULL; its quantity must be
+ * SS_SPRING.  SS_EINVAL for another scene or column.  To be freed with ss_pull_free. */
 ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
                       const ss_rank_opts *opts, ss_error *err);
 void ss_pull_free(ss_pull *pull);               /* NULL is allowed */

@@ -149,7 +149,7 @@ const char *ss_model_name(ss_model model);          /* "coulomb", "state-variabl
 int ss_model_has_events(ss_model model);            /* stick, slip and reverse */
 int ss_model_is_linear(ss_model model);             /* between events: it has a closed form */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
-int ss_scene_is_pulled(const ss_scene *scene);      /* at base_velocity, and not forced */
+int ss_scene_is_pulled(const ss_scene *scene);      /* over its surface, and not forced */
 
 /* Scenes that are built in.  ss_scene_load reads one by its name; text is what ss_scene_read takes. */
 typedef struct ss_shipped_scene {

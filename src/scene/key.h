@@ -33,7 +33,8 @@ typedef struct scene_key {
 typedef struct parameter {
     size_t offset;                  /* in ss_scene */
     int by_mass;                    /* the motion stays the same if it grows as the mass does */
-    int by_speed;                   /* the motion keeps its shape if it falls as the speed grows */
+    int by_speed;                   /* the motion keeps its shape if it falls as the speed grows; -1: if
+                                       it grows as the speed does */
 } parameter;
 enum { PARAMETERS = 2 };             /* of a model at most */
 

@@ -27,7 +27,7 @@ ss_scene_samples(const ss_scene *scene)
 int
 ss_scene_is_pulled(const ss_scene *scene)
 {
-    return scene != NULL && scene->base_velocity != 0 && scene->base_amplitude == 0
+    return scene != NULL && pull_of(scene) != 0 && scene->base_amplitude == 0
         && scene->base_file[0] == '\0' && scene->base == NULL;
 }
 

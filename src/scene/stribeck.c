@@ -127,6 +127,8 @@ const struct model ss_stribeck_model = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
+    .parameter = { { .offset = offsetof(ss_scene, stribeck_velocity), .by_speed = -1 } },
+    .n_parameters = 1,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
     .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .guard = ss_linear_slip_guard,

@@ -81,6 +81,10 @@ write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const 
     fprintf(out, "# noise: %s %% of the power, at most\n",
             ss_number_rounded(text, 100 * r->noise, DIGITS));
     write_answer(out, r, about->scene);
+    for (size_t i = 0; i < r->n && is_compared(r); i++)
+        if (isnan(r->row[i].total))
+            fprintf(out, "# does not fit: %s, which is %s\n", about->scene[r->row[i].scene],
+                    ss_scene_is_pulled(&r->row[i].adjusted) ? "pulled" : "forced");
 }
 
 /* Write each other order that a threshold 20 % lower or higher gives. */
@@ -127,8 +131,8 @@ static void
 write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene)
 {
     const ss_rank_row *row = &r->row[i];
-    int compared = is_compared(r);
-    if (r->verdict == SS_NAMED)
+    int compared = !isnan(row->total);
+    if (r->verdict == SS_NAMED && compared)
         ss_rows_count(rows, i + 1);
     else
         ss_rows_number(rows, NAN);

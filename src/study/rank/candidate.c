@@ -36,6 +36,22 @@ drive_of(const ss_scene *scene)
     return scene->stiffness * scene->base_amplitude;
 }
 
+/* A term that a fit does not keep; NULL if none. */
+static const char *
+strange_term(const ss_scene *scene)
+{
+    ss_scene rest = *scene;
+    rest.damping = rest.static_friction = 0;
+    return ss_scene_term(&rest);
+}
+
+/* f_s over f_k, which no change of f_k changes. */
+static double
+static_ratio(const ss_scene *scene)
+{
+    return scene->friction > 0 ? static_friction(scene) / scene->friction : 1;
+}
+
 ss_status
 ss_candidate_check(const ss_scene *scene, ss_error *err)
 {
@@ -45,7 +61,7 @@ ss_candidate_check(const ss_scene *scene, ss_error *err)
                        "slips");
     if (st == SS_OK && !(drive_of(scene) > 0))
         return ss_fail(err, SS_EINVAL, "base_amplitude = 0: such a scene has no cycle to compare");
-    const char *term = st == SS_OK ? ss_scene_term(scene) : NULL;
+    const char *term = st == SS_OK ? strange_term(scene) : NULL;
     if (term != NULL)
         return ss_fail(err, SS_EINVAL, "a scene with %s is not adjusted to a signal", term);
     return st;
@@ -68,8 +84,9 @@ ss_candidate_of(const ss_scene *scene, int pick, double factor)
         c.lo[i] = c.own[i] - log(factor);
         c.hi[i] = c.own[i] + log(factor);
     }
-    if (c.lo[CANDIDATE_RATIO] < 0)            /* f_k > k Z_e: nothing slips */
-        c.hi[CANDIDATE_RATIO] = fmin(c.hi[CANDIDATE_RATIO], 0);
+    double most = -log(static_ratio(s));
+    if (c.lo[CANDIDATE_RATIO] < most)         /* f_s > k Z_e: nothing slips */
+        c.hi[CANDIDATE_RATIO] = fmin(c.hi[CANDIDATE_RATIO], most);
     for (size_t i = 0; i < c.model->n_parameters; i++) {
         if (!c.model->parameter[i].by_speed)
             continue;
@@ -87,6 +104,7 @@ ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double 
     s.stiffness = exp(key[CANDIDATE_STIFFNESS]);
     s.base_amplitude = drive / s.stiffness;
     s.friction = drive * exp(key[CANDIDATE_RATIO]);
+    s.static_friction = s.static_friction > 0 ? s.friction * static_ratio(&c->scene) : 0;
     s.base_frequency = 1 / period;
     for (size_t i = 0; i < c->model->n_parameters; i++)
         *own(c, &s, i) = exp(key[CANDIDATE_OWN + i]);
@@ -243,12 +261,15 @@ ss_scene
 ss_candidate_resized(const candidate *c, ss_scene s, double size)
 {
     s.friction *= size;
+    s.static_friction *= size;
     s.base_amplitude *= size;
     s.x0 *= size;
     s.v0 *= size;
     for (size_t i = 0; i < c->model->n_parameters; i++)
-        if (c->model->parameter[i].by_speed)
+        if (c->model->parameter[i].by_speed > 0)
             *own(c, &s, i) /= size;
+        else if (c->model->parameter[i].by_speed < 0)
+            *own(c, &s, i) *= size;
     return s;
 }
 

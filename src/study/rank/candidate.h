@@ -20,7 +20,8 @@ typedef struct candidate_start {
 } candidate_start;
 
 /* The keys are the stiffness k (at the same k Z_e), f_k / (k Z_e), and the parameters that the model
- * lists.  The mass is not adjusted: no motion determines it, as only ratios to it count. */
+ * lists.  The mass is not adjusted: no motion determines it, as only ratios to it count.  Damping of the
+ * mass and f_s / f_k stay as they are given. */
 typedef struct candidate {
     const struct model *model;
     ss_scene scene;             /* as given, normalised */

@@ -1,26 +1,38 @@
-/* pull.c -- a slider pulled at constant speed, from the force of its spring: fitted slip by slip.
+/* pull.c -- a slider pulled at constant speed, from the force of its spring.
  *
  * What friction does differs from slip to slip in every measured pull, so the record repeats nothing
- * and no one motion can be laid over it.  But each slip by itself is the motion of the Coulomb slider
- * (src/features/slip.c), and has a static and a kinetic friction and a k/m of its own; each stick has
- * the slope k U.  The scene has the medians.  Its stiffness is that given: the force says k U and k/m
- * only, so that mass and speed follow from it, to be held against those given.
+ * and no one motion can be laid over it.
  *
- * In a ranking a scene stands for all rigs within the spread of its parameters.  Of these m, k and
- * U are moved by the least that gives the k U and k/m of the slips; the frictions are those of the
- * slips. */
+ * Each slip by itself, if there is no damping, is the motion of the Coulomb slider
+ * (src/features/slip.c), and has a static and a kinetic friction and a k/m of its own; each stick has
+ * the slope k (U - S).  The scene has the medians.  Its stiffness is that given: the force says k U and
+ * k/m only, so that mass and speed follow from it, to be held against those given.  With damping or
+ * by another model slips have no closed form, or none with so few unknowns: then the scene is
+ * simulated and fitted to some of them together (falls.c).
+ *
+ * In a ranking a scene stands for all rigs within the spread of its parameters.  Each is fitted to
+ * the same samples by simulation, whatever its model: what they leave can be compared.  Of mass,
+ * stiffness and speed those are changed the least that move alike. */
 #include "study/rank/pull.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/progress.h"
+#include "scene/key.h"
 #include "scene/model.h"
+#include "study/rank/falls.h"
 #include "study/rank/match.h"
+#include "study/rank/record.h"
 
 enum { FEWEST = 5 };            /* slips whose median and scatter are given */
 enum { FITTED = 4 };            /* parameters of a slip */
 #define MOST 0.75               /* of the falls must be such slips */
+#define VAGUE 0.3               /* a number of a larger standard error is not determined */
+#define EXPLAINED 0.98          /* of the power of the falls: less is another motion */
+#define FIT_BUDGET 2e7          /* integration steps of a fit, and of one scene of a ranking */
+#define BUDGET 1e7
 
 static ss_status
 check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
@@ -31,17 +43,19 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_ra
         st = ss_scene_check(start, err);
     if (st != SS_OK)
         return st;
-    const struct model *model = ss_model_of(start);
-    if (!model->linear || model->has_contact)
-        return ss_fail(err, SS_EINVAL, "of pulls only those with Coulomb friction are compared, not %s",
-                       model->name);
     if (opts->quantity != SS_SPRING)
         return ss_fail(err, SS_EINVAL, "a pull is compared with the spring's force only");
     if (!ss_scene_is_pulled(start))
         return ss_fail(err, SS_EINVAL, "a scene that is forced is not compared with pulls");
-    if (start->damping != 0 || start->surface_velocity != 0)
-        return ss_fail(err, SS_EINVAL, "a pull with damping or on a belt is not compared");
     return SS_OK;
+}
+
+/* Have its slips a closed form with few unknowns? */
+static int
+is_plain(const ss_scene *scene)
+{
+    const struct model *model = ss_model_of(scene);
+    return model->linear && !model->has_contact && scene->damping == 0;
 }
 
 static double
@@ -58,14 +72,19 @@ static ss_scene
 scene_of(const ss_scene *start, const ss_features *f, size_t first, const ss_signal *signal)
 {
     ss_scene s = *start;
-    double direction = start->base_velocity > 0 ? 1 : -1, loading = f->slope.value;
+    double direction = sign(pull_of(start)), loading = f->slope.value;
+    double pull = direction * loading / s.stiffness;
     s.mass = s.stiffness / f->k_over_m.value;
-    s.base_velocity = direction * loading / s.stiffness;
+    if (s.base_velocity != 0)
+        s.base_velocity = s.surface_velocity + pull;
+    else
+        s.surface_velocity = -pull;
     s.friction = f->friction.value;
     s.static_friction = s.friction + f->drop.value / 2;     /* where the level drifts, that scatters less */
     double force = s.static_friction - loading * f->transition[first].onset;
     s.x0 = -direction * fmax(force, -s.static_friction) / s.stiffness;
-    s.v0 = s.settle = 0;
+    s.v0 = s.surface_velocity;
+    s.settle = 0;
     s.rate = signal->head->rate;
     s.duration = (double)signal->n / s.rate;
     return s;
@@ -95,18 +114,37 @@ find_excess(ss_pull *p, const ss_signal *signal, size_t column)
     return st;
 }
 
-static void
-judge(ss_pull *p, const ss_features *f, const ss_signal *signal, size_t column, const ss_scene *start)
+/* Why the falls cannot be read, or they are too few; 0: they can be. */
+static int
+lacks_falls(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
+            const ss_scene *scene)
 {
+    if (f->loading == NULL || f->n == 0)
+        snprintf(why, room, "%s", f->why_slips != NULL ? f->why_slips
+                 : "no falls of a force are found: is it one by name or unit, and of one sign?");
+    else if (sum_of(signal, column) * pull_of(scene) < 0)
+        snprintf(why, room, "the force has the opposite sign of %s",
+                 scene->base_velocity != 0 ? "base_velocity" : "a belt's");
+    else if (f->n < FEWEST || isnan(f->slope.error))
+        snprintf(why, room, "%zu slips are too few for a median and its scatter", f->n);
+    else
+        return 0;
+    return 1;
+}
+
+/* By the slips that have a closed form. */
+static ss_status
+judge_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start)
+{
+    const ss_features *f = p->features;
     size_t first = 0;
     for (size_t i = f->loading != NULL ? f->n : 0; i-- > 0;)
         if (isfinite(f->loading[i].friction.value))
             first = i, p->n_slips++;
-    if (f->loading == NULL || f->n == 0)
-        snprintf(p->why, sizeof p->why, "%s", f->why_slips != NULL ? f->why_slips
-                 : "no falls of a force are found: is it one by name or unit, and of one sign?");
-    else if (sum_of(signal, column) * start->base_velocity < 0)
-        snprintf(p->why, sizeof p->why, "the force has the opposite sign of base_velocity");
+    p->static_friction = f->static_friction;
+    p->friction = f->friction;
+    if (f->loading == NULL || f->n == 0 || sum_of(signal, column) * pull_of(start) < 0)
+        lacks_falls(p->why, sizeof p->why, f, signal, column, start);
     else if ((double)p->n_slips < MOST * (double)f->n) {
         snprintf(p->why, sizeof p->why, "%zu of %zu falls are no slips of a pulled Coulomb slider",
                  f->n - p->n_slips, f->n);
@@ -118,6 +156,99 @@ judge(ss_pull *p, const ss_features *f, const ss_signal *signal, size_t column, 
         p->verdict = SS_NAMED;
         p->scene = scene_of(start, f, first, signal);
     }
+    return p->n_slips > 0 ? find_excess(p, signal, column) : SS_OK;
+}
+
+/* --- any scene ----------------------------------------------------------------------------- */
+
+static match
+match_of(const falls *r, const falls_fit *fit)
+{
+    return (match){ .left = fit->slips ? fit->left : r->power, .white = r->noise, .power = r->power,
+                    .compared = fit->slips ? fit->compared : 0 };
+}
+
+static const char *
+name_of(const ss_scene *scene, const falls_key *key)
+{
+    return ss_key_of_field(ss_model_of(scene), key->offset)->name;
+}
+
+static void
+report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, const ss_signal *signal)
+{
+    const match m = match_of(r, fit);
+    p->left = m.left / m.power;
+    p->noise = r->noise / m.power;
+    p->excess = ss_match_excess(&m, r->noise);
+    p->explains = ss_match_explains(&m, r->noise);
+    p->n_slips = r->n;
+    p->static_friction = fit->static_friction;
+    p->friction = fit->friction;
+    p->scene = fit->scene;
+    p->scene.rate = signal->head->rate;
+    p->scene.duration = (double)signal->n / p->scene.rate;
+    p->n_keys = fit->n_keys;
+    for (size_t i = 0; i < fit->n_keys; i++) {
+        ss_scene found = fit->scene, given = *start;
+        ss_pull_key *k = &p->key[i];
+        k->name = name_of(start, &fit->key[i]);
+        k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
+        k->found.value = *ss_scene_number(&found, k->name, NULL, NULL);
+        k->found.error = fit->key[i].error * fabs(k->found.value);
+    }
+}
+
+/* The first key that the falls do not tell; NULL: none. */
+static const ss_pull_key *
+vague_key(const ss_pull *p)
+{
+    for (size_t i = 0; i < p->n_keys; i++)
+        if (!(p->key[i].found.error <= VAGUE * fabs(p->key[i].found.value)))
+            return &p->key[i];
+    return NULL;
+}
+
+static void
+judge_fit(ss_pull *p, const falls_fit *fit)
+{
+    const ss_pull_key *vague = vague_key(p);
+    if (!fit->slips)
+        snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
+                 "a fit");
+    else if (p->left > 1 - EXPLAINED && !p->explains) {
+        snprintf(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
+                 "%.3g times the noise", 100 * p->left, p->excess);
+        p->verdict = SS_NONE_FITS;
+    } else if (vague != NULL)
+        snprintf(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", vague->name,
+                 vague->found.value, vague->found.error);
+    else
+        p->verdict = SS_NAMED;
+}
+
+static ss_status
+judge_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start,
+            const ss_rank_opts *opts)
+{
+    const ss_stretch all = { opts->progress, 0, 1 };
+    falls_fit fit;
+    falls r;
+    double steps = 0;
+    if (lacks_falls(p->why, sizeof p->why, p->features, signal, column, start))
+        return SS_OK;
+    ss_status st = ss_falls_gather(&r, p->features, signal, column, sign(pull_of(start)));
+    if (st == SS_OK && r.n < FEWEST)
+        snprintf(p->why, sizeof p->why, "%zu falls that are whole are too few", r.n);
+    else if (st == SS_OK) {
+        st = ss_falls_fit(&fit, &r, start, INFINITY, FIT_BUDGET, &steps, &all);
+        if (st == SS_OK && fit.slips)
+            report(p, &r, &fit, start, signal);
+        if (st == SS_OK)
+            judge_fit(p, &fit);
+    }
+    ss_falls_free(&r);
+    return st;
 }
 
 ss_status
@@ -138,10 +269,12 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
         return ss_fail_memory(err, NULL);
     *p = (ss_pull){ .verdict = SS_UNDECIDED, .scene = *start, .left = NAN, .excess = NAN, .noise = NAN };
     st = ss_features_find(&p->features, signal, column, &how, err);
-    if (st == SS_OK)
-        judge(p, p->features, signal, column, start);
-    if (st == SS_OK && p->n_slips > 0 && find_excess(p, signal, column) != SS_OK)
-        st = ss_fail_memory(err, NULL);
+    if (st == SS_OK) {
+        st = is_plain(start) ? judge_slips(p, signal, column, start)
+                             : judge_falls(p, signal, column, start, opts);
+        if (st != SS_OK)
+            ss_fail(err, st, "%s", ss_strerror(st));
+    }
     if (st == SS_OK)
         *out = p;
     else
@@ -151,85 +284,192 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
 
 /* --- a ranking ----------------------------------------------------------------------------- */
 
-enum { ADJUSTED = 5 };          /* k, m, U, f_k, f_s */
-static const char *const adjusted_name[ADJUSTED] = { "stiffness", "mass", "base_velocity", "friction",
-                                                     "static_friction" };
+/* A scene and its fit to the falls. */
+typedef struct trial {
+    falls_fit fit;
+    match match;
+    double distance, error;     /* rms change of its numbers, and the error of that */
+    double beyond;              /* the spread is the number `most_name`, in errors; it has changed by */
+    double most;                /* so much, as a logarithm, by the falls alone */
+    const char *most_name;
+    int explains, near;         /* the falls; is it within the spread? */
+    int unfinished;             /* it explains less than it may: its fit took too many steps */
+} trial;
 
-/* The changes of a scene's parameters, as logarithms, that give the medians of the slips: of k, m
- * and U those with the least sum of squares that give k/m and k U. */
-static void
-find_changes(const ss_scene *own, const ss_features *f, double change[ADJUSTED])
+enum { CHANGES = FALLS_KEYS + 3 };
+
+typedef struct change {
+    const char *name;
+    double by, error;           /* logarithms */
+    double data, data_error;    /* the same by the falls alone, without what the scene says of it */
+    int power;                  /* see falls_key */
+} change;
+
+static change
+change_of_key(const falls_key *k, const ss_scene *scene, double known)
 {
-    double k_over_m = log(f->k_over_m.value * own->mass / own->stiffness);
-    double loading = log(f->slope.value / fabs(own->stiffness * own->base_velocity));
-    change[0] = (k_over_m + loading) / 3;
-    change[1] = change[0] - k_over_m;
-    change[2] = loading - change[0];
-    change[3] = log(f->friction.value / own->friction);
-    change[4] = log((f->friction.value + f->drop.value / 2) / fmax(own->static_friction, own->friction));
+    double precision = 1 / (k->error * k->error), data = precision - 1 / (known * known);
+    double by = data > 0 ? k->change * precision / data : 0, error = data > 0 ? 1 / sqrt(data) : INFINITY;
+    return (change){ name_of(scene, k), k->change, k->error, by, error, k->power };
 }
 
-/* The distance of a scene from the slips, and the parameter that must change most. */
-static double
-adjust(ss_rank_row *row, const ss_scene *own, const ss_pull *p, size_t *most)
+static change
+change_of(const char *name, double found, double error, double given)
 {
-    double change[ADJUSTED], squares = 0;
-    find_changes(own, p->features, change);
-    *most = 0;
-    for (size_t i = 0; i < ADJUSTED; i++) {
-        squares += change[i] * change[i];
-        *most = fabs(change[i]) > fabs(change[*most]) ? i : *most;
+    double by = found > 0 && given > 0 ? log(found / given) : found == given ? 0 : INFINITY;
+    return (change){ name, by, error / found, by, error / found, 0 };
+}
+
+/* What the fit changes in the scene, which knows its keys to within `known`; how many numbers. */
+static size_t
+list_changes(change c[CHANGES], const falls_fit *fit, const ss_scene *scene, double known)
+{
+    const ss_median *f = &fit->friction, *top = &fit->static_friction;
+    size_t n = 0;
+    for (; n < fit->n_keys; n++)
+        c[n] = change_of_key(&fit->key[n], scene, known);
+    c[n++] = (change){ "stiffness", 0, 0, 0, 0, 1 };
+    c[n++] = change_of("friction", f->value, f->error, scene->friction);
+    c[n++] = change_of("static_friction", top->value, top->error, static_friction(scene));
+    return n;
+}
+
+/* Of all rigs that move as the fit does, each so many times stiffer, the one that changes least. */
+static void
+measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, double limit)
+{
+    change c[CHANGES];
+    double sum = 0, powers = 0, squares = 0, errors = 0;
+    size_t n = list_changes(c, &t->fit, scene, known);
+    for (size_t i = 0; i < n; i++) {
+        sum += c[i].power * c[i].by;
+        powers += c[i].power * c[i].power;
     }
-    row->adjusted = p->scene;           /* by another stiffness all forces are those of p->scene, too */
-    row->adjusted.stiffness = own->stiffness * exp(change[0]);
-    double ratio = row->adjusted.stiffness / p->scene.stiffness;
-    row->adjusted.mass = p->scene.mass * ratio;
-    row->adjusted.base_velocity = p->scene.base_velocity / ratio;
-    row->adjusted.x0 = p->scene.x0 / ratio;
-    row->value[SS_BY_ADJUSTMENT] = sqrt(squares / ADJUSTED);
-    return change[*most];
-}
-
-/* The relative error of the medians by which scenes are told apart. */
-static double
-error_of(const ss_features *f)
-{
-    const ss_median m[] = { f->k_over_m, f->slope, f->friction, f->drop };
-    double squares = 0;
-    for (size_t i = 0; i < sizeof m / sizeof *m; i++)
-        squares += pow(m[i].error / m[i].value, 2);
-    return sqrt(squares / ADJUSTED);
+    const double stiffer = -sum / powers;
+    for (size_t i = 0; i < n; i++) {
+        double by = c[i].by + c[i].power * stiffer, data = c[i].data + c[i].power * stiffer;
+        double beyond = (fabs(data) - limit) / fmax(c[i].data_error, 1e-9);
+        squares += by * by;
+        errors += c[i].error * c[i].error;
+        if (beyond > t->beyond) {
+            t->beyond = beyond;
+            t->most = data;
+            t->most_name = c[i].name;
+        }
+    }
+    t->distance = sqrt(squares / (double)n);
+    t->error = sqrt(errors / (double)n);
+    t->near = t->beyond <= sqrt(MATCH_DECISIVE);
+    row->adjusted = t->fit.scene;
+    row->adjusted.x0 = 0;
+    row->adjusted.stiffness *= exp(stiffer);
+    for (size_t i = 0; i < t->fit.n_keys; i++)
+        *ss_scene_number(&row->adjusted, c[i].name, NULL, NULL) *= exp(c[i].power * stiffer);
 }
 
 static void
-fill_row(ss_rank_row *row, const ss_pull *p, double spread)
+fill_row(ss_rank_row *row, const trial *t, double noise, double spread)
 {
     for (size_t i = 0; i < SS_CRITERIA; i++)
-        row->value[i] = i == SS_BY_ADJUSTMENT ? row->value[i] : NAN;
-    row->explained = 1 - p->left;
-    row->excess = p->excess;
-    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(p->left, 1e-12));
-    row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? row->value[SS_BY_ADJUSTMENT] / log(1 + spread) : 0;
+        row->value[i] = NAN;
+    row->explained = 1 - t->match.left / t->match.power;
+    row->excess = ss_match_excess(&t->match, noise);
+    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(t->match.left / t->match.power, 1e-12));
+    row->value[SS_BY_ADJUSTMENT] = t->distance;
+    row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? t->distance / log(1 + spread) : 0;
 }
 
-/* Of the nearest scene: `change` is that of its parameter `most`. */
-static void
-compare(ss_ranking *r, const ss_pull *p, double nearest, double next, double change, size_t most,
-        double spread)
+static ss_status
+try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, double spread,
+          const ss_stretch *progress, ss_error *err)
 {
-    const double error = sqrt(MATCH_DECISIVE) * error_of(p->features);
+    const double known = fmax(log(1 + spread), 1e-6);
+    double steps = 0;
+    ss_status st = ss_falls_fit(&t->fit, r, scene, known, BUDGET, &steps, progress);
+    t->match = match_of(r, &t->fit);
+    t->explains = ss_match_explains(&t->match, r->noise);
+    t->unfinished = steps > BUDGET && !t->explains;
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    t->distance = NAN;
+    row->adjusted = *scene;
+    if (t->fit.slips)
+        measure_change(t, row, scene, known, log((1 + spread) / (1 - spread)));
+    fill_row(row, t, r->noise, spread);
+    return SS_OK;
+}
+
+static int
+is_same_law(const trial *a, const trial *b)
+{
+    return a->fit.scene.model == b->fit.scene.model && a->fit.n_keys == b->fit.n_keys;
+}
+
+/* Is what a leaves no more than what b does, to within its error? */
+static int
+leaves_as_little(const trial *a, const trial *b, double noise)
+{
+    return (double)a->match.compared * (ss_match_excess(&a->match, noise) - ss_match_excess(&b->match, noise))
+        < MATCH_DECISIVE;
+}
+
+/* Say why none of the scenes that explain the falls is named, or that none does. */
+static void
+refuse(ss_ranking *r, const trial *t, double noise)
+{
+    const trial *best = &t[0];
     r->verdict = SS_NONE_FITS;
-    if (!p->explains)
-        snprintf(r->why, sizeof r->why, "the slips of a Coulomb slider leave %.3g %% of the power of the "
-                 "falls, %.3g times the noise", 100 * p->left, p->excess);
-    else if (!(fabs(change) <= log((1 + spread) / (1 - spread)) + error))
-        snprintf(r->why, sizeof r->why, "the slips are those of a Coulomb slider, but the nearest scene "
-                 "would need %.3g times its %s", exp(change), adjusted_name[most]);
-    else if (next - nearest < error) {
-        r->verdict = SS_UNDECIDED;
-        snprintf(r->why, sizeof r->why, "two scenes are equally near to the slips, within their errors");
-    } else
-        r->verdict = SS_NAMED;
+    for (size_t i = 1; i < r->n; i++)
+        best = t[i].explains > best->explains || (t[i].explains == best->explains
+                                                  && t[i].match.left < best->match.left) ? &t[i] : best;
+    if (!best->fit.slips)
+        snprintf(r->why, sizeof r->why, "none of the scenes sticks and slips");
+    else if (!best->explains)
+        snprintf(r->why, sizeof r->why, "within the spread each scene leaves at least %.3g %% of the power of "
+                 "the falls, %.3g times the noise", 100 * best->match.left / best->match.power,
+                 ss_match_excess(&best->match, noise));
+    else
+        snprintf(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need %.3g "
+                 "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
+}
+
+/* The scene that is named; r->n: none, and why. */
+static size_t
+name_scene(ss_ranking *r, const trial *t, double noise)
+{
+    size_t least = r->n, nearest;
+    for (size_t i = 0; i < r->n; i++)
+        if (t[i].unfinished) {
+            snprintf(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
+                     "integration steps to be adjusted", ss_model_name(r->row[i].adjusted.model), BUDGET);
+            return r->n;
+        }
+    for (size_t i = 0; i < r->n; i++)
+        if (t[i].explains && t[i].near && (least == r->n || t[i].match.left < t[least].match.left))
+            least = i;
+    if (least == r->n) {
+        refuse(r, t, noise);
+        return r->n;
+    }
+    nearest = least;
+    for (size_t i = 0; i < r->n; i++)
+        if (t[i].explains && t[i].near && leaves_as_little(&t[i], &t[least], noise)) {
+            if (!is_same_law(&t[i], &t[least])) {
+                snprintf(r->why, sizeof r->why, "%s and %s friction%s explain the falls equally well",
+                         ss_model_name(t[least].fit.scene.model), ss_model_name(t[i].fit.scene.model),
+                         t[i].fit.scene.damping > 0 ? ", with damping," : "");
+                return r->n;
+            }
+            nearest = t[i].distance < t[nearest].distance ? i : nearest;
+        }
+    for (size_t i = 0; i < r->n; i++)
+        if (i != nearest && t[i].explains && t[i].near && leaves_as_little(&t[i], &t[least], noise)
+            && t[i].distance - t[nearest].distance < sqrt(MATCH_DECISIVE) * t[nearest].error) {
+            snprintf(r->why, sizeof r->why, "two scenes are equally near to the slips, within their errors");
+            return r->n;
+        }
+    r->verdict = SS_NAMED;
+    return nearest;
 }
 
 static ss_status
@@ -240,40 +480,57 @@ check_scenes(const ss_signal *signal, size_t column, const ss_scene *scene, size
         ss_status st = check(signal, column, &scene[i], opts, err);
         if (st != SS_OK)
             return st;
-        if (scene[i].base_velocity * scene[0].base_velocity < 0)
+        if (pull_of(&scene[i]) * pull_of(&scene[0]) < 0)
             return ss_fail(err, SS_EINVAL, "scenes that are pulled to either side are not compared");
     }
     return SS_OK;
 }
 
-ss_status
-ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
-                const ss_rank_opts *opts, ss_error *err)
+static ss_status
+compare_all(ss_ranking *r, size_t *named, const falls *f, const ss_scene *scene, const ss_rank_opts *opts,
+            ss_error *err)
 {
-    double nearest = INFINITY, next = INFINITY, change = NAN;
-    size_t most = 0;
-    ss_pull *p = NULL;
+    trial *t = calloc(r->n, sizeof *t);
+    double least = INFINITY;
+    ss_status st = t != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
+        const ss_stretch part = { opts->progress, (double)i / (double)r->n, (double)(i + 1) / (double)r->n };
+        st = try_scene(&t[i], &r->row[i], f, &scene[i], opts->spread, &part, err);
+        least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
+    }
+    for (size_t i = 0; st == SS_OK && i < r->n; i++)
+        r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
+    if (st == SS_OK)
+        *named = name_scene(r, t, f->noise);
+    free(t);
+    return st;
+}
+
+ss_status
+ss_pull_compare(ss_ranking *r, size_t *named, const ss_signal *signal, size_t column,
+                const ss_scene *scene, const ss_rank_opts *opts, ss_error *err)
+{
+    ss_features *features = NULL;
+    falls f = { .y = NULL };
+    *named = r->n;
     ss_status st = check_scenes(signal, column, scene, r->n, opts, err);
     if (st == SS_OK)
-        st = ss_pull_fit(&p, signal, column, &scene[0], opts, err);
+        st = ss_features_find(&features, signal, column, NULL, err);
     if (st != SS_OK)
         return st;
-    r->verdict = p->verdict;
-    snprintf(r->why, sizeof r->why, "%s", p->why);
-    r->noise = p->noise;
-    for (size_t i = 0; p->verdict == SS_NAMED && i < r->n; i++) {
-        size_t worst;
-        double needed = adjust(&r->row[i], &scene[i], p, &worst), d = r->row[i].value[SS_BY_ADJUSTMENT];
-        fill_row(&r->row[i], p, opts->spread);
-        if (d < nearest)
-            next = nearest, nearest = d, change = needed, most = worst;
+    if (!lacks_falls(r->why, sizeof r->why, features, signal, column, &scene[0])) {
+        st = ss_falls_gather(&f, features, signal, column, sign(pull_of(&scene[0])));
+        r->noise = f.noise / f.power;
+        if (st != SS_OK)
+            ss_fail(err, st, "%s", ss_strerror(st));
+        else if (f.n < FEWEST)
+            snprintf(r->why, sizeof r->why, "%zu falls that are whole are too few", f.n);
         else
-            next = fmin(next, d);
+            st = compare_all(r, named, &f, scene, opts, err);
     }
-    if (p->verdict == SS_NAMED)
-        compare(r, p, nearest, next, change, most, opts->spread);
-    ss_pull_free(p);
-    return SS_OK;
+    ss_falls_free(&f);
+    ss_features_free(features);
+    return st;
 }
 
 void

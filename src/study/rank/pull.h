@@ -4,8 +4,9 @@
 
 #include <stickslip/rank.h>
 
-/* Fill r's rows, in the order of the r->n scenes, its noise and its verdict, but no totals. */
-ss_status ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
-                          const ss_rank_opts *opts, ss_error *err);
+/* Fill r's rows, in the order of the r->n scenes, its noise and its verdict, but no totals.  *named is
+ * the scene that the verdict names; r->n: none. */
+ss_status ss_pull_compare(ss_ranking *r, size_t *named, const ss_signal *signal, size_t column,
+                          const ss_scene *scene, const ss_rank_opts *opts, ss_error *err);
 
 #endif

@@ -424,9 +424,16 @@ static ss_status
 rank_pulled(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
             const ss_rank_opts *opts, ss_error *err)
 {
-    ss_status st = ss_pull_compare(r, signal, column, scene, opts, err);
+    size_t named;
+    ss_status st = ss_pull_compare(r, &named, signal, column, scene, opts, err);
     if (st == SS_OK && isfinite(r->row[0].excess))
         sort_rows(r);
+    for (size_t i = r->n; i-- > 1 && named < r->n;)     /* to the front */
+        if (r->row[i].scene == named) {
+            const ss_rank_row row = r->row[i];
+            r->row[i] = r->row[i - 1];
+            r->row[i - 1] = row;
+        }
     return st;
 }
 
@@ -455,6 +462,107 @@ rank_forced(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scen
     return st;
 }
 
+/* --- pulled and forced scenes together ------------------------------------------------------ */
+
+static int
+report_half(double done, void *user)
+{
+    const ss_stretch *s = user;
+    return ss_stretch_at(s, done) != SS_OK;
+}
+
+/* Rank the scenes that are pulled, or those that are not, by themselves; *out is NULL if no scene of
+ * the kind can be compared with the column. */
+static ss_status
+rank_kind(ss_ranking **out, int pulled, const ss_signal *signal, size_t column, const ss_scene *scene,
+          size_t n, const ss_rank_opts *opts, ss_error *err)
+{
+    ss_stretch half = { opts->progress, 0.5 * pulled, 0.5 * (1 + pulled) };
+    ss_rank_opts o = *opts;
+    ss_scene *some = malloc(n * sizeof *some);
+    size_t *index = malloc(n * sizeof *index), n_some = 0;
+    ss_status st = some != NULL && index != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    o.progress = (ss_progress){ report_half, &half };
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        if (ss_scene_is_pulled(&scene[i]) == pulled) {
+            some[n_some] = scene[i];
+            index[n_some++] = i;
+        }
+    *out = NULL;
+    if (st == SS_OK && (!pulled || opts->quantity == SS_SPRING))
+        st = ss_ranking_new(out, signal, column, some, n_some, &o, err);
+    for (size_t i = 0; st == SS_OK && *out != NULL && i < n_some; i++)
+        (*out)->row[i].scene = index[(*out)->row[i].scene];
+    free(index);
+    free(some);
+    return st;
+}
+
+static int
+is_compared(const ss_ranking *r)
+{
+    return r != NULL && !isnan(r->row[0].total);
+}
+
+/* Does the signal move as the pulled scenes do rather than as the forced ones? */
+static int
+is_pull(const ss_ranking *forced, const ss_ranking *pulled)
+{
+    if (!is_compared(pulled) || !is_compared(forced))
+        return is_compared(pulled);
+    if ((pulled->verdict == SS_NAMED) != (forced->verdict == SS_NAMED))
+        return pulled->verdict == SS_NAMED;
+    return pulled->row[0].explained > forced->row[0].explained;
+}
+
+/* The row of a scene that does not fit. */
+static ss_rank_row
+last_row(size_t i, const ss_scene *scene)
+{
+    ss_rank_row row = { .scene = i, .adjusted = *scene, .total = NAN, .excess = NAN };
+    for (size_t k = 0; k < SS_CRITERIA; k++) {
+        row.value[k] = NAN;
+        row.distance[k] = INFINITY;
+    }
+    return row;
+}
+
+/* The verdict is that of the scenes of the signal's kind, whose rows come first.  Those of the other kind
+ * do not fit, and have no values. */
+static void
+take_over(ss_ranking *r, const ss_ranking *of, const ss_scene *scene)
+{
+    const size_t n = r->n;
+    const int pulled = ss_scene_is_pulled(&scene[of->row[0].scene]);
+    ss_rank_row *row = r->row, *next = row + of->n;
+    memcpy(row, of->row, of->n * sizeof *row);
+    *r = *of;
+    r->n = n;
+    r->row = row;
+    for (size_t i = 0; i < n; i++)
+        if (ss_scene_is_pulled(&scene[i]) != pulled)
+            *next++ = last_row(i, &scene[i]);
+}
+
+static ss_status
+rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
+          const ss_rank_opts *opts, ss_error *err)
+{
+    ss_ranking *forced = NULL, *pulled = NULL;
+    ss_status st = rank_kind(&forced, 0, signal, column, scene, r->n, opts, err);
+    if (st == SS_OK)
+        st = rank_kind(&pulled, 1, signal, column, scene, r->n, opts, err);
+    if (st == SS_OK)
+        take_over(r, is_pull(forced, pulled) ? pulled : forced, scene);
+    if (st == SS_OK && forced->verdict == SS_NAMED && pulled != NULL && pulled->verdict == SS_NAMED) {
+        r->verdict = SS_UNDECIDED;
+        snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");
+    }
+    ss_ranking_free(forced);
+    ss_ranking_free(pulled);
+    return st;
+}
+
 ss_status
 ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
         const ss_rank_opts *opts, ss_error *err)
@@ -464,9 +572,11 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     if (opts == NULL)
         opts = &ss_rank_defaults;
     ss_status st = check(signal, column, n, opts, err);
-    int are_pulled = st == SS_OK && ss_scene_is_pulled(&scene[0]);
-    for (size_t i = 0; st == SS_OK && !are_pulled && i < n; i++)
-        st = ss_candidate_check(&scene[i], err);
+    size_t pulled = 0;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        pulled += (size_t)ss_scene_is_pulled(&scene[i]);
+        st = (ss_scene_is_pulled(&scene[i]) ? ss_scene_check : ss_candidate_check)(&scene[i], err);
+    }
     if (st != SS_OK)
         return st;
     ss_ranking *r = calloc(1, sizeof *r);
@@ -482,7 +592,8 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
         r->value[i] = NAN;
     for (size_t i = 0; i < n; i++)
         r->row[i] = (ss_rank_row){ .scene = i, .total = NAN, .excess = NAN };
-    st = (are_pulled ? rank_pulled : rank_forced)(r, signal, column, scene, opts, err);
+    st = (pulled == n ? rank_pulled : pulled == 0 ? rank_forced : rank_both)(r, signal, column, scene, opts,
+                                                                             err);
     if (st == SS_OK)
         *out = r;
     else
