@@ -177,9 +177,17 @@ how_to_run(const ss_scene *s)
     return (ss_sim_opts){ .method = ss_model_is_linear(s->model) ? "exact" : NULL, .tol = 1e-10 };
 }
 
+/* A run that is stopped, or fails, has an outcome; one without memory has none. */
+static void
+note_memory(ss_status *status, ss_status st)
+{
+    if (st == SS_ENOMEM)
+        *status = st;
+}
+
 /* The time of the scene's second fall; NAN: it has none. */
 static double
-find_fall(const ss_scene *scene, double *steps)
+find_fall(const ss_scene *scene, double *steps, ss_status *status)
 {
     const double loading = fabs(scene->stiffness * pull_of(scene));
     const double half = scene->static_friction - scene->friction;
@@ -194,7 +202,7 @@ find_fall(const ss_scene *scene, double *steps)
     s.duration = 2 * s.static_friction / loading
                  + PATIENCE * (2 * half / loading + 2 * M_PI / own_frequency(&s));
     s.rate = 1 / s.duration;
-    ss_sim_run(&s, &opts, &stats, NULL);
+    note_memory(status, ss_sim_run(&s, &opts, &stats, NULL));
     *steps += (double)stats.steps;
     return w.t;
 }
@@ -216,7 +224,7 @@ append_samples(const ss_sample *s, size_t n, void *user)
 /* The samples of a fall at `time`; 0 if they cannot be had. */
 static int
 sample_fall(double *y, const ss_scene *scene, double time, double onset, const fall *w, double rate,
-            double *steps)
+            double *steps, ss_status *status)
 {
     ss_scene s = *scene;
     sampled t = { y, pull_of(scene) > 0 ? 1 : -1, 0, w->n };
@@ -228,6 +236,7 @@ sample_fall(double *y, const ss_scene *scene, double time, double onset, const f
     s.rate = rate / (double)w->step;
     s.duration = (double)w->n / s.rate;
     ss_status st = s.settle >= 0 ? ss_sim_run(&s, &opts, &stats, NULL) : SS_EINVAL;
+    note_memory(status, st);
     *steps += (double)stats.steps + (double)w->n / 4;
     return st == SS_OK && t.n == w->n;
 }
@@ -333,8 +342,9 @@ fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL]
     for (size_t k = 0; k < f->out->n_keys; k++)
         valid = valid && fabs(change[k]) <= f->farthest;
     if (valid && isnan(*time))
-        *time = find_fall(&s, f->steps);
-    if (!valid || isnan(*time) || !sample_fall(row, &s, *time, local[ONSET], w, f->r->rate, f->steps)) {
+        *time = find_fall(&s, f->steps, &f->status);
+    if (!valid || isnan(*time)
+        || !sample_fall(row, &s, *time, local[ONSET], w, f->r->rate, f->steps, &f->status)) {
         for (size_t k = 0; k < rows_of(w); k++)
             row[k] = HOPELESS * sqrt(f->r->power) / f->size;
         return;
@@ -394,7 +404,7 @@ residuals(const gsl_vector *at, void *user, gsl_vector *out)
     }
     for (size_t k = 0; k < f->out->n_keys; k++)
         *row++ = weight_of(f, k) * (at->data[k] - (is_held(f, k) ? f->held[k] : 0));
-    return GSL_SUCCESS;
+    return f->status == SS_OK ? GSL_SUCCESS : GSL_EFAILED;
 }
 
 /* The slopes of one fall's rows, from row `first` on, by one unknown. */
@@ -436,7 +446,8 @@ jacobian(const gsl_vector *at, void *user, gsl_matrix *out)
     for (size_t k = 0; k < keys; k++)
         gsl_matrix_set(out, first + k, k, weight_of(f, k));
     gsl_vector_free(here);
-    f->status = ss_stretch_at(f->progress, fmin(*f->steps / f->budget, 1));
+    if (f->status == SS_OK)
+        f->status = ss_stretch_at(f->progress, fmin(*f->steps / f->budget, 1));
     return f->status == SS_OK ? GSL_SUCCESS : GSL_EFAILED;
 }
 
@@ -568,7 +579,7 @@ report(problem *f, const gsl_multifit_nlinear_workspace *space, gsl_matrix *cova
     o->scene = scene_of(f, at->data);
     o->scene.friction = o->friction.value;
     o->scene.static_friction = o->static_friction.value;
-    o->scene.settle = find_fall(&o->scene, f->steps) - f->r->first;
+    o->scene.settle = find_fall(&o->scene, f->steps, &f->status) - f->r->first;
     o->scene.duration = o->scene.rate = 1;
     o->slips = o->scene.settle >= 0 && ss_scene_check(&o->scene, NULL) == SS_OK
                && o->left < f->r->power;
