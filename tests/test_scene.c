@@ -166,6 +166,8 @@ static const struct { const char *text, *setting; ss_status status; const char *
       "my.scene:6: missing key 'base_amplitude': the base moves by it" },
     { "model=coulomb\n" GOOD "base_file = z.tsv\n", NULL, SS_EDATA, "my.scene:7: base_file and base_amplitude "
       "exclude each other: the base moves by one of them" },
+    { "model=coulomb\n" GOOD "base_column = z\n", NULL, SS_EDATA,
+      "my.scene:7: base_column is one of base_file, which is missing" },
     { "base_file = ../z.tsv\n", NULL, SS_EDATA,
       "my.scene:1: base_file leads out of the scene's folder; a file there or below is meant" },
     { "base_file = a/../../z.tsv\n", NULL, SS_EDATA,

@@ -312,6 +312,15 @@ tool_read_coefficients(const char *path)
     return coefficients;
 }
 
+void
+tool_check_base(ss_status status, const ss_error *err)
+{
+    const char *hint = tool_hint(status, err);
+    if (strncmp(hint, "; --", 4) == 0)
+        tool_die("%s; a base is read as it is, and ss-cat writes it anew: %s", err->text, hint + 2);
+    tool_check(status, err);
+}
+
 ss_scene
 tool_read_scene(const char *path, const tool_texts *settings)
 {
@@ -325,7 +334,7 @@ tool_read_scene(const char *path, const tool_texts *settings)
         tool_usage("--set: %s", err.text);
     tool_check(st, &err);
     static ss_base *base;               /* the last one; it lives as long as the scene */
-    tool_check(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
+    tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
     return scene;
 }
 

@@ -26,6 +26,8 @@ void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
+/* The same for the file of a base, which is read without options. */
+void tool_check_base(ss_status status, const ss_error *err);
 /* A hint how to remedy a failure, "; text", or "". */
 const char *tool_hint(ss_status status, const ss_error *err);
 

@@ -166,7 +166,7 @@ set_base(ss_scene *scene, const char *given)
         *colon = '\0';
         column = colon + 1;
     }
-    tool_check(ss_base_load(&base, tool_reads(path), column, &err), &err);
+    tool_check_base(ss_base_load(&base, tool_reads(path), column, &err), &err);
     const char *slash = strrchr(path, '/');
     snprintf(scene->base_file, sizeof scene->base_file, "%s", slash != NULL ? slash + 1 : path);
     snprintf(scene->base_column, sizeof scene->base_column, "%s", column);

@@ -348,6 +348,10 @@ check_keys(const ss_scene *scene, given *g, struct key_origin last, ss_error *er
     long file = *line_of(g, find_key("base_file"));
     if (file != 0 && scene->base_amplitude != 0)
         return fail_at((struct key_origin){ last.name, file }, err, BASES);
+    long column = *line_of(g, find_key("base_column"));
+    if (column != 0 && file == 0)
+        return fail_at((struct key_origin){ last.name, column }, err,
+                       "base_column is one of base_file, which is missing");
     long s = *line_of(g, find_key("static_friction")), f = *line_of(g, find_key("friction"));
     if (s != 0 && scene->static_friction < scene->friction)
         return fail_at((struct key_origin){ last.name, s < 0 || f < 0 ? -1 : s }, err,

@@ -24,6 +24,13 @@ refused ss-sim -s base_file=none.tsv folder/my.scene
 refused ss-sim -b folder/z.tsv -o folder/z.tsv coulomb
 printf 't,z (mm)\n0,1\n1,2\n2,3\n3,2\n4,1\n5,0\n' > mm.csv
 refused ss-sim -b mm.csv coulomb
+printf 't,z (m)\n0,1\n1,2\n2,3\n5,2\n6,1\n7,0\n' > gap.csv
+refused ss-sim -b gap.csv coulomb
+ss-cat -q --gaps=interpolate gap.csv -o whole.tsv
+ss-sim -e -b whole.tsv -s settle=0 -s duration=1 coulomb | grep -c '^# base_file: whole.tsv'
+printf 't,z (m)\n0,1\n1,2\n2,3\n1,2\n4,1\n5,0\n' > folder/back.csv
+sed 's/z.tsv/back.csv/' folder/my.scene > folder/back.scene
+refused ss-sim folder/back.scene
 refused ss-sweep --vary friction=1:1.2:2 folder/my.scene | grep -v '^#'
 refused ss-rank folder/z.tsv folder/my.scene
 ss-sim --accuracy 1e-6 folder/my.scene | grep -c -v '^#'
