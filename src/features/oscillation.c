@@ -226,8 +226,11 @@ report(search *s, const ss_window *window, const ss_value all[2], const ss_value
 {
     ss_features *out = s->out;
     set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
-    if (!(out->damping_ratio.value > POSITIVE * out->damping_ratio.error))
+    if (!isnan(out->frequency.value)
+        && !(out->damping_ratio.value > POSITIVE * out->damping_ratio.error)) {
         out->damping_ratio = unknown;
+        out->why_ringing = "the damping ratio is less than three of its standard errors";
+    }
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
         if (i + 1 < out->n && tr[1].onset > tr->onset

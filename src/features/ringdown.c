@@ -23,6 +23,7 @@
 
 #define GROWTH 1.25             /* of the longest window from one fit to the next */
 #define KEPT 0.6                /* of the windows where micro-slips are left out: a train keeps less */
+#define LASTING 3.0             /* times s: more in a window is not missed, as 5 % are left then */
 enum { ENOUGH = 256 };          /* windows for a fit while they still grow */
 #define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
 #define START 0.03              /* s / w that the fit starts from */
@@ -154,12 +155,13 @@ grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int 
     return fit_shared(k, window, n, COARSE, ok);
 }
 
-static size_t
-samples_in(const ss_window *window, size_t n)
+/* The samples in all windows, of each as many as an oscillation lasts at most. */
+static double
+samples_in(const ss_window *window, size_t n, double lasting)
 {
-    size_t sum = 0;
+    double sum = 0;
     for (size_t i = 0; i < n; i++)
-        sum += ss_window_length(window[i]);
+        sum += fmin((double)ss_window_length(window[i]), lasting);
     return sum;
 }
 
@@ -168,7 +170,8 @@ samples_in(const ss_window *window, size_t n)
 static ss_status
 leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
 {
-    const size_t grown = samples_in(window, n);
+    const double lasting = k->fit.s > 0 ? LASTING / k->fit.s : INFINITY;
+    const double grown = samples_in(window, n, lasting);
     ss_status st = SS_OK;
     for (;;) {
         size_t at = 0;
@@ -177,7 +180,7 @@ leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
             st = fit_shared(k, window, n, FIT_FINE, ok);
         for (; st == SS_OK && *ok && at == 0 && from_end < 2; from_end++)
             st = ss_slips_find(k, window, n, from_end, &at);
-        *ok = *ok && (double)samples_in(window, n) >= KEPT * (double)grown;
+        *ok = *ok && samples_in(window, n, lasting) >= KEPT * grown;
         if (at == 0 || !*ok || st != SS_OK)
             return st;
         if (!ss_sticks_split(k, window, n, at, --from_end))
