@@ -241,6 +241,29 @@ dense_grid_has_a_coefficient_a_sample(void **state)
     }
 }
 
+/* The longest scales of a long record, dense, which a thinner circle serves. */
+static void
+long_dense_scales_are_as_exact_by_either_engine(void **state)
+{
+    enum { N = 1000003 };
+    double *x = test_malloc(N * sizeof *x), differs = 1;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    for (size_t i = 0; i < N; i++)
+        x[i] = sin(2e-10 * (double)i * (double)i) + (i > N / 3);
+    opts.dense = opts.octaves = opts.force = opts.voices = 1;
+    opts.m0 = 15, opts.m1 = 17;
+    opts.accuracy = 1e-12;
+    ss_morlet *plan = plan_of(N, 1, &opts);
+    double *w = test_malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_OK);
+    assert_int_equal(ss_morlet_compare(plan, x, w, 5, &differs, NULL), SS_OK);
+    assert_true(differs <= 2e-12);
+    ss_morlet_free(plan);
+    test_free(w);
+    test_free(x);
+}
+
 static void
 default_scales_are_four_cycles_a_record_to_the_highest_resolved(void **state)
 {
@@ -487,6 +510,7 @@ main(void)
         cmocka_unit_test(steps_are_fractions_of_samples_just_below_the_one_asked_for),
         cmocka_unit_test(exact_steps_are_the_scale_times_the_step),
         cmocka_unit_test(dense_grid_has_a_coefficient_a_sample),
+        cmocka_unit_test(long_dense_scales_are_as_exact_by_either_engine),
         cmocka_unit_test(default_scales_are_four_cycles_a_record_to_the_highest_resolved),
         cmocka_unit_test(edges_are_within_the_cone),
         cmocka_unit_test(refuses_what_is_not_usable),

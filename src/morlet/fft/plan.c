@@ -94,12 +94,15 @@ choose_bounds(struct fft *f, double nd, double accuracy)
         f->images[0] = images;
 }
 
-/* Samples that a point may stand for, the shortest scale being so many samples. */
+/* Samples that a point may stand for, the shortest scale being so many samples.  A dense scale has weights
+ * for no more of them. */
 static size_t
-samples_for(const struct fft *f, double shortest, size_t most)
+samples_for(const struct fft *f, double shortest, int dense)
 {
     double omega = (f->center + f->half[1]) / shortest;
-    size_t samples = 1;
+    size_t samples = 1, most = f->n / 8;
+    if (dense && most > DENSE_PHASES_MAX)
+        most = DENSE_PHASES_MAX;
     while ((double)(16 * samples) * omega <= 2 * M_PI && samples < most)
         samples *= 2;
     return samples < 4 ? 1 : samples;
@@ -111,7 +114,7 @@ choose_window(struct fft *f, ss_morlet *plan)
 {
     level *lev = &f->level[0];
     double shortest = plan->scale[plan->n_scales - 1].a * f->rate;
-    lev->samples = samples_for(f, shortest, f->n / 8);
+    lev->samples = samples_for(f, shortest, plan->opts.dense);
     size_t margin = lev->samples > 1 ? 2 * SPREAD_TAPS : 0;
     double least = (double)f->n / (double)lev->samples + (double)margin;
     lev->points = good_points(least, lattice_factor(plan));
@@ -141,7 +144,7 @@ choose_levels(struct fft *f, const ss_morlet *plan)
     }
     if (far == 0)
         return;
-    one->samples = samples_for(f, (double)near / REACH, f->n / 8);
+    one->samples = samples_for(f, (double)near / REACH, plan->opts.dense);
     double least = (double)(f->n + far) / (double)one->samples + 3 * SPREAD_TAPS;
     one->points = good_points(least, factor);
     one->reach = far;
