@@ -72,8 +72,9 @@ free_motion(const exact *x, double u, turn swing, double *C, double *S, double *
     }
     *S = x->w > 0 ? swing.si / x->w : swing.co * u;
     *C = swing.co + x->s * *S;
-    double fall = x->s == 0 && swing.co > 0 ? swing.si * swing.si / (1 + swing.co)  /* no cancellation */
-        : 1 - *C;
+    double fall = 1 - *C;
+    if (x->s == 0 && swing.co > 0)          /* the same without cancellation */
+        fall = swing.si * swing.si / (1 + swing.co);
     *G = fall / x->k_m;
 }
 

@@ -5,14 +5,15 @@
 #include <math.h>
 #include <string.h>
 
-/* At most so many, of which so many may come no nearer by a quarter (at the end of a line of motions, where
- * the root is a double one, each comes nearer by half). */
+/* At most so many, of which so many may come no nearer by a quarter.  (At the end of a line of motions,
+ * where the root is a double one, each comes nearer by half.) */
 enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
 /* The part of a distance by which a motion may miss what the derivative at its limit says. */
 #define NONLINEAR 0.3
 /* The same for the change of the part that shrinks least: it must go the same way. */
 #define SAME_WAY 0.8
-/* So near 1, a multiplier says nothing of how a motion is approached, as at the end of a line of motions. */
+/* So near 1, a multiplier says nothing of how a motion is approached, as at the end of a line of
+ * motions. */
 #define NEUTRAL 1e-6
 /* And the part of the first distance that it may be off by, as walks are no more accurate. */
 #define MEASURABLE 0.01
