@@ -13,9 +13,8 @@
 typedef double height(double t, double m);      /* dB */
 
 static ss_coefficients *
-map_of(height *h, double step)
+long_map_of(height *h, double step, size_t samples)
 {
-    enum { N = 4000 };
     ss_header *head = ss_header_new(1000, 0);
     ss_signal *signal = NULL;
     ss_coefficients *coef = NULL;
@@ -23,7 +22,7 @@ map_of(height *h, double step)
     opts.octaves = 1, opts.m0 = -6, opts.m1 = -2, opts.voices = 8, opts.step = step;
     opts.dense = step == 0, opts.force = 1;
     ss_header_add_column(head, "a", "");
-    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, samples), SS_OK);
     assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
     for (size_t i = 0; i < coef->n_scales; i++) {
         const ss_scale *sc = &coef->scale[i];
@@ -35,6 +34,12 @@ map_of(height *h, double step)
     ss_header_free(head);
     ss_signal_free(signal);
     return coef;
+}
+
+static ss_coefficients *
+map_of(height *h, double step)
+{
+    return long_map_of(h, step, 4000);
 }
 
 /* A hill of given height at (t, m), falling by 40 dB in 0.5 s or 2 octaves, as a cone. */
@@ -82,6 +87,36 @@ prominence_is_the_fall_to_the_highest_saddle(void **state)
         free(peak);
         ss_coefficients_free(coef);
     }
+}
+
+#define APART 1.7
+
+static double
+declining_hills(double t, double m)
+{
+    return 10 * cos(2 * M_PI * t / APART) - 0.01 * t - 10 * (m + 4) * (m + 4);
+}
+
+/* 700 s, five million points: more than are in memory at a time.  Each hill falls 20 dB, less what the
+ * saddle behind the hill before, which is higher, lies higher. */
+static void
+long_maps_have_no_seams(void **state)
+{
+    ss_coefficients *coef = long_map_of(declining_hills, 0.1, 700000);
+    ss_maximum *peak = NULL;
+    size_t n = 0;
+    (void)state;
+    const ss_scale *last = &coef->scale[coef->n_scales - 1];
+    assert_true(last->offset + last->n > 5000000);
+    assert_int_equal(ss_maxima_find(&peak, &n, coef, 0), SS_OK);
+    assert_int_equal(n, 411);
+    assert_true(isinf(peak[0].prominence));
+    for (size_t k = 0; k < n; k++) {
+        assert_true(fabs(peak[k].t - (double)(k + 1) * APART) <= 0.1 * 0x1p-4);
+        assert_true(k == 0 || fabs(peak[k].prominence - (20 - 0.01 * APART / 2)) < 0.002);
+    }
+    free(peak);
+    ss_coefficients_free(coef);
 }
 
 static double
@@ -254,6 +289,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prominence_is_the_fall_to_the_highest_saddle),
+        cmocka_unit_test(long_maps_have_no_seams),
         cmocka_unit_test(slopes_plateaus_and_borders_are_no_maxima),
         cmocka_unit_test(the_border_is_higher_ground),
         cmocka_unit_test(silence_has_no_maxima),

@@ -94,6 +94,28 @@ reads_stiffness_and_damping(void **state)
     }
 }
 
+/* 600 transitions: windows grow about some of them, many are left out at a time, and the map has several
+ * strips. */
+static void
+reads_long_records_as_well(void **state)
+{
+    static const struct { const char *name; int level; } run[] = { { "compliant-heavy", 0 },
+                                                                   { "compliant-light", 1 } };
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        ss_scene scene = scene_of(run[i].name);
+        scene.duration = 120;
+        ss_features *f = features_of(&scene, level[run[i].level].snr, 1);
+        double K = f->total_stiffness.value / stiffness(&scene) - 1;
+        double z = f->damping_ratio.value / ratio(&scene) - 1;
+        if (!(fabs(K) <= level[run[i].level].stiffness && fabs(z) <= level[run[i].level].ratio))
+            fail_msg("%s: stiffness off by %g, damping by %g", run[i].name, K, z);
+        assert_true(fabs((double)f->n - 600) <= 2);
+        assert_true(f->recurring + 2 >= f->n);
+        ss_features_free(f);
+    }
+}
+
 /* Stiff and soft, light and heavy: within bounds, or refused. */
 static void
 reads_stiff_and_soft_contacts(void **state)
@@ -570,6 +592,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_stiffness_and_damping),
+        cmocka_unit_test(reads_long_records_as_well),
         cmocka_unit_test(reads_stiff_and_soft_contacts),
         cmocka_unit_test(refuses_sticks_under_two_periods),
         cmocka_unit_test(compliant_contacts_have_local_maxima_and_others_not),
