@@ -204,7 +204,7 @@ check-all:
 	@$(MAKE) --no-print-directory bench-errors
 
 bench-errors: $(BENCHES:%=$(BUILD)/tests/%)
-	@for b in $^; do $$b || exit 1; done
+	@failed=0; for b in $^; do $$b || failed=1; done; exit $$failed
 
 # Objects instrumented for libFuzzer are a tree of their own.
 FUZZ_SECONDS ?= 60
@@ -251,11 +251,12 @@ draw-maps: all
 check-cluster: all
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" sh tests/cluster/run.sh
 
-bench: all bench-errors
+bench: all
 	@CCLD=$(call quote,$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)) LIBS=$(call quote,$(LIBS)) \
 		BUILD=$(call quote,$(BUILD)) PYTHON=$(call quote,$(PYTHON)) sh tests/bench/run.sh
 	@! command -v $(PYTHON) > /dev/null || \
 		$(PYTHON) tests/bench/compare_morlet.py $(BUILD)/$(SHARED)
+	@$(MAKE) --no-print-directory bench-errors
 
 # --- install ---------------------------------------------------------------------------------
 # DESTDIR may have blanks; PREFIX may not, it stands in rpath.

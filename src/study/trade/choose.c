@@ -20,7 +20,7 @@ const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
  * of the methods only. */
 static const struct cost { const char *method; double rhs; unsigned a_step; int at_samples; }
 cost[] = {
-    { TAYLOR, 0.5, 12, 0 }, { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 },
+    { TAYLOR, 0.4, 12, 0 }, { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 },
     { "rk4", 1, 11, 1 },
     { "rk2", 1.2, 3, 1 }, { "rk1imp", 3.5, 9, 1 }, { "rk2imp", 3.5, 9, 1 },
     { "rk4imp", 3.3, 17, 1 }, { "bsimp", 3, 50, 1 }, { "msadams", 4.6, 3, 0 },
