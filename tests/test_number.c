@@ -10,6 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include <stickslip/signal.h>
+#include "base/number.h"
 #include "stream/rows.h"
 
 static uint64_t
@@ -135,6 +136,31 @@ reads_any_number_of_digits_as_strtod_does(void **state)
     }
 }
 
+/* Without an exponent, with zeros at either end, and with a comma, where NaN asks for strtod. */
+static void
+reads_fixed_decimals_with_either_mark(void **state)
+{
+    uint64_t seed = 11;
+    int refused = 0;
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        char text[400], *end, *mark;
+        double size = (double)(next_random(&seed) % 41) - 20;
+        double x = pow(10, size) * ((double)next_random(&seed) / 0x1p63 - 1);
+        snprintf(text, sizeof text, "%.*f", (int)(next_random(&seed) % 30), x);
+        double should = strtod(text, NULL), point = ss_number_parse(text, &end);
+        if (memcmp(&point, &should, sizeof point) != 0 || *end != '\0')
+            fail_msg("%s read as %.17g", text, point);
+        if ((mark = strchr(text, '.')) != NULL)
+            *mark = ',';
+        double comma = ss_number_parse_point(text, ',', &end);
+        refused += isnan(comma);
+        if ((memcmp(&comma, &should, sizeof comma) != 0 && !isnan(comma)) || *end != '\0')
+            fail_msg("%s read as %.17g", text, comma);
+    }
+    assert_in_range(refused, 0, 300);
+}
+
 static void
 reads_hard_cases(void **state)
 {
@@ -221,6 +247,7 @@ main(void)
         cmocka_unit_test(writes_the_extremes),
         cmocka_unit_test(lays_numbers_out_as_percent_g_does),
         cmocka_unit_test(reads_any_number_of_digits_as_strtod_does),
+        cmocka_unit_test(reads_fixed_decimals_with_either_mark),
         cmocka_unit_test(reads_hard_cases),
         cmocka_unit_test(stops_where_the_number_ends),
         cmocka_unit_test(a_fixed_number_is_never_cut),

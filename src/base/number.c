@@ -15,6 +15,7 @@
 #include <xlocale.h>
 #endif
 #include <stickslip/number.h>
+#include "base/number.h"
 #include "number_pow10.h"       /* made by data/number_pow10.sh */
 
 struct wide {
@@ -189,10 +190,29 @@ struct decimal {
     int dropped;        /* a digit other than 0 did not fit in w */
 };
 
-static const char *
-scan_digits(struct decimal *d, const char *p, int behind_point)
+/* The digit, or 10 or more. */
+static inline unsigned
+digit_of(char c)
 {
-    for (; *p >= '0' && *p <= '9'; p++) {
+    return (unsigned)(unsigned char)c - '0';
+}
+
+/* Digits behind those of w, which are right as long as all fit into it. */
+static inline const char *
+scan_short(uint64_t *w, const char *p)
+{
+    uint64_t all = *w;
+    for (unsigned digit; (digit = digit_of(*p)) < 10; p++)
+        all = all * 10 + digit;
+    *w = all;
+    return p;
+}
+
+/* The same, of any length. */
+static const char *
+scan_long(struct decimal *d, const char *p, int behind_point)
+{
+    for (; digit_of(*p) < 10; p++) {
         if (d->w < UINT64_C(1000000000000000000)) {
             d->w = d->w * 10 + (uint64_t)(*p - '0');
             d->e -= behind_point;
@@ -204,29 +224,39 @@ scan_digits(struct decimal *d, const char *p, int behind_point)
     return p;
 }
 
+/* Digits and a point; the end, or NULL if there is no digit. */
+static const char *
+scan_digits(struct decimal *d, const char *start, char mark)
+{
+    enum { MOST = 19 };
+    const char *p = scan_short(&d->w, start), *point = *p == mark ? p : NULL;
+    if (point != NULL)
+        p = scan_short(&d->w, point + 1);
+    size_t digits = (size_t)(p - start) - (point != NULL);
+    if (digits == 0)
+        return NULL;
+    d->e = point != NULL ? point + 1 - p : 0;
+    if (digits <= MOST)
+        return p;
+    *d = (struct decimal){ 0, 0, 0 };
+    p = scan_long(d, start, 0);
+    return point != NULL ? scan_long(d, p + 1, 1) : p;
+}
+
 /* The unsigned number at p; its end, or NULL if there is none. */
 static const char *
-scan(struct decimal *d, const char *p)
+scan(struct decimal *d, const char *p, char point)
 {
-    const char *start = p;
-    p = scan_digits(d, p, 0);
-    if (*p == '.') {
-        const char *q = scan_digits(d, p + 1, 1);
-        if (q == p + 1 && p == start)
-            return NULL;
-        p = q;
-    } else if (p == start) {
-        return NULL;
-    }
-    if (*p != 'e' && *p != 'E')
+    p = scan_digits(d, p, point);
+    if (p == NULL || (*p != 'e' && *p != 'E'))
         return p;
     const char *q = p + 1;
     int negative = *q == '-';
     long e = 0;
     q += *q == '-' || *q == '+';
-    if (*q < '0' || *q > '9')
+    if (digit_of(*q) >= 10)
         return p;
-    for (; *q >= '0' && *q <= '9'; q++)
+    for (; digit_of(*q) < 10; q++)
         if (e < 100000000)
             e = e * 10 + (*q - '0');
     d->e += negative ? -e : e;
@@ -289,13 +319,8 @@ strtod_in_c(const char *text)
 }
 
 double
-ss_number_parse(const char *text, char **end)
+ss_number_parse_point(const char *text, char point, char **end)
 {
-    if (text == NULL) {
-        if (end != NULL)
-            *end = NULL;
-        return 0;
-    }
     static const double pow10[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     struct decimal d = { 0, 0, 0 };
@@ -306,9 +331,8 @@ ss_number_parse(const char *text, char **end)
         p++;
     const char *start = p;
     int negative = *p == '-';
-    p = scan(&d, p + (*p == '-' || *p == '+'));
-    if (end != NULL)
-        *end = (char *)(p != NULL ? p : text);
+    p = scan(&d, p + (*p == '-' || *p == '+'), point);
+    *end = (char *)(p != NULL ? p : text);
     if (p == NULL)
         return 0;
     while (d.w >> 53 && d.w % 10 == 0) {        /* 1.000000000000000000e+00, as NumPy writes it */
@@ -321,6 +345,18 @@ ss_number_parse(const char *text, char **end)
     else if (exact && d.e < 0 && d.e >= -22)
         x = (double)d.w / pow10[-d.e];
     else if (d.w != 0 && !multiply(d, &x))
-        return strtod_in_c(start);
+        return point == '.' ? strtod_in_c(start) : NAN;
     return negative ? -x : x;
+}
+
+double
+ss_number_parse(const char *text, char **end)
+{
+    char *ignored;
+    if (text == NULL) {
+        if (end != NULL)
+            *end = NULL;
+        return 0;
+    }
+    return ss_number_parse_point(text, '.', end != NULL ? end : &ignored);
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/list.h"
+#include "base/number.h"
 #include "base/utf8.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
@@ -171,23 +172,17 @@ read_cell(struct table *t, size_t i, double *value, ss_error *err)
 static int
 read_plain(const struct table *t, char *p, double *row)
 {
+    const char point = t->separator == ',' || t->mark == '\0' ? '.' : t->mark;
     char *end;
+    if (t->separator != ',' && t->mark == '\0' && strpbrk(p, ".,") != NULL)
+        return 0;
     for (size_t i = 0; i < t->n_columns; i++, p = end + 1) {
         while (*p == ' ')
             p++;
-        char *mark = p + (*p == '-');
-        if (t->column[i].kind != COLUMN_NUMBERS || *mark < '0' || *mark > '9')
+        const char *digit = p + (*p == '-');
+        if (t->column[i].kind != COLUMN_NUMBERS || *digit < '0' || *digit > '9')
             return 0;
-        while (*mark >= '0' && *mark <= '9')
-            mark++;
-        int comma = *mark == ',' && t->separator != ',';
-        if ((comma || *mark == '.') && t->separator != ',' && *mark != t->mark)
-            return 0;
-        if (comma)
-            *mark = '.';
-        row[i] = ss_number_parse(p, &end);
-        if (comma)
-            *mark = ',';
+        row[i] = ss_number_parse_point(p, point, &end);
         if (*end != (i + 1 < t->n_columns ? t->separator : '\0') || !isfinite(row[i]))
             return 0;
     }
