@@ -136,12 +136,12 @@ reads_any_number_of_digits_as_strtod_does(void **state)
     }
 }
 
-/* Without an exponent, with zeros at either end, and with a comma, where NaN asks for strtod. */
+/* Without an exponent, with zeros at either end, and with a comma, where NaN asks for strtod: never for
+ * numbers that fit into 19 digits. */
 static void
 reads_fixed_decimals_with_either_mark(void **state)
 {
     uint64_t seed = 11;
-    int refused = 0;
     (void)state;
     for (int i = 0; i < 300000; i++) {
         char text[400], *end, *mark;
@@ -154,11 +154,10 @@ reads_fixed_decimals_with_either_mark(void **state)
         if ((mark = strchr(text, '.')) != NULL)
             *mark = ',';
         double comma = ss_number_parse_point(text, ',', &end);
-        refused += isnan(comma);
-        if ((memcmp(&comma, &should, sizeof comma) != 0 && !isnan(comma)) || *end != '\0')
+        int refused = isnan(comma) && strlen(text) > 20;
+        if ((memcmp(&comma, &should, sizeof comma) != 0 && !refused) || *end != '\0')
             fail_msg("%s read as %.17g", text, comma);
     }
-    assert_in_range(refused, 0, 300);
 }
 
 static void
