@@ -568,6 +568,9 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_signal(out, NULL, NULL, 0, opts, &e), &e);
     assert_refused(ss_plot_signal(out, &signal, NULL, 1, opts, &e), &e);
     assert_refused(ss_plot_signal(out, &signal, NULL, 0, NULL, &e), &e);
+    ss_signal *thin;
+    size_t rows;
+    assert_refused(ss_plot_envelope(&thin, &rows, NULL, y, 1, &(ss_plot_opts){ 0 }, &e), &e);
     assert_refused(ss_plot_xy(NULL, &signal, 0, 0, opts, &e), &e);
     assert_refused(ss_plot_xy(out, NULL, 0, 0, opts, &e), &e);
     assert_refused(ss_plot_xy(out, &signal, 0, 0, NULL, &e), &e);

@@ -133,6 +133,62 @@ signal_script(const ss_signal *signal, const ss_plot_opts *opts)
     return text;
 }
 
+/* A signal as it comes through a file in AU, as it is drawn from opts->from to opts->to. */
+static ss_signal *
+read_envelope(const ss_signal *signal, ss_plot_opts *opts)
+{
+    FILE *file = tmpfile();
+    ss_reader *reader = NULL;
+    ss_signal *thin = NULL;
+    ss_error err = { 0 };
+    size_t rows = 0;
+    assert_int_equal(ss_signal_write(signal, file, SS_AU, NULL), SS_OK);
+    rewind(file);
+    assert_int_equal(ss_reader_new(&reader, file, "file", NULL, NULL), SS_OK);
+    if (ss_plot_envelope(&thin, &rows, reader, (size_t[]){ 0 }, 1, opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    assert_int_equal(rows, signal->n);
+    ss_reader_free(reader);
+    fclose(file);
+    return thin;
+}
+
+/* Of a signal of more values than are kept each pair is what its samples have, which begin with the
+ * one at the span's start; a shorter one stays as it is. */
+static void
+an_envelope_has_the_extremes_of_each_block(void **state)
+{
+    static const size_t length[] = { 1000, (1 << 20) - 1, 1 << 20, 2500001 };
+    static const double from[] = { NAN, NAN, NAN, 17.25 }, to[] = { NAN, 1e9, NAN, 2400 };
+    (void)state;
+    for (size_t row = 0; row < 4; row++) {
+        size_t n = length[row], first = row < 3 ? 0 : 12250;
+        ss_signal *signal = new_signal(n, 1000, 5, "a", "");
+        ss_plot_opts opts = ss_plot_defaults;
+        ss_noise_add_once(signal->values, n, 1, 1);
+        opts.from = from[row], opts.to = to[row];
+        ss_signal *thin = read_envelope(signal, &opts);
+        const double *x = signal->values, *pair = thin->values;
+        size_t each = row < 3 ? 1 : (size_t)round(2 * signal->head->rate / thin->head->rate);
+        size_t end = row < 3 ? n : 2395001;
+        assert_true(thin->head->start == 5 + (double)first / 1000);
+        assert_int_equal(thin->n, (row < 3 ? 1 : 2) * ((end - first + each - 1) / each));
+        for (size_t i = first; i < end; i += each, pair += row < 3 ? 1 : 2) {
+            size_t low = i, high = i;
+            for (size_t k = i; k < i + each && k < end; k++) {
+                low = x[k] < x[low] ? k : low;
+                high = x[k] > x[high] ? k : high;
+            }
+            assert_true(pair[0] == x[low < high ? low : high]);
+            assert_true(row < 3 || pair[1] == x[low < high ? high : low]);
+        }
+        if (row == 3)
+            assert_true(opts.from == from[row] && opts.to == to[row]);
+        ss_signal_free(thin);
+        ss_signal_free(signal);
+    }
+}
+
 static void
 a_spike_of_one_sample_in_a_million_is_drawn(void **state)
 {
@@ -514,6 +570,7 @@ main(void)
         cmocka_unit_test(a_cone_has_a_circle),
         cmocka_unit_test(every_crossing_of_a_rough_map_is_passed_once),
         cmocka_unit_test(a_flat_map_has_no_lines),
+        cmocka_unit_test(an_envelope_has_the_extremes_of_each_block),
         cmocka_unit_test(a_spike_of_one_sample_in_a_million_is_drawn),
         cmocka_unit_test(text_of_files_stands_between_quotes),
         cmocka_unit_test(names_of_ten_thousand_characters_are_cut),

@@ -49,9 +49,8 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 }
 
 static size_t
-find_signal_column(const drawing *d, const char *path, const char *name)
+find_signal_column(const drawing *d, const ss_header *head, const char *path, const char *name)
 {
-    const ss_header *head = d->signal->head;
     if ((strcmp(name, "t") == 0 || strcmp(name, "time") == 0) && ss_header_column(head, name) < 0)
         tool_die("%s: time is the clock, not a column%s", tool_input_name(path), d->xy
                  ? "; --column Y draws Y over it" : ", which every panel has as its axis");
@@ -188,21 +187,74 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
 
 /* --- the whole ----------------------------------------------------------------------------- */
 
+/* The columns that are named, or all. */
+static void
+choose_columns(drawing *d, const ss_header *head, const char *path, const tool_texts *name)
+{
+    d->n = name->n > 0 ? name->n : head->n_columns;
+    d->column = malloc((d->n + 1) * sizeof *d->column);
+    if (d->column == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (size_t i = 0; i < d->n; i++)
+        d->column[i] = name->n > 0 ? find_signal_column(d, head, path, name->text[i]) : i;
+}
+
+/* Leave each column once in `of`, and in the drawing its place there. */
+static size_t
+name_once(drawing *d, size_t of[])
+{
+    size_t n = 0;
+    for (size_t i = 0, at; i < d->n; i++) {
+        for (at = 0; at < n && of[at] != d->column[i]; at++)
+            ;
+        of[at] = d->column[i];
+        n += at == n;
+        d->column[i] = at;
+    }
+    return n;
+}
+
+/* Columns over time, in constant memory. */
+static ss_signal *
+read_envelope(drawing *d, const char *path, const tool_texts *name, const ss_read_opts *reading,
+              ss_plot_opts *opts)
+{
+    ss_error err = { 0 };
+    ss_signal *signal;
+    size_t rows;
+    ss_reader *reader = tool_read_rows(path, reading);
+    const ss_header *head = ss_reader_header(reader);
+    choose_columns(d, head, path, name);
+    size_t *column = malloc((d->n + 1) * sizeof *column);
+    if (column == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    size_t n = name_once(d, column);
+    tool_check(ss_plot_envelope(&signal, &rows, reader, column, n, opts, &err), &err);
+    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), rows, head->n_columns);
+    ss_reader_free(reader);
+    free(column);
+    return signal;
+}
+
+static ss_signal *
+read_whole(drawing *d, const char *path, const tool_texts *name, const ss_read_opts *reading)
+{
+    ss_signal *signal = tool_read_signal(path, reading);
+    choose_columns(d, signal->head, path, name);
+    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
+              signal->head->n_columns);
+    return signal;
+}
+
 /* Draw the named columns of a signal, or all, or one over another, in the form of d. */
 static void
 draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *output,
             const ss_read_opts *reading, ss_plot_opts *opts)
 {
-    ss_signal *signal = tool_read_signal(path, reading);
+    int whole = d.xy || d.spectrum || over != NULL || reading->resample > 0;
+    ss_signal *signal = whole ? read_whole(&d, path, name, reading)
+        : read_envelope(&d, path, name, reading, opts);
     d.signal = signal;
-    d.column = malloc((name->n + 1) * sizeof *d.column);
-    d.n = name->n;
-    if (d.column == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (size_t i = 0; i < d.n; i++)
-        d.column[i] = find_signal_column(&d, path, name->text[i]);
-    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
-              signal->head->n_columns);
     ss_signal *other = over != NULL ? tool_read_signal(over, NULL) : NULL;
     opts->over = other;
     tool_draw(output, opts, write_script, &d);

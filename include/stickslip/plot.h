@@ -35,6 +35,11 @@ extern const ss_plot_opts ss_plot_defaults;
  * signal. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
+/* Columns of a signal of any length for ss_plot_signal, in memory that does not grow: read to its end, it has
+ * *rows rows.  Up to 2^20 values are kept as they are; of more, the smallest and the largest of each of
+ * some 10^6 blocks in all within opts->from and to, which become the span of the picture. */
+ss_status ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t column[], size_t n,
+                           ss_plot_opts *opts, ss_error *err);
 /* One column over another: a phase plane or a friction loop.  Over it are drawn the columns of
  * opts->over of the same names, or else its first two. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,

@@ -1,7 +1,4 @@
-/* overview.c -- a recording of any length in one pass, thinned to what a picture shows of it.
- *
- * A row of blocks holds the largest of as many values each, a power of 2; when all its blocks are
- * full, each two become one, and blocks are twice as long from there on. */
+/* overview.c -- a recording of any length in one pass, thinned to what a picture shows of it. */
 #include <stickslip/overview.h>
 
 #include <math.h>
@@ -9,19 +6,10 @@
 #include "base/error.h"
 #include "base/versions.h"
 #include "morlet/wavelet.h"
+#include "plot/extremes.h"
 #include "plot/noise_level.h"
 
 enum { BLOCKS = 4096 };
-
-/* The largest of each block; or of samples the smallest and the largest, in the order of their
- * times. */
-typedef struct row {
-    int order;                  /* a block has 2^order values */
-    size_t n;                   /* values so far */
-    double *most;               /* BLOCKS */
-    double *least;              /* BLOCKS; NULL: not wanted */
-    unsigned char *falls;       /* BLOCKS; 1: the largest comes before the smallest */
-} row;
 
 struct ss_overview {
     ss_header *head;            /* of the signal */
@@ -30,91 +18,14 @@ struct ss_overview {
     ss_stream *stream;
     ss_span *gap;
     size_t n_gaps;
-    row samples, *scale;        /* one of each scale */
+    extremes samples, *scale;   /* of |W|, of each scale */
     noise_level *noise;
     double top, noise_begins;
     ss_coefficients result;
     ss_signal *signal;
 };
 
-/* --- rows of blocks ------------------------------------------------------------------------ */
-
-static int
-make_row(row *r, int both)
-{
-    r->most = malloc(BLOCKS * sizeof *r->most);
-    r->least = both ? malloc(BLOCKS * sizeof *r->least) : NULL;
-    r->falls = both ? calloc(BLOCKS, 1) : NULL;
-    return r->most != NULL && (!both || (r->least != NULL && r->falls != NULL));
-}
-
-static void
-free_row(row *r)
-{
-    free(r->most);
-    free(r->least);
-    free(r->falls);
-}
-
-/* Which of two neighbours are the smallest and the largest, and in which order. */
-static void
-halve_least(row *r)
-{
-    for (size_t i = 0; i < BLOCKS / 2; i++) {
-        size_t a = 2 * i, b = a + 1, high = r->most[b] > r->most[a] ? b : a;
-        size_t low = r->least[b] < r->least[a] ? b : a;
-        r->falls[i] = high != low ? high < low : r->falls[high];
-        r->least[i] = r->least[low];
-    }
-}
-
-static void
-halve(row *r)
-{
-    if (r->least != NULL)
-        halve_least(r);
-    for (size_t i = 0; i < BLOCKS / 2; i++)
-        r->most[i] = r->most[2 * i + 1] > r->most[2 * i] ? r->most[2 * i + 1] : r->most[2 * i];
-    r->order++;
-}
-
-/* Of the next n values, how many lie in block *i, the first that has room. */
-static inline size_t
-next_block(row *r, size_t n, size_t *i)
-{
-    if (r->n >> r->order == BLOCKS)
-        halve(r);
-    *i = r->n >> r->order;
-    size_t room = ((*i + 1) << r->order) - r->n;
-    return room < n ? room : n;
-}
-
-/* Add m samples to block i, which they lie in. */
-static void
-add_to_block(row *r, size_t i, const double *x, size_t m)
-{
-    size_t high = 0, low = 0;
-    int first = r->n == i << r->order;
-    for (size_t k = 1; k < m; k++) {
-        high = x[k] > x[high] ? k : high;
-        low = x[k] < x[low] ? k : low;
-    }
-    int higher = first || x[high] > r->most[i], lower = first || x[low] < r->least[i];
-    if (higher || lower)
-        r->falls[i] = higher && lower ? high < low : lower;
-    r->most[i] = higher ? x[high] : r->most[i];
-    r->least[i] = lower ? x[low] : r->least[i];
-    r->n += m;
-}
-
-static void
-add_samples(row *r, const double *x, size_t n)
-{
-    for (size_t k = 0, m, i; k < n; k += m) {
-        m = next_block(r, n - k, &i);
-        add_to_block(r, i, x + k, m);
-    }
-}
+/* --- levels -------------------------------------------------------------------------------- */
 
 /* The largest of at least one value >= 0; lanes let the machine compare several at a time. */
 static inline double
@@ -137,11 +48,11 @@ largest_of(const double *x, size_t n)
 
 /* Add n levels, squares or not, of which a row has the roots; returns the largest root. */
 VERSIONS static double
-add_levels(row *r, const double *level, size_t n, int squares)
+add_levels(extremes *r, const double *level, size_t n, int squares)
 {
     double all = 0;
     for (size_t k = 0, m, i; k < n; k += m) {
-        m = next_block(r, n - k, &i);
+        m = ss_extremes_next(r, n - k, &i);
         double most = largest_of(level + k, m);
         most = squares ? sqrt(most) : most;
         r->most[i] = r->n == i << r->order || most > r->most[i] ? most : r->most[i];
@@ -149,12 +60,6 @@ add_levels(row *r, const double *level, size_t n, int squares)
         r->n += m;
     }
     return all;
-}
-
-static size_t
-blocks(const row *r)
-{
-    return (r->n + ((size_t)1 << r->order) - 1) >> r->order;
 }
 
 /* --- as coefficients come ------------------------------------------------------------------ */
@@ -261,9 +166,9 @@ ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const s
         st = ss_header_gaps(&o->gap, &o->n_gaps, head);
     int made = st == SS_OK && (o->head = ss_header_copy(head)) != NULL
         && (o->noise = ss_noise_level_new(scales)) != NULL
-        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && make_row(&o->samples, 1);
+        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && ss_extremes_make(&o->samples, BLOCKS, 1);
     for (size_t i = 0; made && i < scales; i++)
-        made = make_row(&o->scale[i], 0);
+        made = ss_extremes_make(&o->scale[i], BLOCKS, 0);
     if (made)
         return SS_OK;
     ss_overview_free(o);
@@ -278,7 +183,7 @@ ss_overview_push(ss_overview *o, const double *x, size_t n, ss_error *err)
         return SS_FAIL_NULL(err);
     ss_status st = ss_stream_push(o->stream, x, n, err);
     if (st == SS_OK)
-        add_samples(&o->samples, x, n);
+        ss_extremes_add(&o->samples, x, n);
     return st;
 }
 
@@ -287,20 +192,17 @@ ss_overview_push(ss_overview *o, const double *x, size_t n, ss_error *err)
 static ss_status
 make_signal(ss_overview *o)
 {
-    const row *r = &o->samples;
+    const extremes *r = &o->samples;
     ss_header *head;
-    size_t a_block = r->order > 0 ? 2 : 1;
+    size_t a_block = ss_extremes_each(r);
     ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0);
     if (st != SS_OK)
         return st;
     head->rate = ldexp(o->head->rate * (double)a_block, -r->order);
-    st = ss_signal_new(&o->signal, head, a_block * blocks(r));
+    st = ss_signal_new(&o->signal, head, a_block * ss_extremes_count(r));
     ss_header_free(head);
-    for (size_t i = 0; st == SS_OK && i < blocks(r); i++) {
-        double *x = o->signal->values + a_block * i;
-        x[0] = r->falls[i] ? r->most[i] : r->least[i];
-        x[a_block - 1] = r->falls[i] || a_block == 1 ? r->least[i] : r->most[i];
-    }
+    if (st == SS_OK)
+        ss_extremes_give(r, o->signal->values);
     return st;
 }
 
@@ -321,19 +223,19 @@ make_coefficients(ss_overview *o)
     if (c->n_scales < 2)
         return SS_EDATA;
     for (size_t i = first; i < scales; i++)
-        total += blocks(&o->scale[i]);
+        total += ss_extremes_count(&o->scale[i]);
     c->scale = malloc(c->n_scales * sizeof *c->scale);
     c->w = calloc(2 * total, sizeof *c->w);
     if (c->scale == NULL || c->w == NULL)
         return SS_ENOMEM;
     double *w = c->w;
     for (size_t i = first; i < scales; i++) {
-        const row *r = &o->scale[i];
+        const extremes *r = &o->scale[i];
         c->scale[i - first] = scale[i];
         c->scale[i - first].b_num = ldexp(scale[i].b_num, r->order);
-        c->scale[i - first].n = blocks(r);
+        c->scale[i - first].n = ss_extremes_count(r);
         c->scale[i - first].offset = (size_t)(w - c->w) / 2;
-        for (size_t k = 0; k < blocks(r); k++, w += 2)
+        for (size_t k = 0; k < ss_extremes_count(r); k++, w += 2)
             w[0] = r->most[k];
     }
     return ss_coefficients_header(&c->head, o->head, o->column, c->n, &o->opts);
@@ -387,9 +289,9 @@ ss_overview_free(ss_overview *o)
     if (o == NULL)
         return;
     for (size_t i = 0; o->scale != NULL && i < ss_stream_scales(o->stream); i++)
-        free_row(&o->scale[i]);
+        ss_extremes_free(&o->scale[i]);
     free(o->scale);
-    free_row(&o->samples);
+    ss_extremes_free(&o->samples);
     ss_noise_level_free(o->noise);
     ss_stream_free(o->stream);
     free(o->gap);

@@ -42,4 +42,18 @@ for file in long.csv comma.csv long.h5 long.h5:/signal/a; do
         [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command $file: $most KiB"
     done
 done
-rm long.csv comma.csv long.h5
+
+# A picture over time, of files and through a pipe.
+for file in long.csv long.h5; do
+    ss-plot -o long.gp $file &
+    most=$(high_water $!)
+    wait $!
+    [ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot $file: $most KiB"
+done
+mkfifo in
+ss-signal noise --rate 10000 --duration 10000 --format au > in &
+ss-plot -o long.gp < in &
+most=$(high_water $!)
+wait
+[ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot of 10^8 samples: $most KiB"
+rm in long.gp long.csv comma.csv long.h5

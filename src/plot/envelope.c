@@ -1,0 +1,139 @@
+/* envelope.c -- a signal of any length for a picture over time: what is longer than memory should hold becomes
+ * the extremes of blocks, many in each column of pixels. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "base/error.h"
+#include "plot/extremes.h"
+#include "plot/script.h"
+
+enum {
+    KEPT = 1 << 20,             /* values of a signal that is drawn as it is */
+    PIECE = 4096                /* rows at a time, and the least that are kept */
+};
+
+typedef struct envelope {
+    ss_reader *reader;
+    const ss_header *head;      /* of the source */
+    const size_t *column;
+    size_t n_columns;           /* of these */
+    size_t room;                /* rows, and blocks */
+    double *rows;               /* of the source: the first, then a piece */
+    size_t n;                   /* rows so far */
+    size_t first, end;          /* those that are drawn */
+    extremes *part;             /* of each column */
+} envelope;
+
+static ss_status
+read_start(envelope *e, ss_error *err)
+{
+    ss_status st = SS_OK;
+    for (size_t got = 1; st == SS_OK && got > 0 && e->n < e->room; e->n += got)
+        st = ss_reader_rows(e->reader, e->rows + e->n * e->head->n_columns, e->room - e->n, &got, err);
+    return st;
+}
+
+/* The rows that were read, as a signal. */
+static ss_status
+give_whole(const envelope *e, ss_header *head, ss_signal **out)
+{
+    ss_status st = ss_signal_new(out, head, e->n);
+    for (size_t c = 0; st == SS_OK && c < e->n_columns; c++)
+        for (size_t i = 0; i < e->n; i++)
+            (*out)->values[c * e->n + i] = e->rows[i * e->head->n_columns + e->column[c]];
+    return st;
+}
+
+/* Add rows of which the first is number at. */
+static void
+add_rows(envelope *e, size_t at, size_t n)
+{
+    double value[PIECE];
+    size_t from = at < e->first ? e->first - at : 0, end = e->end > at ? e->end - at : 0;
+    end = end < n ? end : n;
+    for (size_t m; from < end; from += m) {
+        m = end - from < PIECE ? end - from : PIECE;
+        for (size_t c = 0; c < e->n_columns; c++) {
+            for (size_t i = 0; i < m; i++)
+                value[i] = e->rows[(from + i) * e->head->n_columns + e->column[c]];
+            ss_extremes_add(&e->part[c], value, m);
+        }
+    }
+}
+
+static ss_status
+read_rest(envelope *e, ss_error *err)
+{
+    ss_status st = SS_OK;
+    e->part = calloc(e->n_columns, sizeof *e->part);
+    for (size_t c = 0; e->part != NULL && st == SS_OK && c < e->n_columns; c++)
+        st = ss_extremes_make(&e->part[c], e->room, 1) ? SS_OK : SS_ENOMEM;
+    if (e->part == NULL || st != SS_OK)
+        return ss_fail_memory(err, NULL);
+    add_rows(e, 0, e->n);
+    for (size_t got = 1; st == SS_OK && got > 0; e->n += got) {
+        st = ss_reader_rows(e->reader, e->rows, PIECE, &got, err);
+        add_rows(e, e->n, got);
+    }
+    return st;
+}
+
+/* The blocks as a signal; the span becomes that of the source. */
+static ss_status
+give_blocks(const envelope *e, ss_header *head, ss_signal **out, ss_plot_opts *opts, ss_error *err)
+{
+    script_span span;
+    ss_status st = ss_script_find_span(&span, e->head, e->n, opts, err);
+    if (st != SS_OK)
+        return st;
+    size_t n = ss_extremes_each(e->part) * ss_extremes_count(e->part);
+    head->start += (double)e->first / e->head->rate;
+    head->rate = ldexp((double)ss_extremes_each(e->part) * e->head->rate, -e->part->order);
+    st = ss_signal_new(out, head, n);
+    for (size_t c = 0; st == SS_OK && c < e->n_columns; c++)
+        ss_extremes_give(&e->part[c], (*out)->values + c * n);
+    opts->from = span.from;
+    opts->to = span.to;
+    return st;
+}
+
+/* Rows that are drawn: one more on either side, as ss_script_find_span has it. */
+static void
+choose_rows(envelope *e, const ss_plot_opts *opts)
+{
+    double first = floor((opts->from - e->head->start) * e->head->rate);
+    double end = ceil((opts->to - e->head->start) * e->head->rate) + 1;
+    e->first = first > 0 ? first < 1e18 ? (size_t)first : SIZE_MAX : 0;
+    e->end = end >= 0 ? end < 1e18 ? (size_t)end : SIZE_MAX : isnan(end) ? SIZE_MAX : 0;
+}
+
+ss_status
+ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t column[], size_t n,
+                 ss_plot_opts *opts, ss_error *err)
+{
+    if (out == NULL || rows == NULL || reader == NULL || column == NULL || n == 0 || opts == NULL)
+        return SS_FAIL_NULL(err);
+    envelope e = { .reader = reader, .head = ss_reader_header(reader), .column = column, .n_columns = n };
+    size_t columns = e.head->n_columns;
+    ss_header *head = NULL;
+    e.room = PIECE;
+    while (e.room * columns < KEPT)
+        e.room *= 2;
+    *out = NULL;
+    choose_rows(&e, opts);
+    e.rows = malloc(e.room * columns * sizeof *e.rows);
+    ss_status st = e.rows != NULL ? ss_header_select(&head, e.head, column, n, 0) : SS_ENOMEM;
+    st = st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st == SS_OK ? read_start(&e, err) : st;
+    int whole = e.n < e.room;
+    if (st == SS_OK)
+        st = whole ? give_whole(&e, head, out) : read_rest(&e, err);
+    if (st == SS_OK && !whole)
+        st = give_blocks(&e, head, out, opts, err);
+    for (size_t c = 0; e.part != NULL && c < n; c++)
+        ss_extremes_free(&e.part[c]);
+    free(e.part);
+    free(e.rows);
+    ss_header_free(head);
+    *rows = e.n;
+    return st;
+}
