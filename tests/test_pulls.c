@@ -258,6 +258,24 @@ an_upside_down_pull_has_events_but_no_friction(void **state)
     }
 }
 
+/* A force that stands still at its largest value has slips that are not seen. */
+static void
+slips_of_a_clipped_pull_are_not_known(void **state)
+{
+    const rig *r = &rigs[4];
+    ss_scene scene = scene_of(r);
+    (void)state;
+    for (int clips = 0; clips < 2; clips++) {
+        record t = record_of(&scene, 40, 1, 1);
+        for (size_t j = 0; clips && j < t.n; j++)
+            t.signal->values[j] = fmin(t.signal->values[j], scene.friction + .6 * r->drop);
+        ss_features *f = features_of(t.signal);
+        assert_true(clips ? isnan(f->slips.value) && f->why_slips != NULL : f->slips.value > 20);
+        ss_features_free(f);
+        ss_signal_free(t.signal);
+    }
+}
+
 /* Without noise: to what the straight parts between samples leave. */
 static void
 a_clean_pull_keeps_the_closed_form(void **state)
@@ -659,6 +677,7 @@ main(void)
         cmocka_unit_test(falling_friction_is_not_named),
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
         cmocka_unit_test(an_upside_down_pull_has_events_but_no_friction),
+        cmocka_unit_test(slips_of_a_clipped_pull_are_not_known),
         cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
         cmocka_unit_test(what_is_no_slip_has_no_friction),
         cmocka_unit_test(fits_of_pulls_cover),

@@ -21,6 +21,7 @@
 
 #define OUTLIERS 0.02           /* of the samples at either end may be wrong */
 enum { FEW_FALLS = 3, PARTS = 16 };     /* to tell up from down; in the time between them */
+enum { CLIPPED = 8 };           /* samples at the largest value, one behind the other */
 #define SKEWED 0.3              /* a third moment re the second */
 #define LEVEL 0.5               /* of the level: less is no half-cycle */
 #define RETREAT 0.05            /* of the level: a fall by which the force has broken away */
@@ -102,6 +103,21 @@ find_falls(search *s, const double *x, double height, double reload, int named, 
     return st;
 }
 
+/* Does x stand still at its largest value, time and again?  Then falls from above that are not seen. */
+static int
+is_clipped(const double *x, size_t n)
+{
+    double top = x[0];
+    size_t run = 0, runs = 0;
+    for (size_t i = 1; i < n; i++)
+        top = fmax(top, x[i]);
+    for (size_t i = 0; i < n; i++) {
+        run = x[i] >= top ? run + 1 : 0;
+        runs += run == CLIPPED;
+    }
+    return runs >= FEW;
+}
+
 /* Falls of x, which is the signal or its negative, of the height that they have; of -x, if x is upside
  * down. */
 static ss_status
@@ -123,6 +139,8 @@ find_typical_falls(search *s, double *x, int *decided)
             x[i] = -x[i];
         return find_typical_falls(s, x, decided);
     }
+    if (*decided && is_clipped(x, s->n))
+        s->out->why_slips = "the force is clipped: it stands still at its largest value";
     if (st == SS_OK && *decided)
         s->out->slips.error = 0.5 * fabs((double)typical.more - (double)typical.less);
     return st;
