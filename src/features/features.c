@@ -226,6 +226,21 @@ confirm_repetition(search *s)
     }
 }
 
+/* The force of a slider that is pulled evenly may be a sinusoid nearly, and mirrored, but then each cycle is
+ * a slip of its closed form, or they keep no time.  A force of one sign that is mirrored otherwise has an
+ * offset. */
+static int
+may_reverse(const search *s)
+{
+    const ss_features *out = s->out;
+    size_t fitted = 0;
+    for (size_t i = 0; i < out->n; i++)
+        fitted += (size_t)isfinite(out->loading[i].drop.value);
+    int is_one = fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS;
+    return s->opts->drop == 0 && !isnan(out->repetition_frequency.value)
+        && s->cycles.lasting > CYCLES_ALIKE && s->cycles.symmetry < -CYCLES_ALIKE && !(is_one && 2 * fitted >= out->n);
+}
+
 static void
 find_slip_rate(search *s)
 {
@@ -237,6 +252,13 @@ find_slip_rate(search *s)
     out->slips.value = (double)out->n;
     out->slip_rate = mean_rate(s);
     if (out->loading != NULL) {
+        if (may_reverse(s)) {
+            free(out->loading);
+            out->loading = NULL;
+            out->n = 0;
+            forget_slips(out, "the force repeats in mirrored halves, so that it may reverse about an offset");
+            return;
+        }
         confirm_repetition(s);
         if (s->has_offset)
             out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
