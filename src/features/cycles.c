@@ -249,10 +249,10 @@ fades(const cycle *c, size_t n, double least)
     return m >= 4 && rate * QUICK > 1 && rate * m > log(FADE) && cov * cov > STRAIGHT * vt * vy;
 }
 
-/* Does a number of theirs, v, repeat itself some cycles later, when it has been otherwise in between?  Not
- * if its scatter is under DEPTH of a scale. */
+/* Does a number of theirs, v, repeat itself some cycles later, when it has been otherwise in between, by a
+ * correlation of more than like?  Not if its scatter is under DEPTH of a scale. */
 static int
-repeats(const double *v, size_t n, double scale)
+repeats(const double *v, size_t n, double scale, double like)
 {
     const view of = { v, n };
     double power, other, product, least = 1;
@@ -261,7 +261,7 @@ repeats(const double *v, size_t n, double scale)
         return 0;
     for (size_t lag = 1; lag <= n / 2 && lag <= SLOWEST; lag++) {
         double r = correlation(&of, 0, lag, n - lag);
-        if (least < BETWEEN && r > CYCLES_LIKE)
+        if (least < BETWEEN && r > like)
             return 1;
         least = fmin(least, r);
     }
@@ -275,7 +275,7 @@ is_modulated(const cycle *c, size_t n, double *v)
     double mean = 0;
     for (size_t i = 0; i < n; i++)
         mean += (v[i] = c[i].energy) / (double)n;
-    return repeats(v, n, mean);
+    return repeats(v, n, mean, CYCLES_LIKE);
 }
 
 /* Do their means repeat?  Then they are cycles of a hum, or of ringing, in a longer one. */
@@ -287,7 +287,7 @@ is_in_longer(const cycle *c, size_t n, double *v)
         v[i] = c[i].mean;
         power += c[i].energy / (double)n;
     }
-    return repeats(v, n, sqrt(power));
+    return repeats(v, n, sqrt(power), CYCLES_ALIKE);
 }
 
 /* Does half of a cycle repeat as well as a cycle does if it is shifted by a sample? */
