@@ -230,15 +230,19 @@ confirm_repetition(search *s)
  * a slip of its closed form, or they keep no time.  A force of one sign that is mirrored otherwise has an
  * offset. */
 static int
-may_reverse(const search *s)
+has_offset(const search *s)
 {
     const ss_features *out = s->out;
     size_t fitted = 0;
     for (size_t i = 0; i < out->n; i++)
         fitted += (size_t)isfinite(out->loading[i].drop.value);
     int is_one = fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS;
-    return s->opts->drop == 0 && !isnan(out->repetition_frequency.value)
-        && s->cycles.lasting > CYCLES_ALIKE && s->cycles.symmetry < -CYCLES_ALIKE && !(is_one && 2 * fitted >= out->n);
+    if (s->opts->drop > 0 || isnan(out->repetition_frequency.value))
+        return 0;
+    if (s->quantity == QUANTITY_UNKNOWN && !is_one)     /* nobody says that it is a force */
+        return 1;
+    return s->cycles.lasting > CYCLES_ALIKE && s->cycles.symmetry < -CYCLES_ALIKE
+        && !(is_one && 2 * fitted >= out->n);
 }
 
 static void
@@ -252,11 +256,11 @@ find_slip_rate(search *s)
     out->slips.value = (double)out->n;
     out->slip_rate = mean_rate(s);
     if (out->loading != NULL) {
-        if (may_reverse(s)) {
+        if (has_offset(s)) {
             free(out->loading);
             out->loading = NULL;
             out->n = 0;
-            forget_slips(out, "the force repeats in mirrored halves, so that it may reverse about an offset");
+            forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
             return;
         }
         confirm_repetition(s);
