@@ -107,7 +107,7 @@ makers_and_writers_refuse_null(void **state)
     const ss_coefficients grid = { .head = NULL };
     assert_refused(ss_store_writer_new(NULL, "x.h5", head, &grid, &e), &e);
     assert_refused(ss_store_writer_new(&store, NULL, head, &grid, &e), &e);
-    assert_refused(ss_store_writer_new(&store, "x.h5", head, NULL, &e), &e);
+    assert_refused(ss_store_writer_new(&store, "x.h5", NULL, NULL, &e), &e);
     assert_refused(ss_store_writer_new(&store, "x.h5", head, &grid, &e), &e);
     assert_null(store);
     assert_refused(ss_store_writer_signal(NULL, &(double){ 0 }, 1, 1, 1, &e), &e);

@@ -121,6 +121,42 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
         }
 }
 
+/* A signal alone, whose length is not known, in pieces of any length, row by row. */
+static void
+a_signal_of_unknown_length_reads_back_exactly(void **state)
+{
+    static const size_t length[] = { 1, 5000, 70000 };
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        size_t n = length[k], piece = k == 0 ? 1 : 999;
+        ss_signal *signal = new_signal(n), *back = NULL;
+        size_t columns = signal->head->n_columns;
+        ss_store_writer *writer = NULL;
+        double *rows = malloc(n * columns * sizeof *rows);
+        for (size_t i = 0; i < n * columns; i++)
+            rows[i] = signal->values[i % columns * n + i / columns];
+        assert_int_equal(ss_store_writer_new(&writer, path, signal->head, NULL, NULL), SS_OK);
+        for (size_t i = 0, m; i < n; i += m) {
+            m = n - i < piece ? n - i : piece;
+            assert_int_equal(ss_store_writer_signal(writer, rows + i * columns, m, columns, 1, NULL), SS_OK);
+        }
+        assert_int_equal(ss_store_writer_end(writer, n, NULL), SS_OK);
+        ss_store_writer_free(writer);
+        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+        assert_int_equal(back->n, n);
+        assert_same_columns(signal->head, back->head);
+        assert_same_notes(signal->head, back->head);
+        assert_same_bits(signal->values, back->values, n * columns);
+        assert_int_equal(ss_store_writer_new(&writer, path, signal->head, NULL, NULL), SS_OK);
+        assert_int_equal(ss_store_writer_signal(writer, rows, n, columns, 1, NULL), SS_OK);
+        assert_int_equal(ss_store_writer_end(writer, n + 1, NULL), SS_EINVAL);
+        ss_store_writer_free(writer);
+        free(rows);
+        ss_signal_free(back);
+        ss_signal_free(signal);
+    }
+}
+
 static int
 to_store(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
@@ -502,6 +538,7 @@ main(void)
         cmocka_unit_test(a_signal_reads_back_exactly),
         cmocka_unit_test(coefficients_read_back_exactly),
         cmocka_unit_test(a_file_made_piece_by_piece_reads_back_exactly),
+        cmocka_unit_test(a_signal_of_unknown_length_reads_back_exactly),
         cmocka_unit_test(deflated_doubles_read_back_exactly),
         cmocka_unit_test(rounded_coefficients_keep_the_accuracy_in_half_the_bytes),
         cmocka_unit_test(scales_can_be_read_one_by_one),

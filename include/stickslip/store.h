@@ -36,7 +36,8 @@ ss_status ss_store_write(const char *path, const ss_record *record, ss_error *er
  * without limit.  Its head is ss_coefficients_header's; if its options say rounded, re and im
  * become multiples of a power of two that is at most 1.24 TOL x the largest |W| of their scale
  * until then, which leaves a third of the bytes or less: the error of what is read back is within TOL.  Signal is
- * the header of the transformed signal, with all columns that are stored beside it, or NULL. */
+ * the header of the transformed signal, with all columns that are stored beside it, or NULL.  Grid may be
+ * NULL, too: then there is only a signal, whose length is not known yet. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);

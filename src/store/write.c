@@ -54,13 +54,16 @@ static ss_status
 begin_empty(ss_store_writer **out, const char *path, const ss_header *signal,
             const ss_coefficients *grid)
 {
-    ss_status st = begin(out, path, grid->head);
+    size_t n = grid != NULL ? grid->n : 0;
+    ss_status st = begin(out, path, grid != NULL ? grid->head : signal);
     ss_store_writer *w = *out;
     if (st != SS_OK)
         return st;
-    w->pieces.growing = grid->n == 0;
+    w->pieces.growing = n == 0;
     if (signal != NULL)
-        st = ss_signal_writer_open(&w->signal, &w->pieces, signal, grid->n);
+        st = ss_signal_writer_open(&w->signal, &w->pieces, signal, n);
+    if (grid == NULL)
+        return st;
     const char *rounded = ss_header_find_note(grid->head, "rounded");
     const char *accuracy = ss_header_find_note(grid->head, "accuracy");
     if (rounded != NULL && accuracy != NULL)
@@ -94,7 +97,8 @@ ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *si
 {
     ss_store_writer *w = NULL;
     ss_status st;
-    if (out == NULL || path == NULL || grid == NULL || grid->head == NULL || grid->n_scales == 0)
+    if (out == NULL || path == NULL || (grid == NULL && signal == NULL)
+        || (grid != NULL && (grid->head == NULL || grid->n_scales == 0)))
         return SS_FAIL_NULL(err);
     H5E_BEGIN_TRY {
         st = begin_empty(&w, path, signal, grid);
@@ -163,7 +167,7 @@ complete(ss_store_writer *w, size_t samples)
 {
     if (!is_whole(w, samples))
         return ss_fail(&w->output.error, SS_EINVAL, "%zu samples are not what the file has", samples);
-    return ss_wavelet_writer_end(&w->wavelet, samples);
+    return w->wavelet.n_scales > 0 ? ss_wavelet_writer_end(&w->wavelet, samples) : SS_OK;
 }
 
 ss_status
