@@ -52,8 +52,9 @@ find_by(int degree, const product *p, double level, int either_side, double h, d
         int *unresolved)
 {
     step_guard g = { .level = level, .either_side = either_side, .h = h };
+    *unresolved = 0;
     double at_0[ORDERS + 1], at_h[ORDERS + 1], c[MOST_DEGREE + 1];
-    long double exact[MOST_DEGREE + 1];
+    long double exact[MOST_DEGREE + 1] = { 0 };
     if (degree == 0) {
         derive(p, 0, h, at_0);
         derive(p, 1, h, at_h);
@@ -62,9 +63,10 @@ find_by(int degree, const product *p, double level, int either_side, double h, d
         expand(p, 0, degree, exact);
         for (int i = 0; i <= degree; i++)
             c[i] = (double)exact[i];
+        if (ss_guard_is_clear(&g, degree, c))
+            return 0;
         ss_guard_by_series(&g, degree, c);
     }
-    *unresolved = 0;
     int found = ss_first_zero(&g, x, unresolved);
     *x /= h;
     return found;

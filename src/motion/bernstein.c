@@ -68,6 +68,22 @@ ss_guard_by_series(step_guard *g, int degree, const double c[])
     g->rounding += (MOST_DEGREE + 1) / 8. * size;       /* half an ulp is an eighth of 2^-50 */
 }
 
+/* p lies above the line from c_0 to c_0 + c_1 - sum of the other |c_i|, whose end must be more than
+ * rounding, here 2^-40 of all: that spares most steps the coefficients. */
+int
+ss_guard_is_clear(const step_guard *g, int degree, const double c[])
+{
+    double rest = 0, doubt = 0x1p-40 * (g->level + g->rounding + fabs(c[0]) + fabs(c[1]));
+    for (int i = 2; i <= degree; i++)
+        rest += fabs(c[i]);
+    for (int side = 1; side >= (g->either_side ? -1 : 1); side -= 2) {
+        double first = g->level + side * c[0], last = first + side * c[1] - rest;
+        if (!(first >= 0 && last > doubt))
+            return 0;
+    }
+    return 1;
+}
+
 /* The value at x and the derivative there, by de Casteljau's scheme. */
 static double
 value(const double b[], int degree, double x, double *slope)

@@ -20,6 +20,8 @@ typedef struct step_guard {
 void ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[]);
 /* Set them from p's degree + 1 Taylor coefficients in s / h; adds their rounding. */
 void ss_guard_by_series(step_guard *g, int degree, const double c[]);
+/* 1 if these show already that the guard, set but for degree and p, does not become negative. */
+int ss_guard_is_clear(const step_guard *g, int degree, const double c[]);
 /* 1 if the guard becomes negative, at *s_event; 0 if not; -1 if a number is not finite.  *unresolved
  * becomes 1 where rounding alone decides whether, or where, it does. */
 int ss_first_zero(const step_guard *g, double *s_event, int *unresolved);

@@ -119,22 +119,6 @@ ends_by_derivatives(engine *e, double *s_event, int *unresolved)
     return ss_first_zero(&g, s_event, unresolved);
 }
 
-/* A polynomial lies above the line from p_0 to p_0 + p_1 - sum of the other |p_i|, whose end must be more
- * than rounding, here 2^-40 of all: that spares most steps the coefficients in Bernstein's form. */
-static int
-lies_above_0(const step_guard *g, int degree, const double p[])
-{
-    double rest = 0, doubt = 0x1p-40 * (g->level + g->rounding + fabs(p[0]) + fabs(p[1]));
-    for (int i = 2; i <= degree; i++)
-        rest += fabs(p[i]);
-    for (int side = 1; side >= (g->either_side ? -1 : 1); side -= 2) {
-        double first = g->level + side * p[0], last = first + side * p[1] - rest;
-        if (!(first >= 0 && last > doubt))
-            return 0;
-    }
-    return 1;
-}
-
 static int
 ends_by_curve(engine *e, double *s_event, int *unresolved)
 {
@@ -144,7 +128,7 @@ ends_by_curve(engine *e, double *s_event, int *unresolved)
     int degree = e->type->curve(e, c);
     for (int i = 0; i <= degree; i++)
         p[i] = e->of_q * c[i][0] + e->of_v * c[i][1];
-    if (lies_above_0(&g, degree, p))
+    if (ss_guard_is_clear(&g, degree, p))
         return 0;
     ss_guard_by_series(&g, degree, p);
     return ss_first_zero(&g, s_event, unresolved);
