@@ -18,6 +18,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/versions.h"
 #include "morlet/fft/real.h"
 
 #define BAND 0.5                /* of the frequency, to either side */
@@ -47,7 +48,7 @@ typedef struct line {
 
 /* Fourier sum at an angular frequency: of a line there, its amplitude.  In lanes, which do not wait for
  * each other; behind the window there are zeros. */
-static double complex
+VERSIONS static double complex
 sum_at(const zoomed *zoom, double w)
 {
     double turn = (w - zoom->center) * zoom->step, c = cos(LANES * turn), s = sin(LANES * turn);
