@@ -4,7 +4,7 @@
  * not.  So onset, f_s and f_k of each fall, and mass, speed, damping and the numbers of the law of all
  * of them, are found by one least-squares fit (GSL's, Levenberg and Marquardt's) to the samples about
  * the falls.  The stiffness is held: a force shows k/m and k U only.  A scene is simulated with the
- * frictions of a fall until it slips for the second time, when it has settled, and its force is
+ * frictions of a fall until it has settled, which takes one slip or a few, and its force is
  * laid over the samples: any scene that sticks and slips can be fitted so.
  *
  * The slope of loading is known from the whole sticks, better than from the samples about the falls: it
@@ -41,7 +41,8 @@ enum { LONGEST = 1000000 };     /* integration steps of a run */
 #define DIFFERENCE 1e-4         /* of an unknown, for its slopes */
 #define SHORT 0.1               /* of the time of loading 2 (f_s - f_k), and of a period of k/m: no stick
                                    before a fall is shorter than both, but those of a contact that rings */
-#define PATIENCE 4              /* times as long as a fall should take to come */
+enum { SETTLED = 2, SETTLED_CONTACT = 4 };      /* the fall that is settled: a contact may ring for long */
+#define PATIENCE 8              /* times as long as a fall should take, for these to come */
 #define HOPELESS 1e3            /* rms of what a scene leaves that does not slip, re the fall's */
 
 /* --- the falls of a record ----------------------------------------------------------------- */
@@ -156,14 +157,14 @@ ss_falls_free(falls *r)
 
 typedef struct waiting {
     double since, least, t;     /* of the last stick's begin, NAN in slip; a stick; of the fall [s] */
-    int falls;
+    int falls, settled;         /* so far; of a settled motion */
 } waiting;
 
 static int
 wait_for_fall(const ss_event *e, void *user)
 {
     waiting *w = user;
-    if (e->kind == SS_SLIP && e->t - w->since >= w->least && ++w->falls == 2) {
+    if (e->kind == SS_SLIP && e->t - w->since >= w->least && ++w->falls == w->settled) {
         w->t = e->t;
         return 1;
     }
@@ -185,14 +186,15 @@ note_memory(ss_status *status, ss_status st)
         *status = st;
 }
 
-/* The time of the scene's second fall; NAN: it has none. */
+/* The time of the scene's first settled fall; NAN: it has none. */
 static double
 find_fall(const ss_scene *scene, double *steps, ss_status *status)
 {
     const double loading = fabs(scene->stiffness * pull_of(scene));
     const double half = scene->static_friction - scene->friction;
     ss_scene s = *scene;
-    waiting w = { 0, SHORT * fmin(2 * half / loading, 2 * M_PI / own_frequency(scene)), NAN, 0 };
+    waiting w = { 0, SHORT * fmin(2 * half / loading, 2 * M_PI / own_frequency(scene)), NAN, 0,
+                  ss_model_of(scene)->has_contact ? SETTLED_CONTACT : SETTLED };
     ss_sim_stats stats = { .steps = 0 };
     ss_sim_opts opts = how_to_run(&s);
     opts.events = wait_for_fall;

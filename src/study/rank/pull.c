@@ -33,6 +33,7 @@ enum { FITTED = 4 };            /* parameters of a slip */
 #define EXPLAINED 0.98          /* of the power of the falls: less is another motion */
 #define FIT_BUDGET 2e7          /* integration steps of a fit, and of one scene of a ranking */
 #define BUDGET 1e7
+#define RINGS 3                 /* e-folds of decay in a stick: a contact that rings on has less */
 
 static ss_status
 check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
@@ -199,6 +200,16 @@ report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, 
     }
 }
 
+/* The phase of what rings at a release depends on the frictions and the contact's frequency so much that a
+ * fit may end far from the best. */
+static int
+rings_on(const ss_scene *s)
+{
+    double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
+    double decay = (s->contact_damping + s->damping) / (2 * s->mass);
+    return ss_model_of(s)->has_contact && decay * stick < RINGS;
+}
+
 /* The first key that the falls do not tell; NULL: none. */
 static const ss_pull_key *
 vague_key(const ss_pull *p)
@@ -220,7 +231,10 @@ judge_fit(ss_pull *p, const falls_fit *fit)
         snprintf(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
                  "%.3g times the noise", 100 * p->left, p->excess);
         p->verdict = SS_NONE_FITS;
-    } else if (vague != NULL)
+    } else if (!p->explains && rings_on(&fit->scene))
+        snprintf(p->why, sizeof p->why, "the contact rings from slip to slip, and has many fits: this one "
+                 "leaves %.3g times the noise", p->excess);
+    else if (vague != NULL)
         snprintf(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", vague->name,
                  vague->found.value, vague->found.error);
     else
@@ -293,7 +307,8 @@ typedef struct trial {
     double most;                /* so much, as a logarithm, by the falls alone */
     const char *most_name;
     int explains, near;         /* the falls; is it within the spread? */
-    int unfinished;             /* it explains less than it may: its fit took too many steps */
+    int unfinished;             /* it explains less than it may: its fit took too many steps, */
+    int rings;                  /* or its contact still rings when the next slip begins */
 } trial;
 
 enum { CHANGES = FALLS_KEYS + 3 };
@@ -389,6 +404,7 @@ try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, dou
     t->match = match_of(r, &t->fit);
     t->explains = ss_match_explains(&t->match, r->noise);
     t->unfinished = steps > BUDGET && !t->explains;
+    t->rings = t->fit.slips && !t->explains && rings_on(&t->fit.scene);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     t->distance = NAN;
@@ -439,7 +455,12 @@ name_scene(ss_ranking *r, const trial *t, double noise)
 {
     size_t least = r->n, nearest;
     for (size_t i = 0; i < r->n; i++)
-        if (t[i].unfinished) {
+        if (t[i].rings) {
+            snprintf(r->why, sizeof r->why, "the contact of a scene with %s friction rings from slip to slip, "
+                     "and has many fits: whether it explains the falls is not known",
+                     ss_model_name(r->row[i].adjusted.model));
+            return r->n;
+        } else if (t[i].unfinished) {
             snprintf(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
                      "integration steps to be adjusted", ss_model_name(r->row[i].adjusted.model), BUDGET);
             return r->n;
