@@ -171,7 +171,7 @@ typedef struct ss_pull {
  * medians; the stiffness is that given.  Others are simulated: what key lists is fitted to up to 16
  * falls together, f_s and f_k to each, and SS_NAMED are those with no error above 30 %.  A scene that
  * does not explain the record is an answer, with SS_OK.  opts may be NULL; its quantity must be
- * SS_SPRING.  SS_EINVAL for another scene or column.  To be freed with ss_pull_free. */
+ * SS_SPRING.  SS_EINVAL for another scene or column, or an elastic contact.  To be freed with ss_pull_free. */
 ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
                       const ss_rank_opts *opts, ss_error *err);
 void ss_pull_free(ss_pull *pull);               /* NULL is allowed */

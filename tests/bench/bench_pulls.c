@@ -246,7 +246,7 @@ ask(tally *t, int own, double snr, gsl_rng *rng)
         if (i != own) {
             other_kind[others] = i;
             other[others++] = candidate[k];
-        } else
+        } else if (i != COMPLIANT)              /* a contact is not fitted */
             fit(t, g, &candidate[k], &truth);
         k++;
     }

@@ -8,7 +8,7 @@
  * laid over the samples: any scene that sticks and slips can be fitted so.
  *
  * The slope of loading is known from the whole sticks, better than from the samples about the falls: it
- * is one datum more for each fall.  Where the scene knows its rig to within a factor, each of its
+ * is one datum more for each fall, but where a contact may ring in the stick.  Where the scene knows its rig to within a factor, each of its
  * numbers is one, too: then a number that the falls do not tell stays where it is. */
 #include "study/rank/falls.h"
 
@@ -351,7 +351,8 @@ fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL]
             row[k] = HOPELESS * sqrt(f->r->power) / f->size;
         return;
     }
-    double slope = before > 0 && before < w->n ? (row[before] - row[0]) * rate / (double)before
+    int is_straight = before > 0 && before < w->n && !ss_model_of(&s)->has_contact;
+    double slope = is_straight ? (row[before] - row[0]) * rate / (double)before
                                                : f->r->slope.value;
     row[w->n] = (slope - f->r->slope.value) / slope_error(f->r);
     row[w->n] *= sqrt(f->noise / (double)f->r->n);

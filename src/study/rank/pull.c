@@ -231,10 +231,7 @@ judge_fit(ss_pull *p, const falls_fit *fit)
         snprintf(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
                  "%.3g times the noise", 100 * p->left, p->excess);
         p->verdict = SS_NONE_FITS;
-    } else if (!p->explains && rings_on(&fit->scene))
-        snprintf(p->why, sizeof p->why, "the contact rings from slip to slip, and has many fits: this one "
-                 "leaves %.3g times the noise", p->excess);
-    else if (vague != NULL)
+    } else if (vague != NULL)
         snprintf(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", vague->name,
                  vague->found.value, vague->found.error);
     else
@@ -274,6 +271,9 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
     if (opts == NULL)
         opts = &ss_rank_defaults;
     ss_status st = check(signal, column, start, opts, err);
+    if (st == SS_OK && ss_model_of(start)->has_contact)
+        return ss_fail(err, SS_EINVAL, "an elastic contact is not fitted to a pull: many contacts explain "
+                       "the same falls");
     if (st != SS_OK)
         return st;
     ss_features_opts how = ss_features_defaults;
