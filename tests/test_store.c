@@ -230,26 +230,26 @@ error_of_file(const ss_signal *signal, const ss_morlet_opts *opts)
 static void
 deflate_and_read(const double *x, hsize_t n, double *back)
 {
-    deflater *d = malloc(sizeof *d);
+    deflater *d = ss_deflater_new();
+    const void *bytes;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(1, &n, NULL);
     H5Pset_chunk(how, 1, &n);
     H5Pset_shuffle(how);
     H5Pset_deflate(how, 1);
     hid_t id = H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    size_t size = ss_deflate_doubles(d, x, n);
-    assert_true(size < sizeof d->out);
-    assert_true(H5Dwrite_chunk(id, H5P_DEFAULT, 0, &(hsize_t){ 0 }, size, d->out) >= 0);
+    size_t size = ss_deflate_doubles(d, x, n, &bytes);
+    assert_true(H5Dwrite_chunk(id, H5P_DEFAULT, 0, &(hsize_t){ 0 }, size, bytes) >= 0);
     H5Dclose(id);
     H5Sclose(space);
     H5Pclose(how);
     H5Fclose(file);
-    free(d);
+    ss_deflater_free(d);
     read_raw("x", H5T_NATIVE_DOUBLE, back);
 }
 
 /* Equal, noise of few and of all bits, smooth, now and then another; and one that is rarer by the golden ratio
- * than the one before it, as the longest Huffman codes need. */
+ * than the one before it. */
 static double
 sample_of_kind(int kind, size_t i)
 {
@@ -282,7 +282,7 @@ deflated_doubles_read_back_exactly(void **state)
 static void
 rounded_coefficients_keep_the_accuracy_in_half_the_bytes(void **state)
 {
-    static const double accuracy[] = { 1e-6, 1e-3, 1e-12 }, part[] = { 0.4, 0.2, 0.9 };
+    static const double accuracy[] = { 1e-6, 1e-3, 1e-12 }, part[] = { 0.4, 0.22, 0.9 };
     ss_signal *signal = new_signal(20000);
     double *x = signal->values + signal->n;
     (void)state;

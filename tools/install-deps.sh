@@ -10,12 +10,12 @@ report=${INSTALL_DEPS:-1}
 # A want is named by what it is, and each system has its own name for the package.
 # shellcheck disable=SC2034  # used through eval
 {
-wants='compiler pkgconfig gsl fftw3 hdf5 cmocka gnuplot'
-debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libcmocka-dev gnuplot-nox'
-fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libcmocka-devel gnuplot'
-arch='gcc pkgconf gsl fftw hdf5 cmocka gnuplot'
-homebrew='gcc pkgconf gsl fftw hdf5 cmocka gnuplot'
-unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) CMocka gnuplot(with-cairo-terminals)'
+wants='compiler pkgconfig gsl fftw3 hdf5 libdeflate cmocka gnuplot'
+debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libdeflate-dev libcmocka-dev gnuplot-nox'
+fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libdeflate-devel libcmocka-devel gnuplot'
+arch='gcc pkgconf gsl fftw hdf5 libdeflate cmocka gnuplot'
+homebrew='gcc pkgconf gsl fftw hdf5 libdeflate cmocka gnuplot'
+unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) libdeflate CMocka gnuplot(with-cairo-terminals)'
 }
 
 : "${CC:=cc}" "${PKG_CONFIG:=pkg-config}"
@@ -23,28 +23,33 @@ need=
 for word; do
     case $word in
     --report) report=only ;;
-    build) need="$need compiler pkgconfig gsl fftw3 hdf5" ;;
+    build) need="$need compiler pkgconfig gsl fftw3 hdf5 libdeflate" ;;
     check) need="$need cmocka gnuplot" ;;
     paper) need="$need gnuplot" ;;
     *) echo "usage: install-deps.sh [--report] [build] [check] [paper]" >&2; exit 2 ;;
     esac
 done
 
-# HDF5 need not have a pkg-config file; the compiler finds it then, or Homebrew has it.
-# shellcheck disable=SC2086  # flags are a list
-have_hdf5() {
-    "$PKG_CONFIG" --exists hdf5-serial || "$PKG_CONFIG" --exists hdf5 ||
-        printf '#include <hdf5_hl.h>\n' |
-            $CC ${CPPFLAGS-} -I"$(brew --prefix 2>/dev/null || echo .)/include" -E -
+# A library need not have a pkg-config file; the compiler finds it then, or Homebrew has it.
+have_library() {        # HEADER PKG-CONFIG-NAME ...
+    header=$1
+    shift
+    for name; do
+        ! "$PKG_CONFIG" --exists "$name" || return 0
+    done
+    # shellcheck disable=SC2086  # flags are a list
+    printf '#include <%s>\n' "$header" |
+        $CC ${CPPFLAGS-} -I"$(brew --prefix 2>/dev/null || echo .)/include" -E -
 }
 
 have() {
     case $1 in
-    compiler)  echo 'int main(void) { return 0; }' | $CC -x c -fsyntax-only -include stdio.h - ;;
-    pkgconfig) command -v "$PKG_CONFIG" ;;
-    hdf5)      have_hdf5 ;;
-    gnuplot)   GNUTERM=dumb gnuplot -e 'set terminal pngcairo; set terminal pdfcairo' ;;
-    *)         "$PKG_CONFIG" --exists "$1" ;;
+    compiler)   echo 'int main(void) { return 0; }' | $CC -x c -fsyntax-only -include stdio.h - ;;
+    pkgconfig)  command -v "$PKG_CONFIG" ;;
+    hdf5)       have_library hdf5_hl.h hdf5-serial hdf5 ;;
+    libdeflate) have_library libdeflate.h libdeflate ;;
+    gnuplot)    GNUTERM=dumb gnuplot -e 'set terminal pngcairo; set terminal pdfcairo' ;;
+    *)          "$PKG_CONFIG" --exists "$1" ;;
     esac > /dev/null 2>&1
 }
 

@@ -216,10 +216,11 @@ ss_h5_end_row(h5_pieces *pieces, h5_row *row, int rank, const hsize_t end[])
         return 1;
     at[0] = rank == 1 ? at[1] : at[0];
     memset(row->held + row->n, 0, (row->chunk - row->n) * sizeof *row->held);
-    size_t size = ss_deflate_doubles(&pieces->deflater, row->held, row->chunk);
+    const void *bytes;
+    size_t size = ss_deflate_doubles(pieces->deflater, row->held, row->chunk, &bytes);
     row->n = 0;
     return grow(row->id, rank, end[rank - 1])
-        && H5Dwrite_chunk(row->id, H5P_DEFAULT, 0, at, size, pieces->deflater.out) >= 0;
+        && H5Dwrite_chunk(row->id, H5P_DEFAULT, 0, at, size, bytes) >= 0;
 }
 
 int

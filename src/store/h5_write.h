@@ -25,7 +25,7 @@ typedef struct h5_pieces {
     int growing;                /* lengths are known only at the end */
     double value[2][H5_PIECE];  /* re and im, or others */
     unsigned char edge[H5_PIECE];
-    deflater deflater;
+    deflater *deflater;
 } h5_pieces;
 
 /* A row of doubles that is deflated here and not by HDF5, which takes several times longer: chunk by
