@@ -8,7 +8,7 @@
 #include "base/sort.h"
 
 #define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
-#define BREAK_EARLY 1e-3        /* the same before the least length: of refusing the lot */
+#define BREAK_EARLY 1e-3        /* the same where neither part is of the least length: of refusing the lot */
 #define LATEST 32.0             /* behind a window, see rings_on */
 #define LOUDER 1.5              /* than what the fit leaves: it rings on */
 
@@ -155,13 +155,13 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, int from_end, size_t
     double most = 1;
     *at = 0;
     for (size_t l = 0; l < n_places; l++) {
-        int is_early = !from_end && (l + 1) * step < periods(k, FIT_LEAST);
-        double chance = is_early ? BREAK_EARLY : BREAK;
+        size_t here = (l + 1) * step, longer = here > longest - here ? here : longest - here;
+        double chance = longer < periods(k, FIT_LEAST) ? BREAK_EARLY : BREAK;
         double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
         double over = statistic(&place[l]) / limit;
         if (over > most) {
             most = over;
-            *at = (l + 1) * step;
+            *at = here;
         }
     }
     free(place);

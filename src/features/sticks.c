@@ -156,16 +156,18 @@ keep_off(const fitter *k, ss_window win, size_t start, size_t end)
     return (ss_window){ win.first + start, win.end - end };
 }
 
-/* The part of a window before a place in it, or behind it; all of one that does not reach there. */
+/* The part of a window before a place in it, or behind it, off that place if it stays long enough; all of
+ * a window that does not reach there. */
 static ss_window
 part(const fitter *k, ss_window win, size_t at, int from_end, int behind)
 {
-    size_t off = periods(k, FIT_TRIM_END), length = ss_window_length(win);
+    size_t least = periods(k, FIT_LEAST), off = periods(k, FIT_TRIM_END), length = ss_window_length(win);
     if (at >= length)
         return behind != from_end ? (ss_window){ win.first, win.first } : win;
-    if (from_end)
-        at = length - at;
-    return behind ? keep_off(k, win, at + off, 0) : keep_off(k, win, 0, length - at + off);
+    size_t kept = behind != from_end ? length - at : at;
+    size_t spare = kept > least ? kept - least : 0;
+    off = length - kept + (off < spare ? off : spare);
+    return behind ? keep_off(k, win, off, 0) : keep_off(k, win, 0, off);
 }
 
 int
