@@ -192,8 +192,8 @@ ss_sticks_trim(const fitter *k, ss_window win)
 {
     size_t least = periods(k, FIT_LEAST), start = periods(k, TRIM_START), end = periods(k, FIT_TRIM_END);
     size_t spare = ss_window_length(win) > least ? ss_window_length(win) - least : 0;
-    start = start < spare ? start : spare;
-    end = end < spare - start ? end : spare - start;
+    end = end < spare ? end : spare;
+    start = start < spare - end ? start : spare - end;
     return keep_off(k, win, start, end);
 }
 
