@@ -268,8 +268,9 @@ report(const tally *t, int own, double snr)
     for (int i = 0; i < KINDS; i++)
         printf("\t%d", t->alone[i]);
     printf("\t%d\t%d\t%.2f\t%.2f", t->silent, t->beyond, t->seconds / t->n, t->most);
-    printf("\t%d\t%.0f\t%.0f\t%.1f\n", t->fits, 100 * t->within_1 / t->numbers,
-           100 * t->within_2 / t->numbers, 100 * t->beyond_5 / t->numbers);
+    double percent = 100 / fmax(t->numbers, 1);
+    printf("\t%d\t%.0f\t%.0f\t%.1f\n", t->fits, percent * t->within_1, percent * t->within_2,
+           percent * t->beyond_5);
     fflush(stdout);
     return others > 0 || t->beyond > 0 || 50 * t->beyond_5 > t->numbers
         || 16 * (t->named[own] + t->undecided) < (snr > 30 ? 15 : 12) * t->n;
