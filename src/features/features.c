@@ -146,8 +146,8 @@ least_in_cycle(const search *s)
     return s->cycles.symmetry < -CYCLES_ALIKE ? 2 : 1;
 }
 
-/* A contact rings while it sticks: what does not ring, and stands beside what does, is an end of that stick
- * or a micro-slip. */
+/* A contact rings while it sticks: what does not ring, and stands beside what does, is an end of
+ * that stick or a micro-slip. */
 static void
 keep_ringing(search *s)
 {
@@ -167,8 +167,8 @@ keep_ringing(search *s)
     out->n = kept;
 }
 
-/* May some of the events be no slips, but ends of sticks, or micro-slips?  Those that are as far apart as
- * the next are alike. */
+/* May some of the events be no slips, but ends of sticks, or micro-slips? Those that are as far
+ * apart as the next are alike. */
 static int
 is_doubtful(const search *s, size_t each)
 {
@@ -226,9 +226,9 @@ confirm_repetition(search *s)
     }
 }
 
-/* The force of a slider that is pulled evenly may be a sinusoid nearly, and mirrored, but then each cycle is
- * a slip of its closed form, or they keep no time.  A force of one sign that is mirrored otherwise has an
- * offset. */
+/* The force of a slider that is pulled evenly may be a sinusoid nearly, and mirrored, but then each
+ * cycle is a slip of its closed form, or they keep no time.  A force of one sign that is mirrored
+ * otherwise has an offset. */
 static int
 has_offset(const search *s)
 {

@@ -65,8 +65,9 @@ falls_are_quick(const ss_drop *drop, size_t n)
     return quick - all / 2 > 1.5 * sqrt(all);
 }
 
-/* The steps of a force over a part of the time from drop to drop are skewed down, as it falls sooner than it
- * is loaded.  A force whose steps are skewed up is upside down: its sign is that of an offset. */
+/* The steps of a force over a part of the time from drop to drop are skewed down, as it falls
+ * sooner than it is loaded.  A force whose steps are skewed up is upside down: its sign is that of
+ * an offset. */
 static int
 is_upside_down(const search *s, const double *x, const ss_drop *drop, size_t n)
 {
@@ -172,9 +173,9 @@ break_away(const double *x, size_t i, size_t end, double retreat)
     return top;
 }
 
-/* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x passes half
- * of the level, to either side of the middle, to where it does so for the last time before the other
- * side: ringing may go farther. */
+/* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x
+ * passes half of the level, to either side of the middle, to where it does so for the last time
+ * before the other side: ringing may go farther. */
 static ss_status
 find_reversals(search *s, const double *x, double level)
 {

@@ -95,8 +95,8 @@ digit_of(double level, int shift, size_t mask)
     return bits >> shift & mask;
 }
 
-/* Digit by digit of their bits, which are ordered as the numbers are: those that have not the digit of the
- * middle one are left out. */
+/* Digit by digit of their bits, which are ordered as the numbers are: those that have not the digit
+ * of the middle one are left out. */
 double
 ss_levels_middle(double *level, size_t n)
 {

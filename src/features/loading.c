@@ -167,8 +167,8 @@ read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const
     l->stiffness = times((ss_value){ fabs(found.slope), found.error }, s->largest);
 }
 
-/* Errors that are larger than the scatter are not by chance: all have that part in common, and it does not
- * become less with their number. */
+/* Errors that are larger than the scatter are not by chance: all have that part in common, and it
+ * does not become less with their number. */
 ss_median
 ss_median_of(const ss_value *v, size_t n, double *scratch)
 {

@@ -127,8 +127,8 @@ stands_out(fitter *k, const ss_window *window, size_t n)
     return all.ring > (double)all.windows * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }
 
-/* Windows about some of the cores, longer and longer, as long as the fit to them converges near its start;
- * then about all of them. */
+/* Windows about some of the cores, longer and longer, as long as the fit to them converges near its
+ * start; then about all of them. */
 static ss_status
 grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int *ok)
 {

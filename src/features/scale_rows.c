@@ -142,7 +142,8 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     return ss_levels_middle(level, left) / sqrt(M_LN2);
 }
 
-/* source->level holds |W| of the row, of which those before t = 0 and behind the record are not its own. */
+/* source->level holds |W| of the row, of which those before t = 0 and behind the record are not its
+ * own. */
 static ss_status
 fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale *scale,
          double margin)

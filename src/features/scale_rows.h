@@ -46,9 +46,9 @@ typedef struct row {
                                    reach of gaps, in time order */
 } row;
 
-/* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be
- * asked for from short to long scales, as some octaves share spectra.  The noise is read where no spike of loud is near;
- * NULL: everywhere.  r->peak is to be freed with free(). */
+/* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
+ * for from short to long scales, as some octaves share spectra.  The noise is read where no spike
+ * of loud is near; NULL: everywhere.  r->peak is to be freed with free(). */
 ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
 

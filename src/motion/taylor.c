@@ -262,8 +262,8 @@ expand_derivatives(const taylor *t, const gains *g, derivatives d[])
 /* Derivatives need no more digits than this. */
 #define FINE 1e-10
 
-/* How far [unit] it keeps the tolerance: a state at rest with what drives it says nothing of one beside it
- * that is not. */
+/* How far [unit] it keeps the tolerance: a state at rest with what drives it says nothing of one
+ * beside it that is not. */
 static double
 derivatives_reach(const taylor *t, derivatives d[])
 {

@@ -1,5 +1,5 @@
-/* envelope.c -- a signal of any length for a picture over time: what is longer than memory should hold becomes
- * the extremes of blocks, many in each column of pixels. */
+/* envelope.c -- a signal of any length for a picture over time: what is longer than memory should
+ * hold becomes the extremes of blocks, many in each column of pixels. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
-/* extremes.h -- values of any number, of which the largest, or the smallest and the largest, of each block are
- * kept: when all blocks are full, each two become one, and blocks are twice as long from there on. */
+/* extremes.h -- values of any number, of which the largest, or the smallest and the largest, of
+ * each block are kept: when all blocks are full, each two become one, and blocks are twice as long
+ * from there on. */
 #ifndef EXTREMES_H
 #define EXTREMES_H
 

@@ -61,8 +61,8 @@ typedef struct state {
 state ss_state_of(const ss_scene *scene, double tol);
 /* Let positions count from the present place of the pull (below), which moves since u = 0. */
 void ss_state_follow(state *m);
-/* base.c: set the piece of the measured base, which there must be, for the interval that begins at u, which
- * is the time t. */
+/* base.c: set the piece of the measured base, which there must be, for the interval that begins at
+ * u, which is the time t. */
 void ss_state_meet_base(state *m, double t);
 /* SS_EDATA if the base is not known from 0 to end; name is that of its file. */
 ss_status ss_base_covers(const ss_base *base, double end, const char *name, ss_error *err);

@@ -1,5 +1,6 @@
-/* deflate.c -- doubles as the filters shuffle and deflate keep them, by libdeflate, which takes about half of
- * the time of zlib: a zlib stream (RFC 1950) of all first bytes, then all second bytes, and so on. */
+/* deflate.c -- doubles as the filters shuffle and deflate keep them, by libdeflate, which takes
+ * about half of the time of zlib: a zlib stream (RFC 1950) of all first bytes, then all second
+ * bytes, and so on. */
 #include "store/deflate.h"
 
 #include <libdeflate.h>

@@ -94,8 +94,8 @@ choose_bounds(struct fft *f, double nd, double accuracy)
         f->images[0] = images;
 }
 
-/* Samples that a point may stand for, the shortest scale being so many samples.  A dense scale has weights
- * for no more of them. */
+/* Samples that a point may stand for, the shortest scale being so many samples.  A dense scale has
+ * weights for no more of them. */
 static size_t
 samples_for(const struct fft *f, double shortest, int dense)
 {

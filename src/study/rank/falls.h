@@ -1,4 +1,4 @@
-/* falls.h -- fit a scene that is pulled to the falls of its spring's force, by simulation. */
+/* falls.h -- the falls of a spring's force, and scenes fitted to them by simulation. */
 #ifndef FALLS_H
 #define FALLS_H
 
@@ -6,7 +6,10 @@
 #include <stickslip/rank.h>
 #include "base/progress.h"
 
-enum { FALLS_MOST = 16 };           /* falls that are fitted */
+enum {
+    FALLS_MOST = 16,                /* falls that are fitted */
+    FALL_UNKNOWNS = 3               /* of each: its onset, f_k, f_s - f_k */
+};
 
 /* Samples about a fall: every step-th of y from the first. */
 typedef struct fall {

@@ -200,8 +200,8 @@ report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, 
     }
 }
 
-/* The phase of what rings at a release depends on the frictions and the contact's frequency so much that a
- * fit may end far from the best. */
+/* The phase of what rings at a release depends on the frictions and the contact's frequency so much
+ * that a fit may end far from the best. */
 static int
 rings_on(const ss_scene *s)
 {

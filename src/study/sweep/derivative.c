@@ -1,8 +1,9 @@
 /* derivative.c -- the derivative of cycles by the state that they begin with.
  *
- * It comes from the engine and the saltation matrices of events (tangent.c); where the engine does not
- * know it, from walks of neighbouring states.  Without forcing it is 0 where sticks are true:
- * each lasts until the pull has carried the force to f_s, which is at the same x - U t wherever it began. */
+ * It comes from the engine and the saltation matrices of events (tangent.c); where the engine does
+ * not know it, from walks of neighbouring states.  Without forcing it is 0 where sticks are true:
+ * each lasts until the pull has carried the force to f_s, which is at the same x - U t wherever it
+ * began. */
 #include "study/sweep/finder.h"
 
 #include <math.h>

@@ -46,8 +46,8 @@ void ss_meter_event(meter *r, const ss_event *event);
  * may be wrong. */
 void ss_meter_end(meter *r, int cycles, int closes, double value[]);
 
-/* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an engine that knows its response; x_ref is the third
- * number of a state that has one. */
+/* d(x_ref, q, v) now by d(x_ref, q, v) at the start, on an engine that knows its response; x_ref is
+ * the third number of a state that has one. */
 typedef struct tangent {
     double d[D_MOST][D_MOST];
     double later[D_MOST];           /* by which the last event, where v has become 0, comes later [s] */
@@ -64,8 +64,8 @@ void ss_tangent_on_onset(tangent *t, const state *m);
 /* d = (I - t)^-1 r, in units in which 1 is a change of each; 0 where t leaves a direction as it
  * is. */
 void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);
-/* Modulus of the largest and of the next multiplier, argument of the largest in 0 ... pi; NaN where t is
- * not finite.  SS_ENOMEM. */
+/* Modulus of the largest and of the next multiplier, argument of the largest in 0 ... pi; NaN where
+ * t is not finite.  SS_ENOMEM. */
 ss_status ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);
 
 #endif

@@ -21,8 +21,9 @@ enum { REPETITIONS = 4 };
 
 /* --- Newton's method ----------------------------------------------------------------------- */
 
-/* One step, which moves *at, by *t if it is known, else by the derivative there, which *t becomes.  *off: the larger of the step
- * and the miss; INFINITY if the step was shortened, unless the miss is rounding. */
+/* One step, which moves *at, by *t if it is known, else by the derivative there, which *t becomes.
+ * *off: the larger of the step and the miss; INFINITY if the step was shortened, unless the miss is
+ * rounding. */
 static ss_status
 newton_step(finder *f, int period, motion *at, int known, tangent *t, double *off)
 {
@@ -116,9 +117,9 @@ alike(const motion *a, const motion *b)
     return (a->now.mode == 0) == (b->now.mode == 0);
 }
 
-/* Whether a difference has become after what the derivative makes of it, once.  Motions that lie side by
- * side are told apart by the part that shrinks least, of which little goes in a cycle: it must shrink as
- * the derivative says. */
+/* Whether a difference has become after what the derivative makes of it, once.  Motions that lie
+ * side by side are told apart by the part that shrinks least, of which little goes in a cycle: it
+ * must shrink as the derivative says. */
 static int
 goes_as_expected(const tangent *once, const tangent *slow, const double before[D_MOST],
                  const double after[D_MOST], double allowed, double allowed_slow)
@@ -135,9 +136,9 @@ goes_as_expected(const tangent *once, const tangent *slow, const double before[D
         && size_of(slow_off) <= SAME_WAY * size_of(slow_change) + allowed_slow;
 }
 
-/* Whether the motion from a state goes, in some repetitions of so many cycles, towards the periodic one as
- * its derivative says: otherwise that is another motion than the one which is approached, or none is.  One
- * repetition would not do: a chaotic motion comes near many that it leaves again. */
+/* Whether the motion from a state goes, in some repetitions of so many cycles, towards the periodic
+ * one as its derivative says: otherwise that is another motion than the one which is approached, or
+ * none is.  One repetition would not do: a chaotic motion comes near many that it leaves again. */
 static ss_status
 is_approached(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
 {
@@ -166,8 +167,9 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     return st;
 }
 
-/* Without a closed form a derivative costs as much as three steps.  So close to the limit that of the last
- * step serves the next, unless such steps shrink too little; if it is near 1, they magnify its error. */
+/* Without a closed form a derivative costs as much as three steps.  So close to the limit that of
+ * the last step serves the next, unless such steps shrink too little; if it is near 1, they magnify
+ * its error. */
 #define CLOSE 0.05
 #define SHRINKS 0.1
 
@@ -195,9 +197,9 @@ converge(finder *f, int cycles, motion *at, tangent *t, int *found)
     return st;
 }
 
-/* What Newton's method has found misses itself by a part of tol.  Where it is a limit at which a contact
- * only touches, and which the motion approaches from one side, only simulation can tell how many events a
- * cycle has. */
+/* What Newton's method has found misses itself by a part of tol.  Where it is a limit at which a
+ * contact only touches, and which the motion approaches from one side, only simulation can tell how
+ * many events a cycle has. */
 static ss_status
 measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
 {

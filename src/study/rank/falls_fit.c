@@ -1,0 +1,556 @@
+/* falls_fit.c -- fit a scene that is pulled to the falls of its spring's force, by simulation.
+ *
+ * Static and kinetic friction differ from slip to slip in every measured pull, the rig and its law do
+ * not.  So onset, f_s and f_k of each fall, and mass, speed, damping and the numbers of the law of all
+ * of them, are found by one least-squares fit (GSL's, Levenberg and Marquardt's) to the samples about
+ * the falls.  The stiffness is held: a force shows k/m and k U only.  A scene is simulated with the
+ * frictions of a fall until it has settled, which takes one slip or a few, and its force is
+ * laid over the samples: any scene that sticks and slips can be fitted so.
+ *
+ * The slope of loading is known from the whole sticks, better than from the samples about the falls: it
+ * is one datum more for each fall, but where a contact may ring in the stick.  Where the scene knows its
+ * rig to within a factor, each of its numbers is one, too: then a number that the falls do not tell
+ * stays where it is. */
+#include "study/rank/falls.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip/sim.h>
+#include "features/loading.h"
+#include "scene/model.h"
+
+enum { LOCAL = FALL_UNKNOWNS, ONSET = 0, MIDDLE, HALF };
+enum { STEPS = 60 };            /* of a stage of the fit */
+enum { LONGEST = 1000000 };     /* integration steps of a run */
+#define LEAST 2                 /* f_k over f_s - f_k in a simulation: see fill_rows */
+#define BENT 0.01               /* the part of the slope of loading that other slips may change it by */
+#define FAR 5                   /* times its spread no key changes more: such a scene is another, */
+#define FARTHEST 1e3            /* and by no larger factor where it is not known at all */
+#define LITTLE 1e-4             /* the last step lessens what is left by so little a part, */
+#define LITTLE_NOISE 0.01       /* or by this part of the noise of a sample */
+#define NEARLY 0.05             /* so much of its height a fall may be off to start from */
+#define HELD 0.01               /* a change of a key that is held that would cost all of the power */
+#define DIFFERENCE 1e-4         /* of an unknown, for its slopes */
+#define SHORT 0.1               /* of the time of loading 2 (f_s - f_k), and of a period of k/m: no stick
+                                   before a fall is shorter than both, but those of a contact that rings */
+enum { SETTLED = 2, SETTLED_CONTACT = 4 };      /* the fall that is settled: a contact may ring for long */
+#define PATIENCE 8              /* times as long as a fall should take, for these to come */
+#define HOPELESS 1e3            /* rms of what a scene leaves that does not slip, re the fall's */
+
+/* --- a fall of a scene --------------------------------------------------------------------- */
+
+typedef struct waiting {
+    double since, least, t;     /* of the last stick's begin, NAN in slip; a stick; of the fall [s] */
+    int falls, settled;         /* so far; of a settled motion */
+} waiting;
+
+static int
+wait_for_fall(const ss_event *e, void *user)
+{
+    waiting *w = user;
+    if (e->kind == SS_SLIP && e->t - w->since >= w->least && ++w->falls == w->settled) {
+        w->t = e->t;
+        return 1;
+    }
+    w->since = e->kind == SS_STICK ? e->t : NAN;
+    return 0;
+}
+
+static ss_sim_opts
+how_to_run(const ss_scene *s)
+{
+    return (ss_sim_opts){ .method = ss_model_is_linear(s->model) ? "exact" : NULL, .tol = 1e-10 };
+}
+
+/* A run that is stopped, or fails, has an outcome; one without memory has none. */
+static void
+note_memory(ss_status *status, ss_status st)
+{
+    if (st == SS_ENOMEM)
+        *status = st;
+}
+
+/* The time of the scene's first settled fall; NAN: it has none. */
+static double
+find_fall(const ss_scene *scene, double *steps, ss_status *status)
+{
+    const double loading = fabs(scene->stiffness * pull_of(scene));
+    const double half = scene->static_friction - scene->friction;
+    ss_scene s = *scene;
+    waiting w = { 0, SHORT * fmin(2 * half / loading, 2 * M_PI / own_frequency(scene)), NAN, 0,
+                  ss_model_of(scene)->has_contact ? SETTLED_CONTACT : SETTLED };
+    ss_sim_stats stats = { .steps = 0 };
+    ss_sim_opts opts = how_to_run(&s);
+    opts.events = wait_for_fall;
+    opts.user = &w;
+    opts.max_steps = LONGEST;
+    s.settle = 0;
+    s.duration = 2 * s.static_friction / loading
+                 + PATIENCE * (2 * half / loading + 2 * M_PI / own_frequency(&s));
+    s.rate = 1 / s.duration;
+    note_memory(status, ss_sim_run(&s, &opts, &stats, NULL));
+    *steps += (double)stats.steps;
+    return w.t;
+}
+
+typedef struct sampled {
+    double *y, direction;
+    size_t n, room;
+} sampled;
+
+static int
+append_samples(const ss_sample *s, size_t n, void *user)
+{
+    sampled *t = user;
+    for (size_t i = 0; i < n && t->n < t->room; i++)
+        t->y[t->n++] = t->direction * s[i].s;
+    return 0;
+}
+
+/* The samples of a fall at `time`; 0 if they cannot be had. */
+static int
+sample_fall(double *y, const ss_scene *scene, double time, double onset, const fall *w, double rate,
+            double *steps, ss_status *status)
+{
+    ss_scene s = *scene;
+    sampled t = { y, pull_of(scene) > 0 ? 1 : -1, 0, w->n };
+    ss_sim_stats stats = { .steps = 0 };
+    ss_sim_opts opts = how_to_run(&s);
+    opts.samples = append_samples;
+    opts.user = &t;
+    s.settle = time - (onset - (double)w->first) / rate;
+    s.rate = rate / (double)w->step;
+    s.duration = (double)w->n / s.rate;
+    ss_status st = s.settle >= 0 ? ss_sim_run(&s, &opts, &stats, NULL) : SS_EINVAL;
+    note_memory(status, st);
+    *steps += (double)stats.steps + (double)w->n / 4;
+    return st == SS_OK && t.n == w->n;
+}
+
+/* --- unknowns ------------------------------------------------------------------------------ */
+
+typedef struct problem {
+    const falls *r;
+    const ss_scene *scene;
+    falls_fit *out;
+    double spread, budget, *steps;
+    double noise;               /* variance, in rows */
+    double farthest;            /* the largest change of a key */
+    int stage;                  /* of the fit */
+    double held[FALLS_KEYS];    /* the keys at its begin: the later ones nearly stay there */
+    double size;                /* the unit of rows, so that their squares are parts of the power */
+    double (*start)[LOCAL];     /* the locals of each fall */
+    size_t rows;
+    double *changed, *time;     /* the rows of a fall, with one unknown changed; when each fall was */
+    const ss_stretch *progress;
+    ss_status status;
+} problem;
+
+static double *
+number(ss_scene *s, size_t offset)
+{
+    return (double *)(void *)((char *)s + offset);
+}
+
+static void
+add_key(falls_fit *out, size_t offset, int power, double own)
+{
+    out->key[out->n_keys++] = (falls_key){ .offset = offset, .power = power, .own = own };
+}
+
+enum { MASS, SPEED };           /* the first keys */
+
+static void
+list_keys(falls_fit *out, const ss_scene *scene)
+{
+    const struct model *model = ss_model_of(scene);
+    ss_scene s = *scene;
+    size_t pull = s.base_velocity != 0 ? offsetof(ss_scene, base_velocity)
+                                       : offsetof(ss_scene, surface_velocity);
+    out->n_keys = 0;
+    add_key(out, offsetof(ss_scene, mass), 1, s.mass);
+    add_key(out, pull, -1, fabs(pull_of(&s)));
+    if (s.damping > 0)
+        add_key(out, offsetof(ss_scene, damping), 1, s.damping);
+    for (size_t i = 0; i < model->n_parameters; i++) {
+        const parameter *p = &model->parameter[i];
+        if (*number(&s, p->offset) > 0)
+            add_key(out, p->offset, p->by_mass + p->by_speed, *number(&s, p->offset));
+    }
+}
+
+/* The scene with the keys changed, from rest without force. */
+static ss_scene
+scene_of(const problem *f, const double change[])
+{
+    ss_scene s = *f->scene;
+    for (size_t i = 0; i < f->out->n_keys; i++)
+        if (i != SPEED)
+            *number(&s, f->out->key[i].offset) = f->out->key[i].own * exp(change[i]);
+    double speed = f->out->key[SPEED].own * exp(change[SPEED]) * sign(pull_of(f->scene));
+    if (f->scene->base_velocity != 0)
+        s.base_velocity = s.surface_velocity + speed;
+    else
+        s.surface_velocity = -speed;
+    s.x0 = s.phase = 0;
+    s.v0 = s.surface_velocity;
+    return s;
+}
+
+/* The rows of a fall: its samples, and the slope of its loading. */
+static size_t
+rows_of(const fall *w)
+{
+    return w->n + 1;
+}
+
+/* Of the slope of loading [N/s], which is read between slips of a Coulomb slider, where others may begin
+ * and end elsewhere. */
+static double
+slope_error(const falls *r)
+{
+    return hypot(r->slope.error, BENT * r->slope.value);
+}
+
+/* Fill in what the scene leaves of a fall.  The fall comes at *time; NAN: find out.  The friction of a
+ * slider that never slips back may be less by a constant, f_s and f_k alike: then the force is, too, and
+ * the first stick is shorter. */
+static void
+fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL], double *time, double *row)
+{
+    const fall *w = &f->r->fall[i];
+    const double rate = f->r->rate / (double)w->step;
+    const size_t before = (size_t)fmax((local[ONSET] - (double)w->first) / (double)w->step, 0);
+    ss_scene s = scene_of(f, change);
+    s.friction = fmax(fmin(local[MIDDLE], LEAST * local[HALF]), 0);
+    s.static_friction = s.friction + local[HALF];
+    int valid = ss_scene_check(&s, NULL) == SS_OK && *f->steps < f->budget;
+    for (size_t k = 0; k < f->out->n_keys; k++)
+        valid = valid && fabs(change[k]) <= f->farthest;
+    if (valid && isnan(*time))
+        *time = find_fall(&s, f->steps, &f->status);
+    if (!valid || isnan(*time)
+        || !sample_fall(row, &s, *time, local[ONSET], w, f->r->rate, f->steps, &f->status)) {
+        for (size_t k = 0; k < rows_of(w); k++)
+            row[k] = HOPELESS * sqrt(f->r->power) / f->size;
+        return;
+    }
+    int is_straight = before > 0 && before < w->n && !ss_model_of(&s)->has_contact;
+    double slope = is_straight ? (row[before] - row[0]) * rate / (double)before
+                                               : f->r->slope.value;
+    row[w->n] = (slope - f->r->slope.value) / slope_error(f->r);
+    row[w->n] *= sqrt(f->noise / (double)f->r->n);
+    for (size_t k = 0; k < w->n; k++)
+        row[k] = (row[k] + local[MIDDLE] - s.friction - f->r->y[w->first + k * w->step]) / f->size;
+}
+
+/* The unknowns of the fit are the changes of the keys, then those of the locals of each fall: of onset and
+ * f_k in these units, of f_s - f_k as a logarithm. */
+static double
+unit_of(const fall *w, size_t k)
+{
+    return k == ONSET ? (double)(w->n * w->step) / 8 : w->top - w->middle;
+}
+
+static void
+locals_of(const problem *f, const gsl_vector *at, size_t i, double local[LOCAL])
+{
+    const double *u = at->data + f->out->n_keys + LOCAL * i;
+    local[ONSET] = f->start[i][ONSET] + u[ONSET] * unit_of(&f->r->fall[i], ONSET);
+    local[MIDDLE] = f->start[i][MIDDLE] + u[MIDDLE] * unit_of(&f->r->fall[i], MIDDLE);
+    local[HALF] = f->start[i][HALF] * exp(u[HALF]);
+}
+
+/* First the frictions of a law are found that gives such falls, then the rig, then the law. */
+enum { STAGES = 3 };
+static const size_t FREE_AT[STAGES] = { 0, SPEED + 1, FALLS_KEYS };
+
+static int
+is_held(const problem *f, size_t key)
+{
+    return key >= FREE_AT[f->stage];
+}
+
+/* The weight of what is known of a key. */
+static double
+weight_of(const problem *f, size_t key)
+{
+    return is_held(f, key) ? 1 / HELD : sqrt(f->noise) / f->spread;
+}
+
+static int
+residuals(const gsl_vector *at, void *user, gsl_vector *out)
+{
+    problem *f = user;
+    double local[LOCAL], *row = out->data;
+    for (size_t i = 0; i < f->r->n; i++) {
+        locals_of(f, at, i, local);
+        f->time[i] = NAN;
+        fill_rows(f, i, at->data, local, &f->time[i], row);
+        row += rows_of(&f->r->fall[i]);
+    }
+    for (size_t k = 0; k < f->out->n_keys; k++)
+        *row++ = weight_of(f, k) * (at->data[k] - (is_held(f, k) ? f->held[k] : 0));
+    return f->status == SS_OK ? GSL_SUCCESS : GSL_EFAILED;
+}
+
+/* The slopes of one fall's rows, from row `first` on, by one unknown. */
+static void
+fill_column(problem *f, size_t i, const gsl_vector *at, size_t column, size_t first, const double *here,
+            gsl_matrix *out)
+{
+    const size_t keys = f->out->n_keys, k = column < keys ? LOCAL : (column - keys) % LOCAL;
+    double change[FALLS_KEYS], local[LOCAL], time = k == ONSET ? f->time[i] : NAN;
+    memcpy(change, at->data, keys * sizeof *change);
+    locals_of(f, at, i, local);
+    if (k == LOCAL)
+        change[column] += DIFFERENCE;
+    else
+        local[k] += DIFFERENCE * (k == HALF ? local[HALF] : unit_of(&f->r->fall[i], k));
+    fill_rows(f, i, change, local, &time, f->changed);
+    for (size_t n = 0; n < rows_of(&f->r->fall[i]); n++)
+        gsl_matrix_set(out, first + n, column, (f->changed[n] - here[n]) / DIFFERENCE);
+}
+
+static int
+jacobian(const gsl_vector *at, void *user, gsl_matrix *out)
+{
+    problem *f = user;
+    const size_t keys = f->out->n_keys;
+    size_t first = 0;
+    gsl_vector *here = gsl_vector_alloc(f->rows);
+    if (here == NULL)
+        return GSL_ENOMEM;
+    gsl_matrix_set_zero(out);
+    residuals(at, f, here);
+    for (size_t i = 0; i < f->r->n; i++) {
+        for (size_t k = 0; k < keys; k++)
+            fill_column(f, i, at, k, first, here->data + first, out);
+        for (size_t k = 0; k < LOCAL; k++)
+            fill_column(f, i, at, keys + LOCAL * i + k, first, here->data + first, out);
+        first += rows_of(&f->r->fall[i]);
+    }
+    for (size_t k = 0; k < keys; k++)
+        gsl_matrix_set(out, first + k, k, weight_of(f, k));
+    gsl_vector_free(here);
+    if (f->status == SS_OK)
+        f->status = ss_stretch_at(f->progress, fmin(*f->steps / f->budget, 1));
+    return f->status == SS_OK ? GSL_SUCCESS : GSL_EFAILED;
+}
+
+/* --- the fit ------------------------------------------------------------------------------- */
+
+/* The height of a fall of the scene; NAN: it has none. */
+static double
+height_of(problem *f, size_t i, const double change[])
+{
+    const fall *w = &f->r->fall[i];
+    double time = NAN, low = INFINITY, high = -INFINITY;
+    fill_rows(f, i, change, f->start[i], &time, f->changed);
+    for (size_t k = 0; k < w->n; k++) {
+        double y = f->r->y[w->first + k * w->step] + f->changed[k] * f->size;
+        low = fmin(low, y), high = fmax(high, y);
+    }
+    return isnan(time) ? NAN : high - low;
+}
+
+/* Start a fall where it begins, with f_s by the force there and the f_k that lets the scene fall as far as
+ * the force does. */
+static void
+start_fall(problem *f, size_t i, const double change[])
+{
+    enum { PASSES = 8 };
+    const ss_scene s = scene_of(f, change);
+    const fall *w = &f->r->fall[i];
+    const double fallen = 2 * (w->top - w->middle), top = w->top - fabs(s.damping * s.surface_velocity)
+                                                         * sign(s.surface_velocity * pull_of(&s));
+    double *local = f->start[i];
+    local[ONSET] = w->onset;
+    local[HALF] = 0.5 * fallen;
+    for (int pass = 0; pass < PASSES; pass++) {
+        local[MIDDLE] = top - local[HALF];
+        double height = height_of(f, i, change);
+        double ratio = isnan(height) ? 2 : fmax(fmin(fallen / height, 2), 0.5);
+        if (fabs(ratio - 1) < NEARLY)
+            return;
+        local[HALF] *= ratio;
+    }
+    local[MIDDLE] = top - local[HALF];
+}
+
+/* Mass and speed by the slope and the k/m of the record; the rest is the scene's. */
+static void
+start(problem *f, gsl_vector *at)
+{
+    const falls *r = f->r;
+    const ss_scene *s = f->scene;
+    falls_fit *o = f->out;
+    const double most = 0.9 * f->farthest, speed = r->slope.value / s->stiffness / o->key[SPEED].own;
+    gsl_vector_set_zero(at);
+    if (r->k_over_m.value > 0) {
+        double mass = s->stiffness / r->k_over_m.value / o->key[MASS].own;
+        gsl_vector_set(at, MASS, fmax(-most, fmin(log(mass), most)));
+    }
+    gsl_vector_set(at, SPEED, fmax(-most, fmin(log(speed), most)));
+    for (size_t i = 0; i < r->n; i++)
+        start_fall(f, i, at->data);
+}
+
+/* The covariance of f_k or f_s of two falls. */
+static double
+covariance_of(const problem *f, const gsl_vector *at, const gsl_matrix *covariance, size_t i, size_t j,
+              int is_static)
+{
+    size_t a = f->out->n_keys + LOCAL * i + MIDDLE, b = f->out->n_keys + LOCAL * j + MIDDLE;
+    double middle_i = unit_of(&f->r->fall[i], MIDDLE), middle_j = unit_of(&f->r->fall[j], MIDDLE);
+    double of_i[LOCAL], of_j[LOCAL];
+    locals_of(f, at, i, of_i);
+    locals_of(f, at, j, of_j);
+    double sum = middle_i * middle_j * gsl_matrix_get(covariance, a, b);
+    if (is_static)
+        sum += of_i[HALF] * of_j[HALF] * gsl_matrix_get(covariance, a + 1, b + 1)
+               + middle_i * of_j[HALF] * gsl_matrix_get(covariance, a, b + 1)
+               + of_i[HALF] * middle_j * gsl_matrix_get(covariance, a + 1, b);
+    return sum;
+}
+
+/* The median of f_k or f_s over the falls.  Its error is that of the mean, as the errors of the keys are
+ * common to all, or that of the scatter. */
+static ss_median
+median_of(const problem *f, const gsl_vector *at, const gsl_matrix *covariance, int is_static)
+{
+    const size_t n = f->r->n;
+    ss_value v[FALLS_MOST] = { { 0, 0 } };
+    double scratch[FALLS_MOST], local[LOCAL], sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        locals_of(f, at, i, local);
+        v[i] = (ss_value){ local[MIDDLE] + (is_static ? local[HALF] : 0), NAN };
+        for (size_t j = 0; j < n; j++)
+            sum += covariance_of(f, at, covariance, i, j, is_static);
+    }
+    ss_median m = ss_median_of(v, n, scratch);
+    m.error = fmax(m.error, sqrt(fmax(sum, 0)) / (double)n);
+    return m;
+}
+
+/* Mean square over the samples. */
+static void
+find_left(problem *f, const gsl_vector *left)
+{
+    falls_fit *o = f->out;
+    double squares = 0;
+    const double *row = left->data;
+    for (size_t i = 0; i < f->r->n; i++) {
+        for (size_t k = 0; k < f->r->fall[i].n; k++)
+            squares += row[k] * row[k];
+        o->compared += f->r->fall[i].n;
+        row += rows_of(&f->r->fall[i]);
+    }
+    o->left = squares * f->size * f->size / ((double)o->compared - (double)(o->n_keys + LOCAL * f->r->n));
+}
+
+static void
+report(problem *f, const gsl_multifit_nlinear_workspace *space, gsl_matrix *covariance)
+{
+    falls_fit *o = f->out;
+    const gsl_vector *at = gsl_multifit_nlinear_position(space);
+    find_left(f, gsl_multifit_nlinear_residual(space));
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(space), 0, covariance);
+    gsl_matrix_scale(covariance, fmax(o->left, f->r->noise) / (f->size * f->size));
+    for (size_t k = 0; k < o->n_keys; k++) {
+        o->key[k].change = gsl_vector_get(at, k);
+        o->key[k].error = sqrt(gsl_matrix_get(covariance, k, k));
+    }
+    o->friction = median_of(f, at, covariance, 0);
+    o->static_friction = median_of(f, at, covariance, 1);
+    o->scene = scene_of(f, at->data);
+    o->scene.friction = o->friction.value;
+    o->scene.static_friction = o->static_friction.value;
+    o->scene.settle = find_fall(&o->scene, f->steps, &f->status) - f->r->first;
+    o->scene.duration = o->scene.rate = 1;
+    o->slips = o->scene.settle >= 0 && ss_scene_check(&o->scene, NULL) == SS_OK
+               && o->left < f->r->power;
+}
+
+static double
+squares_of(const gsl_multifit_nlinear_workspace *space)
+{
+    double norm = gsl_blas_dnrm2(gsl_multifit_nlinear_residual(space));
+    return norm * norm;
+}
+
+/* Until a step gains little beside the noise of a sample, or beside what is left beyond the noise. */
+static int
+descend(const problem *f, gsl_multifit_nlinear_workspace *space)
+{
+    double left = squares_of(space), before = INFINITY;
+    int ended = GSL_SUCCESS;
+    for (int i = 0; i < STEPS && ended == GSL_SUCCESS; i++) {
+        if (before - left < LITTLE_NOISE * f->noise + LITTLE * fmax(left - 2 * f->noise * (double)f->rows, 0))
+            break;
+        before = left;
+        ended = gsl_multifit_nlinear_iterate(space);
+        left = squares_of(space);
+    }
+    return ended;
+}
+
+static ss_status
+solve(problem *f)
+{
+    const size_t n = f->out->n_keys + LOCAL * f->r->n;
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    how.solver = gsl_multifit_nlinear_solver_cholesky;      /* the cheapest */
+    gsl_multifit_nlinear_fdf least = { .f = residuals, .df = jacobian, .n = f->rows, .p = n, .params = f };
+    gsl_multifit_nlinear_workspace *space =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, f->rows, n);
+    gsl_matrix *covariance = gsl_matrix_alloc(n, n);
+    gsl_vector *at = gsl_vector_alloc(n);
+    int ended = space != NULL && covariance != NULL && at != NULL ? GSL_SUCCESS : GSL_ENOMEM;
+    if (ended == GSL_SUCCESS)
+        start(f, at);
+    for (f->stage = 0; f->stage < STAGES && ended != GSL_ENOMEM && f->status == SS_OK; f->stage++) {
+        memcpy(f->held, at->data, f->out->n_keys * sizeof *f->held);
+        ended = gsl_multifit_nlinear_init(at, &least, space);
+        if (ended == GSL_SUCCESS)
+            ended = descend(f, space);
+        gsl_vector_memcpy(at, gsl_multifit_nlinear_position(space));
+    }
+    if (ended == GSL_SUCCESS || ended == GSL_ENOPROG)
+        report(f, space, covariance);
+    gsl_vector_free(at);
+    gsl_matrix_free(covariance);
+    gsl_multifit_nlinear_free(space);
+    return ended == GSL_ENOMEM ? SS_ENOMEM : f->status;
+}
+
+ss_status
+ss_falls_fit(falls_fit *out, const falls *r, const ss_scene *scene, double spread, double budget,
+             double *steps, const ss_stretch *progress)
+{
+    double first[FALLS_MOST][LOCAL];
+    problem f = { .start = first, .r = r, .scene = scene, .out = out, .spread = spread, .budget = budget,
+                  .steps = steps, .progress = progress };
+    size_t most = 0;
+    *out = (falls_fit){ .slips = 0 };
+    if (!ss_model_has_events(scene->model))
+        return SS_OK;
+    list_keys(out, scene);
+    for (size_t i = 0; i < r->n; i++) {
+        f.rows += rows_of(&r->fall[i]);
+        most = rows_of(&r->fall[i]) > most ? rows_of(&r->fall[i]) : most;
+    }
+    f.rows += out->n_keys;
+    f.size = sqrt(r->power * (double)f.rows);
+    f.noise = r->noise / (f.size * f.size);
+    f.farthest = fmin(FAR * spread, log(FARTHEST));
+    f.changed = malloc((most + r->n + 1) * sizeof *f.changed);
+    f.time = f.changed + most;
+    ss_status st = f.changed != NULL ? solve(&f) : SS_ENOMEM;
+    free(f.changed);
+    return st;
+}
