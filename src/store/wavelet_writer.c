@@ -133,7 +133,7 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
     w->n = grid->n;
     w->n_scales = grid->n_scales;
     w->scale = malloc((grid->n_scales + 1) * sizeof *w->scale);
-    w->datasets = malloc((grid->n_scales + 1) * sizeof *w->datasets);
+    w->datasets = calloc(grid->n_scales + 1, sizeof *w->datasets);
     w->unit = name_unit(grid->head);
     if (w->scale == NULL || w->datasets == NULL || w->unit == NULL)
         return SS_ENOMEM;
