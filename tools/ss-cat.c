@@ -124,12 +124,12 @@ copy_stream(tool_kind kind, const ss_read_opts *opts)
     copy c = copy_begin(opts, 0);
     ss_writer *writer;
     ss_error err = { 0 };
-    size_t n;
+    size_t n = copy_rows(&c, 0);        /* before the header is written: it may fail */
     tool_check(ss_writer_new(&writer, tool_output(output), tool_stream(kind), c.head, &err), &err);
     do {
-        n = copy_rows(&c, 0);
         tool_check(ss_writer_rows(writer, c.part, n), NULL);
         tool_check(ss_writer_flush(writer), NULL);
+        n = copy_rows(&c, 0);
     } while (n > 0);
     ss_writer_free(writer);
     copy_end(&c);

@@ -1,1 +1,3 @@
 printf "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m v/(m/s)\n0\t1\t2\n0.1\t3\t4\n0.2\t5\t6\n" | ss-cat -c v -c x --from 0.1
+# where nothing is left, no header is written either
+printf "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m\n0\t1\n0.1\t3\n" | ss-cat --from 7 || echo "exit $?"
