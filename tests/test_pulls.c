@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 #include <stickslip.h>
+#include "pull.h"
 
 enum { RATE = 2000 };
 #define FRICTION .0452
@@ -330,8 +331,9 @@ what_is_no_slip_has_no_friction(void **state)
 
 /* From one seed on, uniform in 0 ... 1: Park and Miller's. */
 static double
-draw(unsigned long long *seed)
+draw(void *from)
 {
+    unsigned long long *seed = from;
     *seed = *seed * 48271 % 2147483647;
     return (double)*seed / 2147483647;
 }
@@ -339,26 +341,7 @@ draw(unsigned long long *seed)
 static double
 between(unsigned long long *seed, double lo, double hi)
 {
-    return lo * pow(hi / lo, draw(seed));
-}
-
-/* q from 1.5 to 30, f_k / D from 1 to 20, 40 to 120 samples in pi / w. */
-static ss_scene
-draw_scene(unsigned long long *seed)
-{
-    ss_scene s = ss_scene_defaults;
-    s.mass = between(seed, .01, 100);
-    double w = 2 * M_PI * between(seed, 2, 200), q = between(seed, 1.5, 30);
-    s.stiffness = s.mass * w * w;
-    s.base_velocity = between(seed, 1e-5, 1e-2);
-    double D = q * s.stiffness * s.base_velocity / w, loading = s.stiffness * s.base_velocity;
-    s.friction = D * between(seed, 1, 20);
-    s.static_friction = s.friction + D;
-    double period = 2 * (M_PI - atan(q)) / w + 2 * D / loading;
-    s.settle = s.static_friction / loading + (1.5 + draw(seed)) * period;
-    s.duration = 10 * period;
-    s.rate = between(seed, 40, 120) * w / M_PI;
-    return s;
+    return pull_between(draw(seed), lo, hi);
 }
 
 static void
@@ -400,7 +383,7 @@ fits_of_pulls_cover(void **state)
         unsigned long long seed = 1001;
         size_t named = 0;
         for (unsigned long i = 0; i < DRAWS; i++) {
-            ss_scene s = draw_scene(&seed);
+            ss_scene s = pull_draw(draw, &seed);
             record t = record_of(&s, snr[k], i + 1, 1);
             ss_pull *p = fit(t.signal, &s);
             if (p->verdict == SS_NAMED) {
@@ -445,9 +428,8 @@ draw_candidates(ss_scene candidate[CANDIDATES], const ss_scene *own, unsigned lo
     }
 }
 
-/* The scene that is named; n: none. */
-static size_t
-name_of(const ss_signal *signal, const ss_scene *scene, size_t n)
+static ss_ranking *
+ranking_of(const ss_signal *signal, const ss_scene *scene, size_t n)
 {
     ss_rank_opts opts = ss_rank_defaults;
     ss_ranking *r = NULL;
@@ -455,6 +437,14 @@ name_of(const ss_signal *signal, const ss_scene *scene, size_t n)
     opts.quantity = SS_SPRING;
     if (ss_ranking_new(&r, signal, 0, scene, n, &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
+    return r;
+}
+
+/* The scene that is named; n: none. */
+static size_t
+name_of(const ss_signal *signal, const ss_scene *scene, size_t n)
+{
+    ss_ranking *r = ranking_of(signal, scene, n);
     size_t named = r->verdict == SS_NAMED ? r->row[0].scene : n;
     ss_ranking_free(r);
     return named;
@@ -464,12 +454,7 @@ name_of(const ss_signal *signal, const ss_scene *scene, size_t n)
 static size_t
 named_of(const ss_signal *signal, const ss_scene *scene, size_t n, const ss_scene *truth)
 {
-    ss_rank_opts opts = ss_rank_defaults;
-    ss_ranking *r = NULL;
-    ss_error err = { 0 };
-    opts.quantity = SS_SPRING;
-    if (ss_ranking_new(&r, signal, 0, scene, n, &opts, &err) != SS_OK)
-        fail_msg("%s", err.text);
+    ss_ranking *r = ranking_of(signal, scene, n);
     const ss_rank_row first = r->row[0];
     size_t named = r->verdict == SS_NAMED ? first.scene : CANDIDATES;
     ss_ranking_free(r);
@@ -496,7 +481,7 @@ pulls_are_named_rightly_or_not_at_all(void **state)
         unsigned long long seed = 2001;
         size_t right = 0;
         for (unsigned long i = 0; i < DRAWS; i++) {
-            ss_scene s = draw_scene(&seed), candidate[CANDIDATES];
+            ss_scene s = pull_draw(draw, &seed), candidate[CANDIDATES];
             draw_candidates(candidate, &s, &seed);
             record t = record_of(&s, snr[k], i + 1, 1);
             size_t named = named_of(t.signal, candidate, CANDIDATES, &s);
@@ -520,7 +505,7 @@ falling_friction_is_not_named(void **state)
     size_t fitted = 0;
     (void)state;
     for (unsigned long i = 0; i < DRAWS; i++) {
-        ss_scene s = draw_scene(&seed), truth = s;
+        ss_scene s = pull_draw(draw, &seed), truth = s;
         double w = sqrt(s.stiffness / s.mass), q = (s.static_friction - s.friction) * w
                                                    / (s.stiffness * s.base_velocity);
         truth.model = SS_STRIBECK;
@@ -621,7 +606,7 @@ laws_are_named_rightly_or_not_at_all(void **state)
         for (unsigned long i = 0; i < DRAWS; i++) {
             ss_scene pull, truth, candidate[LAWS];
             do {
-                pull = draw_scene(&seed);
+                pull = pull_draw(draw, &seed);
                 truth = with_law(&pull, law, &seed);
             } while (!slips(&truth));
             for (int k = 0; k < LAWS; k++) {
@@ -645,7 +630,7 @@ static void
 scenes_that_do_not_pull_stand_aside(void **state)
 {
     unsigned long long seed = 5001;
-    ss_scene pull = draw_scene(&seed), candidate[3] = { pull, pull, pull };
+    ss_scene pull = pull_draw(draw, &seed), candidate[3] = { pull, pull, pull };
     ss_ranking *r = NULL;
     ss_rank_opts opts = ss_rank_defaults;
     (void)state;

@@ -50,6 +50,30 @@ bench_alloc(size_t n)
     return x;
 }
 
+/* One column of a scene's record, alone. */
+static inline ss_signal *
+bench_column(const ss_scene *scene, size_t column)
+{
+    ss_signal *all = NULL, *one = NULL;
+    ss_error err = { 0 };
+    if (ss_sim_signal(&all, scene, &err) != SS_OK
+        || ss_signal_select(&one, all, &column, 1, 0, all->n, &err) != SS_OK) {
+        printf("# %s\n", err.text);
+        exit(1);
+    }
+    ss_signal_free(all);
+    return one;
+}
+
+/* The same with white noise. */
+static inline ss_signal *
+bench_noisy_column(const ss_scene *scene, size_t column, double snr, unsigned long seed)
+{
+    ss_signal *one = bench_column(scene, column);
+    ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
+    return one;
+}
+
 typedef struct bench_kept {
     double *x;
     size_t n, events;

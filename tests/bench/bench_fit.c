@@ -41,22 +41,6 @@ draw(gsl_rng *rng, const ss_scene *shipped)
     return s;
 }
 
-static ss_signal *
-acceleration(const ss_scene *scene, double snr, unsigned long seed)
-{
-    const size_t a = SS_ACCELERATION;
-    ss_signal *all = NULL, *one = NULL;
-    ss_error err;
-    if (ss_sim_signal(&all, scene, &err) != SS_OK
-        || ss_signal_select(&one, all, &a, 1, 0, all->n, &err) != SS_OK) {
-        printf("# %s\n", err.text);
-        exit(1);
-    }
-    ss_signal_free(all);
-    ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
-    return one;
-}
-
 static void
 count(tally *t, const ss_fit *fit, const ss_scene *truth)
 {
@@ -77,7 +61,7 @@ static void
 one_fit(tally *t, gsl_rng *rng, const ss_scene *shipped, double snr)
 {
     ss_scene truth = draw(rng, shipped), start = truth;
-    ss_signal *g = acceleration(&truth, snr, gsl_rng_get(rng));
+    ss_signal *g = bench_noisy_column(&truth, SS_ACCELERATION, snr, gsl_rng_get(rng));
     ss_fit fit;
     ss_error err;
     double began = bench_seconds();

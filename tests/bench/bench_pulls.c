@@ -16,6 +16,7 @@
  * two laws give the same falls, not told; or if of the fitted numbers one in 50 is beyond five errors. */
 #include <gsl/gsl_errno.h>
 #include "../foreign.h"
+#include "../pull.h"
 #include "bench.h"
 
 enum { PLAIN, DAMPED, ON_BELT, STRIBECK, COMPLIANT, KINDS };
@@ -31,22 +32,19 @@ critical(const ss_scene *s, double stiffness)
     return 2 * sqrt(stiffness * s->mass);
 }
 
+static double
+uniform(void *rng)
+{
+    return gsl_rng_uniform(rng);
+}
+
 /* A pull without further terms, and the numbers that these have. */
 static ss_scene
 draw(gsl_rng *rng, numbers *n)
 {
-    ss_scene s = ss_scene_defaults;
-    s.mass = foreign_scale(rng, .01, 100);
-    double w = 2 * M_PI * foreign_scale(rng, 2, 200), q = foreign_scale(rng, 1.5, 30);
-    s.stiffness = s.mass * w * w;
-    s.base_velocity = foreign_scale(rng, 1e-5, 1e-2);
-    double D = q * s.stiffness * s.base_velocity / w, loading = s.stiffness * s.base_velocity;
-    s.friction = D * foreign_scale(rng, 1, 20);
-    s.static_friction = s.friction + D;
-    double period = 2 * (M_PI - atan(q)) / w + 2 * D / loading;
-    s.settle = s.static_friction / loading + (1.5 + gsl_rng_uniform(rng)) * period;
-    s.duration = 10 * period;
-    s.rate = foreign_scale(rng, 40, 120) * w / M_PI;
+    ss_scene s = pull_draw(uniform, rng);
+    double w = sqrt(s.stiffness / s.mass), fall = s.static_friction - s.friction;
+    double q = fall * w / (s.stiffness * s.base_velocity);
     n->damping = foreign_scale(rng, .02, .5) * critical(&s, s.stiffness);
     n->stribeck_velocity = foreign_scale(rng, .1, 2) * s.base_velocity * (1 + sqrt(1 + q * q));
     n->contact_stiffness = foreign_scale(rng, 10, 100) * s.stiffness;
@@ -94,23 +92,6 @@ near(gsl_rng *rng, const ss_scene *scene)
     s.contact_stiffness = vary(rng, s.contact_stiffness);
     s.contact_damping = vary(rng, s.contact_damping);
     return s;
-}
-
-/* The force of the spring alone, with noise. */
-static ss_signal *
-spring(const ss_scene *scene, double snr, unsigned long seed)
-{
-    const size_t s = SS_SPRING;
-    ss_signal *all = NULL, *one = NULL;
-    ss_error err;
-    if (ss_sim_signal(&all, scene, &err) != SS_OK
-        || ss_signal_select(&one, all, &s, 1, 0, all->n, NULL) != SS_OK) {
-        printf("# %s\n", err.text);
-        exit(1);
-    }
-    ss_signal_free(all);
-    ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
-    return one;
 }
 
 /* --- answers -------------------------------------------------------------------------------- */
@@ -232,7 +213,7 @@ ask(tally *t, int own, double snr, gsl_rng *rng)
         pull = draw(rng, &n);
         truth = scene_of(&pull, &n, own);
     } while (!slips(&truth));
-    ss_signal *g = spring(&truth, snr, gsl_rng_get(rng));
+    ss_signal *g = bench_noisy_column(&truth, SS_SPRING, snr, gsl_rng_get(rng));
     for (int i = 0; i < KINDS; i++) {
         if (i == (own == ON_BELT ? DAMPED : ON_BELT))       /* the same motion in another frame */
             continue;

@@ -47,22 +47,6 @@ draw(gsl_rng *rng, const ss_scene *shipped, int wide)
     return s;
 }
 
-/* The scene's acceleration alone. */
-static ss_signal *
-acceleration(const ss_scene *scene)
-{
-    const size_t a = SS_ACCELERATION;
-    ss_signal *all = NULL, *one = NULL;
-    ss_error err;
-    if (ss_sim_signal(&all, scene, &err) != SS_OK
-        || ss_signal_select(&one, all, &a, 1, 0, all->n, NULL) != SS_OK) {
-        printf("# %s\n", err.text);
-        exit(1);
-    }
-    ss_signal_free(all);
-    return one;
-}
-
 static void
 answer(tally *t, ss_signal *g, const ss_scene shipped[MODELS], double snr, unsigned long seed)
 {
@@ -139,7 +123,7 @@ main(int argc, char *argv[])
                 ss_scene s = shipped[which % MODELS];
                 if (kind < 2)
                     s = draw(rng, &s, kind == 1);
-                ss_signal *g = acceleration(&s);
+                ss_signal *g = bench_column(&s, SS_ACCELERATION);
                 if (kind == 2)
                     foreign_signal(which, g->values, g->n, g->head->rate, rng);
                 answer(&t, g, shipped, level[l], gsl_rng_get(rng));

@@ -240,8 +240,7 @@ fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL]
         return;
     }
     int is_straight = before > 0 && before < w->n && !ss_model_of(&s)->has_contact;
-    double slope = is_straight ? (row[before] - row[0]) * rate / (double)before
-                                               : f->r->slope.value;
+    double slope = is_straight ? (row[before] - row[0]) * rate / (double)before : f->r->slope.value;
     row[w->n] = (slope - f->r->slope.value) / slope_error(f->r);
     row[w->n] *= sqrt(f->noise / (double)f->r->n);
     for (size_t k = 0; k < w->n; k++)
