@@ -74,6 +74,8 @@ static const struct row {
     { "scales from 1/8 sample to 20 records", OSCILLATION, 100, 1, 0, 2000, 6, { -3, 11 } },
     { "such scales of a last sample", LAST_ONLY,  100, 1, 0, 2000, 6, { -3, 11 } },
     { "such scales, center 100",     OSCILLATION, 100, 1, 0, 2000, 100, { -3, 11 } },
+    { "1 Hz",                        OSCILLATION, 400, 1, 0, 1, 6, { 0 } },     /* times are */
+    { "1/25 Hz",                     OSCILLATION, 400, 1, 0, 0.04, 6, { 0 } },  /* samples here */
     { "1e-3 Hz",                     OSCILLATION, 400, 1, 0, 1e-3, 6, { 0 } },
     { "1e9 Hz",                      OSCILLATION, 400, 1, 0, 1e9, 6, { 0 } },
     { "1e-100 Hz",                   OSCILLATION, 400, 1, 0, 1e-100, 6, { 0 } },
@@ -103,14 +105,15 @@ extreme_records_keep_the_bound(void **state)
     static const double accuracy[] = { 1e-3, 1e-6, 1e-12 };
     (void)state;
     for (size_t i = 0; i < LENGTH(row); i++)
-        for (size_t k = 0; k < 2 * LENGTH(accuracy); k++) {
+        for (size_t k = 0; k < 4 * LENGTH(accuracy); k++) {
             const struct row *r = &row[i];
             double *x = record_of(r->shape, r->n, r->size, r->offset);
             ss_morlet_opts opts = options_of(r);
             ss_morlet *plan = NULL;
             ss_error err = { 0 };
             opts.engine = k % 2 ? SS_ENGINE_QUADRATURE : SS_ENGINE_FFT;
-            opts.accuracy = accuracy[k / 2];
+            opts.exact = k / 2 % 2;
+            opts.accuracy = accuracy[k / 4];
             if (ss_morlet_new(&plan, r->n, r->rate, &opts, &err) != SS_OK)
                 fail_msg("%s: %s", r->what, err.text);
             double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
@@ -119,8 +122,8 @@ extreme_records_keep_the_bound(void **state)
             size_t every = 1 + ss_morlet_total(plan) * r->n / 20000;
             double worst = worst_error(plan, x, r->n, r->rate, &opts, w, every);
             if (!(worst <= 1))
-                fail_msg("%s, engine %d, accuracy %g: %g times the bound", r->what, opts.engine,
-                         opts.accuracy, worst);
+                fail_msg("%s, engine %d, %s steps, accuracy %g: %g times the bound", r->what,
+                         opts.engine, opts.exact ? "exact" : "near", opts.accuracy, worst);
             ss_morlet_free(plan);
             free(w);
             free(x);

@@ -165,6 +165,12 @@ ss_spot_of(double b, double rate)
     return (spot){ c, c / rate == b ? 0 : fma(b, rate, -c) };
 }
 
+static int
+is_power_of_two(double x)
+{
+    return frexp(x, &(int){ 0 }) == 0.5;
+}
+
 double
 ss_scale_parts(const ss_scale *scale, double rate)
 {
@@ -172,7 +178,7 @@ ss_scale_parts(const ss_scale *scale, double rate)
     int listed = 0;
     for (int i = 0; i < ODD_PARTS; i++)
         listed |= parts == odd_part[i];
-    return listed && scale->b_den == parts * rate ? parts : 0;
+    return listed && scale->b_den == parts * rate && is_power_of_two(scale->b_num) ? parts : 0;
 }
 
 spot
@@ -236,8 +242,8 @@ choose_step(ss_scale *scale, double samples, double rate, double step)
 static int
 step_is_exact(const ss_scale *scale, const ss_morlet_opts *opts)
 {
-    int power_of_two = frexp(scale->b_num, &(int){ 0 }) == 0.5;
-    return opts->dense || opts->exact || opts->step > 1 || (opts->voices == 1 && power_of_two);
+    return opts->dense || opts->exact || opts->step > 1
+        || (opts->voices == 1 && is_power_of_two(scale->b_num));
 }
 
 ss_status

@@ -72,7 +72,7 @@ void ss_morlet_leave_rounding(ss_morlet_opts *opts);
 /* The grid of a column's transform by plan, w being NULL; to be freed, failed or not. */
 ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
                             const ss_morlet *plan, const ss_morlet_opts *opts);
-/* m, if translation k of a scale lies at sample k b_num/m exactly, else 0. */
+/* m, if translation k of a scale lies at sample k 2^p/m exactly, 2^p being b_num, else 0. */
 double ss_scale_parts(const ss_scale *scale, double rate);
 /* The place of translation k, and of time b [s] from the first sample. */
 spot ss_scale_spot(const ss_scale *scale, size_t k, double rate);
