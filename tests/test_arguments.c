@@ -112,6 +112,7 @@ makers_and_writers_refuse_null(void **state)
     assert_null(store);
     assert_refused(ss_store_writer_signal(NULL, &(double){ 0 }, 1, 1, 1, &e), &e);
     assert_refused(ss_store_writer_rows(NULL, NULL, 0, 0, NULL, 0, &e), &e);
+    assert_refused(ss_store_writer_note(NULL, "a", "b", &e), &e);
     assert_refused(ss_store_writer_end(NULL, 1, &e), &e);
     ss_store_writer_free(NULL);
     ss_store_reader *reader = NULL;

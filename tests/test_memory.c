@@ -653,6 +653,8 @@ store_pieces(int variant)
         st = ss_store_writer_rows(writer, &grid.scale[i], 0, grid.scale[i].n,
                                   grid.w + 2 * grid.scale[i].offset, n, &err);
     if (st == SS_OK)
+        st = ss_store_writer_note(writer, "late", "note", &err);
+    if (st == SS_OK)
         st = ss_store_writer_end(writer, n, &err);
     ss_store_writer_free(writer);
     if (st != SS_OK)

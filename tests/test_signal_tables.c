@@ -424,13 +424,16 @@ reads_a_file_as_it_reads_a_pipe(void **state)
     }
 }
 
-/* A recorder may append rows meanwhile; those that were there at first are read. */
+/* A recorder may append rows meanwhile; those that were there at first are read.  Others are never given. */
 static void
-reads_a_file_that_grows_and_refuses_one_that_shrinks(void **state)
+reads_a_file_that_grows_and_refuses_one_that_changes(void **state)
 {
+    enum { GROWS, SHRINKS, CHANGES };
+    static const char *const said[] = { "", "the file has become shorter while it was read",
+                                        "in:8194: the rows up to here have changed while the file was read" };
     (void)state;
-    for (int longer = 0; longer < 2; longer++) {
-        char *text = long_table(10000, "");
+    for (int how = GROWS; how <= CHANGES; how++) {
+        char *text = long_table(10000, ""), *at = strstr(text, "8.000,");
         FILE *f = file_of(text, strlen(text));
         ss_reader *reader;
         ss_error err = { 0 };
@@ -438,15 +441,18 @@ reads_a_file_that_grows_and_refuses_one_that_shrinks(void **state)
         size_t n, all = 0;
         ss_status st = ss_reader_new(&reader, f, "in", NULL, &err);
         assert_int_equal(st, SS_OK);
-        if (longer)
+        if (how == GROWS)
             assert_true(pwrite(fileno(f), "10.000,1\n", 9, (off_t)strlen(text)) == 9);
+        else if (how == SHRINKS)
+            assert_int_equal(ftruncate(fileno(f), at - text), 0);
         else
-            assert_int_equal(ftruncate(fileno(f), strstr(text, "8.000,") - text), 0);
+            assert_true(pwrite(fileno(f), "8.000,8001", 10, at - text) == 10);
         while ((st = ss_reader_rows(reader, row, 1000, &n, &err)) == SS_OK && n > 0)
-            all += n;
-        assert_int_equal(st, longer ? SS_OK : SS_EDATA);
-        assert_true(longer ? all == 10000 : all < 10000);
-        assert_true(longer || strstr(err.text, "the file has become shorter while it was read") != NULL);
+            for (size_t i = 0; i < n; i++)
+                assert_true(row[i] == (double)all++);
+        assert_int_equal(st, how == GROWS ? SS_OK : SS_EDATA);
+        assert_true(how == GROWS ? all == 10000 : all < 8000);
+        assert_string_equal(strstr(err.text, said[how]) != NULL ? "" : err.text, "");
         ss_reader_free(reader);
         fclose(f);
         free(text);
@@ -468,7 +474,7 @@ main(void)
         cmocka_unit_test(reads_the_measured_recordings),
         cmocka_unit_test(interpolates_uneven_stamps_to_a_uniform_clock),
         cmocka_unit_test(reads_a_file_as_it_reads_a_pipe),
-        cmocka_unit_test(reads_a_file_that_grows_and_refuses_one_that_shrinks),
+        cmocka_unit_test(reads_a_file_that_grows_and_refuses_one_that_changes),
     };
     return cmocka_run_group_tests_name("signal tables", tests, NULL, NULL);
 }

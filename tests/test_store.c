@@ -140,6 +140,8 @@ a_signal_of_unknown_length_reads_back_exactly(void **state)
             m = n - i < piece ? n - i : piece;
             assert_int_equal(ss_store_writer_signal(writer, rows + i * columns, m, columns, 1, NULL), SS_OK);
         }
+        assert_int_equal(ss_store_writer_note(writer, "late", "a note: at the end", NULL), SS_OK);
+        assert_int_equal(ss_header_note(signal->head, "late", "a note: at the end"), SS_OK);
         assert_int_equal(ss_store_writer_end(writer, n, NULL), SS_OK);
         ss_store_writer_free(writer);
         assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);

@@ -116,6 +116,15 @@ void tool_cut(FILE *out, long offset);
 /* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
+/* The same for a signal that comes in pieces, in constant memory; its header is copied.  Rows, of which
+ * the first open the file, are one after the other.  A note that is known at the end is left out by AU and
+ * CSV.  The functions die if they fail; end frees. */
+typedef struct tool_signal tool_signal;
+tool_signal *tool_signal_new(const ss_header *head, const char *path, tool_kind kind);
+void tool_signal_rows(tool_signal *signal, const double *rows, size_t n);
+void tool_signal_note(tool_signal *signal, const char *key, const char *value);
+void tool_signal_end(tool_signal *signal);
+
 /* Write a script to what -o names, a .gp or standard output, or the picture that gnuplot makes of
  * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);

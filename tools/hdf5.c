@@ -44,6 +44,9 @@ FORWARD(ss_store_writer_rows,
         (ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
          size_t samples, ss_error *err),
         (writer, scale, first, n, w, samples, err))
+FORWARD(ss_store_writer_note,
+        (ss_store_writer *writer, const char *key, const char *value, ss_error *err),
+        (writer, key, value, err))
 FORWARD(ss_store_writer_end, (ss_store_writer *writer, size_t samples, ss_error *err), (writer, samples, err))
 FORWARD(ss_store_signal_reader,
         (ss_reader **out, const char *path, const char *dataset, const ss_read_opts *opts,

@@ -83,6 +83,123 @@ tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
         tool_check(ss_signal_write(signal, tool_output(path), tool_stream(kind), &err), &err);
 }
 
+/* --- a signal as it comes -------------------------------------------------------------------- */
+
+enum { WHOLE = 1 << 20 };       /* values of a signal that goes into HDF5 in one piece, as short ones do */
+
+struct tool_signal {
+    ss_header *head;
+    const char *path;
+    tool_kind kind;
+    FILE *out;
+    ss_writer *writer;          /* NULL before the first rows, and for HDF5 */
+    ss_store_writer *store;     /* NULL as long as all rows are kept */
+    double *kept;
+    size_t n;                   /* rows so far */
+};
+
+tool_signal *
+tool_signal_new(const ss_header *head, const char *path, tool_kind kind)
+{
+    tool_signal *s = calloc(1, sizeof *s);
+    if (s == NULL || (s->head = ss_header_copy(head)) == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    s->path = path;
+    s->kind = kind;
+    if (kind == TOOL_H5 && (s->kept = malloc((WHOLE + head->n_columns) * sizeof *s->kept)) == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    return s;
+}
+
+static void
+begin_stream(tool_signal *s)
+{
+    ss_error err = { 0 };
+    s->out = tool_output(s->path);
+    tool_check(ss_writer_new(&s->writer, s->out, tool_stream(s->kind), s->head, &err), &err);
+}
+
+/* Keep the rows; 0: there are too many by now. */
+static int
+keep_rows(tool_signal *s, const double *rows, size_t n)
+{
+    size_t columns = s->head->n_columns;
+    if (s->store != NULL || (s->n + n) * columns > WHOLE)
+        return 0;
+    memcpy(s->kept + s->n * columns, rows, n * columns * sizeof *rows);
+    return 1;
+}
+
+static void
+store_rows(tool_signal *s, const double *rows, size_t n)
+{
+    ss_error err = { 0 };
+    size_t columns = s->head->n_columns;
+    if (s->store == NULL) {
+        tool_check(ss_store_writer_new(&s->store, tool_output_path(s->path), s->head, NULL, &err), &err);
+        tool_check(ss_store_writer_signal(s->store, s->kept, s->n, columns, 1, &err), &err);
+    }
+    tool_check(ss_store_writer_signal(s->store, rows, n, columns, 1, &err), &err);
+}
+
+void
+tool_signal_rows(tool_signal *s, const double *rows, size_t n)
+{
+    if (s->kind == TOOL_H5) {
+        if (!keep_rows(s, rows, n))
+            store_rows(s, rows, n);
+        s->n += n;
+        return;
+    }
+    if (s->writer == NULL)
+        begin_stream(s);
+    tool_check(ss_writer_rows(s->writer, rows, n), NULL);
+    tool_check(ss_writer_flush(s->writer), NULL);
+}
+
+void
+tool_signal_note(tool_signal *s, const char *key, const char *value)
+{
+    ss_error err = { 0 };
+    if (s->store != NULL)
+        tool_check(ss_store_writer_note(s->store, key, value, &err), &err);
+    else if (s->writer == NULL)
+        tool_check(ss_header_note(s->head, key, value), NULL);
+    else if (s->kind == TOOL_TSV)
+        fprintf(s->out, "# %s: %s\n", key, value);
+}
+
+/* All rows that were kept. */
+static void
+store_whole(const tool_signal *s)
+{
+    ss_signal *signal;
+    size_t columns = s->head->n_columns;
+    tool_check(ss_signal_new(&signal, s->head, s->n), NULL);
+    for (size_t c = 0; c < columns; c++)
+        for (size_t i = 0; i < s->n; i++)
+            signal->values[c * s->n + i] = s->kept[i * columns + c];
+    tool_write_signal(signal, s->path, s->kind);
+    ss_signal_free(signal);
+}
+
+void
+tool_signal_end(tool_signal *s)
+{
+    ss_error err = { 0 };
+    if (s->store != NULL)
+        tool_check(ss_store_writer_end(s->store, s->n, &err), &err);
+    else if (s->kind == TOOL_H5)
+        store_whole(s);
+    else if (s->writer == NULL)
+        begin_stream(s);
+    ss_store_writer_free(s->store);
+    ss_writer_free(s->writer);
+    ss_header_free(s->head);
+    free(s->kept);
+    free(s);
+}
+
 /* --- gnuplot ------------------------------------------------------------------------------- */
 
 /* The last line of gnuplot's words is the reason; those above quote the script. */

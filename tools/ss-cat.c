@@ -25,7 +25,7 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { PIECE = 4096, WHOLE = 1 << 20 };      /* rows; values */
+enum { PIECE = 4096 };          /* rows */
 
 static const char *path, *output;
 static tool_texts wanted;               /* names of columns */
@@ -67,116 +67,35 @@ copy_whole(tool_kind kind, const ss_read_opts *opts)
     free(column);
 }
 
-/* A signal that is copied piece by piece. */
-typedef struct copy {
-    ss_reader *reader;
-    ss_header *head;            /* of the columns asked for */
-    size_t *column, n, all;     /* these, of all columns */
-    double *rows, *part;        /* a piece of all columns; `room` rows of those asked for */
-    size_t room;
-} copy;
-
-static copy
-copy_begin(const ss_read_opts *opts, size_t values)
-{
-    copy c = { .reader = tool_read_rows(path, opts), .room = PIECE };
-    const ss_header *head = ss_reader_header(c.reader);
-    c.column = choose_columns(head, &c.n);
-    c.all = head->n_columns;
-    while (c.room * c.n < values)
-        c.room *= 2;
-    c.rows = malloc(PIECE * c.all * sizeof *c.rows);
-    c.part = malloc(c.room * c.n * sizeof *c.part);
-    say_header(head);
-    if (c.rows == NULL || c.part == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    tool_check(ss_header_select(&c.head, head, c.column, c.n, 0), NULL);
-    return c;
-}
-
-/* Read rows into part, from its i-th on; 0: there are no more. */
-static size_t
-copy_rows(const copy *c, size_t i)
-{
-    ss_error err = { 0 };
-    size_t got;
-    tool_check(ss_reader_rows(c->reader, c->rows, PIECE, &got, &err), &err);
-    for (size_t k = 0; k < got; k++)
-        for (size_t j = 0; j < c->n; j++)
-            c->part[(i + k) * c->n + j] = c->rows[k * c->all + c->column[j]];
-    return got;
-}
-
-static void
-copy_end(copy *c)
-{
-    ss_header_free(c->head);
-    ss_reader_free(c->reader);
-    free(c->column);
-    free(c->rows);
-    free(c->part);
-}
-
 /* Row by row, in constant memory and as they come. */
 static void
-copy_stream(tool_kind kind, const ss_read_opts *opts)
+copy_rows(tool_kind kind, const ss_read_opts *opts)
 {
-    copy c = copy_begin(opts, 0);
-    ss_writer *writer;
+    ss_reader *reader = tool_read_rows(path, opts);
+    const ss_header *head = ss_reader_header(reader);
+    ss_header *chosen;
     ss_error err = { 0 };
-    size_t n = copy_rows(&c, 0);        /* before the header is written: it may fail */
-    tool_check(ss_writer_new(&writer, tool_output(output), tool_stream(kind), c.head, &err), &err);
-    do {
-        tool_check(ss_writer_rows(writer, c.part, n), NULL);
-        tool_check(ss_writer_flush(writer), NULL);
-        n = copy_rows(&c, 0);
-    } while (n > 0);
-    ss_writer_free(writer);
-    copy_end(&c);
-}
-
-/* The n rows that were read, as a signal of this length. */
-static void
-store_whole(const copy *c, size_t n)
-{
-    ss_signal *signal;
-    tool_check(ss_signal_new(&signal, c->head, n), NULL);
-    for (size_t j = 0; j < c->n; j++)
-        for (size_t i = 0; i < n; i++)
-            signal->values[j * n + i] = c->part[i * c->n + j];
-    tool_write_signal(signal, output, TOOL_H5);
-    ss_signal_free(signal);
-}
-
-/* The rows that were read and those that follow. */
-static void
-store_pieces(const copy *c, size_t n)
-{
-    ss_store_writer *writer;
-    ss_error err = { 0 };
-    size_t samples = 0;
-    tool_check(ss_store_writer_new(&writer, tool_output_path(output), c->head, NULL, &err), &err);
-    for (; n > 0; n = copy_rows(c, 0)) {
-        tool_check(ss_store_writer_signal(writer, c->part, n, c->n, 1, &err), &err);
-        samples += n;
+    size_t n, got, *column = choose_columns(head, &n), all = head->n_columns;
+    double *rows = malloc(PIECE * (all + n) * sizeof *rows), *part = rows + PIECE * all;
+    if (rows == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    say_header(head);
+    tool_check(ss_header_select(&chosen, head, column, n, 0), NULL);
+    tool_signal *out = tool_signal_new(chosen, output, kind);
+    for (;;) {
+        tool_check(ss_reader_rows(reader, rows, PIECE, &got, &err), &err);
+        if (got == 0)
+            break;
+        for (size_t i = 0; i < got; i++)
+            for (size_t j = 0; j < n; j++)
+                part[i * n + j] = rows[i * all + column[j]];
+        tool_signal_rows(out, part, got);
     }
-    tool_check(ss_store_writer_end(writer, samples, &err), &err);
-    ss_store_writer_free(writer);
-}
-
-/* Into HDF5, a short signal as a whole and a long one piece by piece. */
-static void
-copy_to_store(const ss_read_opts *opts)
-{
-    copy c = copy_begin(opts, WHOLE);
-    size_t n = 0, got = 1;
-    for (; got > 0 && n + PIECE <= c.room; n += got)
-        got = copy_rows(&c, n);
-    if (got == 0)
-        store_whole(&c, n);
-    else
-        store_pieces(&c, n);
-    copy_end(&c);
+    tool_signal_end(out);
+    ss_header_free(chosen);
+    ss_reader_free(reader);
+    free(column);
+    free(rows);
 }
 
 int
@@ -193,10 +112,8 @@ main(int argc, char *argv[])
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     if (reading.opts.resample > 0)
         copy_whole(kind, &reading.opts);
-    else if (kind == TOOL_H5)
-        copy_to_store(&reading.opts);
     else
-        copy_stream(kind, &reading.opts);
+        copy_rows(kind, &reading.opts);
     tool_reading_free(&reading);
     free(wanted.text);
     tool_end();

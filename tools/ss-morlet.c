@@ -329,39 +329,44 @@ push_samples(flow *f, const double *x, size_t n, const request *req, const char 
     }
 }
 
+/* n samples of a row each, which may be 0; the first open the output. */
+static void
+push_rows(flow *f, const double *rows, double *x, size_t n, const ss_header *head, size_t column,
+          const request *req, const char *path)
+{
+    if (f->text == NULL && f->store == NULL)
+        open_output(f, req, head, column, 0, ss_stream_scale(f->stream, 0), ss_stream_scales(f->stream));
+    for (size_t i = 0; i < n; i++)
+        x[i] = rows[i * head->n_columns + column];
+    store_samples(f, rows, n, head->n_columns, 1);
+    push_samples(f, x, n, req, path);
+}
+
 /* Samples as they come, until there are no more. */
 static void
 follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
 {
     enum { PIECE = 8192 };
-    size_t columns = ss_reader_header(reader)->n_columns, n = 1;
-    double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
+    const ss_header *head = ss_reader_header(reader);
+    size_t n, all = 0;
+    double *rows = malloc(head->n_columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
     ss_error bad = { 0 }, err = { 0 };
     if (rows == NULL || x == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    while (n > 0 && !tool_stopping()) {
+    do {
         ss_status st = ss_reader_rows(reader, rows, PIECE, &n, &bad);
-        for (size_t i = 0; i < n; i++)
-            x[i] = rows[i * columns + column];
-        store_samples(f, rows, n, columns, 1);
-        push_samples(f, x, n, req, path);
+        all += n;
+        if (all == 0)                   /* then nothing is written */
+            tool_check(st, &bad);
+        push_rows(f, rows, x, n, head, column, req, path);
         if (st != SS_OK)                /* bad data: what is complete before them is written */
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
         if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
             check_written(SS_EIO, NULL);
         tool_check(st, &bad);
-    }
+    } while (n > 0 && !tool_stopping());
     free(rows);
     free(x);
-}
-
-static void
-open_flow(flow *f, const request *req, const ss_header *head, size_t column, const char *path)
-{
-    ss_error err = { 0 };
-    check(ss_stream_new(&f->stream, head->rate, &req->opts, write_rows, f, &err), &err, path);
-    open_output(f, req, head, column, 0, ss_stream_scale(f->stream, 0),
-                ss_stream_scales(f->stream));
 }
 
 static void
@@ -383,10 +388,12 @@ static void
 transform_stream(const request *req, const char *path)
 {
     flow f = { .text = NULL };
+    ss_error err = { 0 };
     if (req->reading.opts.resample > 0) {       /* not read row by row */
         ss_signal *signal = tool_read_signal(path, &req->reading.opts);
         size_t column = tool_column(signal->head, path, req->column);
-        open_flow(&f, req, signal->head, column, path);
+        check(ss_stream_new(&f.stream, signal->head->rate, &req->opts, write_rows, &f, &err), &err, path);
+        open_output(&f, req, signal->head, column, 0, ss_stream_scale(f.stream, 0), ss_stream_scales(f.stream));
         store_samples(&f, signal->values, signal->n, 1, signal->n);
         push_samples(&f, signal->values + column * signal->n, signal->n, req, path);
         close_flow(&f, path);
@@ -394,9 +401,10 @@ transform_stream(const request *req, const char *path)
         return;
     }
     ss_reader *reader = tool_read_rows(path, &req->reading.opts);
-    size_t column = tool_column(ss_reader_header(reader), path, req->column);
+    const ss_header *head = ss_reader_header(reader);
+    size_t column = tool_column(head, path, req->column);
     tool_end_at_rows(req->output);
-    open_flow(&f, req, ss_reader_header(reader), column, path);
+    check(ss_stream_new(&f.stream, head->rate, &req->opts, write_rows, &f, &err), &err, path);
     follow(&f, reader, column, req, path);
     close_flow(&f, path);
     ss_reader_free(reader);

@@ -141,10 +141,9 @@ change_whole(tool_kind kind, ss_noise *noise)
 
 /* Row by row, in constant memory and as they come. */
 static void
-change_stream(tool_kind kind, ss_noise *noise)
+change_rows(tool_kind kind, ss_noise *noise)
 {
     ss_reader *reader = tool_read_rows(path, &reading.opts);
-    ss_writer *writer;
     ss_error err = { 0 };
     size_t n;
     char text[128];
@@ -156,8 +155,7 @@ change_stream(tool_kind kind, ss_noise *noise)
     for (size_t c = 0; c < head->n_columns; c++)
         level[c] *= isnan(rms) ? 0 : rms;
     add_notes(head);
-    FILE *out = tool_output(output);
-    tool_check(ss_writer_new(&writer, out, tool_stream(kind), head, &err), &err);
+    tool_signal *out = tool_signal_new(head, output, kind);
     for (;;) {
         tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
         if (n == 0)
@@ -167,12 +165,11 @@ change_stream(tool_kind kind, ss_noise *noise)
         for (size_t i = 0; i < n * head->n_columns && bits > 0; i += step)
             if (chosen[i % head->n_columns] == 1)
                 convert(&rows[i], step);
-        tool_check(ss_writer_rows(writer, rows, n), NULL);
-        tool_check(ss_writer_flush(writer), NULL);
+        tool_signal_rows(out, rows, n);
     }
-    if (tell_clipped(text, sizeof text) && kind == TOOL_TSV)
-        fprintf(out, "# clipped: %s\n", text);
-    ss_writer_free(writer);
+    if (tell_clipped(text, sizeof text))
+        tool_signal_note(out, "clipped", text);
+    tool_signal_end(out);
     ss_header_free(head);
     ss_reader_free(reader);
     free(rows);
@@ -214,10 +211,10 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
-    if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0 || kind == TOOL_H5)
+    if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0)
         change_whole(kind, noise);
     else
-        change_stream(kind, noise);
+        change_rows(kind, noise);
     ss_noise_free(noise);
     tool_reading_free(&reading);
     free(wanted.text);

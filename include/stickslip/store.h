@@ -47,6 +47,8 @@ ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_
 /* The arguments of a sink of coefficients. */
 ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first,
                                size_t n, const double *w, size_t samples, ss_error *err);
+/* A note that the header did not have. */
+ss_status ss_store_writer_note(ss_store_writer *writer, const char *key, const char *value, ss_error *err);
 /* End: the record has so many samples, and all of them and their coefficients have been appended. */
 ss_status ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);
 /* A file without ss_store_writer_end is removed; NULL is allowed. */

@@ -154,6 +154,21 @@ ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t firs
     return report(writer, st, err);
 }
 
+ss_status
+ss_store_writer_note(ss_store_writer *w, const char *key, const char *value, ss_error *err)
+{
+    if (w == NULL || key == NULL || value == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = w->status;
+    h5_file *file = &w->output.file;
+    H5E_BEGIN_TRY {
+        if (st == SS_OK && H5Aexists(file->id, key) <= 0 && !ss_h5_write_text(file->id, key, value))
+            st = ss_h5_fail_write(file, 0, key);
+        st = keep(w, st);
+    } H5E_END_TRY
+    return report(w, st, err);
+}
+
 /* Have all samples been given that the file is to have? */
 static int
 is_whole(const ss_store_writer *w, size_t samples)

@@ -375,6 +375,8 @@ read_body(struct table *t, char **row, ss_error *err)
 
 /* --- a table that is read twice ------------------------------------------------------------- */
 
+enum { PIECE = 4096 };          /* rows that are read again at a time */
+
 static int
 may_read_twice(const struct table *t)
 {
@@ -391,6 +393,31 @@ add_stamp(struct table *t, struct time_column time, size_t row)
         return 1;
     double stamp = t->value[row * t->n_columns + time.column] * time.factor / time.divisor;
     return (t->fit.n == 0 || stamp > t->fit.last.stamp) && ss_clock_add(&t->fit, (double)t->fit.n, stamp);
+}
+
+/* Add the last n rows to the sum that shows whether they are the same when they are read again. */
+static void
+add_to_sum(struct table *t, size_t n)
+{
+    uint64_t bits;
+    for (size_t i = (t->n_rows - n) * t->n_columns; i < t->n_rows * t->n_columns; i++) {
+        memcpy(&bits, &t->value[i], sizeof bits);
+        t->sum = (t->sum ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+        t->sum ^= t->sum >> 32;
+    }
+}
+
+/* Keep the sum of a piece that is full, or of the last one. */
+static int
+keep_sum(struct table *t)
+{
+    uint64_t *more = ss_list_room(t->sums, &t->sums_room, t->n_sums, sizeof *more);
+    if (more == NULL)
+        return 0;
+    t->sums = more;
+    more[t->n_sums++] = t->sum;
+    t->sum = 0;
+    return 1;
 }
 
 /* Check all rows, and find their clock, keeping none but the first.  Sets t->twice unless there is
@@ -418,9 +445,13 @@ survey(struct table *t, ss_error *err)
         if ((st = append_row(t, line, err)) != SS_OK)
             return st;
         even = add_stamp(t, time, kept);
+        add_to_sum(t, 1);
         t->n_rows = kept;
-        t->left++;
+        if (++t->left % PIECE == 0 && !keep_sum(t))
+            return ss_delimited_no_memory(t, err);
     }
+    if (!keep_sum(t))
+        return ss_delimited_no_memory(t, err);
     t->twice = even && (time.column == NONE || ss_clock_rate(&t->fit, t->in->name, &rate, NULL) == SS_OK);
     return SS_OK;
 }
@@ -457,7 +488,6 @@ drop_columns(struct table *t)
 static ss_status
 read_piece(ss_reader *reader, struct table *t, ss_error *err)
 {
-    enum { PIECE = 4096 };
     char *line;
     int comment;
     ss_status st = SS_OK;
@@ -470,6 +500,13 @@ read_piece(ss_reader *reader, struct table *t, ss_error *err)
                          t->in->line);
         else if (!comment)
             st = append_row(t, line, err);
+    }
+    if (st == SS_OK && t->n_rows > 0) {
+        add_to_sum(t, t->n_rows);
+        if (t->sum != t->sums[t->piece++])
+            st = ss_fail(err, SS_EDATA, "%s:%lu: the rows up to here have changed while the file was read",
+                         t->in->name, t->in->line);
+        t->sum = 0;
     }
     t->left -= t->n_rows;
     drop_columns(t);
@@ -605,6 +642,7 @@ ss_delimited_free(struct table *t)
     free(t->value);
     free(t->line);
     free(t->kept);
+    free(t->sums);
     ss_clock_free(&t->fit);
     ss_header_free(t->names);
 }

@@ -74,6 +74,8 @@ struct table {
     int twice;                  /* value has the first rows only; the others are read again */
     uint64_t left;              /* the number of these that are still to be read */
     clock_fit fit;              /* of all stamps of such a table */
+    uint64_t sum, *sums;        /* of the rows that are read again: of this piece, of each of n_sums */
+    size_t n_sums, sums_room, piece;    /* piece: of these, the one that is read next */
 };
 
 ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);

@@ -19,3 +19,9 @@ ss-morlet --inverse --accuracy 1e-9 q.tsv 2> said || echo "exit $?"
 sed 's/[0-9.]*e*[-0-9]* \(of the coeff\)/N \1/; s/\(accuracy of\) [^ ]*/\1 N/' said
 takes=$(sed 's/.*accuracy of \([^ ]*\) can.*/\1/' said)
 ss-morlet --inverse --accuracy "$takes" q.tsv | grep -vc '^#'
+# nothing is left, and no header written
+for output in '' '-o c.tsv' '-o c.h5'; do
+    # shellcheck disable=SC2086  # options
+    ss-morlet --stream --fmin 20 --from 7 $output s.tsv 2>&1 || echo "exit $?"
+done
+[ ! -e c.tsv ] && [ ! -e c.h5 ]

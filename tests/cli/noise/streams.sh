@@ -30,3 +30,11 @@ for wrong in '' '--snr 1 --rms 1' '--band 1:2' '--bits 4' '--range 4 --rms 1' '-
     ss-noise $wrong clean.tsv || echo $?
 done
 ss-noise --rms 1 --band 10:2000 clean.tsv || echo $?
+
+# Into HDF5 a long signal goes in pieces: the same samples, and the note at its end.
+ss-signal sine --rate 100000 --duration 12 --format au > long.au
+ss-noise -q --rms 0.1 --bits 8 --range 1 -o long.h5 long.au
+ss-noise -q --rms 0.1 --bits 8 --range 1 --format au long.au | ss-cat > rows.tsv
+ss-cat long.h5 | grep -v '^# clipped' | cmp - rows.tsv
+ss-cat long.h5 | sed -n '/^# clipped/p'
+ss-noise --rms 0.1 --bits 8 --range 1 long.au 2> /dev/null | tail -n 1
