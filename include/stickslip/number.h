@@ -1,4 +1,4 @@
-/* stickslip/number.h -- numbers as text, whatever the locale. */
+/* stickslip/number.h -- numbers as text, in every locale the same. */
 #ifndef STICKSLIP_NUMBER_H
 #define STICKSLIP_NUMBER_H
 
@@ -8,12 +8,13 @@
 SS_BEGIN_DECLARATIONS
 
 #define SS_NUMBER_MAX 32
-/* Write x in the fewest digits that read back to the same double, laid out as by %.17g but whatever
- * the locale, and a terminating NUL; the length is returned.  What is not finite is "nan", "inf"
- * or "-inf". */
+/* Write x with the fewest digits from which a reader gets the same double, in the layout of %.17g,
+ * and a NUL behind them.  A value that is not finite becomes "nan", "inf" or "-inf".  Returns the
+ * length without the NUL. */
 size_t ss_number_format(char text[SS_NUMBER_MAX], double x);
-/* Read a decimal number as C's strtod does in the C locale, whatever the locale in force; *end is
- * set behind it, or to text if there is none.  Hexadecimal, infinity and NaN are not numbers here. */
+/* Read the decimal number at the start of text, as strtod does in the C locale.  *end becomes the
+ * first character behind it, or text if there is no number.  Hexadecimal digits, "inf" and "nan"
+ * are not numbers here. */
 double ss_number_parse(const char *text, char **end);
 
 SS_END_DECLARATIONS

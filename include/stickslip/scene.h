@@ -1,8 +1,9 @@
-/* stickslip/scene.h -- a scene: one friction model, its parameters, and its record.
+/* stickslip/scene.h -- a scene: a friction model, its parameters, and the length of its record.
  *
- * All models share  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  t = 0 at the
- * start of settling, or with z(t) as measured in place of the cosine; they differ in the friction
- * force f, which depends on v = x' - S.  The text form is described in stickslip-scene(5). */
+ * All models obey  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  where t = 0 is the
+ * start of settling.  A measured displacement z(t) may replace Z_e cos(Omega t + phase).  The models
+ * differ in the friction force f, which depends on v = x' - S.  stickslip-scene(5) describes the
+ * text of a scene. */
 #ifndef STICKSLIP_SCENE_H
 #define STICKSLIP_SCENE_H
 
@@ -17,7 +18,7 @@ typedef enum ss_model {
     SS_COULOMB,             /* f = f_k sgn(v); sticks while |k (z - x)| <= f_k */
     SS_STATE_VARIABLE,      /* f = theta, theta' = -gamma (theta - f_k tanh(alpha v)) */
     SS_COMPLIANT,           /* Coulomb through a massless contact of stiffness K_y and damping c */
-    SS_STRIBECK             /* f falls from f_s to f_k with speed; sticks as SS_COULOMB */
+    SS_STRIBECK             /* f falls from f_s to f_k as speed grows; sticks as SS_COULOMB does */
 } ss_model;
 
 typedef enum ss_law {
@@ -26,27 +27,26 @@ typedef enum ss_law {
 } ss_law;
 
 typedef enum ss_release {
-    SS_RELEASE_SPRING,      /* microstick ends when K_y |y| > f_k, the paper's words */
-    SS_RELEASE_TOTAL        /* microstick ends when |K_y y + c v| > f_k: friction is continuous */
+    SS_RELEASE_SPRING,      /* a microstick ends when K_y |y| > f_k, as the paper writes */
+    SS_RELEASE_TOTAL        /* a microstick ends when |K_y y + c v| > f_k: friction is continuous */
 } ss_release;
 
-/* The displacement of a base as it was measured. */
-typedef struct ss_base ss_base;
+typedef struct ss_base ss_base;     /* the measured displacement z(t) of a base */
 enum { SS_BASE_FILE = 256, SS_BASE_COLUMN = 64 };
 
 typedef struct ss_scene {
     ss_model model;
     double mass;                /* m      [kg]     > 0 */
     double stiffness;           /* k      [N/m]    > 0 */
-    double friction;            /* f_k    [N]     >= 0, kinetic */
+    double friction;            /* f_k    [N]     >= 0, kinetic friction */
     double base_amplitude;      /* Z_e    [m]     >= 0 */
     double base_frequency;      /* Omega / 2 pi [Hz] >= 0 */
     double phase;               /* [rad] */
-    double x0, v0;              /* at the start of settling [m, m/s] */
-    double damping;             /* d      [N s/m] >= 0, of the mass */
-    double base_velocity;       /* U      [m/s]: the spring's end is pulled */
-    double surface_velocity;    /* S      [m/s]: the mass rubs on a belt */
-    double static_friction;     /* f_s    [N]     >= f_k, or 0: as f_k   not state-variable */
+    double x0, v0;              /* displacement and velocity at the start of settling [m, m/s] */
+    double damping;             /* d      [N s/m] >= 0, viscous damping of the mass */
+    double base_velocity;       /* U      [m/s]: the spring's end moves at this speed */
+    double surface_velocity;    /* S      [m/s]: the surface under the mass moves, as a belt does */
+    double static_friction;     /* f_s    [N]     >= f_k; 0: equal to f_k   not state-variable */
 
     double alpha, gamma;        /* [s/m] > 0, [1/s] > 0        state-variable only */
     ss_law law;                 /*                             state-variable only */
@@ -57,79 +57,82 @@ typedef struct ss_scene {
     double stribeck_velocity;   /* v_s    [m/s]    > 0         stribeck only */
 
     char base_file[SS_BASE_FILE];       /* the file of z(t), "": none; ss_scene_load_base reads it */
-    char base_column[SS_BASE_COLUMN];   /* "": z, or the only one */
-    const ss_base *base;                /* NULL, or z(t) in place of Z_e cos(...); the caller owns it */
+    char base_column[SS_BASE_COLUMN];   /* its column; "": the column z, or the only column */
+    const ss_base *base;                /* z(t) in place of Z_e cos(...), owned by the caller;
+                                           NULL: the cosine */
 
-    double settle;              /* [s] >= 0  simulated before the record starts, not written */
+    double settle;              /* [s] >= 0  this much motion comes before the record */
     double duration;            /* [s] >= 0  length of the record */
-    double rate;                /* [Hz] > 0  samples a second */
+    double rate;                /* [Hz] > 0  samples per second */
 } ss_scene;
 
-extern const ss_scene ss_scene_defaults;    /* start here: settle 0, duration 10, rate 2000, ... */
+/* duration 10 s, rate 2000 Hz, 0 elsewhere.  A caller copies it and then sets fields. */
+extern const ss_scene ss_scene_defaults;
 
-/* One sample of the motion.  At an event it is the state after the event. */
+/* One sample of the motion.  A sample at the time of an event is the state after that event. */
 typedef struct ss_sample {
-    double t;           /* [s] n / rate from the start of the record */
+    double t;           /* [s] from the start of the record: sample n is at n / rate */
     double x, v, a;     /* displacement, velocity, acceleration of the mass [m, m/s, m/s^2] */
-    double f;           /* friction force on the mass, with its sign in the equation of motion [N] */
-    double s;           /* spring's force on the mass, k (z - x) [N] */
-    double y;           /* contact deflection [m]: +-f_k/K_y while slipping; 0 without contact */
-    double z;           /* displacement of the base, U t included [m] */
-    int mode;           /* 0 stick (Coulomb) or microstick (compliant), else the sign of the slip
-                           over the surface; state-variable: the sign of x' - S */
+    double f;           /* friction force, with the sign that it has in the equation of motion [N] */
+    double s;           /* force of the spring on the mass, k (z - x) [N] */
+    double y;           /* deflection of the contact [m]: +-f_k/K_y in slip; 0 if not compliant */
+    double z;           /* displacement of the base, with U t [m] */
+    int mode;           /* 0 in a stick (compliant: a microstick), else the sign of the slip over the
+                           surface; state-variable: the sign of x' - S */
 } ss_sample;
 
 typedef enum ss_event_kind {
-    SS_STICK,           /* a Coulomb stick or a compliant microstick begins */
-    SS_SLIP,            /* slip begins */
-    SS_REVERSE          /* slip changes direction with no stick between */
+    SS_STICK,           /* a stick begins (compliant: a microstick) */
+    SS_SLIP,            /* a slip begins */
+    SS_REVERSE          /* the slip changes its direction without a stick between */
 } ss_event_kind;
 
 typedef struct ss_event {
     double t;           /* [s] from the start of the record */
-    double x, v;        /* [m, m/s] */
+    double x, v;        /* displacement and velocity of the mass [m, m/s] */
     ss_event_kind kind;
-    int direction;      /* +1 or -1: of the slip that begins; for SS_STICK, of the one that ended */
+    int direction;      /* +1 or -1, of the slip that begins; with SS_STICK, of the slip that ended */
 } ss_event;
 
-/* Read a scene from text.  name is the name of the file in messages.  On failure *scene is unchanged.
- * SS_EDATA for a key that is unknown, repeated, missing, malformed, out of range or not the
- * model's; SS_EIO if reading failed. */
+/* Read a scene from text.  Messages call the file by name.  On failure *scene does not change.
+ * SS_EDATA: a key is unknown, repeated, missing, malformed, out of its range, or not one of the
+ * model's; SS_EIO: reading failed. */
 ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err);
 
-/* The same with the n settings "key=value" as if they were its last lines: they replace the
- * values of the text.  SS_EINVAL for a wrong setting, SS_EDATA for the text. */
+/* The same; then the n settings "key=value" replace values of the text.  SS_EINVAL: a setting is
+ * wrong; SS_EDATA: the text is. */
 ss_status ss_scene_read_set(ss_scene *scene, FILE *in, const char *name,
                             const char *const settings[], size_t n, ss_error *err);
 
-/* Read the shipped scene of this name ("compliant-light"), or if there is none the file of this path,
- * with settings as above.  SS_EIO also if there is neither; err then lists the shipped names. */
+/* Read the shipped scene whose name is path ("compliant-light"), or else the file at path, with
+ * settings as above.  SS_EIO also if there is neither; err then lists the shipped names. */
 ss_status ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], size_t n,
                         ss_error *err);
 
 /* SS_OK if every parameter that the model has lies in its range, else SS_EINVAL. */
 ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 
-/* Write every key that the model has, one a line, in the fewest digits that read back the same. */
+/* Write each key that the model has as a line, its value with the fewest digits from which
+ * ss_scene_read gets the same double.  SS_EIO: writing failed. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 
-/* z(t) [m] by the natural cubic spline through a column of a signal, whose clock is the scene's: t
- * = 0 is the start of settling.  To be freed with ss_base_free.  SS_EDATA: another unit than m, or
- * fewer than 3 samples; SS_ENOMEM. */
+/* Make z(t) [m], the natural cubic spline through one column of a signal.  The signal's clock is the
+ * scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.  SS_EDATA:
+ * the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
-/* The number of a scene that a key names, and its unit unless that is NULL; NULL if the scene's model
- * has no such number, and err says so. */
+/* Returns the address of the number in scene that key names.  *unit, unless unit is NULL, becomes
+ * its unit, a constant text.  NULL if the scene's model has no such number; err says so. */
 double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
 
-/* A range over which scenes are supported: results are tested there.  Scenes outside are simulated,
- * too, without that promise. */
+/* A range in which scenes are supported: the tests verify results there.  A scene outside is
+ * simulated too, without this promise. */
 typedef struct ss_scene_range {
-    const char *name, *unit;    /* "Omega/omega_n"; X is defined in stickslip-scene(5) */
+    const char *name, *unit;    /* "Omega/omega_n"; stickslip-scene(5) defines X */
     double from, to;
-    int zero;                   /* 1: 0 is in the range, too */
-    double (*value)(const ss_scene *scene);     /* NaN where it means nothing */
+    int zero;                   /* 1: 0 belongs to the range too */
+    double (*value)(const ss_scene *scene);     /* NaN where it has no meaning */
 } ss_scene_range;
 /* The i-th range of the scenes of a model; NULL after the last. */
 const ss_scene_range *ss_model_range(ss_model model, size_t i);
@@ -137,27 +140,27 @@ const ss_scene_range *ss_model_range(ss_model model, size_t i);
 /* SS_OK if a scene that has passed ss_scene_check lies within these ranges, else SS_EINVAL. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
-/* The i-th of the simpler scenes that a scene contains, the one that loses most the last: without
- * damping, with static friction equal to kinetic, without damping of the contact, with the model that
- * is its limit (Coulomb's, for a stiff contact or a friction that follows v at once), and without
- * friction.  Returns its name, "damping=0" or the name of its model, which is static; NULL after the
- * last. */
+/* Make the i-th of the simpler scenes that a scene contains.  Each loses more than the one before:
+ * no damping; static friction equal to kinetic friction; no damping of the contact; the model that is
+ * the limit of the scene's model (Coulomb's, for a stiff contact or for friction that follows v at
+ * once); no friction.  Returns its name, "damping=0" or the name of its model, a constant text; NULL
+ * after the last. */
 const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
 
-/* Properties of a model; "?" or 0 for a number that is not that of a model. */
+/* Properties of a model.  For a number that is no model they are "?" and 0. */
 const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", ... */
-int ss_model_has_events(ss_model model);            /* stick, slip and reverse */
-int ss_model_is_linear(ss_model model);             /* between events: it has a closed form */
-size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX if over that */
-int ss_scene_is_pulled(const ss_scene *scene);      /* over its surface, and not forced */
+int ss_model_has_events(ss_model model);            /* 1: it has events; 0: it is smooth */
+int ss_model_is_linear(ss_model model);             /* 1: between events it has a closed form */
+size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX from 2^53 on */
+int ss_scene_is_pulled(const ss_scene *scene);      /* 1: U or S moves it, and no forcing does */
 
-/* Scenes that are built in.  ss_scene_load reads one by its name; text is what ss_scene_read takes. */
+/* The built-in scenes.  ss_scene_load finds one by its name. */
 typedef struct ss_shipped_scene {
     const char *name;           /* "compliant-light" */
-    const char *summary;        /* its first comment line: one line of plain text */
-    const char *text;
+    const char *summary;        /* its first comment line, one line of plain text */
+    const char *text;           /* for ss_scene_read */
 } ss_shipped_scene;
-/* The scenes of the paper's figures, and of other published results.  Both lists end with a NULL name. */
+/* The scenes of the paper's figures, and those of other published results.  A NULL name ends each. */
 extern const ss_shipped_scene ss_shipped_scenes[];
 extern const ss_shipped_scene ss_catalogue_scenes[];
 

@@ -1,7 +1,7 @@
 /* stickslip/signal.h -- uniformly sampled signals of several columns, and their streams.
  *
- * Text, AU and delimited text are described in stickslip-signal(5).  A column of time is never
- * stored: the time of row i is start + i / rate. */
+ * stickslip-signal(5) describes the text, AU and the delimited text of other programs.  No signal
+ * stores a column of time: the time of row i is start + i / rate. */
 #ifndef STICKSLIP_SIGNAL_H
 #define STICKSLIP_SIGNAL_H
 
@@ -13,42 +13,45 @@
 SS_BEGIN_DECLARATIONS
 
 typedef struct ss_column {
-    char *name;                 /* "a"; no blanks */
+    char *name;                 /* "a"; it has no blanks */
     char *unit;                 /* "m/s^2"; "" if unknown */
 } ss_column;
 
 typedef struct ss_header {
     double rate;                /* [Hz] > 0 */
-    double start;               /* time of row 0 on the source's clock [s] */
-    int has_time;               /* 1: the text form carries a column of time, t/s, first */
-    size_t n_columns;           /* without time */
+    double start;               /* [s] time of row 0 on the source's clock */
+    int has_time;               /* 1: the text has a column of time, t/s, as its first */
+    size_t n_columns;           /* columns without the one of time */
     ss_column *column;
     size_t n_notes;
-    char **note;                /* "key: value" lines of the source, passed on; never rate, start, columns */
+    char **note;                /* lines "key: value" of the source; no key is rate, start or columns */
 } ss_header;
 
-/* Build a header.  Every string is copied; one that is not valid UTF-8 is read as Latin-1.  NULL: no
- * memory. */
+/* Build a header.  It copies every string; a string that is not valid UTF-8 is read as Latin-1.
+ * NULL: no memory. */
 ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
 ss_header *ss_header_copy(const ss_header *head);
 /* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
- * "_2", "_3", ...; unit may be NULL or "".  SS_EINVAL: no name. */
+ * "_2", "_3", ...; unit may be NULL or "".  SS_EINVAL: there is no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
 /* Append a note; it replaces a note with the same key.  Newlines become blanks.
- * SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or has a colon in it. */
+ * SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or contains a colon. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
-const char *ss_header_find_note(const ss_header *head, const char *key);    /* its value, or NULL */
+/* The value of the note with this key, owned by head; NULL if there is none. */
+const char *ss_header_find_note(const ss_header *head, const char *key);
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
 
-/* The index of a column given by name, or by its number counted from 1; -1 if there is none.
- * Blanks and slashes in the given name match "_".  If no name matches, the only one that differs in
- * the case of letters does, except for a single letter: a and A are two quantities. */
+/* The index of the column with this name, or else of the column that name counts from 1; -1 if there
+ * is none.  A blank or slash in name matches "_".  If no column matches, the only column that differs
+ * by the case of letters does; but a name of one letter must match: a and A are two quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
-/* The first row at time t or after it (by no more than 1e-6 sample periods before it), from 0. */
+/* The first row at time t or later, counted from 0; a row that lies less than 1e-6 sample periods
+ * before t counts as at t. */
 size_t ss_header_row(const ss_header *head, double t);
 
-/* A copy with the n columns given by their index, in that order, that starts at row first. */
+/* Copy a header for a signal that has the n columns of these indices, in this order, and starts at
+ * the row first. */
 ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
                            size_t first);
 
@@ -57,16 +60,16 @@ ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t 
 /* The treatment of missing samples: cells that are empty or hold no finite number, and rows that the
  * time stamps skip. */
 typedef enum ss_gaps {
-    SS_GAPS_REFUSE,             /* an error */
-    SS_GAPS_SPLIT,              /* 0, the value of the signal outside its record */
-    SS_GAPS_INTERPOLATE         /* on the line between their neighbours */
+    SS_GAPS_REFUSE,             /* they are an error */
+    SS_GAPS_SPLIT,              /* they become 0, as a signal is outside its record */
+    SS_GAPS_INTERPOLATE         /* they lie on a line between the samples beside them */
 } ss_gaps;
 
-/* A factor and a unit for one column, as of a sensor's sheet. */
+/* A factor and a unit for one column, as the data sheet of a sensor gives them. */
 typedef struct ss_calibration {
-    const char *column;         /* by name or number; NULL: the only one */
-    double scale;               /* its values are multiplied by this; 0: they are not */
-    const char *unit;           /* in place of the file's own; NULL: that stays */
+    const char *column;         /* its name or number; NULL: the only column */
+    double scale;               /* factor of its values; 0: they stay as they are */
+    const char *unit;           /* replaces the unit in the file; NULL: that stays */
 } ss_calibration;
 
 /* The i-th unit that ss_read_opts.time_unit may be: "s", "ms", ...; NULL after the last. */
@@ -74,52 +77,57 @@ const char *ss_time_unit_name(size_t i);
 
 /* All zeros are the defaults. */
 typedef struct ss_read_opts {
-    const char *time;           /* delimited text and .npy: column of time by name or number; NULL: found by
-                                   its name (t, time, ...), or the first column if its unit is one of
-                                   time, or if no column has a name and it ascends uniformly */
-    double rate;                /* [Hz] for input without a clock; 0: the input must have one.  With
+    const char *time;           /* delimited text and .npy: name or number of the column of time; NULL:
+                                   the one named t, time, ..., or the first column if its unit is one
+                                   of time, or if no column has a name and it ascends uniformly */
+    double rate;                /* [Hz] for input without a clock; 0: the input must have a clock.  With
                                    delimited text the first row is then at 0, whatever its columns */
-    ss_gaps gaps;               /* delimited text and arrays in HDF5; where they are filled the header
-                                   gets a note, see ss_header_gaps */
-    double resample;            /* [Hz] delimited text: stamps of any spacing to a clock of this rate,
-                                   by cubic splines; 0: the stamps must be uniform */
-    const char *time_unit;      /* delimited text: the unit of the column of time; NULL: its own unit,
-                                   without one seconds, or what makes them a date of this century */
-    size_t table;               /* delimited text of several tables: which, from 1; 0: it has one */
-    double from, to;            /* [s] only samples at from or later and before to, on the source's
-                                   clock; from >= to: all */
+    ss_gaps gaps;               /* delimited text and arrays in HDF5; filled gaps become a note of the
+                                   header, see ss_header_gaps */
+    double resample;            /* [Hz] delimited text: rate of the clock to which stamps of any spacing
+                                   are brought, by cubic splines; 0: the stamps must be uniform */
+    const char *time_unit;      /* delimited text: unit of the column of time; NULL: the unit in the
+                                   file, or if it has none seconds, or the unit with which the stamps
+                                   are dates of this century */
+    size_t table;               /* number of a table in delimited text, from 1; 0: the only one */
+    double from, to;            /* [s] on the source's clock: only samples at from or later and before
+                                   to are read; from >= to: all are */
     const ss_calibration *calibration;
     size_t n_calibrations;
-    /* Called with one line of text about a decision that a user may not expect; about: the status whose
-     * remedy helps, or SS_OK.  NULL: no warnings. */
+    /* Called with one line of text about a decision that a user may not expect.  about is the status
+     * whose remedy helps, or SS_OK.  NULL: no warnings. */
     void (*warn)(ss_status about, const char *text, void *user);
-    void *user;                 /* passed to it */
+    void *user;                 /* passed to warn */
 } ss_read_opts;
 
-/* A time from ... to before to, on the source's clock [s]. */
+/* The times t with from <= t < to, on the source's clock [s]. */
 typedef struct ss_span {
     double from, to;
 } ss_span;
 
-/* Where samples were missing, in time order: the note "gaps: from:to from:to ...", from the first
- * sample missing to the first that is there again.  *out is to be freed with free(). */
+/* The spans in which samples were missing, in time order, from the note "gaps: from:to from:to ...".
+ * Each goes from its first missing sample to the next sample that is there.  The caller frees *out
+ * with free(). */
 ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
-/* 1 if t lies in one of the n gaps, in time order, or nearer than margin to one, else 0. */
+/* 1 if t lies in one of n gaps, which are in time order, or nearer than margin to one; else 0. */
 int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
 
 typedef struct ss_reader ss_reader;
 
-/* Open a stream of any of the three kinds, recognised by its first bytes.  The reader does not own
- * in, but bypasses its buffer, so nothing may have been read from a pipe before.  name is the name of
- * the file in messages.  opts may be NULL.  Text and AU streams are read as they arrive, in constant
- * memory.  Delimited text is read completely first, to check its clock: a file then once more, in constant
- * memory too; a pipe, or one with samples missing, uneven stamps or several tables, is held. */
+/* Open a stream of any format that stickslip-signal(5) describes; its first bytes tell which.  The
+ * caller keeps and closes in.  The reader bypasses its buffer, so nothing may have been read from a
+ * pipe before.  Messages call the file by name.  opts may be NULL.
+ *
+ * Text and AU streams are read as they arrive, in constant memory.  Delimited text is first read to its
+ * end, to check its clock.  A file is then read a second time, in constant memory too.  A pipe is
+ * held in memory, and so is a file with missing samples, uneven stamps or several tables. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
-const ss_header *ss_reader_header(const ss_reader *reader);
+const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */
 
-/* Read up to max rows of n_columns values each, one row after the other, into rows.  *n = 0 with
- * SS_OK is the end.  It may return fewer than max: it does not wait if some rows have arrived. */
+/* Read at most max rows of n_columns values each, one row after the other, into rows.  *n becomes
+ * their number; SS_OK with *n = 0 is the end.  If some rows have arrived, the call returns them and
+ * does not wait for more. */
 ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
 /* 1 if that call would wait for the source; 0 if a part of a row has arrived, or at the end. */
 int ss_reader_waits(const ss_reader *reader);
@@ -129,14 +137,16 @@ void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
 typedef struct ss_signal {
     ss_header *head;
     size_t n;                   /* rows */
-    double *values;             /* column after column: values[c * n + i] */
+    double *values;             /* column after column: row i of column c is values[c * n + i] */
 } ss_signal;
 
+/* Read all rows, as ss_reader_new and ss_reader_rows do.  The caller frees each signal that a function
+ * makes with ss_signal_free. */
 ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
                          ss_error *err);
-/* n rows of zeros under a copy of head. */
+/* Make a signal of n rows of zeros, with a copy of head. */
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n);
-/* A copy of some columns, in the order given by their index, and of the rows [first, end). */
+/* Copy the columns of these indices, in this order, and of them the rows first ... end - 1. */
 ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                            size_t n_columns, size_t first, size_t end, ss_error *err);
 void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
@@ -144,45 +154,47 @@ void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 /* --- writing ------------------------------------------------------------------------------- */
 
 typedef enum ss_format {
-    SS_TSV,                     /* text, tab-separated, fewest digits that read back the same */
-    SS_AU,                      /* Sun AU, 64-bit float, the header in its annotation */
-    SS_CSV                      /* a line of names, commas between cells, nothing else: for other programs */
+    SS_TSV,                     /* text with tabs, of the fewest digits that give the same double */
+    SS_AU,                      /* Sun AU with 64-bit floats and the header as its annotation */
+    SS_CSV                      /* for other programs: a line of names, then rows with commas */
 } ss_format;
 
 /* The name of the i-th format that can be written, which is also the ending of its files: "tsv", "au",
  * "csv"; NULL after the last. */
 const char *ss_format_name(size_t i);
-/* 1 and the format of that name, or 0 where none can be written. */
+/* If a format of this name can be written, return 1 and store it in *found; else return 0. */
 int ss_format_find(ss_format *found, const char *name);
-int ss_format_has_words(ss_format format);     /* 1; 0: it holds numbers only, or cannot be written */
+/* 1 if the format holds words, 0 if it holds only numbers or cannot be written. */
+int ss_format_has_words(ss_format format);
 
 typedef struct ss_writer ss_writer;
 
-/* Start a stream on out, which the writer does not own, with its header; head is copied.
- * SS_EINVAL: AU is limited to 4096 columns and a header of 1 MiB. */
+/* Start a stream on out with its header; head is copied.  The caller keeps and closes out.
+ * SS_EINVAL: AU allows no more than 4096 columns and a header of 1 MiB. */
 ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
                         ss_error *err);
-/* Append n rows of n_columns values each, one row after the other; SS_EIO if out refuses them. */
+/* Append n rows of n_columns values each, one row after the other.  SS_EIO: out refuses them. */
 ss_status ss_writer_rows(ss_writer *writer, const double *rows, size_t n);
-/* Flush out: SS_EIO if any write failed. */
+/* Flush out.  SS_EIO: this or an earlier write failed. */
 ss_status ss_writer_flush(ss_writer *writer);
 void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flush */
 
+/* The simple case: write a whole signal. */
 ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err);
 
-/* A copy at another rate [Hz], by the cubic spline through each column: frequencies above half the
- * new rate must have been filtered out before.  SS_EINVAL: fewer than two rows, or no rate; SS_ERANGE:
- * the spline exceeds what a double holds. */
+/* Copy a signal to another rate [Hz], by the cubic spline through each column.  Frequencies above half
+ * the new rate must have been filtered out before.  SS_EINVAL: the signal has fewer than two rows, or
+ * the rate is not positive; SS_ERANGE: a value of the spline is larger than a double can hold. */
 ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err);
 
 /* --- making and changing ------------------------------------------------------------------- */
 
 typedef enum ss_wave {
     SS_SINE,        /* A cos(2 pi f (t - at)) */
-    SS_IMPULSE,     /* A in the sample nearest to at, else 0 */
-    SS_STEP,        /* A from at on, else 0 */
-    SS_CHIRP,       /* A cos of a phase whose frequency goes linearly from f to f_end */
-    SS_RINGDOWN,    /* A exp(-s (t - at)) cos(w (t - at)) from at on, else 0; see damping */
+    SS_IMPULSE,     /* A in the sample nearest to at, elsewhere 0 */
+    SS_STEP,        /* 0 before at, then A */
+    SS_CHIRP,       /* A cos(phase), whose frequency goes linearly from f to f_end */
+    SS_RINGDOWN,    /* 0 before at, then A exp(-s (t - at)) cos(w (t - at)); see damping */
     SS_NOISE        /* Gaussian white noise of standard deviation A */
 } ss_wave;
 
@@ -190,40 +202,41 @@ typedef struct ss_wave_opts {
     double rate;                /* [Hz] > 0 */
     double duration;            /* [s] >= 0: round(duration * rate) samples */
     double amplitude;           /* A */
-    double frequency;           /* f [Hz] >= 0, damped: w = 2 pi f */
-    double frequency_end;       /* f_end [Hz] at the end of the record, chirp only */
-    double damping;             /* damping ratio s / sqrt(w^2 + s^2) in [0, 1), ringdown only */
+    double frequency;           /* f [Hz] >= 0; of a ringdown the damped one, w = 2 pi f */
+    double frequency_end;       /* f_end [Hz] at the end of the record; chirp only */
+    double damping;             /* damping ratio s / sqrt(w^2 + s^2) in [0, 1); ringdown only */
     double at;                  /* [s] */
-    unsigned long seed;         /* noise only */
+    unsigned long seed;         /* noise only; the same seed gives the same noise */
 } ss_wave_opts;
 extern const ss_wave_opts ss_wave_defaults;     /* 2000 Hz, 10 s, A = 1, f = 10, seed 1 */
 
-/* A benchmark signal of one column, a, without unit.  Phases are exact to 1e-15 cycles in a record of
- * any length.  SS_ERANGE: a value or a phase exceeds what a double holds. */
+/* Make a benchmark signal with one column, a, without a unit.  Phases are exact to 1e-15 cycles in a
+ * record of any length.  SS_ERANGE: a value or a phase is larger than a double can hold. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
-/* Add Gaussian white noise of standard deviation rms to the n values of x; the same seed gives the
- * same noise (GSL's mt19937 and its Ziggurat).  rms >= 0. */
+/* Add Gaussian white noise of standard deviation rms >= 0 to the n values of x.  The same seed gives
+ * the same noise (GSL's mt19937 and its Ziggurat). */
 ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed);
-/* The same piece by piece, for several columns: to n rows, value c of row i at
- * x[i * row + c * column], noise of standard deviation rms[c] >= 0 (no number is drawn where it is 0).
- * SS_ERANGE, here and below, if a sum is not finite; x has been changed then. */
+/* The same for several columns, n rows at a time.  Value c of row i is x[i * row + c * column]; its
+ * noise has the standard deviation rms[c] >= 0, and where this is 0 no number is drawn.  SS_ERANGE,
+ * here and below: a sum is not finite; x has then been changed. */
 typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
 ss_status ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
-/* Noise of the frequencies in band [Hz] only, 0 <= from <= to <= rate / 2, to n samples of one column;
- * the added noise has exactly this rms.  SS_EINVAL if the record has no frequency in the band. */
+/* Add noise that has only frequencies in band [Hz], 0 <= from <= to <= rate / 2, to the n samples of
+ * one column.  The added noise has exactly this rms.  SS_EINVAL: no frequency of the record lies in
+ * the band. */
 ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band,
                             double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
-/* The rms of a noise that is snr_db below the variance of x about its mean. */
+/* The rms of noise whose power is snr_db [dB] below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
 
-/* x after a converter of so many bits, whose input spans -range to range: multiples of the step
- * range / 2^(bits - 1), the nearest (of two the even one), clipped to -range and to one step below
- * range.  Those clipped are added to *clipped, which may be NULL.  SS_EINVAL: bits are not 1 ...
- * SS_BITS_MAX, or range is not positive. */
+/* Replace x by the output of a converter of so many bits whose input spans -range to range: the
+ * nearest multiple of the step range / 2^(bits - 1) (halfway the even one), at least -range and at
+ * most range less one step.  The number of samples beyond these is added to *clipped, which may be
+ * NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
 ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped,
                               ss_error *err);

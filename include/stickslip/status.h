@@ -4,8 +4,8 @@
 
 #define SS_VERSION "0.1.0"
 
-/* Declarations of public headers have C linkage and are visible outside the shared library; those of
- * the library's own headers are not. */
+/* What stands between SS_BEGIN_DECLARATIONS and SS_END_DECLARATIONS has C linkage and is visible
+ * outside the shared library.  The library's own headers do not use them, so it hides the rest. */
 #ifdef __cplusplus
 #define SS_EXTERN_C extern "C" {
 #define SS_EXTERN_C_END }
@@ -30,21 +30,23 @@ typedef enum ss_status {
     SS_ENOMEM,      /* an allocation failed */
     SS_EIO,         /* reading or writing failed; errno says why */
     SS_EDATA,       /* malformed input; the text names file and line */
-    SS_EKIND,       /* a file of another kind than the call reads; see ss_error.found */
-    SS_ECLOCK,      /* a signal without a clock: ss_read_opts.rate or .time gives one */
+    SS_EKIND,       /* the call does not read files of this kind; see ss_error.found */
+    SS_ECLOCK,      /* the signal has no clock: ss_read_opts.rate or .time gives it one */
     SS_EGAPS,       /* samples are missing, or not numbers: ss_read_opts.gaps says what to do */
     SS_EUNEVEN,     /* time stamps are not uniform: ss_read_opts.resample or .rate makes them so */
-    SS_EUNIT,       /* the unit of a column of time is in doubt: ss_read_opts.time_unit says it */
-    SS_ETABLES,     /* a file of several tables, or fewer than asked for: ss_read_opts.table says which */
-    SS_ESCALE,      /* scales that the record cannot resolve; the text names the usable range;
+    SS_EUNIT,       /* the unit of a column of time is in doubt: ss_read_opts.time_unit gives it */
+    SS_ETABLES,     /* the file has several tables, or not the one asked for: ss_read_opts.table
+                       says which one is meant */
+    SS_ESCALE,      /* the record cannot resolve these scales; the text names the usable range;
                        ss_morlet_opts.force computes them all the same */
     SS_ETOL,        /* the step size underflowed before the tolerance was met */
     SS_ECHATTER,    /* events follow each other faster than double precision can separate */
     SS_EBUDGET,     /* the scene needs more work than max_steps, or its default, allows */
-    SS_ERANGE       /* a value is not finite: the numbers lie beyond double precision */
+    SS_ERANGE       /* a value is not finite: it is larger than a double can hold */
 } ss_status;
 
-/* Kinds of files that the library knows, the first eight being texts that it writes. */
+/* The kinds of files that the library knows.  SS_KIND_SIGNAL to SS_KIND_SUMMARIES are texts that it
+ * writes. */
 typedef enum ss_kind {
     SS_KIND_UNKNOWN, SS_KIND_SIGNAL, SS_KIND_COEFFICIENTS, SS_KIND_FEATURES, SS_KIND_EVENTS,
     SS_KIND_SWEEP, SS_KIND_RANKING, SS_KIND_TRADE, SS_KIND_SUMMARIES, SS_KIND_SCENE, SS_KIND_TABLE,
@@ -52,32 +54,35 @@ typedef enum ss_kind {
 } ss_kind;
 
 /* The reason of a failure, one line without a newline: "run.tsv:17: expected 4 columns, found 3".
- * Filled in on failure only.  Wherever a function takes an ss_error *, NULL is allowed. */
+ * A call writes it only if it fails.  Every parameter of type ss_error * may be NULL. */
 typedef struct ss_error {
     char text[512];
-    ss_kind found, wanted;      /* of SS_EKIND: the kind of the file; if unknown, the kind expected */
+    ss_kind found;              /* with SS_EKIND: the kind of the file, if it is known */
+    ss_kind wanted;             /* with SS_EKIND: the kind that the call reads, if found is unknown */
 } ss_error;
 
-enum { SS_THREADS_MAX = 256 };  /* that one call may be given */
+enum { SS_THREADS_MAX = 256 };  /* the largest number of threads that one call may be given */
 
 /* The values that an option may have, both ends included. */
 typedef struct ss_range {
     double from, to;
 } ss_range;
 
-/* A function that long work calls with the fraction done, 0 to 1; a non-zero return ends the work with
- * SS_STOP.  { NULL, NULL }: none. */
+/* Long work calls function with the fraction that is done, 0 to 1.  A non-zero return ends the work
+ * with SS_STOP.  A NULL function is not called. */
 typedef struct ss_progress {
     int (*function)(double done, void *user);
-    void *user;                 /* passed to it */
+    void *user;                 /* passed to function */
 } ss_progress;
 
-const char *ss_strerror(ss_status status);      /* the status in general words, never NULL */
-/* Replace control characters by question marks, so that the text is one line and commands no terminal;
- * those of ISO 8859 (0x80 to 0x9f, in UTF-8 U+0080 to U+009F) are among them.  The texts of ss_error
- * have none. */
+/* The meaning of a status in general words; a constant text, never NULL. */
+const char *ss_strerror(ss_status status);
+/* Replace each control character of text by a question mark, in place, and return text.  It is then
+ * one line and sends no command to a terminal.  The control characters of ISO 8859 (0x80 to 0x9f,
+ * in UTF-8 U+0080 to U+009F) are replaced too.  ss_error.text has no control characters. */
 char *ss_printable(char *text);
-const char *ss_version(void);                   /* of the library in use: SS_VERSION when it was built */
+/* The version of the library in use; SS_VERSION is that of the header. */
+const char *ss_version(void);
 
 SS_END_DECLARATIONS
 #endif

@@ -1,5 +1,4 @@
-/* stickslip/table.h -- rows of words and numbers under notes, as the tools write events, features,
- * rankings, trades and sweeps, read back as they stand. */
+/* stickslip/table.h -- read tables of words and numbers: events, features, rankings, trades, sweeps. */
 #ifndef STICKSLIP_TABLE_H
 #define STICKSLIP_TABLE_H
 
@@ -12,23 +11,23 @@ SS_BEGIN_DECLARATIONS
 
 typedef struct ss_table {
     size_t n_notes;
-    char **note;                /* "key: value", in the order of the text; a key may come again */
+    char **note;                /* "key: value", in the order of the text; a key may occur twice */
     size_t n_columns;
     ss_column *column;
     size_t n;                   /* rows */
-    char **cell;                /* of row i and column c: cell[i * n_columns + c] */
+    char **cell;                /* the text of row i and column c is cell[i * n_columns + c] */
 } ss_table;
 
-/* Read text of this kind: events, features, a ranking, a trade or a sweep.  Several with the same
- * columns, such as the shards of a sweep, may stand one after the other.  SS_EKIND: another kind;
- * SS_EDATA with file and line: no columns, or others than before, or a row of more or fewer cells;
- * SS_EIO. */
+/* Read text of this kind: events, features, a ranking, a trade or a sweep.  Several tables with the
+ * same columns, such as the shards of a sweep, may follow each other.  Messages call the file by name.
+ * SS_EKIND: the text is of another kind; SS_EDATA: a table has no columns or others than the first, or
+ * a row has more or fewer cells than columns; err names file and line; SS_EIO. */
 ss_status ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error *err);
 /* The value of the first note with this key; NULL if there is none. */
 const char *ss_table_note(const ss_table *table, const char *key);
 /* The index of the column of this name; -1 if there is none. */
 int ss_table_column(const ss_table *table, const char *name);
-/* A cell as a number; NaN for a word, for "-", and where there is no such cell. */
+/* The number in a cell; NaN if the cell holds a word or "-", or if there is no such cell. */
 double ss_table_number(const ss_table *table, size_t row, size_t column);
 void ss_table_free(ss_table *table);            /* NULL is allowed */
 
