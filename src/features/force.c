@@ -163,13 +163,14 @@ level_of(const double *x, size_t n, double *copy)
     return high > 0 ? gsl_stats_select(copy, 1, high, high / 2) : 0;
 }
 
-/* From sample i on, the first maximum of |x| that it leaves by retreat, before end. */
+/* From sample i on, the first maximum of x, or minimum where sign is -1, that x leaves by retreat,
+ * before end. */
 static size_t
-break_away(const double *x, size_t i, size_t end, double retreat)
+break_away(const double *x, int sign, size_t i, size_t end, double retreat)
 {
     size_t top = i;
-    for (; i < end && fabs(x[i]) > fabs(x[top]) - retreat; i++)
-        top = fabs(x[i]) > fabs(x[top]) ? i : top;
+    for (; i < end && sign * x[i] > sign * x[top] - retreat; i++)
+        top = sign * x[i] > sign * x[top] ? i : top;
     return top;
 }
 
@@ -192,7 +193,7 @@ find_reversals(search *s, const double *x, double level)
             continue;
         if (open)
             out->transition[out->n++].end = (double)last / s->rate;
-        size_t at = break_away(x, i, s->n, RETREAT * level);
+        size_t at = break_away(x, side, i, s->n, RETREAT * level);
         open = i > 0 && !ss_gaps_near(s->gap, s->n_gaps, (double)at / s->rate, 1 / s->rate);
         out->transition[out->n].onset = (double)at / s->rate;
         sign = side;

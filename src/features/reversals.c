@@ -43,6 +43,8 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
     double time = (is_last ? t->end : t[1].onset) - t->onset, there = 0;
     int sign = x[p.slip.first] > 0 ? 1 : -1;
     double least = (1 - NEAR) * sign * select(x, p.slip, 0.5, copy);
+    while (p.slip.first > 0 && sign * x[p.slip.first - 1] >= least)     /* a level that rises breaks away late */
+        p.slip.first--;
     while (sign * x[p.slip.first] < least)
         p.slip.first++;
     while (sign * x[p.slip.end - 1] < least)
@@ -114,14 +116,18 @@ ss_status
 ss_reversals_measure(search *s, const double *x)
 {
     ss_features *out = s->out;
+    size_t stay = 0;
     plateau *p = malloc((out->n + 1) * sizeof *p);
     ss_value *v = malloc((2 * out->n + 1) * sizeof *v);
     double *copy = malloc((s->n + 1) * sizeof *copy);
     ss_status st = p != NULL && v != NULL && copy != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && i < out->n; i++) {
         p[i] = find_plateau(s, &out->transition[i], i + 1 == out->n, x, copy);
+        stay += (size_t)p[i].stays;
         v[i] = v[out->n + i] = unknown;
     }
+    if (st == SS_OK && 2 * stay <= out->n)
+        out->why_slips = "between its reversals the force does not stay at a level, as friction does";
     if (st == SS_OK) {
         measure(s, x, p, v, v + out->n);
         out->reverses = 1;

@@ -27,11 +27,15 @@ ss-sim coulomb | without_scene | ss-features -c f > found
 covers friction 1.28 < found
 none loading_stiffness < found
 ss-sim -c t,f coulomb | ss-features -c f | grep -c '^# loading_stiffness' || true
-# forces of a damper and of a spring have reversals but no friction
+# so has one whose levels grow, so that nothing but a jump leaves them
+awk 'BEGIN { print "t,f (N)"; for (i = 0; i < 9999; i++) print i / 1000 "," (i % 200 < 90 ? 1 : -1) * (5 + i / 1e5) }' > jumps.csv
+ss-features -c f jumps.csv | covers friction 5.05
+# forces of a damper and of a spring have reversals but neither slips nor friction
 for law in 'cos(w * t)' 'sin(w * t)' 'sin(w * t) + cos(w * t)'; do
     awk "BEGIN { w = 8 * atan2(1, 1); print \"t,x (m),f (N)\"; for (i = 0; i < 8000; i++) { t = i / 1000
         print t \",\" .02 * sin(w * t) \",\" $law } }" > law.csv
     ss-features -c f law.csv > found
+    none slips < found
     none friction < found
     none loading_stiffness < found
 done
