@@ -222,7 +222,7 @@ every_level_has_its_colour(void **state)
     static int painted[ROWS * COLUMNS];
     double f[ROWS], step = 5;
     const script_span span = { 0, 1, 0, 0 };
-    const contour_map map = { &span, ROWS, f, level, LEVELS * step, NAN };
+    const contour_map map = { &span, span.from, span.to, ROWS, f, level, LEVELS * step, NAN };
     char *text = NULL;
     size_t size, checked = 0;
     (void)state;

@@ -55,10 +55,14 @@ write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const d
 }
 
 /* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
- * where those would not fit, and at every digit where there are few. */
+ * where those would not fit, and at every digit where there are few.  High ones are in 10^3 Hz, 10^6 Hz. */
 static void
 write_frequency_tics(FILE *out, double lo, double hi)
 {
+    int exponent = hi >= 1e5 ? 3 * (int)floor(log10(hi) / 3) : 0;
+    script_label label;
+    ss_script_make_label(&label, &(ss_column){ "frequency", "Hz" }, ss_script_power(exponent), 20);
+    ss_script_write_side_label(out, 2, &label);
     int sparse = hi / lo > 2e4, dense = hi / lo < 8;
     double fine = hi / lo < 2 ? 10 : 1;         /* tics a digit */
     const char *between = "set ytics (";
@@ -66,11 +70,12 @@ write_frequency_tics(FILE *out, double lo, double hi)
         for (int i = (int)fine; i < 10 * fine; i++) {
             double f = e < 0 ? i / (fine * pow(10, -e)) : i * pow(10, e) / fine;
             int major = dense || i == 1 || (!sparse && (i == 2 || i == 5));
-            char text[SS_NUMBER_MAX];
+            char text[SS_NUMBER_MAX], at[SS_NUMBER_MAX];
             if (f < lo || f > hi)
                 continue;
-            ss_number_format(text, f);
-            fprintf(out, "%s'%s' %s %d", between, major ? text : "", text, !major);
+            ss_number_format(at, f);
+            ss_number_format(text, e < exponent ? i / (fine * pow(10, exponent - e)) : i * pow(10, e - exponent) / fine);
+            fprintf(out, "%s'%s' %s %d", between, major ? text : "", at, !major);
             between = ", ";
         }
     fputs(between[0] == ',' ? ")\n" : "", out);
@@ -101,7 +106,6 @@ static const char panel_b[] =
     "set bmargin at screen bottom; set tmargin at screen top_b\n"
     "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
     SCRIPT_TIME_LABELS
-    "set label 2 'frequency / Hz' at screen 0.03,graph 0.5 center rotate\n"
     "set logscale y; set yrange [fmin:fmax]\n"
     "set palette defined (@colours) maxcolors levels\n";
 
@@ -114,7 +118,9 @@ typedef struct drawing {
     const ss_coefficients *c;
     const ss_contour_opts *contour;
     const contour_map *map;
-    double range;               /* of the signal in panel (a) */
+    script_clock clock;         /* of the signal in panel (a) */
+    script_span span;
+    script_extent drawn;
     script_label label;         /* of panel (a) */
     int lines;                  /* 1: there are contours */
     contour_marks marks;
@@ -171,7 +177,7 @@ write_panels(FILE *out, const drawing *d)
 {
     fputs(around, out);
     if (d->contour->signal != NULL) {
-        ss_script_write_tics(out, "ytics", d->range, 5);
+        ss_script_write_tics(out, "ytics", d->drawn, 5);
         fputs(panel_a, out);
         ss_script_write_side_label(out, 2, &d->label);
         fputs(panel_a_plot, out);
@@ -223,19 +229,27 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     return check_scales(c, err);
 }
 
+/* Panel (a) shows the time of (b). */
 static ss_status
-write_signal(FILE *out, const ss_plot_opts *opts, drawing *d, ss_error *err)
+find_signal(drawing *d, const ss_plot_opts *opts, ss_error *err)
+{
+    const ss_signal *signal = d->contour->signal;
+    ss_plot_opts drawn = *opts;
+    drawn.from = d->map->span_of_time->from;
+    drawn.to = d->map->span_of_time->to;
+    ss_status st = ss_script_find_span(&d->span, signal->head, signal->n, &drawn, err);
+    return st == SS_OK ? ss_script_make_clock(&d->clock, signal->head, &d->span, err) : st;
+}
+
+static void
+write_signal(FILE *out, drawing *d)
 {
     const ss_signal *signal = d->contour->signal;
     const double *x = signal->values + d->contour->column * signal->n;
-    script_span span;
-    ss_status status = ss_script_find_span(&span, signal->head, signal->n, opts, err);
-    if (status != SS_OK)
-        return status;
-    int exponent = ss_script_exponent(x + span.first, span.n);
-    ss_script_make_label(&d->label, &signal->head->column[d->contour->column], exponent, ROOM);
-    d->range = ss_script_write_trace(out, "$signal", x, signal->head, &span, exponent);
-    return SS_OK;
+    script_scale scale = ss_script_scale(x + d->span.first, d->span.n);
+    d->drawn = SCRIPT_NO_EXTENT;
+    ss_script_make_label(&d->label, &signal->head->column[d->contour->column], scale, ROOM);
+    ss_script_write_trace(out, "$signal", x, &d->clock, &d->span, scale, &d->drawn);
 }
 
 /* The variables at the top. */
@@ -266,20 +280,16 @@ write_variables(FILE *out, const drawing *d)
 static ss_status
 write_script(FILE *out, drawing *d, const ss_plot_opts *opts, ss_error *err)
 {
-    const script_span *span = d->map->span_of_time;
-    ss_status status = ss_script_begin(out, opts, d->contour->signal != NULL ? 8.5 : 6.5, err);
+    ss_status status = d->contour->signal != NULL ? find_signal(d, opts, err) : SS_OK;
+    if (status == SS_OK)
+        status = ss_script_begin(out, opts, d->contour->signal != NULL ? 8.5 : 6.5, err);
     if (status != SS_OK)
         return status;
     ss_script_write_title(out, opts, d->c->head, NULL);
-    ss_plot_opts drawn = *opts;         /* panel (a) shows the time of (b) */
-    drawn.from = span->from;
-    drawn.to = span->to;
     write_variables(out, d);
     if (d->contour->signal != NULL)
-        status = write_signal(out, &drawn, d, err);
-    if (status != SS_OK)
-        return status;
-    write_cone(out, d->c, span, (const double[2]){ d->map->f[0], d->map->f[d->map->rows - 1] });
+        write_signal(out, d);
+    write_cone(out, d->c, d->map->span_of_time, (const double[2]){ d->map->f[0], d->map->f[d->map->rows - 1] });
     d->marks = ss_contour_write_marks(out, d->map, d->contour);
     if (d->contour->ridge) {
         fputs("ridge_colour = '#cc3311'\n", out);
@@ -299,6 +309,7 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
         return SS_FAIL_NULL(err);
     script_span span;
     contour_map map = { .rows = 0 };
+    drawing d = { .c = c, .contour = contour, .map = &map };
     ss_status status = check(c, contour, err);
     if (status == SS_OK)
         status = ss_contour_check_marks(contour, err);
@@ -307,7 +318,8 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
     if (status == SS_OK)
         status = ss_contour_map(&map, c, contour, &span, err);
     if (status == SS_OK)
-        status = write_script(out, &(drawing){ .c = c, .contour = contour, .map = &map }, opts, err);
+        status = write_script(out, &d, opts, err);
     ss_contour_map_free(&map);
+    free(d.clock.gap);
     return status;
 }

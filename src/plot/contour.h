@@ -13,6 +13,7 @@
  * first and the last where the labels drawn begin and end. */
 typedef struct contour_map {
     const script_span *span_of_time;
+    double from, to;            /* [s] its first and its last column: of this span, what the record has */
     size_t rows;
     double *f;                  /* [Hz] of each row */
     double *level;

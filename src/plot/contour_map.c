@@ -63,15 +63,13 @@ survey(filling *f, size_t i, const double *w)
     return 1;
 }
 
-/* Lines go on beyond the record, colours do not. */
 static void
-fill_row(double *row, const filling *f, size_t s, const double *w, const script_span *span)
+fill_row(double *row, const contour_map *map, const filling *f, size_t s, const double *w)
 {
-    double width = (span->to - span->from) / CONTOUR_COLUMNS, end = (double)f->c->n / f->c->head->rate;
+    double width = (map->to - map->from) / CONTOUR_COLUMNS;
     for (size_t i = 0; i <= CONTOUR_COLUMNS; i++) {
-        double t = span->from - f->c->head->start + (double)i * width;
-        int known = t >= -width / 2 && t <= end + width / 2;
-        row[i] = known || !f->contour->fill ? in_column(&f->c->scale[s], w, t - width / 2, t + width / 2) : 0;
+        double t = map->from - f->c->head->start + (double)i * width;
+        row[i] = in_column(&f->c->scale[s], w, t - width / 2, t + width / 2);
     }
 }
 
@@ -89,7 +87,7 @@ fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
             return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
                            c->scale[s].f);
         if (s >= f->first && s - f->first < map->rows)
-            fill_row(map->level + (s - f->first) * (CONTOUR_COLUMNS + 1), f, s, w, map->span_of_time);
+            fill_row(map->level + (s - f->first) * (CONTOUR_COLUMNS + 1), map, f, s, w);
         if (ss_progress_at(&f->contour->progress, (double)(s + 1) / (double)c->n_scales) != SS_OK)
             return SS_STOP;
     }
@@ -122,7 +120,7 @@ cut_rows(contour_map *map, double fmin, double fmax)
     double lo = fmin > f[0] ? log(fmin / f[0]) / log(f[1] / f[0]) : 0;
     double hi = fmax < f[last] && fmax > 0 ? log(fmax / f[last - 1]) / log(f[last] / f[last - 1]) : 1;
     for (size_t i = 0; i < columns; i++) {
-        double *bottom = map->level + i, below = top[i - columns];
+        double *bottom = map->level + i, below = map->level[(last - 1) * columns + i];
         double at_lo = bottom[0] + lo * (bottom[columns] - bottom[0]);
         top[i] = below + hi * (top[i] - below);
         bottom[0] = at_lo;
@@ -164,7 +162,8 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
     filling f = { .c = c, .contour = contour, .outside = -1 };
     size_t longest = 0;
     double *own = NULL;
-    *map = (contour_map){ .span_of_time = span };
+    double start = c->head->start, end = start + (double)c->n / c->head->rate;
+    *map = (contour_map){ .span_of_time = span, .from = fmax(span->from, start), .to = fmin(span->to, end) };
     ss_status st = choose_rows(map, &f, err);
     if (st != SS_OK)
         return st;

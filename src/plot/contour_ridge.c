@@ -49,13 +49,13 @@ in_cone(const ss_coefficients *c, double t, double f)
 size_t
 ss_contour_write_ridge(FILE *out, const contour_map *map, const ss_coefficients *c)
 {
-    double from = map->span_of_time->from, range = map->span_of_time->to - from;
+    double range = map->to - map->from;
     size_t n = 0;
     fputs("$ridge << EOD\n", out);
     for (size_t i = 0; i <= CONTOUR_COLUMNS; i++)
         for (size_t r = 1; r + 1 < map->rows; r++) {
             const double *level = map->level + i;
-            double t = from + (double)i / CONTOUR_COLUMNS * range, here = at(level, r);
+            double t = map->from + (double)i / CONTOUR_COLUMNS * range, here = at(level, r);
             if (here < -map->span || here <= at(level, r - 1) || here < at(level, r + 1)
                 || !falls(level, map->rows, r, 1) || !falls(level, map->rows, r, (size_t)-1))
                 continue;

@@ -18,14 +18,10 @@
 #define ROOM 8.0                /* for the label of a panel [ems] */
 enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
 
-typedef struct extent {
-    double lo, hi;
-} extent;
-
-static extent
+static script_extent
 extent_of(const double *x, size_t n)
 {
-    extent e = { INFINITY, -INFINITY };
+    script_extent e = SCRIPT_NO_EXTENT;
     for (size_t i = 0; i < n; i++) {
         e.lo = fmin(e.lo, x[i]);            /* of a NaN and a number, the number */
         e.hi = fmax(e.hi, x[i]);
@@ -45,7 +41,7 @@ is_line(const double *x, const double *y, size_t n)
 
 /* Points that would cover each other are written once. */
 static void
-write_points(FILE *out, const double *x, const double *y, size_t n, double unit, extent e)
+write_points(FILE *out, const double *x, const double *y, size_t n, double unit, script_extent e)
 {
     char seen[CELLS + 1] = { 0 };
     int decimals = ss_script_decimals((e.hi - e.lo) / unit);
@@ -70,7 +66,7 @@ static void
 write_panel(FILE *out, const map_column *column, size_t i, size_t n, double bottom, double top)
 {
     const double *x = column[0].value, *y = column[i].value;
-    extent e = extent_of(y, n);
+    script_extent e = extent_of(y, n);
     int exponent = ss_script_exponent((double[]){ e.lo, e.hi }, 2), line = is_line(x, y, n);
     double unit = pow(10, exponent);
     script_label label = ss_map_label(column[i].label, exponent, ROOM);
@@ -78,7 +74,7 @@ write_panel(FILE *out, const map_column *column, size_t i, size_t n, double bott
     write_points(out, x, y, n, unit, e);
     fprintf(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
     ss_script_write_side_label(out, 1, &label);
-    ss_script_write_tics(out, "ytics", (e.hi - e.lo) / unit, i == 1 ? 6 : 4);
+    ss_script_write_tics(out, "ytics", (script_extent){ e.lo / unit, e.hi / unit }, i == 1 ? 6 : 4);
     fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
             line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '#999999' lw 0.7, " : "", i,
             line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
@@ -92,7 +88,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     const char *scene = ss_table_note(t, "scene"), *vary = ss_table_note(t, "vary");
     size_t letters = vary != NULL ? strlen(vary) : 0;
     int log = letters > 4 && strcmp(vary + letters - 4, ":log") == 0;
-    extent x = extent_of(column[0].value, t->n);
+    script_extent x = extent_of(column[0].value, t->n);
     double height = TITLE + FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, top = height - TITLE;
     script_label x_label = ss_map_label(column[0].label, 0, INFINITY);
     if (titled.title == NULL)
@@ -131,7 +127,7 @@ ss_plot_diagram(FILE *out, const ss_table *t, size_t x, const size_t y[], size_t
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i <= n; i++) {
         st = ss_map_read_column(&column[i], t, i == 0 ? x : y[i - 1], err);
-        extent e = st == SS_OK ? extent_of(column[i].value, t->n) : (extent){ 0, 1 };
+        script_extent e = st == SS_OK ? extent_of(column[i].value, t->n) : (script_extent){ 0, 1 };
         if (!(e.lo <= e.hi) || (i == 0 && !(e.lo < e.hi)))
             st = ss_fail(err, SS_EINVAL, "%s has %s", column[i].label->name,
                          i == 0 ? "one value only" : "no value to draw");

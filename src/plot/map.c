@@ -168,17 +168,6 @@ write_curve(FILE *out, const ss_map_opts *map, const map_grid *g)
     fputs("EOD\n", out);
 }
 
-static void
-write_axis(FILE *out, const char *name, const map_axis *a)
-{
-    fprintf(out, "set %srange [", name);
-    ss_map_write_coordinate(out, a, a->value[0], ':');
-    ss_map_write_coordinate(out, a, a->value[a->n - 1], ']');
-    fprintf(out, "%s%s\n", a->log ? "; set logscale " : "", a->log ? name : "");
-    if (a->log)
-        ss_script_write_decades(out, name, a->value[0], a->value[a->n - 1]);
-}
-
 /* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten
  * values. */
 static int
@@ -192,6 +181,26 @@ letters_of(const map_axis *a)
         most = (int)fmax(most, snprintf(NULL, 0, "%g", at));
     }
     return most;
+}
+
+#define TICS_WIDE 24            /* letters of tics below the map, if they are long */
+
+/* gnuplot leaves out a tic at the very end of a logarithmic axis where rounding puts it beyond. */
+static void
+write_axis(FILE *out, const char *name, const map_axis *a)
+{
+    double lo = a->value[0], hi = a->value[a->n - 1];
+    if (a->log) {
+        fprintf(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, lo * (1 - 1e-8), hi * (1 + 1e-8), name);
+        ss_script_write_decades(out, name, lo, hi);
+        return;
+    }
+    fprintf(out, "set %srange [", name);
+    ss_map_write_coordinate(out, a, lo, ':');
+    ss_map_write_coordinate(out, a, hi, ']');
+    putc('\n', out);
+    if (name[0] == 'x' && letters_of(a) > 4)
+        ss_script_write_tics(out, "xtics", (script_extent){ lo, hi }, (int)fmax(1, TICS_WIDE / letters_of(a)));
 }
 
 static void

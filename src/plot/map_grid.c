@@ -43,7 +43,7 @@ script_label
 ss_map_label(const ss_column *column, int exponent, double room)
 {
     script_label label;
-    ss_script_make_label(&label, column, exponent, room);
+    ss_script_make_label(&label, column, ss_script_power(exponent), room);
     for (size_t i = 0; i < strlen(column->name) && i < label.n; i++)
         label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
     return label;

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 
 #define PANEL 2.1               /* height of one panel [cm] */
@@ -25,8 +26,8 @@ static const char layout[] =
 typedef struct panel {
     const ss_column *column;
     const double *x;            /* of the whole record */
-    double range;               /* known, as the exponent, when its trace is written */
-    int exponent;
+    script_extent drawn;        /* known, as the scale, when its trace is written */
+    script_scale scale;
 } panel;
 
 /* A panel for each of n columns, or of all for NULL; to be freed even after a failure. */
@@ -43,34 +44,48 @@ make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t 
         size_t c = column != NULL ? column[i] : i;
         if (c >= head->n_columns)
             return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", c + 1, head->n_columns);
-        p[i] = (panel){ .column = &head->column[c], .x = signal->values + c * signal->n };
+        p[i] = (panel){ &head->column[c], signal->values + c * signal->n, SCRIPT_NO_EXTENT, ss_script_power(0) };
     }
     return SS_OK;
 }
 
-/* The first column of opts->over, as if it were sampled from the start of the signal on.  Its
- * values count in the range, but not in the exponent. */
+/* The part of opts->over that is drawn, as if it were sampled from the start of the signal on. */
 static ss_status
-check_over(ss_header *head, script_span *span, const ss_header *of_signal, const ss_plot_opts *opts,
-           ss_error *err)
+find_over_span(script_span *span, double start, const ss_plot_opts *opts, ss_error *err)
+{
+    ss_header head = *opts->over->head;
+    head.start = start;
+    return ss_script_find_span(span, &head, opts->over->n, opts, err);
+}
+
+/* The first column of opts->over.  Its values count in the range, but not in the scale. */
+static ss_status
+make_over(script_clock *clock, script_span *span, double start, const ss_plot_opts *opts, ss_error *err)
 {
     if (opts->over == NULL)
         return SS_OK;
-    *head = *opts->over->head;
-    head->start = of_signal->start;
-    ss_status st = ss_script_find_span(span, head, opts->over->n, opts, err);
-    return st == SS_OK ? ss_script_check(head->column[0].name, opts->over->values + span->first, span->n,
-                                         err) : st;
+    const ss_header *head = opts->over->head;
+    ss_status st = find_over_span(span, start, opts, err);
+    if (st == SS_OK)
+        st = ss_script_check(head->column[0].name, opts->over->values + span->first, span->n, err);
+    if (st == SS_OK)
+        st = ss_script_make_clock(clock, head, span, err);
+    for (size_t i = 0; st == SS_OK && i < clock->n_gaps; i++) {
+        clock->gap[i].from += start - head->start;
+        clock->gap[i].to += start - head->start;
+    }
+    clock->start = start;
+    return st;
 }
 
 static void
-write_traces(FILE *out, panel p[], size_t n, const ss_header *head, const script_span *span)
+write_traces(FILE *out, panel p[], size_t n, const script_clock *clock, const script_span *span)
 {
     for (size_t i = 0; i < n; i++) {
         char name[32];
         snprintf(name, sizeof name, "$panel%zu", i + 1);
-        p[i].exponent = ss_script_exponent(p[i].x + span->first, span->n);
-        p[i].range = ss_script_write_trace(out, name, p[i].x, head, span, p[i].exponent);
+        p[i].scale = ss_script_scale(p[i].x + span->first, span->n);
+        ss_script_write_trace(out, name, p[i].x, clock, span, p[i].scale, &p[i].drawn);
     }
 }
 
@@ -83,10 +98,10 @@ plot_panel(FILE *out, const panel *p, size_t i, size_t n, int over)
         fputs(SCRIPT_TIME_LABELS, out);
     fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
             "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < n));
-    ss_script_make_label(&label, p->column, p->exponent, ROOM);
+    ss_script_make_label(&label, p->column, p->scale, ROOM);
     fputs("unset label 1; ", out);
     ss_script_write_side_label(out, 1, &label);
-    ss_script_write_tics(out, "ytics", p->range, 5);
+    ss_script_write_tics(out, "ytics", p->drawn, 5);
     fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour%s\n", i,
             over ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
     if (i == 1)
@@ -100,7 +115,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     if (out == NULL || signal == NULL || opts == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
-    ss_header over_head;
+    script_clock clock = { .gap = NULL }, over_clock = { .gap = NULL };
     script_span span, over_span;
     panel *p = NULL;
     int over = opts->over != NULL;
@@ -112,17 +127,19 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     for (size_t i = 0; status == SS_OK && i < panels; i++)
         status = ss_script_check(p[i].column->name, p[i].x + span.first, span.n, err);
     if (status == SS_OK)
-        status = check_over(&over_head, &over_span, head, opts, err);
+        status = ss_script_make_clock(&clock, head, &span, err);
+    if (status == SS_OK)
+        status = make_over(&over_clock, &over_span, head->start, opts, err);
     if (status == SS_OK)
         status = ss_script_begin(out, opts, height, err);
     if (status == SS_OK) {
         ss_script_write_title(out, opts, head, NULL);
         ss_script_write_span(out, &span);
         fprintf(out, "colour = '#0072b2'\n%s", over ? "over = '#d55e00'\n" : "");
-        write_traces(out, p, panels, head, &span);
+        write_traces(out, p, panels, &clock, &span);
         if (over)
-            ss_script_write_trace(out, "$over", opts->over->values, &over_head, &over_span,
-                                  p[0].exponent);
+            ss_script_write_trace(out, "$over", opts->over->values, &over_clock, &over_span, p[0].scale,
+                                  &p[0].drawn);
         fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
                 1 - TITLE / height, panels);
         fputs(layout, out);
@@ -131,83 +148,118 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         fputs("unset multiplot\n", out);
         status = ss_script_end(out);
     }
+    free(over_clock.gap);
+    free(clock.gap);
     free(p);
     return status;
 }
 
 /* --- one over the other -------------------------------------------------------------------- */
 
-static double
-range(const double *x, size_t n, double unit)
+/* Two columns of a signal. */
+typedef struct path {
+    const ss_column *column[2];
+    const double *x[2];         /* of the whole record */
+    script_clock clock;
+    script_span span;
+} path;
+
+/* The clock's gaps are to be freed, even after a failure. */
+static ss_status
+make_path(path *p, const ss_signal *signal, const size_t column[2], const script_span *span, ss_error *err)
 {
-    double lo = INFINITY, hi = -INFINITY;
-    for (size_t i = 0; i < n; i++) {
-        lo = fmin(lo, x[i]);
-        hi = fmax(hi, x[i]);
+    ss_status st = SS_OK;
+    p->span = *span;
+    for (int i = 0; st == SS_OK && i < 2; i++) {
+        p->column[i] = &signal->head->column[column[i]];
+        p->x[i] = signal->values + column[i] * signal->n;
+        st = ss_script_check(p->column[i]->name, p->x[i] + span->first, span->n, err);
     }
-    return (hi - lo) / unit;
+    return st == SS_OK ? ss_script_make_clock(&p->clock, signal->head, span, err) : st;
+}
+
+/* The columns of opts->over that have the names of the path's, else its first two, over as much time. */
+static ss_status
+make_over_path(path *over, const path *p, const ss_plot_opts *opts, ss_error *err)
+{
+    script_span span;
+    const ss_header *head = opts->over->head;
+    const char *x = p->column[0]->name, *y = p->column[1]->name;
+    int found[2] = { ss_header_column(head, x), ss_header_column(head, y) };
+    int named = found[0] >= 0 && found[1] >= 0;
+    size_t column[2] = { named ? (size_t)found[0] : 0, named ? (size_t)found[1] : 1 };
+    if (head->n_columns < 2)
+        return ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", x, y);
+    ss_status st = find_over_span(&span, p->clock.start, opts, err);
+    return st == SS_OK ? make_path(over, opts->over, column, &span, err) : st;
+}
+
+/* The values of column i, scaled; *drawn is widened to them. */
+static void
+widen(script_extent *drawn, const path *p, int i, script_scale scale)
+{
+    for (size_t k = p->span.first; k < p->span.first + p->span.n; k++) {
+        double value = ss_script_scaled(p->x[i][k], scale);
+        if (ss_script_is_missing(&p->clock, k))
+            continue;
+        drawn->lo = fmin(drawn->lo, value);
+        drawn->hi = fmax(drawn->hi, value);
+    }
 }
 
 /* A point nearer than half a pixel to the last one written is left out. */
 static void
-write_path(FILE *out, const char *name, const double *const x[2], size_t n, const double unit[2])
+write_path(FILE *out, const char *name, const path *p, const script_scale scale[2])
 {
-    double width = range(x[0], n, unit[0]), height = range(x[1], n, unit[1]);
-    double near_x = width / (2 * SCRIPT_COLUMNS), near_y = height / (2 * SCRIPT_COLUMNS);
-    size_t last = 0;
+    size_t end = p->span.first + p->span.n;
+    double last[2] = { INFINITY, INFINITY }, near[2];
+    int decimals[2];
+    for (int i = 0; i < 2; i++) {
+        script_extent drawn = SCRIPT_NO_EXTENT;
+        widen(&drawn, p, i, scale[i]);
+        near[i] = (drawn.hi - drawn.lo) / (2 * SCRIPT_COLUMNS);
+        decimals[i] = ss_script_decimals(drawn.hi - drawn.lo);
+    }
     fprintf(out, "%s << EOD\n", name);
-    for (size_t i = 0; i < n; i++) {
-        if (i > 0 && i + 1 < n && fabs(x[0][i] - x[0][last]) / unit[0] <= near_x
-            && fabs(x[1][i] - x[1][last]) / unit[1] <= near_y)
+    for (size_t k = p->span.first; k < end; k++) {
+        double at[2] = { ss_script_scaled(p->x[0][k], scale[0]), ss_script_scaled(p->x[1][k], scale[1]) };
+        if (ss_script_is_missing(&p->clock, k)) {
+            fputs(isinf(last[0]) ? "" : "\n", out);
+            last[0] = INFINITY;
             continue;
-        ss_script_write(out, x[0][i] / unit[0], ss_script_decimals(width), " ");
-        ss_script_write(out, x[1][i] / unit[1], ss_script_decimals(height), "\n");
-        last = i;
+        }
+        if (k + 1 < end && fabs(at[0] - last[0]) <= near[0] && fabs(at[1] - last[1]) <= near[1])
+            continue;
+        ss_script_write(out, at[0], decimals[0], " ");
+        ss_script_write(out, at[1], decimals[1], "\n");
+        memcpy(last, at, sizeof last);
     }
     fputs("EOD\n", out);
 }
 
-/* The columns of opts->over that have these names, else its first two. */
+/* The path, and another over it unless it is NULL. */
 static ss_status
-find_over(const double *over[2], const ss_plot_opts *opts, const ss_column *x, const ss_column *y, ss_error *err)
+write_xy(FILE *out, const path *p, const path *over)
 {
-    if (opts->over == NULL)
-        return SS_OK;
-    const ss_header *head = opts->over->head;
-    int found[2] = { ss_header_column(head, x->name), ss_header_column(head, y->name) };
-    if (found[0] < 0 || found[1] < 0)
-        found[1] = (found[0] = 0) + 1;
-    if (head->n_columns < 2)
-        return ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", x->name, y->name);
-    ss_status st = SS_OK;
-    for (int i = 0; st == SS_OK && i < 2; i++) {
-        over[i] = opts->over->values + (size_t)found[i] * opts->over->n;
-        st = ss_script_check(head->column[found[i]].name, over[i], opts->over->n, err);
-    }
-    return st;
-}
-
-/* n samples of x and y, and over them those of a signal, unless it is NULL. */
-static ss_status
-write_xy(FILE *out, const ss_column *const column[2], const double *const x[2], size_t n,
-         const double *const over[2], const ss_signal *of_over)
-{
-    double unit[2];
+    script_scale scale[2];
+    script_extent drawn[2] = { SCRIPT_NO_EXTENT, SCRIPT_NO_EXTENT };
     script_label label[2];
     for (int i = 0; i < 2; i++) {
-        int exponent = ss_script_exponent(x[i], n);
-        unit[i] = pow(10, exponent);
-        ss_script_make_label(&label[i], column[i], exponent, XY_ROOM);
+        scale[i] = ss_script_scale(p->x[i] + p->span.first, p->span.n);
+        ss_script_make_label(&label[i], p->column[i], scale[i], XY_ROOM);
+        widen(&drawn[i], p, i, scale[i]);
+        if (over != NULL)
+            widen(&drawn[i], over, i, scale[i]);
     }
     ss_script_write_x_label(out, &label[0], "0,0.3");
     ss_script_write_side_label(out, 1, &label[1]);
     fputs("colour = '#0072b2'\n", out);
-    ss_script_write_tics(out, "xtics", range(x[0], n, unit[0]), 6);
-    ss_script_write_tics(out, "ytics", range(x[1], n, unit[1]), 6);
-    write_path(out, "$path", x, n, unit);
-    if (of_over != NULL) {
+    ss_script_write_tics(out, "xtics", drawn[0], 6);
+    ss_script_write_tics(out, "ytics", drawn[1], 6);
+    write_path(out, "$path", p, scale);
+    if (over != NULL) {
         fputs("over = '#d55e00'\n", out);
-        write_path(out, "$over", over, of_over->n, unit);
+        write_path(out, "$over", over, scale);
     }
     fputs("unset key\n"
           "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
@@ -215,7 +267,7 @@ write_xy(FILE *out, const ss_column *const column[2], const double *const x[2], 
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
           "set tics nomirror out scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour", out);
-    fputs(of_over != NULL ? ", $over using 1:2 with lines lw 1 lc rgb over\n" : "\n", out);
+    fputs(over != NULL ? ", $over using 1:2 with lines lw 1 lc rgb over\n" : "\n", out);
     return ss_script_end(out);
 }
 
@@ -227,23 +279,22 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
     script_span span;
+    path p = { .clock = { .gap = NULL } }, over = p;
     if (x >= head->n_columns || y >= head->n_columns)
         return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1,
                        head->n_columns);
     ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
-    if (status != SS_OK)
-        return status;
-    const ss_column *column[2] = { &head->column[x], &head->column[y] };
-    const double *values = signal->values + span.first, *over[2] = { NULL, NULL };
-    const double *at[2] = { values + x * signal->n, values + y * signal->n };
-    for (int i = 0; status == SS_OK && i < 2; i++)
-        status = ss_script_check(column[i]->name, at[i], span.n, err);
     if (status == SS_OK)
-        status = find_over(over, opts, column[0], column[1], err);
+        status = make_path(&p, signal, (const size_t[]){ x, y }, &span, err);
+    if (status == SS_OK && opts->over != NULL)
+        status = make_over_path(&over, &p, opts, err);
     if (status == SS_OK)
         status = ss_script_begin(out, opts, 6.5, err);
-    if (status != SS_OK)
-        return status;
-    ss_script_write_title(out, opts, head, NULL);
-    return write_xy(out, column, at, span.n, over, opts->over);
+    if (status == SS_OK) {
+        ss_script_write_title(out, opts, head, NULL);
+        status = write_xy(out, &p, opts->over != NULL ? &over : NULL);
+    }
+    free(over.clock.gap);
+    free(p.clock.gap);
+    return status;
 }

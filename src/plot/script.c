@@ -15,6 +15,7 @@
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
 #define SCREEN 1.5              /* how much wider and higher on a screen */
 #define DECADES 8              /* powers of ten that stand at an axis, at most */
+#define TITLE_ROOM 34.0         /* [ems] */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
 const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
@@ -126,17 +127,74 @@ ss_script_exponent(const double *x, size_t n)
     return 3 * (int)floor((log10(largest) + 1) / 3);
 }
 
-void
-ss_script_write_tics(FILE *out, const char *axis, double range, int intervals)
+/* The step of tics: 1, 2 or 5 times a power of ten, *decimals of it. */
+static double
+tic_step(double range, int intervals, int *decimals)
 {
     double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
-    int step = share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10;
-    if (range > 0)
-        fprintf(out, "set %s ", axis);
-    if (range > 0)
-        ss_script_write(out, step * power, power < 1 ? (int)round(-log10(power)) : 0, "\n");
-    else
-        fprintf(out, "set %s autofreq\n", axis);
+    *decimals = power < 1 ? (int)round(-log10(power)) : 0;
+    return (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10) * power;
+}
+
+void
+ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals)
+{
+    int decimals = ss_script_decimals(0), same = !(drawn.lo < drawn.hi);
+    double step = same ? 0 : tic_step(drawn.hi - drawn.lo, intervals, &decimals);
+    fprintf(out, "set %s %s", axis, same ? "(" : "");
+    ss_script_write(out, same ? drawn.lo : step, decimals, same ? ")\n" : "\n");
+}
+
+#define TIC_LETTERS 6           /* of a tic's label, which the margin has room for */
+#define TIC_INTERVALS 5
+
+static script_extent
+extent_of(const double *x, size_t n)
+{
+    script_extent e = SCRIPT_NO_EXTENT;
+    for (size_t i = 0; i < n; i++) {
+        e.lo = fmin(e.lo, x[i]);
+        e.hi = fmax(e.hi, x[i]);
+    }
+    return e;
+}
+
+double
+ss_script_scaled(double x, script_scale scale)
+{
+    return (x - scale.offset) / scale.unit;
+}
+
+script_scale
+ss_script_power(int exponent)
+{
+    return (script_scale){ 0, pow(10, exponent), exponent };
+}
+
+/* Are labels of values from lo to hi longer than TIC_LETTERS? */
+static int
+is_long(double lo, double hi)
+{
+    int decimals;
+    double largest = fmax(fabs(lo), fabs(hi));
+    tic_step(hi - lo, TIC_INTERVALS, &decimals);
+    return 1 + (int)fmax(0, floor(log10(largest))) + (lo < 0) + decimals + (decimals > 0) > TIC_LETTERS;
+}
+
+/* The offset is the middle of the values, rounded to a power of ten above their range. */
+script_scale
+ss_script_scale(const double *x, size_t n)
+{
+    script_extent e = extent_of(x, n);
+    script_scale scale = ss_script_power(ss_script_exponent(x, n));
+    double power = ceil(log10(e.hi - e.lo));
+    if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled(e.lo, scale), ss_script_scaled(e.hi, scale)))
+        return scale;
+    double middle = e.lo + (e.hi - e.lo) / 2, unit = pow(10, fabs(power));
+    double offset = power > 0 ? round(middle / unit) * unit : round(middle * unit) / unit;
+    scale = ss_script_power(ss_script_exponent((double[]){ e.lo - offset, e.hi - offset }, 2));
+    scale.offset = offset;
+    return scale;
 }
 
 enum { LABEL_MAX = sizeof ((script_label *)0)->text - sizeof "…" };
@@ -234,27 +292,88 @@ name_length(const ss_column *column)
     return n;
 }
 
-void
-ss_script_make_label(script_label *l, const ss_column *column, int exponent, double room)
+/* "name", or "name − offset unit". */
+static void
+add_quantity(script_label *l, const ss_column *column, double offset)
+{
+    char number[SS_NUMBER_MAX];
+    size_t begin = l->n;
+    add(l, column->name);
+    if (l->n < LABEL_MAX)
+        l->n = begin + name_length(column);
+    if (offset == 0)
+        return;
+    ss_number_format(number, fabs(offset));
+    add(l, offset < 0 ? " + " : " − ");
+    add(l, number);
+    add(l, column->unit[0] != '\0' ? " " : "");
+    add_unit(l, column->unit);
+}
+
+static void
+add_line(script_label *l, const ss_column *column, script_scale scale)
 {
     const char *unit = column->unit;
-    int scaled = unit[0] != '\0' || exponent != 0;
+    add(l, scale.offset != 0 ? "(" : "");
+    add_quantity(l, column, scale.offset);
+    add(l, scale.offset != 0 ? ")" : "");
+    if (unit[0] == '\0' && scale.exponent == 0)
+        return;
+    add(l, " / ");
+    add_scale(l, unit, scale.exponent, unit[0] != '\0' && (scale.exponent != 0 || strpbrk(unit, "/ *") != NULL));
+}
+
+/* Break the label after the blank or _ nearest to its middle, if it has one. */
+static void
+break_label(script_label *l)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < l->n; i++)
+        if (strchr(" _", l->text[i - 1]) != NULL && labs(2 * (long)i - (long)l->n) < labs(2 * (long)best - (long)l->n))
+            best = i;
+    l->second = best;
+}
+
+/* The room of a label over its width, both of its lines together. */
+static double
+fit(const script_label *l, double room)
+{
+    return room / fmax(text_width(l->text, l->second), text_width(l->text + l->second, l->n - l->second));
+}
+
+#define SMALL 0.6               /* letters too small to read */
+#define TWO_LINES 0.85          /* letters of two lines, which leave tics their room */
+#define THREE_LINES 0.7         /* and of a title's three, which have the height of two */
+
+void
+ss_script_make_label(script_label *l, const ss_column *column, script_scale scale, double room)
+{
     *l = (script_label){ .n = 0 };
-    add(l, column->name);
-    size_t name = l->n < LABEL_MAX ? name_length(column) : LABEL_MAX;
-    l->n = name;
-    add(l, scaled ? " / " : "");
-    if (scaled)
-        add_scale(l, unit, exponent, unit[0] != '\0' && (exponent != 0 || strpbrk(unit, "/ *") != NULL));
+    add_line(l, column, scale);
     mark_cut(l);
-    double width = text_width(l->text, l->n);
-    if (width > room && scaled && name < LABEL_MAX) {
-        l->n = l->second = name;
-        add_scale(l, unit, exponent, 1);
-        mark_cut(l);
-        width = fmax(text_width(l->text, name), text_width(l->text + name, l->n - name));
+    script_label two = { .n = 0 };
+    add_quantity(&two, column, scale.offset);
+    two.second = two.n;
+    add_scale(&two, column->unit, scale.exponent, 1);
+    mark_cut(&two);
+    if (fit(l, room) < 1 && (column->unit[0] != '\0' || scale.exponent != 0) && two.second < LABEL_MAX)
+        *l = two;
+    if (fit(l, room) < SMALL) {
+        two = (script_label){ .n = 0 };
+        add_line(&two, column, scale);
+        mark_cut(&two);
+        break_label(&two);
+        *l = fit(&two, room) > fit(l, room) ? two : *l;
     }
-    l->font = fmin(room / width, l->second > 0 ? 0.85 : 1);     /* two lines leave tics their room */
+    l->font = fmin(fit(l, room), l->second > 0 ? TWO_LINES : 1);
+}
+
+static void
+write_lines(FILE *out, const script_label *l)
+{
+    write_text(out, l->text, l->second);
+    fputs(l->second > 0 ? "\\n" : "", out);
+    write_text(out, l->text + l->second, l->n - l->second);
 }
 
 /* The label as a string constant. */
@@ -262,9 +381,7 @@ static void
 write_label(FILE *out, const script_label *l)
 {
     putc('"', out);
-    write_text(out, l->text, l->second);
-    fputs(l->second > 0 ? "\\n" : "", out);
-    write_text(out, l->text + l->second, l->n - l->second);
+    write_lines(out, l);
     putc('"', out);
 }
 
@@ -395,13 +512,21 @@ ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head
         title = ss_header_find_note(head, "model");
     if (title == NULL)
         title = "";
+    script_label l = { .n = 0 };
+    add(&l, title);
+    mark_cut(&l);
+    if (fit(&l, TITLE_ROOM) < 1)
+        break_label(&l);
+    l.font = fmin(fit(&l, TITLE_ROOM), l.second == 0 ? 1 : lines == NULL ? TWO_LINES : THREE_LINES);
     fputs("set title \"", out);
-    write_text(out, title, strlen(title));
+    write_lines(out, &l);
     if (lines != NULL) {
         fputs(title[0] != '\0' ? "\\nlines: " : "lines: ", out);
         write_text(out, lines->text, lines->n);
     }
-    fputs("\" noenhanced offset 0,-0.5\n", out);
+    fputs("\" noenhanced offset 0,-0.5", out);
+    write_font(out, &l);
+    putc('\n', out);
 }
 
 void
@@ -446,39 +571,96 @@ ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss
     return SS_OK;
 }
 
-static void
-write_sample(FILE *out, const double *x, size_t i, const ss_header *head, const int decimals[2],
-             double unit)
+ss_status
+ss_script_make_clock(script_clock *clock, const ss_header *head, const script_span *span, ss_error *err)
 {
-    ss_script_write(out, head->start + (double)i / head->rate, decimals[0], " ");
-    ss_script_write(out, x[i] / unit, decimals[1], "\n");
+    size_t i = span->first;
+    *clock = (script_clock){ .start = head->start, .rate = head->rate };
+    if (ss_header_gaps(&clock->gap, &clock->n_gaps, head) != SS_OK)
+        return ss_fail_memory(err, NULL);
+    while (i < span->first + span->n && ss_script_is_missing(clock, i))
+        i++;
+    if (i < span->first + span->n)
+        return SS_OK;
+    free(clock->gap);
+    clock->gap = NULL;
+    return ss_fail(err, SS_EINVAL, "nothing to draw: all samples from %.9g s to %.9g s are missing", span->from,
+                   span->to);
 }
 
-double
-ss_script_write_trace(FILE *out, const char *name, const double *x, const ss_header *head,
-                      const script_span *span, int exponent)
+/* A quarter of an interval after the sample: times of gaps are rounded. */
+int
+ss_script_is_missing(const script_clock *clock, size_t i)
 {
-    double unit = pow(10, exponent), lo = INFINITY, hi = -INFINITY;
-    size_t end = span->first + span->n;
-    for (size_t i = span->first; i < end; i++) {
-        lo = fmin(lo, x[i] / unit);
-        hi = fmax(hi, x[i] / unit);
+    double t = clock->start + ((double)i + 0.25) / clock->rate;
+    return clock->n_gaps > 0 && ss_gaps_near(clock->gap, clock->n_gaps, t, 0);
+}
+
+/* A trace while it is written. */
+typedef struct trace {
+    FILE *out;
+    const double *x;
+    const script_clock *clock;
+    script_scale scale;
+    int decimals[2];
+    int broken;                 /* the last line written is empty */
+} trace;
+
+static void
+write_sample(trace *t, size_t i)
+{
+    t->broken = 0;
+    ss_script_write(t->out, t->clock->start + (double)i / t->clock->rate, t->decimals[0], " ");
+    ss_script_write(t->out, ss_script_scaled(t->x[i], t->scale), t->decimals[1], "\n");
+}
+
+/* The smallest and the largest of the samples from i to before end, in their order; an empty line if
+ * all are missing. */
+static void
+write_column(trace *t, size_t i, size_t end)
+{
+    while (i < end && ss_script_is_missing(t->clock, i))
+        i++;
+    size_t min = i, max = i;
+    if (i == end && !t->broken) {
+        putc('\n', t->out);
+        t->broken = 1;
     }
-    const int decimals[2] = { ss_script_decimals(span->to - span->from),
-                              ss_script_decimals(hi - lo) };
+    for (; i < end; i++) {
+        if (ss_script_is_missing(t->clock, i))
+            continue;
+        min = t->x[i] < t->x[min] ? i : min;
+        max = t->x[i] > t->x[max] ? i : max;
+    }
+    if (min < end)
+        write_sample(t, min < max ? min : max);
+    if (min != max)
+        write_sample(t, min < max ? max : min);
+}
+
+void
+ss_script_write_trace(FILE *out, const char *name, const double *x, const script_clock *clock,
+                      const script_span *span, script_scale scale, script_extent *drawn)
+{
+    trace t = { .out = out, .x = x, .clock = clock, .scale = scale };
+    script_extent own = SCRIPT_NO_EXTENT;
+    for (size_t i = span->first; i < span->first + span->n; i++) {
+        double value = ss_script_scaled(x[i], scale);
+        if (ss_script_is_missing(clock, i))
+            continue;
+        own.lo = fmin(own.lo, value);
+        own.hi = fmax(own.hi, value);
+    }
+    t.decimals[0] = ss_script_decimals(span->to - span->from);
+    t.decimals[1] = ss_script_decimals(own.hi - own.lo);
     size_t columns = span->n > 2 * SCRIPT_COLUMNS ? SCRIPT_COLUMNS : span->n;
     fprintf(out, "%s << EOD\n", name);
     for (size_t c = 0, i = span->first; c < columns; c++) {
-        size_t until = span->first + (size_t)((double)span->n * (double)(c + 1) / (double)columns);
-        size_t min = i, max = i;
-        for (; i < until && i < end; i++) {
-            min = x[i] < x[min] ? i : min;
-            max = x[i] > x[max] ? i : max;
-        }
-        write_sample(out, x, min < max ? min : max, head, decimals, unit);
-        if (min != max)
-            write_sample(out, x, min < max ? max : min, head, decimals, unit);
+        size_t end = span->first + (size_t)((double)span->n * (double)(c + 1) / (double)columns);
+        write_column(&t, i, end);
+        i = end;
     }
     fputs("EOD\n", out);
-    return hi - lo;
+    drawn->lo = fmin(drawn->lo, own.lo);
+    drawn->hi = fmax(drawn->hi, own.hi);
 }

@@ -35,9 +35,14 @@ void ss_script_write_span(FILE *out, const script_span *span);
     "decade*tic(part/decade))\n" \
     "wide(t) = strlen(sprintf('%.12g', t)); last = every(6.0)*floor(to/every(6.0))\n" \
     "letters = wide(last) > wide(last - every(6.0)) ? wide(last) : wide(last - every(6.0))\n" \
-    "set xtics every(letters < 5 ? 6.0 : letters < 33 ? 34.0/(letters + 1) : 1.0)\n"
+    "tics = every(letters < 5 ? 6.0 : letters < 33 ? 34.0/(letters + 1) : 1.0); set xtics tics\n"
+/* And their labels, in microseconds or nanoseconds where those of seconds would be long. */
 #define SCRIPT_TIME_LABELS \
-    "set xtics format '%.12g'; set xlabel 'time / s' noenhanced offset 0,0.5\n"
+    "far = abs(from) > abs(to) ? abs(from) : abs(to); unit = far < 1e-6 ? 1e-9 : far < 1e-3 ? 1e-6 : 1\n" \
+    "set xtics format '%.12g'\n" \
+    "if (unit < 1) { set xtics ('0' 0); do for [i=ceil(from/tics):floor(to/tics)] { " \
+    "set xtics add (sprintf('%.12g', i*tics/unit) i*tics) } }\n" \
+    "set xlabel 'time / '.(unit < 1e-6 ? 'ns' : unit < 1 ? 'µs' : 's') noenhanced offset 0,0.5\n"
 
 /* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
 void ss_script_quote(FILE *out, const char *text);
@@ -48,18 +53,27 @@ int ss_script_decimals(double range);
 
 /* The power of ten, a multiple of 3, by which the n values are divided to be short to read. */
 int ss_script_exponent(const double *x, size_t n);
-/* "name / (10^-3 unit)", if it is wider than its room in two lines, "name" and "(10^-3 unit)", and
- * in smaller letters; cut where it is longer than any picture. */
+/* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */
+typedef struct script_scale {
+    double offset, unit;        /* unit: 10^exponent */
+    int exponent;
+} script_scale;
+script_scale ss_script_scale(const double *x, size_t n);
+script_scale ss_script_power(int exponent);     /* without an offset */
+double ss_script_scaled(double x, script_scale scale);
+/* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room in two
+ * lines, "name" and "(10^-3 unit)", or broken near its middle, and in smaller letters; cut where it is
+ * longer than any picture. */
 typedef struct script_label {
     char text[256];
     size_t n;                   /* bytes of it */
     size_t second;              /* where its second line begins; 0: one line */
     double font;                /* size of its letters, <= 1, over the usual size */
 } script_label;
-void ss_script_make_label(script_label *label, const ss_column *column, int exponent,
+void ss_script_make_label(script_label *label, const ss_column *column, script_scale scale,
                           double room);     /* [ems] */
 /* Set the title: that of opts, or else scene or model of the header, unless it is NULL; and under it
- * "lines: " and the label, unless it is NULL. */
+ * "lines: " and the label, unless it is NULL.  A title too wide is broken near its middle and smaller. */
 void ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
                            const script_label *lines);
 /* Set the label of the horizontal axis, so far below it: "0,0.3". */
@@ -67,8 +81,14 @@ void ss_script_write_x_label(FILE *out, const script_label *label, const char *o
 /* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */
 void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 
-/* set AXIS STEP: at most so many intervals over the range, of 1, 2 or 5 times a power of ten. */
-void ss_script_write_tics(FILE *out, const char *axis, double range, int intervals);
+/* The least and the largest value drawn; lo > hi: none yet. */
+typedef struct script_extent {
+    double lo, hi;
+} script_extent;
+#define SCRIPT_NO_EXTENT ((script_extent){ INFINITY, -INFINITY })
+/* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all
+ * are the same, one tic at that value. */
+void ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals);
 
 /* Tics of a logarithmic axis at powers of ten, written as such; none are set, so that gnuplot's own stay,
  * where the range has less than two powers or its numbers are short: 0.001 to 100000. */
@@ -76,10 +96,20 @@ void ss_script_write_decades(FILE *out, const char *axis, double lo, double hi);
 /* The same for a range that is widened to powers of ten; nothing if lo > hi. */
 void ss_script_write_decade_range(FILE *out, const char *axis, double lo, double hi);
 
-/* A datablock of time and x 10^-exponent: the smallest and largest of each pixel column, so that
- * no spike is lost.  span as found; x points at the whole record.  Returns the range of the values. */
-double ss_script_write_trace(FILE *out, const char *name, const double *x, const ss_header *head,
-                      const script_span *span, int exponent);
+/* The times of a record.  Missing samples are not drawn, and a line breaks there. */
+typedef struct script_clock {
+    double start, rate;
+    ss_span *gap;               /* to be freed */
+    size_t n_gaps;
+} script_clock;
+/* SS_EINVAL, and nothing to be freed, if all samples of the span are missing. */
+ss_status ss_script_make_clock(script_clock *clock, const ss_header *head, const script_span *span, ss_error *err);
+int ss_script_is_missing(const script_clock *clock, size_t i);
+
+/* A datablock of time and scaled x: the smallest and largest of each pixel column, so that no spike is
+ * lost.  span as found; x points at the whole record.  *drawn is widened to the values. */
+void ss_script_write_trace(FILE *out, const char *name, const double *x, const script_clock *clock,
+                           const script_span *span, script_scale scale, script_extent *drawn);
 
 /* SS_EIO if a write failed. */
 ss_status ss_script_end(FILE *out);

@@ -29,7 +29,7 @@ label_of(script_label *label, const ss_column *column, int decibels)
     snprintf(unit, sizeof unit, "%s%s%.200s%s%s/Hz", decibels ? "dB re " : "", brackets ? "(" : "",
              column->unit[0] != '\0' ? column->unit : "1", brackets ? ")" : "",
              column->unit[0] != '\0' ? "^2" : "");
-    ss_script_make_label(label, &(ss_column){ column->name, unit }, 0, ROOM);
+    ss_script_make_label(label, &(ss_column){ column->name, unit }, ss_script_power(0), ROOM);
 }
 
 static void
@@ -58,30 +58,36 @@ write_densities(FILE *out, size_t panel, const ss_spectrum *s, int decibels)
     fputs("EOD\n", out);
 }
 
-static void
-write_decades(FILE *out, const ss_spectrum *s)
+/* The smallest and the largest density above 0. */
+static script_extent
+extent_of(const ss_spectrum *s)
 {
-    double least = INFINITY, most = 0;
-    for (size_t k = 1; k < s->n; k++) {
-        least = s->density[k] > 0 ? fmin(least, s->density[k]) : least;
-        most = fmax(most, s->density[k]);
-    }
-    ss_script_write_decade_range(out, "y", least, most);
+    script_extent e = SCRIPT_NO_EXTENT;
+    for (size_t k = 1; k < s->n; k++)
+        if (s->density[k] > 0)
+            e = (script_extent){ fmin(e.lo, s->density[k]), fmax(e.hi, s->density[k]) };
+    return e;
 }
 
 /* One panel of n; the lowest has the labels of frequency. */
 static void
 plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i, size_t n, int decibels)
 {
+    script_extent e = extent_of(s);
+    int any = e.lo <= e.hi;
     if (!decibels)
-        write_decades(out, s);
+        ss_script_write_decade_range(out, "y", e.lo, e.hi);
     if (i == n)
         fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
               "noenhanced offset 0,0.5\n", out);
     fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel + "
             "0.08*panel*(%zu)\nunset label 1; ", i - 1, i, (size_t)(i < n));
     ss_script_write_side_label(out, 1, label);
-    fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
+    if (any)
+        fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
+    else
+        fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
+              "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
     if (i == 1)
         fputs("unset title\n", out);
 }

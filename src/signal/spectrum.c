@@ -33,9 +33,9 @@ hann(size_t i, size_t length)
 static void
 add_segment(double *density, const double *x, double *part, size_t length)
 {
-    double mean = 0;
+    double mean = x[0];         /* from there on, so that a constant has none but this */
     for (size_t i = 0; i < length; i++)
-        mean += x[i] / (double)length;
+        mean += (x[i] - x[0]) / (double)length;
     for (size_t i = 0; i < length; i++)
         part[i] = (x[i] - mean) * hann(i, length);
     gsl_fft_real_radix2_transform(part, 1, length);
@@ -66,11 +66,12 @@ ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, doubl
 {
     if (out == NULL || x == NULL)
         return SS_FAIL_NULL(err);
-    size_t length = n >= LEAST && rate > 0 && resolution >= 0 ? length_of(n, rate, resolution) : 0;
+    if (n < LEAST)
+        return ss_fail(err, SS_EINVAL, "%zu samples have no spectrum, which needs %d at least", n, LEAST);
+    size_t length = rate > 0 && resolution >= 0 ? length_of(n, rate, resolution) : 0;
     if (length == 0)
         return ss_fail(err, SS_EINVAL, "%zu samples at %g Hz have no spectrum of resolution %g Hz: it is %g to "
-                       "%g Hz, of %d samples at least", n, rate, resolution, BANDWIDTH * rate / (double)n,
-                       BANDWIDTH * rate / LEAST, LEAST);
+                       "%g Hz", n, rate, resolution, BANDWIDTH * rate / (double)n, BANDWIDTH * rate / LEAST);
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is not finite", i + 1);

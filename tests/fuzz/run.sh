@@ -18,7 +18,7 @@ failed=0
 # to blame, 2 if we are: the topmost function that is neither the sanitizer's nor libc's decides.
 blame() {
     "$1" -timeout=60 "$2" > "$2.report" 2>&1 && { rm -f "$2" "$2.report"; return 0; }
-    awk '/^ *#[0-9]+ / && !/libc\.so|nptl|sysdeps|compiler-rt|interceptor|sanitizer|__asan|fuzzer::/ {
+    awk '/^ *#[0-9]+ / && !/libc\.so|nptl|sysdeps|compiler-rt|interceptor|sanitizer|__asan|fuzzer::| in (free|malloc|calloc|realloc|mem[a-z]*|str[a-z]*) / {
              exit /libhdf5/ ? 1 : 2
          }' "$2.report"
 }

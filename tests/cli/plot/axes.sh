@@ -1,0 +1,32 @@
+# Axes that can be read: of values far from 0, of a constant, of microseconds; without what was not measured.
+awk 'BEGIN { print "time (s),p (Pa)"; for (i = 0; i < 40; i++) printf "%.3f,%.3f\n", i/1000, 101325 + i%5/1000 }' > far.csv
+ss-plot far.csv | grep '^set ytics\|label 1 "'
+ss-plot --xy p,p far.csv | grep '^set xlabel'
+ss-contour --fmin 200 far.csv | grep 'label 2 "p'
+awk 'BEGIN { print "time (s),x (m)"; for (i = 0; i < 40; i++) printf "%.3f,3.7\n", i/1000 }' > constant.csv
+ss-plot constant.csv | grep '^set ytics'
+ss-plot --spectrum constant.csv | grep '^set label 2'
+
+# A gap is drawn as a gap, by a line over time and by a path.
+printf 'time (s),x (m),y\n0,1,1\n1,2,4\n2,,\n3,,\n4,3,5\n5,4,6\n' > gap.csv
+for how in split interpolate; do
+    ss-plot -c x --gaps $how gap.csv | sed -n '/^\$panel1 /,/^EOD/p'
+done
+ss-plot --xy x,y --gaps split gap.csv | sed -n '/^\$path /,/^EOD/p'
+ss-plot --gaps split --from 2.1 --to 2.9 gap.csv > none.gp || echo $?
+
+# Contours end with the record.
+ss-signal sine --duration 1 --rate 500 > sine.tsv
+ss-contour --from -1 --to 3 sine.tsv | awk '/^\$contour/ { on = 1; next } /^EOD/ { on = 0 }
+    on && NF { if ($1 < 0 || $1 > 1) n++; m++ } END { print n + 0, (m > 100) }'
+
+# A long title and a long name are broken near their middle; high frequencies have a power of ten.
+title='Measured at the second bearing of the left machine before and after the lubrication of its shaft'
+ss-plot --title "$title" far.csv | grep '^set title'
+printf 'time (s),acceleration of the left bearing radial (m/s^2)\n0,1\n1,2\n' > name.csv
+ss-plot name.csv | grep -o 'label 1 "[^"]*"'
+ss-signal sine --rate 2e6 --duration 1e-4 --frequency 1e5 > fast.tsv
+ss-contour -o fast.gp fast.tsv
+grep -o 'label 2 "freq[^"]*"' fast.gp
+command -v gnuplot > /dev/null || exit 0
+{ echo 'set terminal dumb 99,40'; cat fast.gp; } | gnuplot 2> /dev/null | grep -o 'time / .*s'
