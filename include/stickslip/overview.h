@@ -10,10 +10,10 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* An overview divides time into at most 4096 blocks.  It keeps the largest |W| of each block and scale
- * (computed with ss_stream), and the smallest and the largest sample of each block.  When there are
- * more blocks, two become one.  So memory does not grow with the recording, no peak is lost, and the
- * error of a time is less than 1/2000 of the recording. */
+/* An overview divides time into at most 4096 blocks.  It keeps the largest |W| of each block and
+ * scale (computed with ss_stream), and the smallest and the largest sample of each block.  When
+ * there are more blocks, two become one.  So memory does not grow with the recording, no peak is
+ * lost, and the error of a time is less than 1/2000 of the recording. */
 typedef struct ss_overview ss_overview;
 
 /* Begin an overview of one column of a signal with this header.  opts and errors are those of
@@ -22,16 +22,16 @@ ss_status ss_overview_new(ss_overview **out, const ss_header *head, size_t colum
                           const ss_morlet_opts *opts, ss_error *err);
 /* Append n samples. */
 ss_status ss_overview_push(ss_overview *overview, const double *x, size_t n, ss_error *err);
-/* The recording has ended.  SS_EDATA: it is shorter than the cone of influence of the second shortest
- * scale. */
+/* The recording has ended.  SS_EDATA: it is shorter than the cone of influence of the second
+ * shortest scale. */
 ss_status ss_overview_end(ss_overview *overview, ss_error *err);
 
 /* The result after the end, owned by the overview.  A coefficient is the |W| of a block, with an
  * imaginary part of 0.  A scale that lies inside the cone of influence as a whole is left out. */
 const ss_coefficients *ss_overview_coefficients(const ss_overview *overview);
 const ss_signal *ss_overview_signal(const ss_overview *overview);
-/* Values for top and noise of ss_contour_opts: the largest |W| outside the cone of influence, and the
- * |W| at which noise begins, 0 if there is no noise. */
+/* Values for top and noise of ss_contour_opts: the largest |W| outside the cone of influence, and
+ * the |W| at which noise begins, 0 if there is no noise. */
 double ss_overview_top(const ss_overview *overview);
 double ss_overview_noise(const ss_overview *overview);
 void ss_overview_free(ss_overview *overview);           /* NULL is allowed */

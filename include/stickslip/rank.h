@@ -11,28 +11,30 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* The quantity of a signal, in the order of the columns of ss_sim_row; SS_SPRING is k (z - x). */
+/* The quantity of a signal, in the order of the columns of ss_sim_row.  SS_SPRING is the force of
+ * the spring, k (z - x). */
 typedef enum ss_quantity {
     SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE, SS_SPRING
 } ss_quantity;
 
-/* Models are judged by a number of the signal, the same of each scene, and their distance. */
+/* A criterion compares a number of the signal with the same number of each scene. */
 typedef enum ss_criterion {
-    SS_BY_RESIDUAL,             /* power of the mean cycle that is left, above the least [dB] */
-    SS_BY_ADJUSTMENT,           /* of the scene's parameters, rms in units of the spread */
-    SS_BY_MAXIMUM,              /* part of the transitions with a local maximum */
-    SS_BY_FREQUENCY,            /* of the transition oscillation, as a natural logarithm */
-    SS_BY_DAMPING,              /* its damping ratio, as a natural logarithm */
+    SS_BY_RESIDUAL,             /* power that the scene leaves of the mean cycle, above the least [dB] */
+    SS_BY_ADJUSTMENT,           /* rms change of the scene's parameters, in units of the spread */
+    SS_BY_MAXIMUM,              /* part of the transitions that have a local maximum */
+    SS_BY_FREQUENCY,            /* natural logarithm of the frequency in transitions */
+    SS_BY_DAMPING,              /* natural logarithm of the damping ratio in transitions */
     SS_BY_JUMP,                 /* largest |W| at the shortest scale re the largest of all [dB] */
-    SS_BY_SPIKES,               /* spikes a transition */
-    SS_BY_SLOPE,                /* of the spikes across scales [dB an octave] */
-    SS_BY_STIFFNESS,            /* df/dx in the stick, as a natural logarithm, with x and f */
+    SS_BY_SPIKES,               /* spikes per transition */
+    SS_BY_SLOPE,                /* slope of the spikes across scales [dB per octave] */
+    SS_BY_STIFFNESS,            /* natural logarithm of df/dx in the stick, with columns x and f */
     SS_BY_MAP,                  /* rms difference of the contour maps [dB] */
     SS_CRITERIA
 } ss_criterion;
 
-/* A score is distance over threshold, at most SS_SCORE_MOST; what only one of signal and scene has
- * scores 1, what neither has 0.  The total is the sum of weight times score. */
+/* A score is the distance over the threshold, at most SS_SCORE_MOST.  If only one of signal and
+ * scene has the number, the score is 1; if neither has it, 0.  The total is the sum of weight
+ * times score. */
 typedef struct ss_criterion_rule {
     const char *name, *unit;    /* "residual", "dB" */
     double threshold, weight;
@@ -45,99 +47,106 @@ extern const char *const ss_quantity_names[SS_QUANTITIES + 1];     /* "x", "v", 
 
 typedef struct ss_rank_opts {
     ss_quantity quantity;       /* of the column */
-    double spread;              /* the parameters of the rig are within a factor 1 -+ spread
-                                   of those of the scene  0 <= spread < 1 */
-    double forcing_frequency;   /* [Hz]; 0: found from what repeats */
-    int also[SS_QUANTITIES];    /* index of another column of this quantity in the same recording, or
-                                   -1: the answer must explain it, too, with the same parameters */
+    double spread;              /* 0 <= spread < 1: the parameters of the rig are those of the scene
+                                   within a factor of 1 - spread to 1 + spread */
+    double forcing_frequency;   /* [Hz]; 0: found in the signal from what repeats */
+    int also[SS_QUANTITIES];    /* for each quantity the index of another column of the same recording,
+                                   which the answer must explain too with the same parameters, or -1 */
     ss_progress progress;
 } ss_rank_opts;
 extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found, no others */
 
 typedef struct ss_rank_row {
-    size_t scene;               /* its index among those given */
-    ss_scene adjusted;          /* parameters within the spread, phase of the signal's compared cycles */
-    double explained;           /* part of the signal's power about its mean that it explains; of pulls,
-                                   of the power of the samples about the slips */
+    size_t scene;               /* its index among the scenes given */
+    ss_scene adjusted;          /* parameters within the spread; phase of the cycles compared */
+    double explained;           /* the part of the signal's power about its mean that it explains; with
+                                   pulls, of the power of the samples near the slips */
     double excess;              /* mean square of the residual over that of the noise */
     double value[SS_CRITERIA];      /* of the adjusted scene; NaN where it has none */
     double distance[SS_CRITERIA];   /* from the signal, >= 0; NaN where only one has a value */
-    double total;               /* NaN: nothing was compared, and rows are as given without values */
+    double total;               /* NaN: nothing was compared, rows have no values and keep their order */
 } ss_rank_row;
 
 typedef enum ss_verdict {
     SS_UNDECIDED,               /* `why` gives the reason */
     SS_NAMED,                   /* the first row's scene explains the signal: its residual is noise,
                                    and no scene of another model has as small a residual */
-    SS_NONE_FITS                /* each scene leaves more than the noise; `why` tells how much */
+    SS_NONE_FITS                /* each scene leaves more than the noise; `why` says how much */
 } ss_verdict;
 
 typedef struct ss_ranking {
     ss_verdict verdict;
-    char why[256];              /* empty if one is named */
+    char why[256];              /* the reason of the verdict; empty if a scene is named */
     double value[SS_CRITERIA];  /* of the signal; NaN where it has none */
-    double forcing_frequency;   /* [Hz]; NaN: nothing repeats, rows are as given without values */
+    double forcing_frequency;   /* [Hz]; NaN: nothing repeats, rows have no values and keep their order */
     double noise;               /* power of the noise over that of the signal, at most; NaN as above */
     size_t n;
     ss_rank_row *row;           /* best first */
 } ss_ranking;
 
-/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.  Those that are forced
- * are adjusted within the spread to the signal's mean cycle and then to the samples of some
- * cycles, run with white noise of the signal's own level and its gaps, and compared; what lies
- * within the reach of a gap is left out of both, as ss_features_find does.  Noise is what is
- * neither slow nor repeated, see ss-rank(1).  Those that are pulled, if the column is the spring's
- * force, are adjusted to its falls, and only what they leave and the adjustment are compared.  If there
- * are both, the verdict is that of the kind of the signal; rows of the other have no total.  "None
- * fits" and "undecided" are answers, with SS_OK.  SS_EBUDGET for a forced scene that takes more than
- * 2e7 integration steps to be adjusted.  opts may be NULL.  To be freed with ss_ranking_free. */
+/* Rank n >= 1 scenes by one column of a signal, whose values must be finite.
+ *
+ * A forced scene is adjusted within the spread, first to the signal's mean cycle and then to the
+ * samples of some cycles.  It is then run with white noise of the signal's level and with its
+ * gaps, and compared.  Samples near gaps are left out of both, as in ss_features_find.  Noise is
+ * the part of the signal that is neither slow nor repeated, see ss-rank(1).
+ *
+ * A pulled scene needs the spring's force as column.  It is adjusted to the falls of the force;
+ * only the residual and the adjustment are compared.  If there are scenes of both kinds, the
+ * verdict is about those of the signal's kind, and rows of the other kind have no total.
+ *
+ * "None fits" and "undecided" are answers, with SS_OK.  SS_EBUDGET: a forced scene takes more than
+ * 2e7 integration steps to be adjusted.  opts may be NULL.  The caller frees *out with
+ * ss_ranking_free. */
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
-/* Score of a row by one criterion with its threshold multiplied by factor. */
+/* The score of a row by one criterion, if its threshold were multiplied by factor. */
 double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor);
-/* Write to order[0 ... n-1] the indices of the rows as they would be ordered with one threshold
- * multiplied by factor.  1 if that order differs from the present one. */
+/* Order the rows as if the threshold of one criterion were multiplied by factor: their indices go
+ * to order[0 ... n-1].  Returns 1 if this order differs from the present one, else 0. */
 int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
                      size_t *order);
 
-/* Facts for the text of a ranking that the ranking itself does not hold. */
+/* Facts for the text of a ranking that the ranking itself does not have. */
 typedef struct ss_ranking_text {
-    const char *signal;         /* names of the signal and of the column that was ranked */
-    const char *column;
+    const char *signal;         /* the name of the signal */
+    const char *column;         /* the name of the column that was ranked */
     const char *known_by;       /* how the column's quantity was found: "its unit" */
-    const char *const *scene;   /* names of the scenes, in the order in which they were given */
+    const char *const *scene;   /* the names of the scenes, in the order in which they were given */
 } ss_ranking_text;
 
-/* Write it as text, as ss-rank(1) describes; opts are those of ss_ranking_new, or NULL.  No name may
- * hold a tab or the end of a line.  SS_EINVAL: nothing to rank, or the format holds numbers only;
- * SS_EIO, SS_ENOMEM.  ss_table_read reads it as a "ranking". */
+/* Write the text of a ranking, as ss-rank(1) describes; opts are those of ss_ranking_new, or NULL.
+ * No name may contain a tab or a newline.  ss_table_read reads it (SS_KIND_RANKING).  SS_EINVAL:
+ * there is nothing to rank, or the format holds numbers only; SS_EIO; SS_ENOMEM. */
 ss_status ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about,
                            const ss_rank_opts *opts, FILE *out, ss_format format);
 
 /* --- the scene that fits ------------------------------------------------------------------- */
 
 typedef struct ss_fit {
-    int conclusive;             /* 0: the parameters are not determined, scene is the one given */
-    char why[256];              /* the reason, if it is not conclusive */
-    ss_scene scene;             /* settled, in step with the record from its first sample */
+    int conclusive;             /* 0: the parameters are not determined, and scene is the one given */
+    char why[256];              /* the reason if the fit is not conclusive, else empty */
+    ss_scene scene;             /* settled; its motion has the phase of the record */
     ss_value friction, base_amplitude;      /* with standard errors; NaN if not conclusive */
     ss_value contact_stiffness, contact_damping;
     ss_value base_frequency;
     double residual;            /* rms of record minus scene, over the rms of the record about its mean */
-    double residual_started;    /* the same if the motion may start from any state: this residual
-                                   is noise, or the model does not fit */
-    double noise;               /* rms of the noise in the record over its own, at most */
+    double residual_started;    /* the same if the motion may start from any state; if this residual is
+                                   more than noise, the model does not fit */
+    double noise;               /* rms of the noise in the record over the rms of the record, at most */
 } ss_fit;
 
-/* Adjust f_k, Z_e, K_y, c and the frequency and phase of the base of a compliant scene to a column
- * of SI units, whose values must be finite; m, k, damping, f_s / f_k and the release rule are taken from
- * the scene.
- * Samples in gaps are left out.  Errors are those of white noise of the residual's size.  The fit
- * is conclusive if its residual is no more than noise, no other scene has as small a residual, and
- * its sticks last long enough.  A fit that is not conclusive is an answer, with SS_OK.  opts may be
- * NULL; its spread and other columns are not used.  SS_EINVAL for another model, SS_EBUDGET where
- * the scenes to be tried take more than 1e8 integration steps, of which four samples count as one. */
+/* Fit a compliant scene to a column of SI units, whose values must be finite.
+ *
+ * f_k, Z_e, K_y, c and the frequency and phase of the base are adjusted; m, k, damping, f_s / f_k
+ * and the release rule are those of the scene.  Samples in gaps are left out.  Standard errors
+ * assume white noise of the size of the residual.  The fit is conclusive if its residual is no
+ * more than noise, no other scene has as small a residual, and its sticks last long enough.
+ *
+ * A fit that is not conclusive is an answer, with SS_OK.  opts may be NULL; its spread and other
+ * columns are not used.  SS_EINVAL: the model is another; SS_EBUDGET: the scenes to try take more
+ * than 1e8 integration steps, where four samples count as a step. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
 
@@ -146,32 +155,37 @@ ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, cons
 /* A number of the scene that all slips have in common. */
 typedef struct ss_pull_key {
     const char *name, *unit;
-    ss_value found;
-    double given;
+    ss_value found;             /* by the fit */
+    double given;               /* in the scene */
 } ss_pull_key;
 enum { SS_PULL_KEYS = 5 };
 
+/* left, excess and noise are NaN if there is no slip. */
 typedef struct ss_pull {
     ss_verdict verdict;         /* SS_NAMED: the scene explains three of four falls, and at least five */
-    char why[256];              /* empty if it does */
-    ss_scene scene;             /* begins to slip with the record, then goes its own way */
+    char why[256];              /* the reason of the verdict; empty if the scene is named */
+    ss_scene scene;             /* begins to slip with the record; its later slips need not coincide */
     size_t n_slips;             /* falls of the force that are fitted */
-    double left;                /* part of the power of their samples that these leave */
-    double excess;              /* the same over the noise */
-    int explains;               /* what they leave is noise; else friction is not that of the scene */
-    double noise;               /* power of the noise over that of the record, at most; all NaN: no slip */
-    ss_features *features;      /* its loadings are the events [N], their medians the scene's */
+    double left;                /* part of the power of their samples that the fit leaves */
+    double excess;              /* the power that the fit leaves, over that of the noise */
+    int explains;               /* 1: the residual is noise; 0: the friction is not that of the scene */
+    double noise;               /* power of the noise over that of the record, at most */
+    ss_features *features;      /* its loadings are the slips [N], their medians the scene's numbers */
     ss_median static_friction, friction;        /* [N] of the slips */
-    size_t n_keys;              /* 0: it is Coulomb's without damping, and all is in features */
+    size_t n_keys;              /* 0: the model is Coulomb's without damping, all is in features */
     ss_pull_key key[SS_PULL_KEYS];
 } ss_pull;
 
-/* Fit a scene that only a pull or a belt moves to the force of its spring [N].  Coulomb's without
- * damping goes event by event: f_s and f_k, the mass by k/m and the speed by the slope of loading are
- * medians; the stiffness is that given.  Others are simulated: what key lists is fitted to up to 16
- * falls together, f_s and f_k to each, and SS_NAMED are those with no error above 30 %.  A scene that
- * does not explain the record is an answer, with SS_OK.  opts may be NULL; its quantity must be
- * SS_SPRING.  SS_EINVAL for another scene or column, or an elastic contact.  To be freed with ss_pull_free. */
+/* Fit a scene that only a pull or a belt moves to the force of its spring [N].
+ *
+ * Coulomb's model without damping is fitted event by event: f_s and f_k, the mass (from k/m) and
+ * the speed (from the slope of loading) are medians; the stiffness is that of the scene.  Other
+ * models are simulated: the numbers in key are fitted to up to 16 falls together, f_s and f_k to
+ * each fall; and SS_NAMED also requires that no error exceeds 30 %.
+ *
+ * A scene that does not explain the record is an answer, with SS_OK.  opts may be NULL; its
+ * quantity must be SS_SPRING.  SS_EINVAL: another scene or column, or an elastic contact.  The
+ * caller frees *out with ss_pull_free. */
 ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
                       const ss_rank_opts *opts, ss_error *err);
 void ss_pull_free(ss_pull *pull);               /* NULL is allowed */

@@ -1,9 +1,9 @@
 /* stickslip/scene.h -- a scene: a friction model, its parameters, and the length of its record.
  *
- * All models obey  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  where t = 0 is the
- * start of settling.  A measured displacement z(t) may replace Z_e cos(Omega t + phase).  The models
- * differ in the friction force f, which depends on v = x' - S.  stickslip-scene(5) describes the
- * text of a scene. */
+ * All models obey  m x'' + d x' + k x + f = k (Z_e cos(Omega t + phase) + U t),  where t = 0 is
+ * the start of settling.  A measured displacement z(t) may replace Z_e cos(Omega t + phase).  The
+ * models differ in the friction force f, which depends on v = x' - S.  stickslip-scene(5)
+ * describes the text of a scene. */
 #ifndef STICKSLIP_SCENE_H
 #define STICKSLIP_SCENE_H
 
@@ -116,9 +116,9 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
  * ss_scene_read gets the same double.  SS_EIO: writing failed. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 
-/* Make z(t) [m], the natural cubic spline through one column of a signal.  The signal's clock is the
- * scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.  SS_EDATA:
- * the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
+/* Make z(t) [m], the natural cubic spline through one column of a signal.  The signal's clock is
+ * the scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.
+ * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
@@ -141,10 +141,10 @@ const ss_scene_range *ss_model_range(ss_model model, size_t i);
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
 /* Make the i-th of the simpler scenes that a scene contains.  Each loses more than the one before:
- * no damping; static friction equal to kinetic friction; no damping of the contact; the model that is
- * the limit of the scene's model (Coulomb's, for a stiff contact or for friction that follows v at
- * once); no friction.  Returns its name, "damping=0" or the name of its model, a constant text; NULL
- * after the last. */
+ * no damping; static friction equal to kinetic friction; no damping of the contact; the model that
+ * is the limit of the scene's model (Coulomb's, for a stiff contact or for friction that follows v
+ * at once); no friction.  Returns its name, "damping=0" or the name of its model, a constant text;
+ * NULL after the last. */
 const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
 
 /* Properties of a model.  For a number that is no model they are "?" and 0. */

@@ -41,9 +41,10 @@ ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 const char *ss_header_find_note(const ss_header *head, const char *key);
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
 
-/* The index of the column with this name, or else of the column that name counts from 1; -1 if there
- * is none.  A blank or slash in name matches "_".  If no column matches, the only column that differs
- * by the case of letters does; but a name of one letter must match: a and A are two quantities. */
+/* The index of the column with this name, or else of the column that name counts from 1; -1 if
+ * there is none.  A blank or slash in name matches "_".  If no column matches, the only column
+ * that differs by the case of letters does; but a name of one letter must match: a and A are two
+ * quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
 /* The first row at time t or later, counted from 0; a row that lies less than 1e-6 sample periods
@@ -57,8 +58,8 @@ ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t 
 
 /* --- reading ------------------------------------------------------------------------------- */
 
-/* The treatment of missing samples: cells that are empty or hold no finite number, and rows that the
- * time stamps skip. */
+/* The treatment of missing samples: cells that are empty or hold no finite number, and rows that
+ * the time stamps skip. */
 typedef enum ss_gaps {
     SS_GAPS_REFUSE,             /* they are an error */
     SS_GAPS_SPLIT,              /* they become 0, as a signal is outside its record */
@@ -105,9 +106,9 @@ typedef struct ss_span {
     double from, to;
 } ss_span;
 
-/* The spans in which samples were missing, in time order, from the note "gaps: from:to from:to ...".
- * Each goes from its first missing sample to the next sample that is there.  The caller frees *out
- * with free(). */
+/* The spans in which samples were missing, in time order, from the note "gaps: from:to from:to
+ * ...".  Each goes from its first missing sample to the next sample that is there.  The caller
+ * frees *out with free(). */
 ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
 /* 1 if t lies in one of n gaps, which are in time order, or nearer than margin to one; else 0. */
 int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
@@ -115,12 +116,13 @@ int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
 typedef struct ss_reader ss_reader;
 
 /* Open a stream of any format that stickslip-signal(5) describes; its first bytes tell which.  The
- * caller keeps and closes in.  The reader bypasses its buffer, so nothing may have been read from a
- * pipe before.  Messages call the file by name.  opts may be NULL.
+ * caller keeps and closes in.  The reader bypasses its buffer, so nothing may have been read from
+ * a pipe before.  Messages call the file by name.  opts may be NULL.
  *
- * Text and AU streams are read as they arrive, in constant memory.  Delimited text is first read to its
- * end, to check its clock.  A file is then read a second time, in constant memory too.  A pipe is
- * held in memory, and so is a file with missing samples, uneven stamps or several tables. */
+ * Text and AU streams are read as they arrive, in constant memory.  Delimited text is first read
+ * to its end, to check its clock.  A file is then read a second time, in constant memory too.  A
+ * pipe is held in memory, and so is a file with missing samples, uneven stamps or several tables.
+ */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */
@@ -140,8 +142,8 @@ typedef struct ss_signal {
     double *values;             /* column after column: row i of column c is values[c * n + i] */
 } ss_signal;
 
-/* Read all rows, as ss_reader_new and ss_reader_rows do.  The caller frees each signal that a function
- * makes with ss_signal_free. */
+/* Read all rows, as ss_reader_new and ss_reader_rows do.  The caller frees each signal that a
+ * function makes with ss_signal_free. */
 ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
                          ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
@@ -159,8 +161,8 @@ typedef enum ss_format {
     SS_CSV                      /* for other programs: a line of names, then rows with commas */
 } ss_format;
 
-/* The name of the i-th format that can be written, which is also the ending of its files: "tsv", "au",
- * "csv"; NULL after the last. */
+/* The name of the i-th format that can be written, which is also the ending of its files: "tsv",
+ * "au", "csv"; NULL after the last. */
 const char *ss_format_name(size_t i);
 /* If a format of this name can be written, return 1 and store it in *found; else return 0. */
 int ss_format_find(ss_format *found, const char *name);
@@ -182,9 +184,10 @@ void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flu
 /* The simple case: write a whole signal. */
 ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err);
 
-/* Copy a signal to another rate [Hz], by the cubic spline through each column.  Frequencies above half
- * the new rate must have been filtered out before.  SS_EINVAL: the signal has fewer than two rows, or
- * the rate is not positive; SS_ERANGE: a value of the spline is larger than a double can hold. */
+/* Copy a signal to another rate [Hz], by the cubic spline through each column.  Frequencies above
+ * half the new rate must have been filtered out before.  SS_EINVAL: the signal has fewer than two
+ * rows, or the rate is not positive; SS_ERANGE: a value of the spline is larger than a double can
+ * hold. */
 ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err);
 
 /* --- making and changing ------------------------------------------------------------------- */
@@ -210,12 +213,12 @@ typedef struct ss_wave_opts {
 } ss_wave_opts;
 extern const ss_wave_opts ss_wave_defaults;     /* 2000 Hz, 10 s, A = 1, f = 10, seed 1 */
 
-/* Make a benchmark signal with one column, a, without a unit.  Phases are exact to 1e-15 cycles in a
- * record of any length.  SS_ERANGE: a value or a phase is larger than a double can hold. */
+/* Make a benchmark signal with one column, a, without a unit.  Phases are exact to 1e-15 cycles in
+ * a record of any length.  SS_ERANGE: a value or a phase is larger than a double can hold. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
-/* Add Gaussian white noise of standard deviation rms >= 0 to the n values of x.  The same seed gives
- * the same noise (GSL's mt19937 and its Ziggurat). */
+/* Add Gaussian white noise of standard deviation rms >= 0 to the n values of x.  The same seed
+ * gives the same noise (GSL's mt19937 and its Ziggurat). */
 ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed);
 /* The same for several columns, n rows at a time.  Value c of row i is x[i * row + c * column]; its
  * noise has the standard deviation rms[c] >= 0, and where this is 0 no number is drawn.  SS_ERANGE,
@@ -224,9 +227,9 @@ typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed);
 ss_status ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
                   const double *rms);
-/* Add noise that has only frequencies in band [Hz], 0 <= from <= to <= rate / 2, to the n samples of
- * one column.  The added noise has exactly this rms.  SS_EINVAL: no frequency of the record lies in
- * the band. */
+/* Add noise that has only frequencies in band [Hz], 0 <= from <= to <= rate / 2, to the n samples
+ * of one column.  The added noise has exactly this rms.  SS_EINVAL: no frequency of the record
+ * lies in the band. */
 ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band,
                             double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */

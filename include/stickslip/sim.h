@@ -9,9 +9,9 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* A sink receives samples (n >= 1) or events in time order; they are valid during the call only.  An
- * event comes before the first sample at its time or later.  A non-zero return ends the run with
- * SS_STOP. */
+/* A sink receives samples (n >= 1) or events in time order; they are valid during the call only.
+ * An event comes before the first sample at its time or later.  A non-zero return ends the run
+ * with SS_STOP. */
 typedef int ss_sample_sink(const ss_sample *s, size_t n, void *user);
 typedef int ss_event_sink(const ss_event *e, void *user);
 
@@ -39,8 +39,8 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
                                    and the times of such events do not */
 } ss_sim_stats;
 
-/* Simulate the scene from the start of settling to the end of the record, in constant memory.
- * The events do not depend on rate.  stats may be NULL.  SS_EINVAL: the scene or an option is out of
+/* Simulate the scene from the start of settling to the end of the record, in constant memory.  The
+ * events do not depend on rate.  stats may be NULL.  SS_EINVAL: the scene or an option is out of
  * its range; SS_ERANGE: a value is not finite; SS_ETOL, SS_ECHATTER, SS_EBUDGET: err gives a
  * diagnosis; SS_STOP. */
 ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats,
@@ -68,15 +68,16 @@ ss_status ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err);
 
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
-/* The method for a scene that has passed ss_scene_check: bsimp, an implicit method, if the scene is so
- * stiff that this costs least; else taylor, if the model is not linear and has a Taylor series; else
- * rk8pd. */
+/* The method for a scene that has passed ss_scene_check: bsimp, an implicit method, if the scene
+ * is so stiff that this costs least; else taylor, if the model is not linear and has a Taylor
+ * series; else rk8pd. */
 const char *ss_sim_method_for(const ss_scene *scene);
 
 /* --- as text ------------------------------------------------------------------------------- */
 
 /* A writer of events: the notes of head, then a row for each event as it arrives, as ss-sim(1)
- * describes.  The caller keeps and closes out.  SS_EINVAL: the format holds numbers only; SS_EIO. */
+ * describes.  The caller keeps and closes out.  SS_EINVAL: the format holds numbers only; SS_EIO.
+ */
 typedef struct ss_event_writer ss_event_writer;
 ss_status ss_event_writer_new(ss_event_writer **writer, FILE *out, ss_format format,
                               const ss_header *head);

@@ -8,9 +8,9 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* A spectrum by the method of P. Welch (1967): the mean of the periodograms of segments that overlap
- * by half; from each segment its mean is subtracted, then a Hann window is applied.  It is one-sided:
- * the sum of density[k] * step is the mean square of the segments about their means. */
+/* A spectrum by the method of P. Welch (1967): the mean of the periodograms of segments that
+ * overlap by half; from each segment its mean is subtracted, then a Hann window is applied.  It is
+ * one-sided: the sum of density[k] * step is the mean square of the segments about their means. */
 typedef struct ss_spectrum {
     size_t n;                   /* density[k] is at k * step, k = 0 ... n - 1, up to half the rate */
     double step;                /* [Hz] */
@@ -19,9 +19,10 @@ typedef struct ss_spectrum {
     size_t segments;            /* each of 2 (n - 1) samples, a power of 2 */
 } ss_spectrum;
 
-/* Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at least
- * resolution [Hz]; with 0 there are at least seven.  SS_EINVAL: a sample is not finite, or the
- * resolution is not within 1.5 rate / n ... 1.5 rate / 16; SS_ERANGE: a density is not finite. */
+/* Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at
+ * least resolution [Hz]; with 0 there are at least seven.  SS_EINVAL: a sample is not finite, or
+ * the resolution is not within 1.5 rate / n ... 1.5 rate / 16; SS_ERANGE: a density is not finite.
+ */
 ss_status ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, double resolution,
                           ss_error *err);
 void ss_spectrum_free(ss_spectrum *spectrum);           /* NULL is allowed */

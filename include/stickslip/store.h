@@ -6,8 +6,8 @@
  * name and then renames it.  The same input gives the same bytes.  path may be a device or a FIFO:
  * the file is then made without a name and copied there.
  *
- * The serial packages of HDF5 are not safe for threads.  With them, a program calls the functions of
- * this header from one thread at a time. */
+ * The serial packages of HDF5 are not safe for threads.  With them, a program calls the functions
+ * of this header from one thread at a time. */
 #ifndef STICKSLIP_STORE_H
 #define STICKSLIP_STORE_H
 
@@ -31,17 +31,18 @@ typedef struct ss_record {
 /* Write a file of what is in memory. */
 ss_status ss_store_write(const char *path, const ss_record *record, ss_error *err);
 
-/* Write a file while its samples and coefficients are still being made, in memory that does not grow
- * with their number.
+/* Write a file while its samples and coefficients are still being made, in memory that does not
+ * grow with their number.
  *
  * signal is the header of the transformed signal, with all columns that are stored; NULL: the file
  * has no signal.  grid has head (by ss_coefficients_header), n_scales, scale and center as in
- * ss_coefficients; NULL: the file has only a signal, whose length is not known yet.  grid->n is the
- * length of the record; 0: it is not known yet, and the datasets have a time dimension without limit.
+ * ss_coefficients; NULL: the file has only a signal, whose length is not known yet.  grid->n is
+ * the length of the record; 0: it is not known yet, and the datasets have a time dimension without
+ * limit.
  *
- * If the options in grid->head say rounded, re and im become multiples of a power of two that is at
- * most 1.24 TOL x the largest |W| of their scale so far.  They then take a third of the bytes or
- * less, and the error of what a reader gets is still within TOL. */
+ * If the options in grid->head say rounded, re and im become multiples of a power of two that is
+ * at most 1.24 TOL x the largest |W| of their scale so far.  They then take a third of the bytes
+ * or less, and the error of what a reader gets is still within TOL. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);
@@ -65,9 +66,9 @@ int ss_store_is_hdf5(const char *path);
 /* 1 if the file is HDF5 and has a /signal, damaged or not. */
 int ss_store_has_signal(const char *path);
 
-/* Open /signal of a file that this library wrote (dataset is NULL or ""), or the real dataset of one
- * or two dimensions whose path in the file is dataset, for example in a MATLAB v7.3 file.  In a
- * dataset of two dimensions the columns are the shorter one.
+/* Open /signal of a file that this library wrote (dataset is NULL or ""), or the real dataset of
+ * one or two dimensions whose path in the file is dataset, for example in a MATLAB v7.3 file.  In
+ * a dataset of two dimensions the columns are the shorter one.
  *
  * A dataset takes its clock from opts->rate.  /signal has its own clock; SS_EDATA: opts ask for
  * another.  The reader reads chunk by chunk, in memory that does not grow with the number of rows;
@@ -80,8 +81,8 @@ ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *da
 /* Read all of /wavelet.  The caller frees *out with ss_coefficients_free. */
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 
-/* Read /wavelet scale by scale, in the memory of one scale.  The grid belongs to the reader; its w is
- * NULL.  ss_store_reader_scale writes the n coefficients of scale i to w, 2 n doubles. */
+/* Read /wavelet scale by scale, in the memory of one scale.  The grid belongs to the reader; its w
+ * is NULL.  ss_store_reader_scale writes the n coefficients of scale i to w, 2 n doubles. */
 typedef struct ss_store_reader ss_store_reader;
 ss_status ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err);
 const ss_coefficients *ss_store_reader_grid(const ss_store_reader *reader);

@@ -10,67 +10,71 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* Measures are those of one period of the motion.  A cycle is a forcing cycle; where base_frequency is 0
- * but a base or a surface pulls, it goes from one onset of stick (compliant: of microstick after a slip) to
- * the next.  A model without sticks has no stops, stick and microslips; only compliant contact has a transition, or the state
- * variable. */
+/* What can be measured, over one period of the motion.  A cycle is a forcing cycle; or if
+ * base_frequency is 0 and a base or a surface pulls, the time from one onset of stick to the next
+ * (compliant: of a microstick after a slip).  A model without sticks has no stops, no stick
+ * fraction and no micro-slips.  Only the compliant and the state-variable model have a transition.
+ */
 typedef enum ss_measure {
-    SS_STOPS,           /* sticks (compliant: microsticks) that begin, a cycle */
-    SS_STICK_FRACTION,  /* part of the time that is stick */
-    SS_AMPLITUDE,       /* half of max x - min x [m] */
+    SS_STOPS,           /* sticks (compliant: microsticks) that begin, per cycle */
+    SS_STICK_FRACTION,  /* part of the time that the mass sticks */
+    SS_AMPLITUDE,       /* (max x - min x) / 2 [m] */
     SS_X_MAX,           /* max|x| [m] */
     SS_V_MAX,           /* max|v| [m/s] */
     SS_A_MAX,           /* max|a| [m/s^2] */
-    SS_ENERGY,          /* work against friction a cycle [J] */
+    SS_ENERGY,          /* work against friction per cycle [J] */
     SS_PERIOD,          /* in cycles; 0: aperiodic */
-    SS_CYCLES,          /* from the scene's initial state, or without forcing from the first onset of
-                           stick, until it is periodic */
-    SS_MICROSLIPS,      /* slips followed by one in the same direction, a half-cycle */
-    SS_TRANSITION,      /* from the times between extrema of a in transitions that have three or
-                           more of them: microsticks, or where |alpha v| < 1 [Hz] */
-    SS_X_PHASE,         /* x - U t and v at the start of a cycle, which distinguish basins [m] */
-    SS_V_PHASE,         /* [m/s] */
+    SS_CYCLES,          /* cycles until the motion is periodic, from the scene's initial state, or
+                           without forcing from the first onset of stick */
+    SS_MICROSLIPS,      /* slips that a slip in the same direction follows, per half-cycle */
+    SS_TRANSITION,      /* frequency [Hz] from the times between extrema of a, in transitions with at
+                           least three; a transition is a microstick, or a time with |alpha v| < 1 */
+    SS_X_PHASE,         /* x - U t at the start of a cycle [m]; with the next, it tells basins apart */
+    SS_V_PHASE,         /* v at the start of a cycle [m/s] */
     SS_FLOQUET,         /* modulus of the largest Floquet multiplier of the period */
-    SS_FLOQUET_2,       /* of the next */
+    SS_FLOQUET_2,       /* modulus of the second largest */
     SS_FLOQUET_ANGLE,   /* argument of the largest, 0 ... pi [rad] */
-    SS_CYCLE_TIME,      /* duration of a cycle, which times the period is that of the motion [s] */
-    SS_MODEL_ERROR_X, SS_MODEL_ERROR_X_RMS,     /* of the model that the scene comes to in the limit */
-    SS_MODEL_ERROR_V, SS_MODEL_ERROR_V_RMS,     /* (ss_scene_simpler: Coulomb's) in its place: the */
-    SS_MODEL_ERROR_A, SS_MODEL_ERROR_A_RMS,     /* largest and the rms error of x - U t, v, a and f */
-    SS_MODEL_ERROR_F, SS_MODEL_ERROR_F_RMS,     /* over the scene's largest value */
-    SS_LYAPUNOV,        /* largest Lyapunov exponent [1/s]: the rate at which neighbouring motions part, or
-                           if below 0 come together, a shift in time aside */
-    SS_LYAPUNOV_ERROR,  /* its standard error; 0 of a periodic motion, whose multiplier gives it */
+    SS_CYCLE_TIME,      /* duration of a cycle [s]; the motion repeats after so many times SS_PERIOD */
+    /* The errors of the model that is the limit of the scene's model (Coulomb's, see
+     * ss_scene_simpler): the largest and the rms error of x - U t, v, a and f, over the scene's
+     * largest value. */
+    SS_MODEL_ERROR_X, SS_MODEL_ERROR_X_RMS,
+    SS_MODEL_ERROR_V, SS_MODEL_ERROR_V_RMS,
+    SS_MODEL_ERROR_A, SS_MODEL_ERROR_A_RMS,
+    SS_MODEL_ERROR_F, SS_MODEL_ERROR_F_RMS,
+    SS_LYAPUNOV,        /* largest Lyapunov exponent [1/s], without that of a shift in time: the rate at
+                           which neighbouring motions separate; negative: they approach */
+    SS_LYAPUNOV_ERROR,  /* its standard error; 0 for a periodic motion, whose multiplier gives it */
     SS_MEASURES
 } ss_measure;
 
 const char *ss_measure_name(ss_measure measure);    /* "stops"; NULL from SS_MEASURES on */
 const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a number */
 
-/* The way in which the periodic state is sought. */
+/* The way in which the periodic state is found. */
 typedef enum ss_search {
-    SS_SEARCH_AUTO,         /* simulate until the motion is near a period, then shoot; simulate on where
-                               that fails, and always where SS_CYCLES is wanted */
+    SS_SEARCH_AUTO,         /* simulate until the motion is nearly periodic, then shoot; if this fails,
+                               or SS_CYCLES is wanted, simulate to the end */
     SS_SEARCH_SIMULATE,
-    SS_SEARCH_SHOOT         /* at once: a period of one cycle, which may be another than the one that
-                               the scene settles to; simulate where there is none that is stable */
+    SS_SEARCH_SHOOT         /* shoot at once for a period of one cycle; it may differ from the one to
+                               which the scene settles.  Without a stable one, simulate */
 } ss_search;
 
 typedef struct ss_steady_opts {
-    unsigned measures;          /* wanted: a set of 1u << ss_measure */
-    double tol;                 /* see ss_steady_find */
+    unsigned measures;          /* the measures wanted: a set of 1u << ss_measure */
+    double tol;                 /* within ss_steady_tolerances; see ss_steady_find */
     int max_period;             /* the longest period that is searched, 1 ... SS_PERIOD_MAX cycles */
-    unsigned long max_cycles;   /* > 0: a motion without a period by then is aperiodic; without forcing,
-                                   one without a stick for so many own periods slides on */
+    unsigned long max_cycles;   /* > 0: a motion that has no period by then is aperiodic; without forcing,
+                                   a motion slides on if it does not stick for so many own periods */
     unsigned long settle;       /* > 0: simulate so many cycles instead of searching for the limit */
-    int strobe;                 /* starts of cycles that are wanted of a motion without a period, at most
-                                   SS_STROBE_MAX; of a periodic one, all of its period; 0: none */
+    int strobe;                 /* how many starts of cycles are wanted of a motion without a period, at
+                                   most SS_STROBE_MAX; a periodic one gives all of its period; 0: none */
     ss_search search;
-    const char *method;         /* of ss_sim_method_name; NULL: exact where there is one,
-                                   else as ss_sim_run chooses */
-    unsigned long max_steps;    /* > 0: stop after so many, or after 20 right-hand sides for
-                                   each of them; and in a cycle after a tenth of them,
-                                   10^6 at least, where the tolerance forces short steps */
+    const char *method;         /* of ss_sim_method_name; NULL: exact if the model is linear, else that
+                                   of ss_sim_method_for */
+    unsigned long max_steps;    /* > 0: stop after so many steps, or after 20 times as many right-hand
+                                   sides; in one cycle after a tenth of them, but at least 10^6, where
+                                   the tolerance forces short steps */
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64, SS_STROBE_MAX = 1000 };
 extern const ss_range ss_steady_tolerances;     /* of tol */
@@ -82,71 +86,73 @@ typedef struct ss_strobe {
 } ss_strobe;
 
 typedef struct ss_steady {
-    ss_strobe *strobe;          /* the caller's room, for the larger of strobe and max_period of opts where
-                                   they are wanted */
+    ss_strobe *strobe;          /* an array of the caller; if opts->strobe > 0, it has room for the larger
+                                   of opts->strobe and opts->max_period */
     size_t n_strobes;
-    double value[SS_MEASURES];  /* NaN for a measure that is not wanted or absent */
+    double value[SS_MEASURES];  /* NaN for a measure that is not wanted or not known */
 } ss_steady;
 
-/* Find the periodic state that the scene settles to, from its initial state on, and measure it.
+/* Find the periodic state to which the scene settles from its initial state, and measure it.
+ * Settle, duration and rate of the scene have no influence.
  *
- * The state (x - U t, v, and y or theta) at the start of each cycle is compared with that of 1,
- * 2, ... max_period cycles before: x in units of the largest of Z_e, |x0|, |v0|/omega_n and f_k/k,
- * v in those times omega_n or Omega, y in f_k/K_y, theta in f_k.  It is periodic when the difference is
- * at most tol and the state, by the rate at which the differences shrink, lies within tol of its
- * limit.  By shooting,
- * Newton's last step and residual are at most tol.  Settle, duration and rate of the scene do not
- * matter.
+ * The state (x - U t, v, and y or theta) at the start of each cycle is compared with the state 1,
+ * 2, ... max_period cycles before.  The unit of x is the largest of Z_e, |x0|, |v0|/omega_n and
+ * f_k/k; that of v is this times omega_n or Omega; that of y is f_k/K_y, and that of theta f_k.
+ * The motion is periodic when the difference is at most tol and the state lies within tol of its
+ * limit, as the rate at which the differences shrink tells.  In shooting, Newton's last step and
+ * residual are at most tol.
  *
- * Without forcing, x - U t is what differs at an onset.  True sticks end all at the same x - U t, so the
- * multipliers are 0; an elastic contact needs the methods exact or taylor for shooting, multipliers
- * and exponents.
+ * Without forcing, only x - U t differs from one onset of stick to the next.  All true sticks end
+ * at the same x - U t, so the multipliers are 0.  An elastic contact needs the method exact or
+ * taylor for shooting, multipliers and exponents.
  *
- * The exponent of a periodic motion is that of its largest multiplier, and is absent where this is 0 or
- * hidden by rounding, as where a stick ends every difference.  That of another is a mean over max_cycles (or settle)
- * cycles more (Benettin et al. 1980), its error the scatter among 20 parts of them.
+ * The Lyapunov exponent of a periodic motion is that of its largest multiplier; there is none if
+ * this is 0 or hidden by rounding, for example because a stick ends every difference.  The
+ * exponent of another motion is a mean over max_cycles (or settle) further cycles (Benettin et al.
+ * 1980); its error is the scatter among 20 parts of them.
  *
- * SS_OK: all that was asked for is there.  SS_EDATA: something is not, and err says why, as for
- * an aperiodic motion, which is measured over max_period cycles, or cannot be relied on, as the
- * number of events that are not resolved (ss_sim_stats); without forcing, a motion that never sticks has
- * no value.  SS_EINVAL: there are no cycles, since nothing drives them.  Else as ss_sim_run, nothing is
- * there. */
+ * SS_OK: every measure wanted is known.  SS_EDATA: one is not known or not reliable, and err says
+ * why; the others are known.  For example, an aperiodic motion is measured over max_period cycles,
+ * and the number of events is unreliable if some are unresolved (ss_sim_stats); without forcing, a
+ * motion that never sticks has no value at all.  SS_EINVAL: nothing drives the motion, so there
+ * are no cycles.  With any other error, which is one of ss_sim_run, no measure is known. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);
-/* SS_EINVAL if that is impossible for the model: a measure that it does not have, a range. */
+/* SS_EINVAL if this is impossible for the model: it lacks a measure, or an option is out of its range. */
 ss_status ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err);
 
 /* --- a grid ----------------------------------------------------------------------------------- */
 
 typedef struct ss_axis {
-    char key[32];               /* a number of the scene */
+    char key[32];               /* the name of a number of the scene */
     double from, to;
-    size_t n;                   /* >= 1 values, both ends among them */
-    int log;                    /* equal ratios instead of differences; from and to > 0 */
+    size_t n;                   /* >= 1: the number of values; from and to are among them */
+    int log;                    /* 1: the values have equal ratios, from and to are > 0; 0: they have
+                                   equal differences */
 } ss_axis;
 
-/* From "key=from:to:n" or "key=from:to:n:log". */
+/* Read "key=from:to:n" or "key=from:to:n:log". */
 ss_status ss_axis_parse(ss_axis *axis, const char *text, ss_error *err);
-double ss_axis_value(const ss_axis *axis, size_t i);
+double ss_axis_value(const ss_axis *axis, size_t i);    /* the i-th value, from 0 */
 
 typedef struct ss_sweep_row {
-    size_t index;               /* in the grid, whose last axis varies fastest */
-    const double *vary;         /* one value an axis */
+    size_t index;               /* of the point in the grid, whose last axis varies fastest */
+    const double *vary;         /* a value for each axis */
     ss_steady steady;
     ss_status status;           /* of ss_steady_find */
-    const char *reason;         /* "ok", or why something is missing; no tab or newline */
+    const char *reason;         /* "ok", or why a measure is missing; it has no tab or newline */
 } ss_sweep_row;
 
-/* Receives rows in grid order, one at a time, from any of the threads.  A non-zero return ends the
- * sweep with SS_STOP. */
+/* A sink receives rows in grid order, one at a time, from any of the threads.  A non-zero return
+ * ends the sweep with SS_STOP. */
 typedef int ss_sweep_sink(const ss_sweep_row *row, void *user);
 
 typedef struct ss_sweep_opts {
     ss_steady_opts steady;
-    const ss_axis *axis;
+    const ss_axis *axis;        /* n_axes of them */
     size_t n_axes;
-    size_t shard, shards;       /* the points of which the index is shard modulo shards >= 1 */
-    size_t first;               /* the first of these that is wanted, counted from 0 */
+    size_t shard, shards;       /* compute only the points with index mod shards = shard; shards >= 1 */
+    size_t first;               /* leave out so many of these points */
     int threads;                /* 1 ... SS_THREADS_MAX */
     ss_sweep_sink *sink;
     void *user;                 /* passed to the sink */
@@ -156,36 +162,37 @@ typedef struct ss_sweep_opts {
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
 
-/* SS_EINVAL if no point can be computed: an axis that the model does not have or that belongs
- * to the record, a measure, a range. */
+/* SS_EINVAL if no point can be computed: the model lacks the number of an axis or a measure, an
+ * axis belongs to the record, or an option is out of its range. */
 ss_status ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
-/* Every point is computed from the scene alone, so the rows do not depend on threads and shards.
- * A point that fails is a row with its reason; SS_ENOMEM, SS_EINVAL as from ss_sweep_check, or SS_STOP
- * end the sweep. */
+/* Compute the points of the grid and send a row for each to the sink.  A point depends on the
+ * scene alone, so the rows are the same with any threads and shards.  A point that fails has a row
+ * with its reason.  SS_ENOMEM, SS_STOP, or SS_EINVAL as from ss_sweep_check end the sweep. */
 ss_status ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err);
 
 /* --- as text ---------------------------------------------------------------------------------- */
 
-/* The columns of the rows of a sweep, and their header. */
+/* The text of a sweep. */
 typedef struct ss_sweep_text {
     const char *name;           /* of the scene */
     const ss_scene *scene;
-    const ss_sweep_opts *opts;  /* that the sweep is run with */
-    const ss_measure *measure;  /* a column each, in this order */
+    const ss_sweep_opts *opts;  /* those of ss_sweep_run */
+    const ss_measure *measure;  /* the measures that have a column, in this order */
     size_t n_measures;
     ss_format format;           /* one that holds words */
 } ss_sweep_text;
 
-/* All that the rows depend on and nothing else, to be freed with free(): files with the same header are
- * parts of the same sweep.  SS_EINVAL: something is missing, or the format holds numbers only. */
+/* Make the header of the text; the caller frees it with free().  It holds everything on which the
+ * rows depend, and nothing else: files with the same header are parts of the same sweep.
+ * SS_EINVAL: a field is missing, or the format holds numbers only. */
 ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep);
-/* One row, or where strobe is wanted a row for each start of a cycle: x_phase and v_phase are those of it. */
+/* Write one row; if starts of cycles are wanted, one for each, with its own x_phase and v_phase. */
 ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out);
-/* How far a file of such rows has come, which may have been cut off anywhere: *rows whole ones of the
- * shard of opts, which is the first that is wanted then, and they end at byte *end, from which on to
- * write; 0: with the header.  Reads file from where it stands, its start.  SS_EDATA: these are not the
- * rows of this sweep; SS_EIO. */
+/* Find where to continue a file of such rows that may have been cut off anywhere.  *rows becomes
+ * the number of whole rows of the shard (use it as opts->first), and *end the byte behind them,
+ * where the next row belongs; if *end is 0, the header belongs there first.  file is read from its
+ * present place, which must be its start.  SS_EDATA: these are not rows of this sweep; SS_EIO. */
 ss_status ss_sweep_resume(const ss_sweep_text *sweep, FILE *file, const char *name, size_t *rows,
                           long *end, ss_error *err);
 

@@ -18,10 +18,10 @@ typedef struct ss_table {
     char **cell;                /* the text of row i and column c is cell[i * n_columns + c] */
 } ss_table;
 
-/* Read text of this kind: events, features, a ranking, a trade or a sweep.  Several tables with the
- * same columns, such as the shards of a sweep, may follow each other.  Messages call the file by name.
- * SS_EKIND: the text is of another kind; SS_EDATA: a table has no columns or others than the first, or
- * a row has more or fewer cells than columns; err names file and line; SS_EIO. */
+/* Read text of this kind: events, features, a ranking, a trade or a sweep.  Several tables with
+ * the same columns, such as the shards of a sweep, may follow each other.  Messages call the file
+ * by name.  SS_EKIND: the text is of another kind; SS_EDATA: a table has no columns or others than
+ * the first, or a row has more or fewer cells than columns; err names file and line; SS_EIO. */
 ss_status ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error *err);
 /* The value of the first note with this key; NULL if there is none. */
 const char *ss_table_note(const ss_table *table, const char *key);
