@@ -1,4 +1,4 @@
-/* load.c -- open a path with any kind of signal, or with the measured base of a scene. */
+/* load.c -- open a file that holds any kind of signal or the measured base of a scene. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

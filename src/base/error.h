@@ -1,4 +1,4 @@
-/* error.h -- how library functions fail. */
+/* error.h -- functions that report a failure and its reason. */
 #ifndef ERROR_H
 #define ERROR_H
 

@@ -1,7 +1,7 @@
-/* gauss.h -- a number of the Gaussian distribution. */
+/* gauss.h -- a constant of the Gaussian distribution. */
 #ifndef GAUSS_H
 #define GAUSS_H
 
-#define GAUSS_MEDIAN 0.6744897501960817 /* of |x|, re the standard deviation */
+#define GAUSS_MEDIAN 0.6744897501960817 /* the median of |x| over the standard deviation */
 
 #endif

@@ -1,4 +1,4 @@
-/* kind.c -- the kind of a file, by its first bytes. */
+/* kind.c -- recognise the kind of a file by its first bytes. */
 #include <string.h>
 #include "base/error.h"
 
@@ -25,7 +25,7 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 #define UTF16 "text in UTF-16", "; iconv -f UTF-16 -t UTF-8 converts it"
 #define SOUND "a sound file", "; sox FILE -t au - makes a signal of it"
 
-/* Files of other programs, and how these make a file that can be read. */
+/* Files of other programs, and a way to make a readable file of them. */
 static const struct foreign {
     const char *magic, *what, *remedy;
 } foreign[] = {
@@ -74,7 +74,7 @@ is_table(const char *p, const char *end)
     return 0;
 }
 
-/* Our own text of another version is of the kind, too. */
+/* Text that another version of this library wrote has the same kind: the version is not compared. */
 static int
 has_magic(ss_kind kind, const char *bytes, size_t n)
 {

@@ -1,4 +1,4 @@
-/* list.h -- a list that grows, and search in a list in order of time. */
+/* list.h -- a list that grows, and a search in a list that is sorted by time. */
 #ifndef LIST_H
 #define LIST_H
 
@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* The list, possibly moved, with room for need entries of size bytes each: it grows to twice that.
- * NULL: no memory; the list is unchanged. */
+/* Returns the list, possibly moved, with room for at least need entries of size bytes each.  A list that
+ * grows gets room for twice as many.  NULL: no memory; the list is unchanged. */
 static inline void *
 ss_list_grow(void *list, size_t *room, size_t need, size_t size)
 {
@@ -27,7 +27,8 @@ ss_list_room(void *list, size_t *room, size_t n, size_t size)
     return ss_list_grow(list, room, n + 1, size);
 }
 
-/* The first of n entries of size bytes that is not before t; each begins with its time. */
+/* The index of the first of n entries whose time is t or later; n if there is none.  An entry has size
+ * bytes and begins with its time. */
 static inline size_t
 ss_list_from(const void *list, size_t n, size_t size, double t)
 {

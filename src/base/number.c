@@ -1,10 +1,11 @@
-/* number.c -- doubles to the fewest decimal digits and back, whatever the locale.
+/* number.c -- write doubles with the fewest decimal digits, and read them, in every locale the
+ * same.
  *
- * Both ways multiply a 64-bit integer by a power of ten kept to 128 bits, which is enough to
- * decide the rounding: writing always (Giulietti, "The Schubfach way to render doubles", 2020),
- * reading except for a few inputs in 2^60 (Clinger 1990; Lemire, "Number parsing at a gigabyte per
- * second", 2021).  Those, the subnormal and the overflowing ones are left to strtod.  Both ways
- * are exact: the only error is the one rounding that reading cannot avoid. */
+ * Writing and reading multiply a 64-bit integer by a power of ten of 128 bits.  This is enough to
+ * decide the rounding of every number that is written (Giulietti, "The Schubfach way to render
+ * doubles", 2020) and of all numbers that are read, except a few in 2^60 (Clinger 1990; Lemire,
+ * "Number parsing at a gigabyte per second", 2021).  strtod reads those few, the subnormal numbers
+ * and the overflowing ones.  So the only error is the rounding of a number that is read. */
 #include <float.h>
 #include <locale.h>
 #include <math.h>
@@ -36,8 +37,8 @@ product(uint64_t a, uint64_t b)
 #endif
 }
 
-/* floor(log2(10^e)) for |e| < 1233, and floor(log10(f 2^q)) for |q| < 1500, f = 1 or 3/4: fixed
- * point, with the sign-extending shift that every compiler of ours has. */
+/* floor(log2(10^e)) for |e| < 1233, and floor(log10(f 2^q)) for |q| < 1500, f = 1 or 3/4.  They are
+ * computed in fixed point; >> must keep the sign, as it does with every compiler that we know. */
 static int
 log2_pow10(int e)
 {
@@ -52,7 +53,8 @@ log10_pow2(int q, int three_quarters)
 
 /* --- writing ------------------------------------------------------------------------------- */
 
-/* g c 2^-128 to the next odd integer, unless it is exact: enough to compare it with any even one. */
+/* g c 2^-128, rounded to the next odd integer unless it is exact: it then compares rightly with every
+ * even integer. */
 static uint64_t
 round_to_odd(struct pow10 g, uint64_t c)
 {
@@ -61,8 +63,8 @@ round_to_odd(struct pow10 g, uint64_t c)
     return (y.hi + (low < y.lo)) | (low > 1);
 }
 
-/* The shortest, then nearest decimal d 10^k in the interval that rounds to c 2^q; d may end in
- * zeros.  irregular: the neighbour below is only half as far, as at powers of two. */
+/* Of the decimals d 10^k that round to c 2^q, the shortest, and of these the nearest; d may end in
+ * zeros.  irregular: the next double below is only half as far away, as at powers of two. */
 static uint64_t
 shortest(uint64_t c, int q, int irregular, int *exponent)
 {
@@ -89,8 +91,8 @@ shortest(uint64_t c, int q, int irregular, int *exponent)
     return s + (v > 4 * s + 2 || (v == 4 * s + 2 && (s & 1)));
 }
 
-/* The n digits of d without trailing zeros, which the exponent counts; they end at the end of
- * digit. */
+/* Write the digits of d to the end of digit.  Returns the first of the n digits that remain without
+ * trailing zeros; *exponent grows by the number of these zeros. */
 static const char *
 digits_of(uint64_t d, char digit[20], int *n, int *exponent)
 {
@@ -118,7 +120,7 @@ append(char *to, const char *from, int n)
     return to + n;
 }
 
-/* In the layout of %.17g: n digits 0.ddd x 10^point. */
+/* Write the n digits of 0.ddd x 10^point in the layout of %.17g. */
 static char *
 lay_out(char *p, const char *digit, int n, int point)
 {
@@ -190,14 +192,14 @@ struct decimal {
     int dropped;        /* a digit other than 0 did not fit in w */
 };
 
-/* The digit, or 10 or more. */
+/* The value of a digit; 10 or more if c is no digit. */
 static inline unsigned
 digit_of(char c)
 {
     return (unsigned)(unsigned char)c - '0';
 }
 
-/* Digits behind those of w, which are right as long as all fit into it. */
+/* Append the digits at p to *w; the result is right if all of them fit. */
 static inline const char *
 scan_short(uint64_t *w, const char *p)
 {
@@ -224,7 +226,7 @@ scan_long(struct decimal *d, const char *p, int behind_point)
     return p;
 }
 
-/* Digits and a point; the end, or NULL if there is no digit. */
+/* Read digits with or without a point.  Returns their end, or NULL if there is no digit. */
 static const char *
 scan_digits(struct decimal *d, const char *start, char mark)
 {
@@ -243,7 +245,7 @@ scan_digits(struct decimal *d, const char *start, char mark)
     return point != NULL ? scan_long(d, p + 1, 1) : p;
 }
 
-/* The unsigned number at p; its end, or NULL if there is none. */
+/* Read the unsigned number at p.  Returns its end, or NULL if there is none. */
 static const char *
 scan(struct decimal *d, const char *p, char point)
 {
@@ -276,11 +278,11 @@ leading_zeros(uint64_t w)
 #endif
 }
 
-/* w 10^e in double precision: gives 0 if 128 bits cannot tell how it rounds.
+/* Compute w 10^e in double precision.  Returns 0 if 128 bits cannot decide how it rounds.
  *
- * With w moved to the top of 64 bits, the exact product lies in [z, z + 2) units of the 128 bits
- * kept, or in [z, z + 17 2^64) if digits were dropped (then w >= 10^18).  If all of it has the
- * same leading 54 bits and z is not itself half-way, the 54th of them decides. */
+ * w is shifted to the top of 64 bits.  Then the exact product lies in [z, z + 2) units of the 128 bits
+ * kept, or in [z, z + 17 2^64) if digits were dropped (then w >= 10^18).  If all numbers in this
+ * interval have the same leading 54 bits and z is not half-way, the 54th bit decides. */
 static int
 multiply(struct decimal d, double *x)
 {

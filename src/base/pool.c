@@ -1,7 +1,7 @@
 /* pool.c -- threads that are made for one task and joined at its end.
  *
- * A thread costs some 10 us, and no task here is shorter than some 100: keeping threads
- * between calls would be state that somebody must free. */
+ * Making a thread takes some 10 us, and no task here takes less than some 100 us.  Threads that
+ * live between calls would be state that the caller must free. */
 #include "base/pool.h"
 
 #include <pthread.h>

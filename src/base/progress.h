@@ -1,4 +1,4 @@
-/* progress.h -- report progress of a part of the work, as a fraction of the whole. */
+/* progress.h -- report the progress of a part of the work as a fraction of the whole. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 

@@ -1,4 +1,4 @@
-/* versions.h -- hot loops for the machine's instructions, chosen when the program starts. */
+/* versions.h -- compile a loop for several instruction sets; the program chooses one when it starts. */
 #ifndef VERSIONS_H
 #define VERSIONS_H
 

@@ -1,19 +1,20 @@
 /* bernstein.c -- prove when a guard first becomes negative inside one step, or that it does not.
  *
  * A mode lasts while its guard is not negative.  Inside a step the guard is a polynomial: its
- * Taylor series, or that of degree 9 that has its value and four derivatives at both ends
- * (Hermite).  In Bernstein's form a polynomial has at most as many zeros as its coefficients have
- * changes of sign, and exactly one where they have one (Descartes' rule; G.  Farin, Curves and
- * Surfaces for CAGD, 4 and 5): no change proves that there is no event, one that there is one, more
- * are divided by two, the earlier half first.  So no event is stepped over, however many lie in a
- * step.
+ * Taylor series, or the polynomial of degree 9 that has the guard's value and four derivatives at
+ * both ends (Hermite).  In Bernstein's form a polynomial has at most as many zeros as its
+ * coefficients have changes of sign, and exactly one zero if they have one change (Descartes'
+ * rule; G. Farin, Curves and Surfaces for CAGD, 4 and 5).  So no change proves that there is no
+ * event, and one change proves that there is one.  If there are more, the step is divided by two,
+ * and the earlier half is examined first.  So every event is found, however many lie in a step.
  *
- * Error: with the step caps of motion.h Hermite's polynomial is off by 2e-18 of the guard's
- * amplitude (ode.c), less than the rounding of the coefficients, 2^-50 of the largest and of what
- * the guard's derivatives are made of.  (Differences of the coefficients fall with their order
- * within the caps; of any polynomial they may grow as 2^order, and the rounding to 81 ulp / 2.)
- * Taylor coefficients come in sums of at most 27 of them.  A coefficient within that has no sign.
- * Where only such are left, the guard touches 0 and rounding decides: the result says so. */
+ * Error: with the step caps of motion.h the error of Hermite's polynomial is 2e-18 of the guard's
+ * amplitude (ode.c).  This is less than the rounding of the coefficients, 2^-50 of the largest
+ * coefficient and of the terms of the guard's derivatives.  (Within the caps, differences of the
+ * coefficients fall with their order.  Those of an arbitrary polynomial may grow as 2^order, and
+ * the rounding to 81 ulp / 2.)  Taylor coefficients are summed, at most 27 of them.  A coefficient
+ * that is smaller than its rounding has no sign.  If only such coefficients are left, the guard
+ * touches 0 and rounding decides; the result says so. */
 #include "motion/bernstein.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-/* bernstein.h -- when a guard becomes negative inside one step, of which the derivatives are known. */
+/* bernstein.h -- find when a guard becomes negative inside one step, if its derivatives are known. */
 #ifndef BERNSTEIN_H
 #define BERNSTEIN_H
 

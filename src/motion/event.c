@@ -1,14 +1,15 @@
-/* event.c -- find when a guard becomes negative inside one step, where its derivatives are not known
- * (bernstein.c proves it where they are).
+/* event.c -- find when a guard becomes negative inside one step, if its derivatives are not known.
+ * (If they are known, bernstein.c proves it.)
  *
- * A mode lasts while its guard is not negative.  The guard is asked at a time s; the engine answers
- * by stepping again from the start of the step to s, so the answer is as good as the step.  (The
- * cubic through the ends of a step is cheaper, but limits event times to 1e-5 s with rk8pd; stepping
+ * A mode lasts while its guard is not negative.  To know the guard at a time s, the engine steps
+ * again from the start of the step to s, so the guard is as accurate as the step.  (The cubic
+ * through the ends of a step costs less, but limits event times to 1e-5 s with rk8pd; stepping
  * again gives 1e-13 s.)
  *
- * A guard that is negative at the end has crossed; one that falls at the start and rises at the end
- * has a minimum between, which may be negative: such a pair of crossings is what a look at the ends
- * alone loses.  The step caps (motion.h) leave no room for more than one minimum. */
+ * A guard that is negative at the end of the step has crossed 0.  A guard that falls at the start
+ * and rises at the end has a minimum between, which may be negative: the signs at the two ends do
+ * not show this pair of crossings.  The step caps (motion.h) allow no more than one minimum in a
+ * step. */
 #include "motion/event.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* event.h -- when a guard becomes negative inside one step. */
+/* event.h -- find when a guard becomes negative inside one step. */
 #ifndef EVENT_H
 #define EVENT_H
 

@@ -4,16 +4,18 @@
  *
  *     q(u) = P(u) + (q0 - P(0)) C(u) + (q0' - P'(0)) S(u) - (f0/m) G(u),
  *
- * where f0 and D cos stand for all that is constant and that swings, P has the line besides by
- * which q follows a pull, S and C answer a unit velocity and a unit displacement, G is the integral
- * of S, and P is the steady motion.  C, S and G are written so that nothing cancels or overflows at
- * critical damping, far beyond it, or for w u -> 0.  P has a singularity at resonance; within a
- * tenth of it (where the damping is light, too) the motion from rest takes its place, as a divided
- * difference of exponentials, which has none.  Its error is rounding: a few ulp of each term.
+ * where f0 is the sum of all constant forces and D cos(...) that of the oscillating ones.  P is
+ * the steady motion, with the line by which q follows a pull; C and S are the responses to a unit
+ * displacement and a unit velocity, and G is the integral of S.  C, S and G are written so that
+ * nothing cancels or overflows at critical damping, far beyond it, or for w u -> 0.  P has a
+ * singularity at resonance.  If the damping is small, the motion from rest replaces P within a
+ * tenth of resonance; it is a divided difference of exponentials and has no singularity.  The only
+ * error is rounding: a few ulp of each term.
  *
- * Steps are there for the guard's sake only.  With B a bound of its second derivative, a guard that
- * is g at both ends of a step h is nowhere below g - B h^2 / 8: where that is positive, no event can
- * be missed, whatever extrema there are between.  Elsewhere steps are as short as for any method. */
+ * Steps are needed only for the guard.  Let B be a bound of its second derivative.  A guard that
+ * is g at both ends of a step h is nowhere below g - B h^2 / 8.  Where this is positive, no event
+ * can be missed, whatever extrema lie between.  Elsewhere steps are as short as for any other
+ * method. */
 #include "motion/engine.h"
 
 #include <complex.h>

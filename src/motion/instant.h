@@ -1,7 +1,8 @@
 /* instant.h -- a time as an unevaluated sum of two doubles.
  *
- * At t = 1e6 s one double resolves 1e-10 s, which is 2e-9 rad of a 2.5 Hz base; with two, neither
- * the phase of the base nor the place of a sample within a step loses digits as a run grows. */
+ * At t = 1e6 s one double resolves 1e-10 s, which is 2e-9 rad of a 2.5 Hz base.  With two doubles,
+ * the phase of the base and the position of a sample within a step keep their digits in long runs.
+ */
 #ifndef INSTANT_H
 #define INSTANT_H
 

@@ -1,4 +1,4 @@
-/* method.c -- the methods by name, and the one for a scene. */
+/* method.c -- find a method by its name, and choose one for a scene. */
 #include <string.h>
 #include "motion/engine.h"
 

@@ -1,4 +1,4 @@
-/* motion.c -- a motion in time: its clock, its steps' limit, its first mode, its chatter. */
+/* motion.c -- a motion in time: its clock, the limit of its steps, its first mode, and chatter. */
 #include "motion/motion.h"
 
 #include <float.h>

@@ -1,11 +1,12 @@
 /* ode.c -- a motion carried by a GSL odeiv2 stepper.
  *
- * GSL has no dense output.  Linear modes know the higher derivatives of their state, so what lies
- * inside a step is read off the polynomial of degree 9 that has the state and four derivatives at
- * both ends (Hermite).  With the cap of motion.h, w h = 2 pi / 40, it is off by
- * (w h)^10 / 10! / 4^5 = 2e-18 of the amplitude: rounding is all that it adds, whatever the method.
- * A model that does not know them, such as a stiff one without such a cap, is stepped again from the
- * step's start by one-step methods; multistep ones, whose memory that would spoil, land on every
+ * GSL cannot give the state inside a step.  The higher derivatives of the state of a linear mode
+ * are known, so the state inside a step is the polynomial of degree 9 that has the state and its
+ * four derivatives at both ends (Hermite).  With the cap of motion.h, w h = 2 pi / 40, its error
+ * is (w h)^10 / 10! / 4^5 = 2e-18 of the amplitude, less than rounding, whatever the method.
+ *
+ * For other models, such as stiff ones without this cap, one-step methods step again from the
+ * start of the step.  A multistep method would lose its memory by this, so it steps to every
  * sample. */
 #include "motion/engine.h"
 

@@ -1,8 +1,9 @@
-/* run.c -- a motion from event to event, its samples and events fed to the sinks.
+/* run.c -- carry a motion from event to event and send its samples and events to the sinks.
  *
- * The steps know nothing of the samples: an engine steps freely, capped by the mode's own fastest
- * period, and samples are read off inside its steps.  So the events are the same, to the last digit,
- * whatever the rate.  (Only multistep methods on a model without events land on the samples.) */
+ * The steps do not depend on the samples.  An engine chooses its steps, up to a cap by the mode's
+ * fastest period, and samples are interpolated inside its steps.  So the events are the same, to
+ * the last digit, at every rate.  (Only multistep methods on a model without events step to the
+ * samples.) */
 #include <stickslip/sim.h>
 
 #include <stdint.h>

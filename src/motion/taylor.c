@@ -1,14 +1,14 @@
 /* taylor.c -- a motion carried by its Taylor series.
  *
- * The model gives the series of its state by recurrence.  Order and step follow from the tolerance:
- * the order N in such a way that the work is least, the step so that the terms of order N - 1 and N
- * are within the tolerance (A. Jorba, M. Zou, Experimental Mathematics 14, 99, 2005), and within what
- * the model says that its series can tell of.  The same series is what the step holds: samples are
- * read off it, and events are the first zeros of the guard's polynomial, proven by bernstein.c.  So
- * a step needs no cap of a part of a period.
+ * The model gives the series of its state by recurrence.  Order and step follow from the
+ * tolerance.  The order N is the one with the least work.  The step is the largest at which the
+ * terms of order N - 1 and N are within the tolerance (A. Jorba, M. Zou, Experimental Mathematics
+ * 14, 99, 2005); it does not exceed the range in which the model declares its series valid.  The
+ * same series gives the samples inside the step, and the events, which are the first zeros of the
+ * guard's polynomial, proven by bernstein.c.  So a step needs no cap by a part of a period.
  *
- * Coefficients are those in s / unit, where the unit is the last step, so that they neither overflow
- * nor underflow.  One more than N is there for the sake of the rate of change. */
+ * Coefficients are those of powers of s / unit, where the unit is the last step, so that they
+ * neither overflow nor underflow.  There is one coefficient beyond N for the rate of change. */
 #include "motion/engine.h"
 
 #include <float.h>

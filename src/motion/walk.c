@@ -1,4 +1,4 @@
-/* walk.c -- from event to event with nothing read off on the way. */
+/* walk.c -- carry a motion from event to event without samples between. */
 #include "motion/walk.h"
 
 #include <string.h>

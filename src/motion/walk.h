@@ -1,7 +1,7 @@
-/* walk.h -- a motion carried from event to event, for those who ask for no samples.
+/* walk.h -- a motion from event to event, for callers that need no samples.
  *
- * A walk is a sequence of legs without an event inside.  ss_walk_leg finds a leg, ss_walk_at gives the
- * state within it, and ss_walk_on goes to its end. */
+ * A walk is a sequence of legs without an event inside.  ss_walk_leg finds a leg, ss_walk_at gives
+ * the state within it, and ss_walk_on goes to its end. */
 #ifndef WALK_H
 #define WALK_H
 

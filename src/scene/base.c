@@ -1,5 +1,5 @@
-/* base.c -- a base as it was measured: the natural cubic spline through uniform samples (GSL), interval
- * by interval. */
+/* base.c -- the measured displacement of a base: a natural cubic spline through uniform samples
+ * (GSL), kept as the cubic of each interval. */
 #include "base/error.h"
 #include "scene/model.h"
 

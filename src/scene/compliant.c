@@ -1,9 +1,9 @@
 /* compliant.c -- Coulomb friction through a massless contact of stiffness K_y and damping c.
  *
- * In slip the contact is deflected by Y_m = f_k / K_y; when v reaches 0 at x = X_s, microstick
- * begins with y = Y_m sgn(v before) + x - X_s and f = K_y y + c y', and lasts until that exceeds f_s.
- * In microstick the state is y, not x: a stiff contact has Y_m far below x, and x - X_s would cancel
- * its digits away. */
+ * In slip the contact is deflected by Y_m = f_k / K_y.  When v reaches 0 at x = X_s, a microstick
+ * begins with y = Y_m sgn(v before) + x - X_s and f = K_y y + c y'.  It lasts until f exceeds f_s.
+ * The state in a microstick is y, not x: in a stiff contact Y_m is far smaller than x, and x - X_s
+ * would lose most of its digits. */
 #include "scene/model.h"
 
 static const char *

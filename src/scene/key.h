@@ -1,4 +1,4 @@
-/* key.h -- the fields of ss_scene: their keys, their ranges, and those that a fit may vary. */
+/* key.h -- the keys of the fields of ss_scene, their ranges, and which of them a fit may vary. */
 #ifndef KEY_H
 #define KEY_H
 

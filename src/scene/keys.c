@@ -1,4 +1,4 @@
-/* keys.c -- the keys that scenes of every model have, about those of the model. */
+/* keys.c -- the keys that scenes of every model have; those of the model stand between them. */
 #include <string.h>
 #include "scene/model.h"
 

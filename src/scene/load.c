@@ -1,4 +1,4 @@
-/* load.c -- a scene by its name: a shipped one, or a file. */
+/* load.c -- read a scene by its name: a shipped scene, or a file. */
 #include <stickslip/scene.h>
 
 #include <errno.h>

@@ -1,17 +1,17 @@
-/* model.h -- a friction model as a table: what it is, and the functions that move its state.
+/* model.h -- a friction model is a table of properties and of functions that move its state.
  *
- * A new model is a file like state_variable.c and a line in models.c, besides the fields of ss_scene
- * that only it has.  Everything else asks the table: a NULL there means that the model lacks the
- * property.
+ * A new model needs a file like state_variable.c, a line in models.c, and fields in ss_scene for
+ * its own parameters.  All other code reads the table.  NULL in the table means that the model
+ * lacks the property.
  *
- * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); everything non-smooth
- * happens where the mode changes.  Coulomb and compliant contact are linear within a mode and
- * share one equation, m q'' = drive - f0 - k q - c q', whose coefficients the mode sets.
+ * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); it is not smooth only
+ * where the mode changes.  Coulomb and compliant contact are linear within a mode and share one
+ * equation, m q'' = drive - f0 - k q - c q', whose coefficients depend on the mode.
  *
- * Models see the frame of the surface, which moves at S: there the surface rests, v is the velocity
- * by which the friction goes, and the spring is pulled at U - S.  Positions count from where the pull
- * was at u = 0, so that they stay small however long it lasts: the position less (U - S) u is
- * x - U t. */
+ * Models compute in the frame of the surface, which moves at S.  In this frame the surface rests,
+ * the friction depends on v, and the spring is pulled at U - S.  Positions are relative to that of
+ * the pull at u = 0, so that they stay small however long the pull lasts: the position less (U -
+ * S) u is x - U t. */
 #ifndef MODEL_H
 #define MODEL_H
 

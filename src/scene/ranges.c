@@ -1,8 +1,8 @@
-/* ranges.c -- the supported ranges of scenes, in the quantities that a motion depends on.
+/* ranges.c -- the supported ranges of scenes, in the quantities on which a motion depends.
  *
- * Units of mass, length and time change nothing but rounding, so the ranges that matter are those of
- * the ratios; m, omega_n and X are there for overflow alone.  tests/test_random.c draws its scenes
- * from this table and stickslip-scene(5) shows it. */
+ * Other units of mass, length and time change only the rounding, so the important ranges are those
+ * of ratios.  The ranges of m, omega_n and X only prevent overflow.  tests/test_random.c draws its
+ * scenes from this table, and stickslip-scene(5) shows it. */
 #include "base/error.h"
 #include "scene/model.h"
 

@@ -1,7 +1,7 @@
-/* scene.c -- a scene: read, check, write; its model's parameters and no others.
+/* scene.c -- read, check and write a scene, with the parameters of its model and no others.
  *
- * Tables of keys (keys.c, and that of each model) hold the required keys and the ranges of values;
- * reading, checking and writing all use them. */
+ * Tables of keys (keys.c, and one of each model) give the required keys and the ranges of values.
+ * Reading, checking and writing use the same tables. */
 #include <stickslip/scene.h>
 
 #include <ctype.h>

@@ -1,5 +1,5 @@
-/* simpler.c -- the simpler scenes that a scene contains: a number that becomes 0, the model that it
- * comes to in a limit, and that without friction. */
+/* simpler.c -- the simpler scenes that a scene contains: with a number set to 0, with the model
+ * that is the limit of its model, and without friction. */
 #include "scene/model.h"
 
 static const vanishing of_every[] = {

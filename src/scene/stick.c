@@ -1,5 +1,5 @@
-/* stick.c -- true stick: v is exactly 0 and the mass moves with the surface, until spring, damper and
- * base ask for more than the static friction. */
+/* stick.c -- true stick: v is exactly 0 and the mass moves with the surface, until the force of
+ * spring, damper and base exceeds the static friction. */
 #include "scene/model.h"
 
 #include <float.h>

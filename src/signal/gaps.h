@@ -1,4 +1,4 @@
-/* gaps.h -- missing samples, and the values in their place. */
+/* gaps.h -- missing samples, and the values that replace them. */
 #ifndef GAPS_H
 #define GAPS_H
 

@@ -1,4 +1,4 @@
-/* header.h -- the header of a signal as text: shared by readers and writers of every form. */
+/* header.h -- the header of a signal as text, for the readers and writers of all formats. */
 #ifndef HEADER_H
 #define HEADER_H
 

@@ -1,8 +1,9 @@
 /* noise.c -- the errors of a measurement: white noise, noise of a band, a converter's steps.
  *
- * Numbers are drawn by GSL's mt19937 and its Ziggurat.  Noise of a band is made in the spectrum of a
- * power of two samples: Gaussian numbers at the frequencies of the band, zero elsewhere, scaled to
- * the given rms.  The record uses as many of these samples as it has. */
+ * Numbers are drawn with GSL's mt19937 and its Ziggurat.  Noise of a band is made as a spectrum:
+ * it has Gaussian numbers at the frequencies of the band and zeros elsewhere, and is scaled to the
+ * given rms.  The number of samples of its inverse transform is a power of two; the record takes
+ * the first of them. */
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

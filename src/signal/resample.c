@@ -1,5 +1,5 @@
-/* resample.c -- values at stamps of any spacing, on a uniform clock: a natural cubic spline
- * through them, piece by piece between the gaps. */
+/* resample.c -- bring values at time stamps of any spacing to a uniform clock, by a natural cubic
+ * spline through each piece between gaps. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_interp.h>
 #include <math.h>

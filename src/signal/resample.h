@@ -1,4 +1,4 @@
-/* resample.h -- rows at stamps of any spacing to a uniform clock. */
+/* resample.h -- bring rows at time stamps of any spacing to a uniform clock. */
 #ifndef RESAMPLE_H
 #define RESAMPLE_H
 

@@ -1,8 +1,8 @@
 /* wave.c -- benchmark signals.
  *
- * A phase of 1e6 cycles in one double is only good to 1e-10 cycles, so times and phases are kept in
- * two (Dekker 1971) until whole cycles are subtracted: then it is good to 1e-16 in a record of any
- * length. */
+ * The error of a phase of 1e6 cycles in one double is 1e-10 cycles.  So times and phases are kept
+ * in two doubles (Dekker 1971) until whole cycles are subtracted; the error is then 1e-16 cycles
+ * in a record of any length. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>

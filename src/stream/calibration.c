@@ -1,4 +1,4 @@
-/* calibration.c -- factors, units and a span of time that a caller asks for, in any format. */
+/* calibration.c -- apply the factors, the units and the span of time that a caller gives, to any format. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

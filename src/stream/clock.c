@@ -1,8 +1,8 @@
-/* clock.c -- from a column of time stamps to a uniform clock.
+/* clock.c -- find the uniform clock of a column of time stamps.
  *
- * Stamps are rounded when they are printed, so the rate is known only to within their residuals
- * from a straight line; of all rates that these allow the roundest is taken: stamps of 1/1024 s
- * in 7 digits give 1024 Hz, not 1023.9999998. */
+ * Stamps are rounded when they are printed, so the rate is known only as well as their residuals
+ * from a straight line allow.  Of all rates within these, the one with the fewest digits is
+ * chosen: stamps of 1/1024 s in 7 digits give 1024 Hz, not 1023.9999998. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>

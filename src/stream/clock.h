@@ -1,4 +1,4 @@
-/* clock.h -- from time stamps to a uniform clock. */
+/* clock.h -- find the uniform clock of time stamps. */
 #ifndef CLOCK_H
 #define CLOCK_H
 

@@ -1,6 +1,6 @@
-/* csv.c -- writing comma-separated values, as RFC 4180 has them: a line of names, then rows.  A
- * cell with a comma, a quote or a line's end in it stands in quotes; a number that is not known is
- * an empty cell. */
+/* csv.c -- write comma-separated values as RFC 4180 describes: a line of names, then rows.  A cell
+ * that contains a comma, a quote or the end of a line is quoted; a number that is not known is an
+ * empty cell. */
 #include <string.h>
 #include "stream/csv.h"
 

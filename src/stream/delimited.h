@@ -1,4 +1,4 @@
-/* delimited.h -- a table that is being read: its cells, the names of its columns, its clock. */
+/* delimited.h -- a text table while it is read: its cells, the names of its columns, its clock. */
 #ifndef DELIMITED_H
 #define DELIMITED_H
 

@@ -1,4 +1,4 @@
-/* delimited_cells.c -- lines of a text table as cells, and cells as numbers. */
+/* delimited_cells.c -- divide lines of a text table into cells, and read the numbers in cells. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/* delimited_clock.c -- the column of time of a text table, and its rows as samples of a clock. */
+/* delimited_clock.c -- find the column of time of a text table, and make its rows samples of a clock. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* events.c -- events as text, and their times read back. */
+/* events.c -- write events as text, and read their times. */
 #include <stickslip/overlay.h>
 #include <stickslip/sim.h>
 

@@ -1,6 +1,6 @@
-/* format.h -- the formats in which signals and rows come and go.
+/* format.h -- the formats in which signals and rows are read and written.
  *
- * A format is a file, which defines one of these tables, and a row in the list below. */
+ * A new format needs a file that defines such a table, and a row in the list below. */
 #ifndef FORMAT_H
 #define FORMAT_H
 

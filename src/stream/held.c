@@ -1,4 +1,4 @@
-/* held.c -- rows of a signal that are in memory. */
+/* held.c -- read the rows of a signal that is in memory. */
 #include <string.h>
 #include "stream/reader.h"
 

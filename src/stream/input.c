@@ -1,7 +1,7 @@
 /* input.c -- bytes and lines of a stream, in a buffer that grows to the longest line, up to 16 MiB.
  *
- * A FILE cannot say whether a line can be had without waiting, so its descriptor is read instead;
- * one without a descriptor (fmemopen) is read as such. */
+ * A FILE does not tell whether a line has arrived, so its descriptor is read instead.  A FILE
+ * without a descriptor (fmemopen) is read with fread. */
 #include <errno.h>
 #include <math.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-/* input.h -- bytes and lines of a stream, as they come. */
+/* input.h -- read bytes and lines of a stream as they arrive. */
 #ifndef INPUT_H
 #define INPUT_H
 

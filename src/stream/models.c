@@ -1,4 +1,4 @@
-/* models.c -- a scene beside simpler ones as text. */
+/* models.c -- write the comparison of a scene with simpler scenes as text. */
 #include <stickslip/trade.h>
 
 #include <math.h>

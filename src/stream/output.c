@@ -1,4 +1,4 @@
-/* output.c -- bytes on their way out. */
+/* output.c -- write bytes through a buffer. */
 #include "stream/output.h"
 
 ss_status

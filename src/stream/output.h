@@ -1,4 +1,4 @@
-/* output.h -- a buffer of bytes to be written. */
+/* output.h -- a buffer of bytes that will be written. */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 

@@ -1,4 +1,4 @@
-/* ranking.c -- a ranking of scenes as text. */
+/* ranking.c -- write a ranking of scenes as text. */
 #include <stickslip/rank.h>
 
 #include <math.h>

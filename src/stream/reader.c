@@ -1,4 +1,4 @@
-/* reader.c -- a stream of whichever kind, as rows or as a whole signal. */
+/* reader.c -- read a stream of any format, as rows or as a whole signal. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

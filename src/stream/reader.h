@@ -1,4 +1,4 @@
-/* reader.h -- a signal that is being read. */
+/* reader.h -- a signal while it is read. */
 #ifndef READER_H
 #define READER_H
 

@@ -1,4 +1,4 @@
-/* rows.c -- rows of words and numbers under a header of notes. */
+/* rows.c -- write a header of notes, and rows of words and numbers. */
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>

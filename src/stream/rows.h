@@ -1,4 +1,4 @@
-/* rows.h -- writing rows of words and numbers under a header of notes, in any format that has words. */
+/* rows.h -- write a header of notes, and rows of words and numbers, in any format that has words. */
 #ifndef ROWS_H
 #define ROWS_H
 

@@ -1,4 +1,4 @@
-/* stamp.c -- dates and times of day, as ISO 8601 writes them. */
+/* stamp.c -- read dates and times of day in the form of ISO 8601. */
 #include <stddef.h>
 #include <string.h>
 #include "stream/stamp.h"

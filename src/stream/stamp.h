@@ -1,4 +1,4 @@
-/* stamp.h -- dates and times of day in cells. */
+/* stamp.h -- read dates and times of day in cells. */
 #ifndef STAMP_H
 #define STAMP_H
 

@@ -1,4 +1,4 @@
-/* sweep.c -- the rows of a sweep as text, and how a sweep that was interrupted goes on. */
+/* sweep.c -- write the rows of a sweep as text, and find where an interrupted sweep continues. */
 #include <stickslip/sweep.h>
 
 #include <errno.h>

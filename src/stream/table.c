@@ -1,4 +1,4 @@
-/* table.c -- rows of words and numbers read back, whatever they are of. */
+/* table.c -- read tables of words and numbers of any kind. */
 #include <stickslip/table.h>
 
 #include <math.h>

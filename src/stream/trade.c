@@ -1,4 +1,4 @@
-/* trade.c -- a trade between accuracy and time as text. */
+/* trade.c -- write the errors and times of methods as text. */
 #include <stickslip/trade.h>
 
 #include <math.h>

@@ -1,6 +1,6 @@
-/* tsv.c -- our own text form: a header of "# key: value" lines, then rows of numbers.
+/* tsv.c -- our own text: a header of lines "# key: value", then rows of numbers.
  *
- * Each time stamp is checked against start + n / rate, so that a row lost on the way is noticed. */
+ * Each time stamp is compared with start + n / rate, so that a lost row is noticed. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,10 @@
 /* wav.c -- reading WAV: PCM of 8 to 32 bits and floating point, little-endian.
  *
- * A WAV file is chunks of a name, a length and so many bytes, filled up to an even number; "fmt "
- * says what "data" holds, and the others do not concern a signal.  A program that writes to a pipe
- * cannot know the lengths and gives some near 2^31 or 2^32, or zeros: then the data end with the
- * file, unless it has so many bytes.  A length behind which the file goes on with no chunk is
- * refused, as it is in AU. */
+ * A WAV file consists of chunks.  A chunk has a name, a length, and so many bytes, padded to an
+ * even number.  "fmt " describes the contents of "data"; other chunks are skipped.  A program that
+ * writes to a pipe does not know the lengths and writes a number near 2^31 or 2^32, or zero.  The
+ * data then end with the file, unless it has so many bytes.  A length is refused if the file
+ * continues behind it with something that is not a chunk, as in AU. */
 #include <string.h>
 #include <sys/stat.h>
 #include "base/error.h"

@@ -1,9 +1,9 @@
-/* derivative.c -- the derivative of cycles by the state that they begin with.
+/* derivative.c -- the derivative of the state after cycles with respect to the state before them.
  *
- * It comes from the engine and the saltation matrices of events (tangent.c); where the engine does
- * not know it, from walks of neighbouring states.  Without forcing it is 0 where sticks are true:
- * each lasts until the pull has carried the force to f_s, which is at the same x - U t wherever it
- * began. */
+ * It is computed by the engine and the saltation matrices of events (tangent.c); if the engine
+ * cannot, from walks that start at neighbouring states.  Without forcing and with true sticks it
+ * is 0: a stick lasts until the pull has raised the force to f_s, and this happens at the same x -
+ * U t wherever the stick began. */
 #include "study/sweep/finder.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* finder.h -- a search for the periodic state of a scene, cycle by cycle.
  *
- * A cycle is one of the forcing; where there is none, in an autonomous scene, it goes from one onset of
- * stick to the next, and takes its time. */
+ * A cycle is a cycle of the forcing.  In a scene without forcing (autonomous), it goes from one
+ * onset of stick to the next, and its duration may vary. */
 #ifndef FINDER_H
 #define FINDER_H
 

@@ -1,10 +1,11 @@
 /* lyapunov.c -- the largest Lyapunov exponent of a motion without a period.
  *
- * A difference of neighbouring states is carried from cycle to cycle by the derivative of each, and made
- * one unit long again (Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15, 1980); events take part by
- * their saltation matrices, a stick by the direction that it ends (Mueller, Chaos Solitons Fractals 5, 1995).
- * The exponent is the mean of the logarithms of its length over time.  How far that is from its limit is seen
- * from the scatter of its parts, which are long against the memory of the motion. */
+ * The derivative of each cycle carries a difference of neighbouring states to the next cycle,
+ * where its length is set to one again (Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15,
+ * 1980).  Events act by their saltation matrices, and a stick removes one direction (Mueller,
+ * Chaos Solitons Fractals 5, 1995).  The exponent is the sum of the logarithms of the lengths over
+ * time.  The scatter of parts of this mean tells its error; the parts are long compared with the
+ * memory of the motion. */
 #include "study/sweep/finder.h"
 
 #include <math.h>

@@ -1,9 +1,10 @@
 /* meter.c -- measures along a walk.
  *
- * Counts and times come from the events.  Extrema lie at the ends of legs or where a rate changes
- * sign inside them; they are searched in parts of 1/40 of the mode's fastest period, which hold at
- * most one, and located to 1e-9 of that, where the error of their value is its square.  The work is
- * f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10 in each part. */
+ * Counts and times come from the events.  Extrema lie at the ends of legs, or where a rate changes
+ * its sign inside a leg.  They are searched in parts of 1/40 of the mode's fastest period, which
+ * contain at most one each, and located to 1e-9 of the part; the error of their value is the
+ * square of this.  The work is f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10
+ * in each part. */
 #include "study/sweep/meter.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* meter.h -- measures along a walk, and the derivative of the walk by its initial state. */
+/* meter.h -- measures along a walk, and its derivative with respect to its initial state. */
 #ifndef METER_H
 #define METER_H
 

@@ -1,4 +1,4 @@
-/* period.c -- the measures of cycles that begin where the finder stands. */
+/* period.c -- measure cycles that begin at the present state of the finder. */
 #include "study/sweep/finder.h"
 
 #include <math.h>

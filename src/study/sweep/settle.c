@@ -1,9 +1,9 @@
-/* settle.c -- the periodic state that a scene settles to, by simulation.
+/* settle.c -- find the periodic state to which a scene settles, by simulation.
  *
- * The state at the start of each cycle is an iterated map.  It has period p when it repeats
- * after p cycles.  It approaches its limit geometrically, so the rate at which the last differences
- * shrink gives the distance that remains, and a slow approach is not mistaken for the limit.  The last
- * part of an approach may be left to shooting. */
+ * The states at the starts of cycles are the iterates of a map.  They have period p when they
+ * repeat after p cycles.  They approach their limit geometrically, so the rate at which the last
+ * differences shrink gives the remaining distance, and a slow approach is not mistaken for the
+ * limit.  Shooting may replace the last part of the approach. */
 #include "study/sweep/finder.h"
 
 #include <float.h>

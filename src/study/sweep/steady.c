@@ -1,4 +1,4 @@
-/* steady.c -- the periodic state of a scene: its measures, and how it is looked for. */
+/* steady.c -- the measures of a periodic state, and the order of the searches for it. */
 #include <stickslip/sweep.h>
 
 #include <math.h>

@@ -1,8 +1,9 @@
-/* sweep.c -- the points of a grid, on several threads, their rows in grid order.
+/* sweep.c -- compute the points of a grid on several threads and send their rows in grid order.
  *
- * Threads compute points in batches, in order.  A finished batch waits in a ring for those before it;
- * the thread that finishes the first missing batch sends all batches that are then in order.  A point
- * depends only on the scene and its index in the grid, so the rows do not depend on the threads. */
+ * Threads compute points in batches, in order.  A finished batch waits in a ring for those before
+ * it; the thread that finishes the first missing batch sends all batches that are then in order.
+ * A point depends only on the scene and its index in the grid, so the rows do not depend on the
+ * threads. */
 #include <stickslip/sweep.h>
 
 #include <math.h>

@@ -1,10 +1,10 @@
-/* tangent.c -- the derivative of a walk by its initial state.
+/* tangent.c -- the derivative of a walk with respect to its initial state.
  *
- * Within a mode an engine knows it.  At an event, which another initial state reaches
- * at another time, it jumps by the saltation matrix (Aizerman and Gantmakher 1958; Leine and
- * Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  A Coulomb
- * stick forgets v and the time at which it began, so one direction of the derivative is lost in
- * it. */
+ * Within a mode an engine computes it.  Another initial state reaches an event at another time, so
+ * the derivative jumps there, by the saltation matrix (Aizerman and Gantmakher 1958; Leine and
+ * Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  The motion
+ * after a Coulomb stick does not depend on v and on the time at which the stick began, so a stick
+ * removes one direction of the derivative. */
 #include "study/sweep/meter.h"
 
 #include <math.h>

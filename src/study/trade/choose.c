@@ -1,8 +1,8 @@
-/* choose.c -- the cheapest method and tolerance that keep an accuracy on a scene.
+/* choose.c -- choose the cheapest method and tolerance that keep an accuracy for a scene.
  *
- * A run that is repeated has the same error, as nothing here is random except the time.  So an
- * accuracy that is promised holds except for the samples that were not compared and the error of the
- * reference: the margin is for these. */
+ * A repeated run has the same error; only its time is random.  So the promised accuracy could fail
+ * only for samples that were not compared, and by the error of the reference.  The margin covers
+ * these. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

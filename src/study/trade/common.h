@@ -1,4 +1,4 @@
-/* common.h -- shared by the trades of a scene and of a transform. */
+/* common.h -- declarations that the measurements of a scene and of a transform share. */
 #ifndef TRADE_H
 #define TRADE_H
 

@@ -1,7 +1,7 @@
-/* models.c -- which model a scene requires: the scene beside simpler ones, measured.
+/* models.c -- compare a scene with simpler scenes, to find the model that it requires.
  *
- * All run on the same clock, so errors are differences of samples.  The maps are those that are drawn:
- * each is measured in dB below its own largest |W|, and what lies below the span is blank in either. */
+ * All scenes have the same clock, so errors are differences of samples.  The maps are those that a
+ * plot shows: each is in dB below its own largest |W|, and what lies below the span is blank. */
 #include <stickslip/trade.h>
 
 #include <math.h>

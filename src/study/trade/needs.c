@@ -1,4 +1,4 @@
-/* needs.c -- the cheapest model that keeps what is needed, and a sentence that says so. */
+/* needs.c -- find the cheapest model whose errors are allowed, and write a sentence that says so. */
 #include <stickslip/trade.h>
 
 #include <math.h>

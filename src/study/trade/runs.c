@@ -1,9 +1,10 @@
-/* runs.c -- a scene simulated by one method, compared with the reference.
+/* runs.c -- simulate a scene with one method and compare it with the reference.
  *
- * A run is compared sample by sample and event by event.  No method is its own witness: the reference
- * is two methods of different kinds, at the tightest tolerance that both keep; their distance is its
- * error.  One of them is the closed form where there is one.  The other simulates a mass that is larger
- * by its last bit: two methods that round alike may agree on digits that the scene does not have. */
+ * A run is compared sample by sample and event by event.  The reference is two methods of
+ * different kinds, at the tightest tolerance that both keep; their distance is its error.  If
+ * there is a closed form, it is one of the two.  The other simulates a mass that is larger by its
+ * last bit, because two methods that round alike may agree on digits that the scene does not
+ * determine. */
 #include "study/trade/runs.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-/* runs.h -- runs of a scene, and what they are compared with. */
+/* runs.h -- runs of a scene and their reference. */
 #ifndef RUNS_H
 #define RUNS_H
 

@@ -1,4 +1,4 @@
-/* scene.c -- the cost of accuracy on a scene, measured, one row a method and tolerance. */
+/* scene.c -- measure error and time of a scene's simulation, in a row for each method and tolerance. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

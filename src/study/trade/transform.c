@@ -1,9 +1,9 @@
-/* transform.c -- what accuracy costs in the transform of a signal, measured.
+/* transform.c -- measure error and time of the transform of a signal, for each engine and accuracy.
  *
- * The reference is the definition with nothing left out but what rounding hides, at translations
- * drawn at random and where |W| is largest, which is where a signal's own features are.  Its time also
- * gives an estimate for the definition on the whole grid, which is not begun if it would take too long.
- */
+ * The reference is the sum of the definition; only terms below its rounding are left out.  It is
+ * computed at random translations and at the largest |W|, where the features of the signal are.
+ * Its time also gives an estimate for the definition on the whole grid, which is not begun if it
+ * would take too long. */
 #include "study/trade/common.h"
 
 #include <float.h>
