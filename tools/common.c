@@ -237,10 +237,22 @@ tool_input_name(const char *path)
     return strcmp(path, "-") == 0 ? "<stdin>" : path;
 }
 
+/* 1 if the path, which will be read now, is standard input. */
+static int
+is_stdin(const char *path)
+{
+    static int used;
+    if (strcmp(tool_reads(path), "-") != 0)
+        return 0;
+    if (used)
+        tool_usage("standard input can be read only once");
+    return used = 1;
+}
+
 FILE *
 tool_open(const char *path)
 {
-    if (strcmp(tool_reads(path), "-") == 0)
+    if (is_stdin(path))
         return stdin;
     FILE *in = fopen(path, "rb");
     struct stat st;
@@ -277,7 +289,7 @@ tool_read_rows(const char *path, const ss_read_opts *opts)
 {
     ss_reader *reader = NULL;
     ss_error err = { 0 };
-    if (strcmp(tool_reads(path), "-") == 0)
+    if (is_stdin(path))
         tool_check(ss_reader_new(&reader, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_reader_load(&reader, path, opts, &err), &err);
@@ -289,7 +301,7 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
     ss_error err = { 0 };
-    if (strcmp(tool_reads(path), "-") == 0)
+    if (is_stdin(path))
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_signal_load(&signal, path, opts, &err), &err);
@@ -326,7 +338,7 @@ tool_read_scene(const char *path, const tool_texts *settings)
 {
     ss_scene scene;
     ss_error err = { 0 };
-    ss_status st = strcmp(tool_reads(path), "-") == 0
+    ss_status st = is_stdin(path)
                  ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings->text,
                                      settings->n, &err)
                  : ss_scene_load(&scene, path, settings->text, settings->n, &err);

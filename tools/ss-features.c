@@ -177,8 +177,11 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
     size_t begun = 0, ended = 0, good = 0, at_once = (size_t)req->jobs;
     if (jobs == NULL || summary == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (size_t i = 0; i < n; i++)
-        tool_reads(path[i]);
+    for (size_t i = 0, standard = 0; i < n; i++) {
+        standard += strcmp(tool_reads(path[i]), "-") == 0;
+        if (standard > 1)
+            tool_usage("standard input can be read only once");
+    }
     for (size_t first = 0; first < n;) {
         while (begun < n && begun - ended < at_once && begun - first < 2 * at_once)
             start_job(&jobs[begun], req, path[begun]), begun++;

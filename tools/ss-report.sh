@@ -153,8 +153,8 @@ while [ $# -gt 0 ]; do
     *) break ;;
     esac
     case $name in
-    -h|--help) usage; exit ;;
-    --version) echo "ss-report (libstickslip) $version"; exit ;;
+    -h|--help) { usage; } 2> /dev/null || die 1 'write error'; exit ;;
+    --version) { echo "ss-report (libstickslip) $version"; } 2> /dev/null || die 1 'write error'; exit ;;
     -[qv]|--quiet|--verbose) quiet=$name; shift; continue ;;
     esac
     case $name in
@@ -172,14 +172,15 @@ while [ $# -gt 0 ]; do
 done
 [ -n "$dir" ] || die 2 "-o DIR is needed, a folder to be made"
 [ $# -gt 0 ] || die 2 "no recordings; name files"
-case $dir in -*) dir=./$dir ;; esac
+# Neither an option nor, to awk, an assignment.
+case $dir in -*|[!/]*=*) dir=./$dir ;; esac
 [ ! -e "$dir" ] || die 1 "$dir: is there already; remove it, or name another folder"
 for file; do [ "$file" != - ] || die 2 "standard input can be read only once; name files"; done
 
 new=$dir.new.$$ work=$dir.new.$$/work
 trap 'rm -rf "$new"' EXIT
 trap 'exit 130' HUP INT TERM
-mkdir "$new" || exit 1; mkdir "$work" || exit 1
+mkdir -- "$new" "$work" 2> /dev/null || die 1 "$dir: cannot be made here"
 eval "ss-features --summary $quiet $jobs $options $finding -o \"\$new/summaries.tsv\" -- \"\$@\""
 status=$?
 [ -f "$new/summaries.tsv" ] || exit $status
