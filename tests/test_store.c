@@ -228,9 +228,9 @@ error_of_file(const ss_signal *signal, const ss_morlet_opts *opts)
     return worst;
 }
 
-/* Write n doubles, deflated here, as the one chunk of a dataset, and read them as any program does. */
+/* Write n numbers, deflated here, as the one chunk of a dataset, and read them as any program does. */
 static void
-deflate_and_read(const double *x, hsize_t n, double *back)
+deflate_and_read(const double *x, hsize_t n, size_t size, double *back)
 {
     deflater *d = ss_deflater_new();
     const void *bytes;
@@ -239,9 +239,10 @@ deflate_and_read(const double *x, hsize_t n, double *back)
     H5Pset_chunk(how, 1, &n);
     H5Pset_shuffle(how);
     H5Pset_deflate(how, 1);
-    hid_t id = H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    size_t size = ss_deflate_doubles(d, x, n, &bytes);
-    assert_true(H5Dwrite_chunk(id, H5P_DEFAULT, 0, &(hsize_t){ 0 }, size, bytes) >= 0);
+    hid_t id = H5Dcreate2(file, "x", size == 4 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space, H5P_DEFAULT,
+                          how, H5P_DEFAULT);
+    size_t length = ss_deflate(d, x, n, size, &bytes);
+    assert_true(H5Dwrite_chunk(id, H5P_DEFAULT, 0, &(hsize_t){ 0 }, length, bytes) >= 0);
     H5Dclose(id);
     H5Sclose(space);
     H5Pclose(how);
@@ -264,28 +265,30 @@ sample_of_kind(int kind, size_t i)
 }
 
 static void
-deflated_doubles_read_back_exactly(void **state)
+deflated_numbers_read_back_exactly(void **state)
 {
     static const size_t length[] = { 1, 2, 3, 5, 255, 1000, 32768, 65535, DEFLATE_MOST };
     static double x[DEFLATE_MOST], back[DEFLATE_MOST];
     (void)state;
-    for (size_t k = 0; k < 9; k++)
-        for (int kind = 0; kind < 6; kind++) {
-            size_t n = length[k];
-            for (size_t i = 0; i < n; i++)
-                x[i] = sample_of_kind(kind, i);
-            memset(back, 0, sizeof back);
-            deflate_and_read(x, n, back);
-            assert_same_bits(x, back, n);
+    for (size_t row = 0; row < 2 * 9 * 6; row++) {
+        size_t n = length[row / 2 % 9], size = row % 2 == 0 ? 8 : 4;
+        for (size_t i = 0; i < n; i++) {
+            double next = sample_of_kind((int)(row / 18), i);
+            x[i] = size == 8 ? next : (double)(float)ldexp(next, i % 9 == 0 ? -140 : i % 9 == 1 ? 126 : 0);
         }
+        memset(back, 0, sizeof back);
+        deflate_and_read(x, n, size, back);
+        assert_same_bits(x, back, n);
+    }
 }
 
-/* 20 bits of noise and some more are needed of 64, and 10. */
+/* 20 bits of noise and some more are needed of 64, and 10.  A row is a chunk of scales as in
+ * README-morlet.md, up to a twentieth of the rate. */
 static void
 rounded_coefficients_keep_the_accuracy_in_half_the_bytes(void **state)
 {
     static const double accuracy[] = { 1e-6, 1e-3, 1e-12 }, part[] = { 0.4, 0.22, 0.9 };
-    ss_signal *signal = new_signal(20000);
+    ss_signal *signal = new_signal(DEFLATE_MOST);
     double *x = signal->values + signal->n;
     (void)state;
     memset(x, 0, signal->n * sizeof *x);
@@ -293,8 +296,8 @@ rounded_coefficients_keep_the_accuracy_in_half_the_bytes(void **state)
     for (int row = 0; row < 12; row++) {
         int stream = row % 2;
         ss_morlet_opts opts = ss_morlet_defaults;
-        opts.accuracy = accuracy[row / 4], opts.dense = row / 2 % 2, opts.voices = 4;
-        opts.fmin = 2, opts.fmax = 40;
+        opts.accuracy = accuracy[row / 4], opts.dense = row / 2 % 2, opts.voices = 1;
+        opts.fmin = 1, opts.fmax = 16;
         long whole = write_transform(signal, &opts, stream);
         opts.rounded = 1;
         long size = write_transform(signal, &opts, stream);
@@ -303,6 +306,80 @@ rounded_coefficients_keep_the_accuracy_in_half_the_bytes(void **state)
         if (!(error <= 1 && error > 0.1 && small))
             fail_msg("accuracy %g, row %d: error %g, %ld of %ld bytes", opts.accuracy, row, error,
                      size, whole);
+    }
+    ss_signal_free(signal);
+}
+
+/* Bytes of a number of the coefficients of the longest scale. */
+static size_t
+size_of_number(int dense)
+{
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t id = H5Dopen2(file, dense ? "/wavelet/re" : "/wavelet/scale000/re", H5P_DEFAULT);
+    hid_t type = H5Dget_type(id);
+    size_t size = H5Tget_size(type);
+    H5Tclose(type);
+    H5Dclose(id);
+    H5Fclose(file);
+    return size;
+}
+
+/* A tone that dies away, so that the scales and the parts of each differ by many orders. */
+static void
+fill_with_ringdown(ss_signal *signal, double amplitude)
+{
+    double *x = signal->values + signal->n;
+    for (size_t i = 0; i < signal->n; i++)
+        x[i] = amplitude * exp(-0.02 * (double)i) * cos(1.3 * (double)i);
+}
+
+static void
+floats_are_stored_where_they_keep_the_accuracy(void **state)
+{
+    static const struct { double amplitude, accuracy; size_t size; } row[] = {
+        { 1, 1e-3, 4 }, { 1, 1e-6, 4 }, { 1, 1e-7, 4 }, { 1, 9e-8, 8 }, { 1e-17, 1e-7, 4 },
+        { 1e17, 1e-7, 4 }, { 1e-40, 1e-6, 8 }, { 1e-300, 1e-6, 8 }, { 1e38, 1e-6, 8 }, { 1e150, 1e-6, 8 },
+        { 1e300, 1e-6, 8 },
+    };
+    ss_signal *signal = new_signal(2000);
+    (void)state;
+    for (size_t r = 0; r < 4 * sizeof row / sizeof *row; r++) {
+        ss_morlet_opts opts = ss_morlet_defaults;
+        opts.accuracy = row[r / 4].accuracy, opts.dense = r / 2 % 2, opts.voices = 3, opts.rounded = 1;
+        opts.fmin = 2, opts.fmax = 40;
+        fill_with_ringdown(signal, row[r / 4].amplitude);
+        write_transform(signal, &opts, r % 2);
+        double error = error_of_file(signal, &opts);
+        if (!(error <= 1 && size_of_number(opts.dense) == row[r / 4].size))
+            fail_msg("%g at %g, row %zu: error %g, %zu bytes", row[r / 4].amplitude, opts.accuracy, r,
+                     error, size_of_number(opts.dense));
+    }
+    ss_signal_free(signal);
+}
+
+/* The first coefficients of a stream choose the type. */
+static void
+coefficients_that_outgrow_floats_are_refused(void **state)
+{
+    (void)state;
+    ss_signal *signal = new_signal(500);
+    for (int k = 0; k < 2; k++) {
+        ss_morlet_opts opts = ss_morlet_defaults;
+        opts.dense = k, opts.rounded = 1;
+        ss_coefficients *c;
+        ss_error err = { 0 };
+        assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
+        const ss_scale *scale = &c->scale[0];
+        static const double small[2] = { 1, 1 }, large[2] = { 0, 1e39 };
+        ss_store_writer *writer;
+        c->n = 0;
+        assert_int_equal(ss_store_writer_new(&writer, path, NULL, c, &err), SS_OK);
+        assert_int_equal(ss_store_writer_rows(writer, scale, 0, 1, small, 500, &err), SS_OK);
+        assert_int_equal(ss_store_writer_rows(writer, scale, 1, 1, large, 500, &err), SS_ERANGE);
+        assert_non_null(strstr(err.text, "/wavelet/re: coefficients of at most 1e20 precede some above 3.4e38"));
+        ss_store_writer_free(writer);
+        assert_int_equal(access(path, F_OK), -1);
+        ss_coefficients_free(c);
     }
     ss_signal_free(signal);
 }
@@ -541,8 +618,10 @@ main(void)
         cmocka_unit_test(coefficients_read_back_exactly),
         cmocka_unit_test(a_file_made_piece_by_piece_reads_back_exactly),
         cmocka_unit_test(a_signal_of_unknown_length_reads_back_exactly),
-        cmocka_unit_test(deflated_doubles_read_back_exactly),
+        cmocka_unit_test(deflated_numbers_read_back_exactly),
         cmocka_unit_test(rounded_coefficients_keep_the_accuracy_in_half_the_bytes),
+        cmocka_unit_test(floats_are_stored_where_they_keep_the_accuracy),
+        cmocka_unit_test(coefficients_that_outgrow_floats_are_refused),
         cmocka_unit_test(scales_can_be_read_one_by_one),
         cmocka_unit_test(edges_and_times_are_those_of_the_whole),
         cmocka_unit_test(events_are_stored_with_their_kinds_as_words),

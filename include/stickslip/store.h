@@ -42,14 +42,16 @@ ss_status ss_store_write(const char *path, const ss_record *record, ss_error *er
  *
  * If the options in grid->head say rounded, re and im become multiples of a power of two that is
  * at most 1.24 TOL x the largest |W| of their scale so far.  They then take a third of the bytes
- * or less, and the error of what a reader gets is still within TOL. */
+ * or less, and the error of what a reader gets is still within TOL.  They are 32-bit floats if TOL
+ * is at least 1e-7 and the first |W| is from 1e-20 to 1e20. */
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);
 /* Append n samples of each column: sample i of column c is x[i * row + c * column]. */
 ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_t n, size_t row,
                                  size_t column, ss_error *err);
-/* Append coefficients; the arguments are those of an ss_coefficient_sink. */
+/* Append coefficients; the arguments are those of an ss_coefficient_sink.  SS_ERANGE: they outgrow
+ * 32-bit floats. */
 ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first,
                                size_t n, const double *w, size_t samples, ss_error *err);
 /* Add a note that the header does not have yet. */

@@ -12,8 +12,8 @@ typedef struct deflater deflater;
 deflater *ss_deflater_new(void);
 void ss_deflater_free(deflater *d);
 
-/* 1 <= n <= DEFLATE_MOST doubles, little-endian, shuffled, as a zlib stream, which *out points at until
- * the next call.  Returns its length. */
-size_t ss_deflate_doubles(deflater *d, const double *x, size_t n, const void **out);
+/* 1 <= n <= DEFLATE_MOST numbers of 8 bytes, or rounded to 4, little-endian, shuffled, as a zlib stream,
+ * which *out points at until the next call.  Returns its length. */
+size_t ss_deflate(deflater *d, const double *x, size_t n, size_t size, const void **out);
 
 #endif

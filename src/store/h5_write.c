@@ -202,6 +202,9 @@ row_chunk(hid_t id)
 ss_status
 ss_h5_hold_row(h5_row *row)
 {
+    hid_t type = H5Dget_type(row->id);
+    row->size = H5Tget_size(type);
+    H5Tclose(type);
     row->chunk = row_chunk(row->id);
     if (row->chunk > 0)
         row->held = malloc(row->chunk * sizeof *row->held);
@@ -217,7 +220,7 @@ ss_h5_end_row(h5_pieces *pieces, h5_row *row, int rank, const hsize_t end[])
     at[0] = rank == 1 ? at[1] : at[0];
     memset(row->held + row->n, 0, (row->chunk - row->n) * sizeof *row->held);
     const void *bytes;
-    size_t size = ss_deflate_doubles(pieces->deflater, row->held, row->chunk, &bytes);
+    size_t size = ss_deflate(pieces->deflater, row->held, row->chunk, row->size, &bytes);
     row->n = 0;
     return grow(row->id, rank, end[rank - 1])
         && H5Dwrite_chunk(row->id, H5P_DEFAULT, 0, at, size, bytes) >= 0;

@@ -28,10 +28,11 @@ typedef struct h5_pieces {
     deflater *deflater;
 } h5_pieces;
 
-/* A row of doubles that is deflated here and not by HDF5, which takes several times longer: chunk by
+/* A row of numbers that is deflated here and not by HDF5, which takes several times longer: chunk by
  * chunk, so that the last values wait for more.  Begin with zeros but for id. */
 typedef struct h5_row {
     hid_t id;                   /* of the dataset */
+    size_t size;                /* bytes of a number in the file: 8, or 4 */
     double *held;               /* of the chunk that is not yet full */
     size_t n, chunk;            /* of these; in a chunk, or 0: HDF5 writes the values */
 } h5_row;

@@ -1,15 +1,17 @@
 /* wavelet_writer.c -- coefficients of a transform, in pieces, as /wavelet: a group a scale, or one
  * rectangle if all scales have one coefficient a sample. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/versions.h"
 #include "morlet/wavelet.h"
 #include "store/groups.h"
 
 struct scale_datasets {
-    hid_t time, edge;
+    hid_t group, time, edge;
     h5_row re, im;              /* if dense, ids of the same two datasets at each scale */
     size_t done;
     double most;                /* the largest |W| so far */
@@ -38,43 +40,6 @@ name_unit(const ss_header *head)
     if (unit != NULL)
         snprintf(unit, size, "%s%s%s", of, *of != '\0' && !l1 ? " " : "", l1 ? "" : "s^0.5");
     return unit;
-}
-
-/* The datasets of scale i, which are lines, or those of all scales, which are rectangles. */
-static ss_status
-open_datasets(wavelet_writer *w, hid_t group, size_t i)
-{
-    static const char *const scales[] = { "scale", "time" };
-    int growing = w->pieces->growing, rank = w->dense ? 2 : 1;
-    hsize_t bytes = w->dense ? 17 : 25, chunk = growing ? ss_h5_growing_chunk(bytes * w->n_scales) : 0;
-    hsize_t length = growing ? 0 : w->dense ? w->n : w->scale[i].n;
-    const hsize_t dims[2] = { w->n_scales, length };
-    const h5_dataset v[] = {
-        { .name = "time", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
-          .chunk = chunk },
-        { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient",
-          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .in_rows = 1 },
-        { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient",
-          .file_type = H5T_IEEE_F64LE, .chunk = chunk, .in_rows = 1 },
-        { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
-          .file_type = H5T_STD_U8LE, .chunk = chunk },
-    };
-    struct scale_datasets *d = &w->datasets[i];
-    d->time = ss_h5_new_dataset(group, &v[0], 1, &length, NULL);
-    if (d->time < 0)
-        return ss_h5_fail_write(w->pieces->file, group, v[0].name);
-    hid_t *const id[] = { NULL, &d->re.id, &d->im.id, &d->edge };
-    for (size_t k = 1; k < sizeof v / sizeof *v; k++) {
-        *id[k] = ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
-        /* CF: the label of a row that is not its index */
-        if (*id[k] < 0 || (w->dense && !ss_h5_write_text(*id[k], "coordinates", "frequency")))
-            return ss_h5_fail_write(w->pieces->file, group, v[k].name);
-    }
-    for (size_t k = 0; w->dense && k < w->n_scales; k++) {
-        w->datasets[k].re.id = d->re.id;
-        w->datasets[k].im.id = d->im.id;
-    }
-    return SS_OK;
 }
 
 static int
@@ -107,7 +72,7 @@ open_dense(wavelet_writer *w)
     free(row);
     if (st == SS_OK && !write_lattice(w->group, &w->scale[0]))
         st = ss_h5_fail_write(w->pieces->file, 0, "/wavelet");
-    return st == SS_OK ? open_datasets(w, w->group, 0) : st;
+    return st;
 }
 
 static ss_status
@@ -122,9 +87,8 @@ open_scale(wavelet_writer *w, size_t i)
         || !ss_h5_write_number(group, "frequency", H5T_IEEE_F64LE, scale->f)
         || !ss_h5_write_number(group, "j", H5T_STD_I32LE, scale->j) || !write_lattice(group, scale))
         return ss_h5_fail_write(w->pieces->file, w->group, name);
-    ss_status st = open_datasets(w, group, i);
-    H5Gclose(group);
-    return st;
+    w->datasets[i].group = group;
+    return SS_OK;
 }
 
 static ss_status
@@ -139,7 +103,8 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
         return SS_ENOMEM;
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->datasets[i] = (struct scale_datasets){ .time = -1, .edge = -1, .re.id = -1, .im.id = -1 };
+        w->datasets[i] = (struct scale_datasets){ .group = -1, .time = -1, .edge = -1, .re.id = -1,
+                                                 .im.id = -1 };
     w->dense = is_dense(w);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
 }
@@ -215,13 +180,97 @@ rounding_of(double tolerance, double most)
     return tolerance >= 1e-12 && unit > 1e-280 && unit < 1e280 ? ldexp(0x1.8p52, ilogb(unit)) : 0;
 }
 
-static double
+FAST static double
 largest_of(const double *x, size_t n, double most)
 {
     double square = 0;
-    for (size_t k = 0; k < n; k++)
-        square = fmax(square, x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1]);
+    for (size_t k = 0; k < n; k++) {
+        double next = x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1];
+        square = next > square ? next : square;
+    }
     return fmax(most, sqrt(square));
+}
+
+/* The datasets of scale i, which are lines, or those of all scales, which are rectangles. */
+static ss_status
+open_datasets(wavelet_writer *w, size_t i, int single)
+{
+    static const char *const scales[] = { "scale", "time" };
+    int growing = w->pieces->growing, rank = w->dense ? 2 : 1;
+    hsize_t bytes = w->dense ? 17 : 25, chunk = growing ? ss_h5_growing_chunk(bytes * w->n_scales) : 0;
+    hsize_t length = growing ? 0 : w->dense ? w->n : w->scale[i].n;
+    const hsize_t dims[2] = { w->n_scales, length };
+    struct scale_datasets *d = &w->datasets[w->dense ? 0 : i];
+    hid_t group = w->dense ? w->group : d->group, type = single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    const h5_dataset v[] = {
+        { .name = "time", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
+          .chunk = chunk },
+        { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient",
+          .file_type = type, .chunk = chunk, .in_rows = 1 },
+        { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient",
+          .file_type = type, .chunk = chunk, .in_rows = 1 },
+        { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
+          .file_type = H5T_STD_U8LE, .chunk = chunk, .in_rows = 1 },
+    };
+    d->time = ss_h5_new_dataset(group, &v[0], 1, &length, NULL);
+    if (d->time < 0)
+        return ss_h5_fail_write(w->pieces->file, group, v[0].name);
+    hid_t *const id[] = { NULL, &d->re.id, &d->im.id, &d->edge };
+    for (size_t k = 1; k < sizeof v / sizeof *v; k++) {
+        *id[k] = ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
+        /* CF: the label of a row that is not its index */
+        if (*id[k] < 0 || (w->dense && !ss_h5_write_text(*id[k], "coordinates", "frequency")))
+            return ss_h5_fail_write(w->pieces->file, group, v[k].name);
+    }
+    if (!w->dense && H5Gclose(group) < 0)
+        return ss_h5_fail_write(w->pieces->file, w->group, "re");
+    d->group = -1;
+    return SS_OK;
+}
+
+/* Begin scale i, whose largest |W| is `most` so far; its datasets, too, unless another scale has made them.
+ * For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which 32-bit floats
+ * hold exactly unless the unit is below 2^-149.  What is lost there is far below 16 eps a^1/2 max|x|, by
+ * which W may be off anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one scale. */
+static ss_status
+begin_scale(wavelet_writer *w, size_t i, double most)
+{
+    struct scale_datasets *d = &w->datasets[i], *shared = &w->datasets[w->dense ? 0 : i];
+    int single = w->tolerance >= 1e-7 && most >= 1e-20 && most <= 1e20;
+    ss_status st = shared->re.id < 0 ? open_datasets(w, i, single) : SS_OK;
+    d->re.id = shared->re.id;
+    d->im.id = shared->im.id;
+    if (st == SS_OK)
+        st = ss_h5_hold_row(&d->re);
+    return st == SS_OK ? ss_h5_hold_row(&d->im) : st;
+}
+
+/* Rounded by a sum with `shift`, apart from each other. */
+VERSIONS static void
+split(double *restrict re, double *restrict im, const double *restrict x, size_t n, double shift)
+{
+    for (size_t k = 0; k < n; k++) {
+        re[k] = x[2 * k] + shift - shift;
+        im[k] = x[2 * k + 1] + shift - shift;
+    }
+}
+
+/* Is each of n coefficients, from the first on, in a cone of influence?  But for gaps, those that are not
+ * follow each other. */
+static void
+find_edges(const wavelet_writer *w, const ss_scale *scale, size_t first, size_t n, size_t samples)
+{
+    const h5_pieces *p = w->pieces;
+    unsigned char *edge = w->pieces->edge;
+    size_t from = 0, to = n;
+    memset(edge, 0, n);
+    while (from < to && ss_scale_edge(scale, first + from, samples, p->rate))
+        edge[from++] = 1;
+    while (to > from && ss_scale_edge(scale, first + to - 1, samples, p->rate))
+        edge[--to] = 1;
+    for (size_t k = from; w->n_gaps > 0 && k < to; k++)
+        edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, p->rate, p->start, w->gap,
+                                              w->n_gaps);
 }
 
 /* n coefficients of scale i, as many as fit into a piece. */
@@ -234,13 +283,8 @@ write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t sample
     size_t first = w->datasets[i].done;
     int rank = w->dense ? 2 : 1;
     const hsize_t where[2] = { i, first }, *at = where + 2 - rank;
-    double shift = rounding_of(w->tolerance, w->datasets[i].most);
-    for (size_t k = 0; k < n; k++) {
-        p->value[0][k] = x[2 * k] + shift - shift;
-        p->value[1][k] = x[2 * k + 1] + shift - shift;
-        p->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, p->rate, p->start, w->gap,
-                                                 w->n_gaps);
-    }
+    split(p->value[0], p->value[1], x, n, rounding_of(w->tolerance, w->datasets[i].most));
+    find_edges(w, scale, first, n, samples);
     return ss_h5_write_row(p, &w->datasets[i].re, rank, at, n, p->value[0])
         && ss_h5_write_row(p, &w->datasets[i].im, rank, at, n, p->value[1])
         && ss_h5_write_piece(d->edge, rank, at, n, H5T_NATIVE_UCHAR, p->edge)
@@ -251,10 +295,15 @@ ss_status
 ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
     struct scale_datasets *d = &w->datasets[i];
-    if (d->done == 0 && n > 0
-        && (ss_h5_hold_row(&d->re) != SS_OK || ss_h5_hold_row(&d->im) != SS_OK))
-        return SS_ENOMEM;
+    ss_status st = SS_OK;
     d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
+    if (d->done == 0 && n > 0)
+        st = begin_scale(w, i, d->most);
+    if (st == SS_OK && d->re.size == sizeof(float) && d->most > FLT_MAX)
+        st = ss_h5_fail(w->pieces->file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede "
+                        "some above 3.4e38, which 32-bit floats do not hold; keep all bits");
+    if (st != SS_OK)
+        return st;
     for (size_t m; n > 0; n -= m, x += 2 * m) {
         m = n < H5_PIECE ? n : H5_PIECE;
         if (!write_rows(w, i, m, x, samples))
