@@ -124,8 +124,8 @@ long_scales_by_fft_keep_the_bound(void **state)
     free(x);
 }
 
-/* Stepped grids in blocks: records of one window and of many, with many octaves, of steps from the
- * finest to one scale, narrow and wide wavelets, short forced scales. */
+/* Stepped grids in blocks, translations at points and between them: records of one window and of many,
+ * with many octaves, of steps from the finest on, narrow and wide wavelets, short forced scales. */
 static void
 blocks_keep_the_bound(void **state)
 {
@@ -134,16 +134,26 @@ blocks_keep_the_bound(void **state)
         int voices, admissible;
         ss_norm norm;
         size_t n;
+        int exact;
     } row[] = {
-        { 6,     0.25, 2000,  0,  0,  16, 0, SS_NORM_L2, 20011 },
-        { 6,     0.25, 44100, 0,  0,  3,  0, SS_NORM_L1, 1025 },
-        { 6,     1,    1e-3,  0,  0,  5,  0, SS_NORM_L2, 12345 },
-        { 6,     0.5,  1e9,   0,  0,  7,  1, SS_NORM_L2, 3001 },
-        { 5.336, 0.01, 7,     0,  0,  2,  0, SS_NORM_L2, 2500 },
-        { 2,     0.25, 48000, 0,  0,  4,  1, SS_NORM_L1, 6000 },
-        { 40,    0.25, 1000,  0,  0,  3,  0, SS_NORM_L2, 30000 },
-        { 200,   0.1,  1000,  0,  0,  1,  1, SS_NORM_L2, 40000 },
-        { 6,     0.3,  1024,  -9, 5,  2,  0, SS_NORM_L2, 9000 },    /* 2 to 2^15 samples */
+        { 6,     0.25, 2000,  0,  0,  16, 0, SS_NORM_L2, 20011, 0 },
+        { 6,     0.25, 44100, 0,  0,  3,  0, SS_NORM_L1, 1025, 0 },
+        { 6,     1,    1e-3,  0,  0,  5,  0, SS_NORM_L2, 12345, 0 },
+        { 6,     0.5,  1e9,   0,  0,  7,  1, SS_NORM_L2, 3001, 0 },
+        { 5.336, 0.01, 7,     0,  0,  2,  0, SS_NORM_L2, 2500, 0 },
+        { 2,     0.25, 48000, 0,  0,  4,  1, SS_NORM_L1, 6000, 0 },
+        { 40,    0.25, 1000,  0,  0,  3,  0, SS_NORM_L2, 30000, 0 },
+        { 200,   0.1,  1000,  0,  0,  1,  1, SS_NORM_L2, 40000, 0 },
+        { 6,     0.3,  1024,  -9, 5,  2,  0, SS_NORM_L2, 9000, 0 },    /* 2 to 2^15 samples */
+        { 6,     0.25, 2000,  0,  0,  16, 0, SS_NORM_L2, 20011, 1 },
+        { 6,     0.01, 44100, 0,  0,  3,  1, SS_NORM_L1, 1025, 1 },
+        { 2,     1,    1e-3,  0,  0,  5,  0, SS_NORM_L2, 12345, 1 },
+        { 200,   0.3,  1e9,   0,  0,  2,  1, SS_NORM_L2, 40000, 1 },
+        { 6,     1.7,  7,     0,  0,  7,  0, SS_NORM_L2, 30000, 0 },   /* above 1 they are exact */
+        { 6,     40,   48000, 0,  0,  4,  0, SS_NORM_L1, 60000, 0 },
+        { 6,     1,    2000,  0,  0,  1,  0, SS_NORM_L2, 20011, 0 },   /* as are powers of 2 seconds, */
+        { 6,     64,   1,     0,  0,  1,  0, SS_NORM_L2, 90001, 0 },   /* too long for fractions here */
+        { 6,     0.3,  1024,  -9, 5,  2,  0, SS_NORM_L2, 9000, 1 },
     };
     (void)state;
     for (size_t i = 0; i < LENGTH(row); i++)
@@ -154,7 +164,7 @@ blocks_keep_the_bound(void **state)
             opts.engine = SS_ENGINE_FFT;
             opts.accuracy = which == NOISE ? 0.1 : 1e-13;
             opts.center = row[i].center, opts.step = row[i].step, opts.voices = row[i].voices;
-            opts.admissible = row[i].admissible, opts.norm = row[i].norm;
+            opts.exact = row[i].exact, opts.admissible = row[i].admissible, opts.norm = row[i].norm;
             opts.octaves = opts.force = row[i].m0 != row[i].m1;
             opts.m0 = row[i].m0, opts.m1 = row[i].m1;
             make(which, x, n);

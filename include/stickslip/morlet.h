@@ -50,7 +50,7 @@ typedef struct ss_morlet_opts {
     double center;              /* omega_c */
     int voices;                 /* V, scales per octave */
     double step;                /* B_0, translation step in units of the scale; unused if dense */
-    int exact;                  /* 1: translations are n B_0 a, which costs some 15 times more */
+    int exact;                  /* 1: translations are n B_0 a, which costs some 3 times more */
     int dense;                  /* 1: every scale has a coefficient at each sample */
     double fmin, fmax;          /* [Hz] labels of the longest and the shortest scale; 0: by default fmin
                                    is 4 cycles per record (or the lowest usable frequency, if that is

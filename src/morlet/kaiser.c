@@ -89,7 +89,7 @@ ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
     return 0;
 }
 
-/* --- tables: polynomials in Newton's form through Chebyshev nodes ------------------------------ */
+/* --- tables: polynomials through Chebyshev nodes ------------------------------ */
 
 static double
 node(int i, int n)
@@ -97,12 +97,7 @@ node(int i, int n)
     return cos(M_PI * (i + 0.5) / n);
 }
 
-static const double part_node[KAISER_NODES] = {     /* node(m, KAISER_NODES) */
-    0.98480775301220806, 0.86602540378443865, 0.64278760968653933, 0.34202014332566873, 0,
-    -0.34202014332566873, -0.64278760968653933, -0.86602540378443865, -0.98480775301220806
-};
-
-/* From n values at nodes x to coefficients. */
+/* From n values at nodes x to the coefficients of Newton's form. */
 static void
 divided_differences(double *c, const double *x, int n)
 {
@@ -111,16 +106,27 @@ divided_differences(double *c, const double *x, int n)
             c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
 }
 
+/* From Newton's form to powers. */
+static void
+expand(double *c, const double *x, int n)
+{
+    for (int order = n - 1; order > 0; order--)
+        for (int i = order - 1; i < n - 1; i++)
+            c[i] -= x[order - 1] * c[i + 1];
+}
+
 static void
 prepare_part(kaiser *ker, int part)
 {
-    double c[KAISER_NODES];
+    double c[KAISER_NODES], y[KAISER_NODES];
     for (int i = 0; i < ker->taps; i++) {
         for (int m = 0; m < KAISER_NODES; m++) {
-            double f = (part + (1 + part_node[m]) / 2) / KAISER_PARTS;
+            y[m] = node(m, KAISER_NODES);
+            double f = (part + (1 + y[m]) / 2) / KAISER_PARTS;
             c[m] = ss_kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
         }
-        divided_differences(c, part_node, KAISER_NODES);
+        divided_differences(c, y, KAISER_NODES);
+        expand(c, y, KAISER_NODES);
         for (int m = 0; m < KAISER_NODES; m++)
             ker->table[part][m][i] = c[m];
     }
@@ -186,14 +192,12 @@ weights_of(const kaiser *ker, double f, double weight[])
 {
     int part = (int)(f * KAISER_PARTS);
     part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;
-    double y = 2 * (f * KAISER_PARTS - part) - 1, basis[KAISER_NODES] = { 1 };
-    for (int m = 1; m < KAISER_NODES; m++)
-        basis[m] = basis[m - 1] * (y - part_node[m - 1]);
+    double y = 2 * (f * KAISER_PARTS - part) - 1;
     for (int i = 0; i < ker->taps; i++)
-        weight[i] = basis[KAISER_NODES - 1] * ker->table[part][KAISER_NODES - 1][i];
+        weight[i] = ker->table[part][KAISER_NODES - 1][i];
     for (int m = KAISER_NODES - 2; m >= 0; m--)
         for (int i = 0; i < ker->taps; i++)
-            weight[i] += basis[m] * ker->table[part][m][i];
+            weight[i] = weight[i] * y + ker->table[part][m][i];
 }
 
 void

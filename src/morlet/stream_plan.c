@@ -3,6 +3,7 @@
  * The longest scales of a stepped grid are computed in blocks, as those of a record are
  * (fft/windows.c).  Of the others, scales of similar length form a group, which has a plan for windows
  * of a fixed length, at least twice the length of its longest wavelet. */
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -51,13 +52,13 @@ new_group(const ss_stream *s, group *g, size_t first, size_t n_scales, size_t n)
     return SS_OK;
 }
 
-/* The scales that are transformed in blocks. */
+/* The scales that are transformed in blocks, of a record as long as may be. */
 static ss_status
 plan_blocks(ss_stream *s)
 {
     group *g = &s->blocks;
     size_t n = 0;
-    ss_status st = new_group(s, g, 0, s->n_scales, 0);
+    ss_status st = new_group(s, g, 0, s->n_scales, INT_MAX / 2);
     if (st == SS_OK)
         st = ss_blocks_new(g->plan);
     while (st == SS_OK && n < s->n_scales && ss_blocks_covers(g->plan->blocks, n))
@@ -171,8 +172,8 @@ worker_room(const ss_stream *s)
             places = n > places ? n : places;
         }
     for (size_t i = 0; i < s->blocks.plan->n_scales; i++) {
-        size_t hop = ss_blocks_hop(s->blocks.plan->blocks, i);
-        room = hop > room ? hop : room;
+        size_t n = ss_blocks_most(s->blocks.plan->blocks, i);
+        room = n > room ? n : room;
     }
     return room > GIVEN + places ? room : GIVEN + places;
 }

@@ -93,7 +93,7 @@ next_of_blocks(const window *win, size_t i)
 {
     const ss_stream *s = win->stream;
     const scale_state *r = &s->state[i];
-    size_t end = win->number * ss_blocks_hop(s->blocks.plan->blocks, i);
+    size_t end = ss_blocks_end(s->blocks.plan->blocks, i, win->number);
     end = end < r->count ? end : r->count;
     size_t n = end > r->next ? end - r->next : 0;
     if (win->limit == PTRDIFF_MAX)

@@ -12,12 +12,16 @@
  * samples, overlap >= 2 REACH 2 A.  2^p divides overlap too, being at most m B_0 2 A <= 17 (2 A), so
  * that every window begins at a translation.  All FFTs stay in the cache.
  *
+ * Other translations lie between points: the terms, moved to frequency 0, are divided by the response of
+ * a kernel, M is the least power of two that this needs, and places.c finds W between the M points.
+ *
  * The next level is the same spectrum times F(w) = erfc((w - pi/2)/(sqrt(2) s))/2, folded to L/2
  * terms, and an inverse FFT; s = (pi/2 - BAND/2)/FILTER_CUT, and F(w) + F(pi - w) = 1.
  *
  * Error, in units of a^1/2 max|x|, of which every accuracy allows 16 eps:
  *   - the cut of the series at |v| > CUT: at most 2.4 exp(-CUT^2/2) (1 + log(1 + L/(2 CUT a))), a in
  *     samples (fft/plan.c), below 3 eps for L/a = 1000, for a step in the signal at the worst phase;
+ *   - images, between points: twice IMAGES in place of the exponential, below 5 eps for L/a = 1000;
  *   - what reaches around the circle: tail(REACH) of quadrature.c, below 1e-16;
  *   - the filter: below w = BAND/2, 1 - F and F(pi - w), by which terms that fold there are
  *     multiplied, are at most erfc(FILTER_CUT/sqrt 2)/2 = 5e-17; its response in time,
@@ -41,6 +45,8 @@
 #define BAND 1.99
 #define FILTER_CUT 8.3
 #define COST_POINT 4e-9         /* of an FFT, and what goes with it [s] */
+#define COST_BETWEEN 8e-9       /* a translation between points [s] */
+#define IMAGES 5e-17            /* of their interpolation */
 
 enum {
     LEAST_SAMPLES = 4,          /* of a level */
@@ -106,19 +112,21 @@ same_weights(const struct blocks *b, const ss_morlet *plan, size_t i)
     if (j >= b->n_scales || b->scale[j].level < 0)
         return NULL;
     int l = b->scale[i].level, of = b->scale[j].level;
-    int same = b->stage[l].length == b->stage[of].length
+    int same = b->stage[l].length == b->stage[of].length && b->scale[i].between == b->scale[j].between
         && ldexp(plan->scale[i].a, -l) == ldexp(plan->scale[j].a, -of);
     return same ? &b->scale[j] : NULL;
 }
 
 static ss_status
-make_weights(const ss_morlet *plan, block_scale *r, const ss_scale *scale, size_t length)
+make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, const ss_scale *scale,
+             size_t length)
 {
     const ss_morlet_opts *opts = &plan->opts;
     band b = band_around(opts->center, half_width(opts), ldexp(scale->a, -r->level), plan->rate,
                          (double)length);
     double second = wavelet_second(opts);
     r->lo = b.lo;
+    r->mid = r->between ? b.mid : 0;
     r->terms = (size_t)(b.hi - b.lo) + 1;
     r->owner = 1;
     r->weight = malloc(r->terms * sizeof *r->weight);
@@ -128,7 +136,10 @@ make_weights(const ss_morlet *plan, block_scale *r, const ss_scale *scale, size_
         double k = (double)(b.lo + (ptrdiff_t)i), low = k * b.h_low, u = fma(k, b.h, low);
         double v = fma(k, b.h, -opts->center) + low;
         double g = exp(-v * v / 2) - (second > 0 ? second * exp(-u * u / 2) : 0);
+        double nu = (k - (double)r->mid) / (double)r->points;
         r->weight[i] = g * (PI_M14 * sqrt(2 * M_PI) / (double)length);
+        if (r->between)
+            r->weight[i] /= ss_kaiser_response(kernel->taps, kernel->beta, nu);
     }
     return SS_OK;
 }
@@ -144,10 +155,30 @@ points_of(const stage *st, const ss_scale *scale, int l, double rate)
     return (size_t)points;
 }
 
-static double
-cost_of(const stage *st, size_t points)
+/* The same where translations lie between points: the least power of two for the kernel. */
+static size_t
+points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
+               int l)
 {
-    return COST_POINT * (double)windows_for(st, st->n) * (double)points;
+    const ss_morlet_opts *opts = &plan->opts;
+    band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
+                          (double)st->length);
+    size_t points = 4 * PLACES_MARGIN;
+    while (edge_of(&of, points) > b->kernel->edge)
+        points *= 2;
+    return points <= LONGEST ? points : 0;
+}
+
+/* What scale i saves [s]: of a record, or of a window of a stream. */
+static double
+gain_of(const struct blocks *b, const ss_morlet *plan, size_t i)
+{
+    const block_scale *r = &b->scale[i];
+    const stage *st = &b->stage[r->level];
+    size_t n = plan->window ? ss_blocks_most(b, i) : plan->scale[i].n;
+    double points = (double)r->points * (plan->window ? 1 : (double)windows_for(st, st->n));
+    return ss_quadrature_cost(plan, &plan->scale[i], n) - COST_POINT * points
+        - (r->between ? COST_BETWEEN * (double)n : 0);
 }
 
 /* The spectra of the levels in use. */
@@ -160,32 +191,46 @@ forward_cost(const struct blocks *b)
     return COST_POINT * points;
 }
 
+/* The level and M of scale i, M 0 if it cannot be computed here. */
+static void
+choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
+{
+    block_scale *r = &b->scale[i];
+    const ss_scale *scale = &plan->scale[i];
+    r->level = level_of(plan, scale);
+    if (r->level < 0)
+        return;
+    const stage *st = &b->stage[r->level];
+    r->points = points_of(st, scale, r->level, plan->rate);
+    r->between = r->points == 0;
+    if (r->between)
+        r->points = points_between(b, plan, st, scale, r->level);
+    r->hop = r->points - r->points / (st->length / st->overlap);
+}
+
 /* Choose the scales that can be computed here: of a stream the longest; with AUTO those for which it
  * is cheaper, if their gain pays for the spectra, which a stream's does. */
 static void
 choose_rows(struct blocks *b, const ss_morlet *plan)
 {
-    int automatic = plan->opts.engine == SS_ENGINE_AUTO && !plan->window, others = 0;
+    int automatic = plan->opts.engine == SS_ENGINE_AUTO, others = 0;
     double gain = 0;
     for (size_t i = 0; i < b->n_scales; i++) {
         block_scale *r = &b->scale[i];
-        const ss_scale *scale = &plan->scale[i];
-        r->level = level_of(plan, scale);
-        const stage *st = &b->stage[r->level < 0 ? 0 : r->level];
-        r->points = r->level < 0 ? 0 : points_of(st, scale, r->level, plan->rate);
-        double less = ss_quadrature_cost(plan, scale, scale->n) - cost_of(st, r->points);
-        others |= r->points == 0;
-        if (r->points == 0 || (automatic && less < 0) || (plan->window && others)) {
+        choose_points(b, plan, i);
+        double less = r->points > 0 ? gain_of(b, plan, i) : 0;
+        int dear = automatic && less < 0 && (r->between || !plan->window);
+        others |= r->points == 0 || dear;
+        if (r->points == 0 || dear || (plan->window && others)) {
             r->level = -1;
             continue;
         }
         gain += less;
         b->stage[r->level].used = 1;
-        r->hop = r->points - r->points / (st->length / st->overlap);
         b->longest = r->points > b->longest ? r->points : b->longest;
         b->levels = (size_t)r->level + 1 > b->levels ? (size_t)r->level + 1 : b->levels;
     }
-    if (automatic && gain < forward_cost(b))
+    if (automatic && !plan->window && gain < forward_cost(b))
         b->levels = 0;
 }
 
@@ -221,10 +266,11 @@ all_weights(struct blocks *b, const ss_morlet *plan)
         const block_scale *of = same_weights(b, plan, i);
         if (of != NULL) {
             r->lo = of->lo;
+            r->mid = of->mid;
             r->terms = of->terms;
             r->weight = of->weight;
         } else
-            st = make_weights(plan, r, &plan->scale[i], b->stage[r->level].length);
+            st = make_weights(plan, b->kernel, r, &plan->scale[i], b->stage[r->level].length);
     }
     return st;
 }
@@ -267,7 +313,8 @@ inverse_of(const struct blocks *b, size_t i, double *v, unsigned how)
         if (b->scale[j].level >= 0 && b->scale[j].points == r->points)
             return b->scale[j].inverse;
     return fftw_plan_dft_1d((int)r->points, (fftw_complex *)v,
-                            (fftw_complex *)(v + 2 * b->longest), FFTW_BACKWARD, how);
+                            (fftw_complex *)(v + 2 * b->longest + 2 * PLACES_MARGIN), FFTW_BACKWARD,
+                            how);
 }
 
 /* While ss_fftw_planner is held. */
@@ -306,7 +353,7 @@ make_plans(struct blocks *b, ss_planner planner)
 size_t
 ss_blocks_room(const struct blocks *b)
 {
-    return 4 * b->longest;
+    return 4 * b->longest + 2 * PLACES_MARGIN;
 }
 
 ss_status
@@ -322,6 +369,12 @@ ss_blocks_new(ss_morlet *plan)
         return SS_ENOMEM;
     b->n_scales = plan->n_scales;
     b->margin = margin;
+    b->rate = plan->rate;
+    b->grid = plan->scale;
+    if ((b->kernel = aligned_alloc(_Alignof(kaiser), sizeof *b->kernel)) == NULL)
+        return SS_ENOMEM;
+    ss_places_kernel(b->kernel, half_width(&plan->opts), plan->opts.center,
+                     wavelet_second(&plan->opts), IMAGES);
     choose_stages(b, plan);
     choose_rows(b, plan);
     if (b->levels == 0) {
@@ -329,6 +382,9 @@ ss_blocks_new(ss_morlet *plan)
         plan->blocks = NULL;
         return SS_OK;
     }
+    for (size_t i = 0; i < b->n_scales && !b->kernel->prepared; i++)
+        if (b->scale[i].level >= 0 && b->scale[i].between)
+            ss_kaiser_prepare(b->kernel);
     ss_status st = all_weights(b, plan);
     for (size_t l = 0; st == SS_OK && l + 1 < b->levels; l++)
         st = make_filter(&b->stage[l]);
@@ -363,6 +419,7 @@ ss_blocks_free(struct blocks *b)
             free(b->scale[i].weight);
     for (size_t l = 0; l < b->levels; l++)
         free(b->stage[l].filter);
+    free(b->kernel);
     free(b->scale);
     free(b);
 }

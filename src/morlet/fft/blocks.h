@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include "morlet/plan.h"
 
-/* Choose the scales that are transformed in blocks: where a step is 2^p/m samples and that is
- * cheaper, or the engine is SS_ENGINE_FFT; of a stream, where plan->window is 1, the longest scales
+/* Choose the scales that are transformed in blocks: of a stepped grid where that is cheaper, or the
+ * engine is SS_ENGINE_FFT; of a stream, where plan->window is 1, the longest scales
  * down to the first that cannot be.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
 ss_status ss_blocks_new(ss_morlet *plan);
 void ss_blocks_free(struct blocks *blocks);           /* NULL is allowed */
@@ -23,9 +23,11 @@ size_t ss_blocks_room(const struct blocks *blocks);
 void ss_blocks_scale(const struct blocks *blocks, size_t i, const block_spectra *s, double *scratch,
                      span part, double factor, double *w);
 
-/* The level of scale i, and the translations that each of its windows but window 0 holds. */
+/* The level of scale i, its translations up to the end of a window, and how many a window holds, at
+ * most. */
 size_t ss_blocks_level(const struct blocks *blocks, size_t i);
-size_t ss_blocks_hop(const struct blocks *blocks, size_t i);
+size_t ss_blocks_end(const struct blocks *blocks, size_t i, size_t window);
+size_t ss_blocks_most(const struct blocks *blocks, size_t i);
 /* Samples of a stream that come after a translation, at most, before its window is full. */
 double ss_blocks_delay(const struct blocks *blocks, size_t i);
 

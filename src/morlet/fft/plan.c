@@ -195,7 +195,7 @@ find_kernel(struct fft *f, int cut, double edge)
     kaiser **at = &f->kernel[cut][kernel_index(edge, &shape.edge)];
     if (*at != NULL || !ss_kaiser_choose(&ker, &shape, f->images[cut]))
         return *at;
-    *at = malloc(sizeof ker);
+    *at = aligned_alloc(_Alignof(kaiser), sizeof ker);
     if (*at != NULL)
         **at = ker;
     else

@@ -5,6 +5,7 @@
 #include <fftw3.h>
 #include <stddef.h>
 #include "morlet/fft/blocks.h"
+#include "morlet/places.h"
 
 enum { LEVELS = BLOCK_LEVELS };
 
@@ -20,8 +21,9 @@ typedef struct stage {
 /* A scale and the weights of its terms, which scales of other octaves share. */
 typedef struct block_scale {
     int level;                              /* -1: not here */
-    size_t points, hop;                     /* M, and translations from a window to the next */
-    ptrdiff_t lo;                           /* the first term */
+    int between;                            /* 1: its translations lie between points */
+    size_t points, hop;                     /* M, and those from a window to the next */
+    ptrdiff_t lo, mid;                      /* the first term, and the one that becomes term 0 */
     size_t terms;
     double *weight;
     int owner;                              /* of weight */
@@ -31,6 +33,9 @@ typedef struct block_scale {
 struct blocks {
     size_t n_scales, levels, longest;         /* longest: M */
     double margin;                          /* samples */
+    double rate;                            /* [Hz] */
+    const ss_scale *grid;                   /* the plan's scales */
+    kaiser *kernel;                         /* for translations between points; NULL: there are none */
     block_scale *scale;
     stage stage[LEVELS];
 };

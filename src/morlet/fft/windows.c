@@ -344,15 +344,67 @@ ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
 
 /* --- a scale ---------------------------------------------------------------------------------- */
 
+/* The sample with which a window of a scale begins. */
+static double
+start_of(const struct blocks *b, const block_scale *r, size_t window)
+{
+    return ldexp(((double)window - 1) * (double)b->stage[r->level].hop, r->level);
+}
+
+static size_t
+window_of(const struct blocks *b, size_t i, size_t k)
+{
+    const block_scale *r = &b->scale[i];
+    double sample = r->between ? ss_scale_spot(&b->grid[i], k, b->rate).c : 0;
+    return 1 + (r->between ? (size_t)(sample / start_of(b, r, 2)) : k / r->hop);
+}
+
+size_t
+ss_blocks_end(const struct blocks *b, size_t i, size_t window)
+{
+    const block_scale *r = &b->scale[i];
+    const ss_scale *scale = &b->grid[i];
+    if (!r->between)
+        return window * r->hop;
+    double end = start_of(b, r, window + 1);
+    size_t k = (size_t)(end / (b->rate * scale->b_num / scale->b_den));
+    while (ss_scale_spot(scale, k, b->rate).c < end)
+        k++;
+    while (k > 0 && ss_scale_spot(scale, k - 1, b->rate).c >= end)
+        k--;
+    return k;
+}
+
+size_t
+ss_blocks_most(const struct blocks *b, size_t i)
+{
+    const ss_scale *scale = &b->grid[i];
+    double step = b->rate * scale->b_num / scale->b_den;
+    return b->scale[i].between ? (size_t)(start_of(b, &b->scale[i], 2) / step) + 2 : b->scale[i].hop;
+}
+
 /* All translations of a window, the first counted one at v[0]. */
 static void
 transform_window(const stage *st, const block_scale *r, const double *x, double *c, double *v)
 {
-    ptrdiff_t rest = r->lo % (ptrdiff_t)r->points;
+    ptrdiff_t rest = (r->lo - r->mid) % (ptrdiff_t)r->points;
     size_t at = (size_t)(rest < 0 ? rest + (ptrdiff_t)r->points : rest);
     memset(c, 0, 2 * r->points * sizeof *c);
     add_terms(x, st->length, r->lo, r->weight, r->terms, c, r->points, at);
     fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
+}
+
+/* Translations of a window between its points v, which go around. */
+static void
+write_between(const struct blocks *b, size_t i, size_t window, double *v, span part, double factor,
+              double *w)
+{
+    const block_scale *r = &b->scale[i];
+    double apart = ldexp((double)b->stage[r->level].length / (double)r->points, r->level);
+    double turns = (double)r->mid / (double)r->points;
+    point_series s = { v, start_of(b, r, window), apart, turns };
+    memcpy(v - 2 * PLACES_MARGIN, v + 2 * (r->points - PLACES_MARGIN), 2 * PLACES_MARGIN * sizeof *v);
+    ss_places_write(b->kernel, &s, &b->grid[i], b->rate, part, factor, w);
 }
 
 void
@@ -361,21 +413,19 @@ ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double
 {
     const block_scale *r = &b->scale[i];
     const stage *st = &b->stage[r->level];
-    size_t end = part.first + part.n, k = part.first;
-    double *v = scratch + 2 * b->longest;
-    while (k < end) {
-        size_t window = 1 + k / r->hop - s->first, at = k % r->hop;
-        size_t n = r->hop - at < end - k ? r->hop - at : end - k;
-        transform_window(st, r, s->level[r->level] + window * st->stride, scratch, v);
-        write_points(v + 2 * at, n, factor, w + 2 * (k - part.first));
-        k += n;
+    size_t last = part.first + part.n, k = part.first;
+    double *v = scratch + 2 * b->longest + 2 * PLACES_MARGIN;
+    while (k < last) {
+        size_t window = window_of(b, i, k), end = ss_blocks_end(b, i, window);
+        span now = { k, (end < last ? end : last) - k };
+        double *to = w + 2 * (k - part.first);
+        transform_window(st, r, s->level[r->level] + (window - s->first) * st->stride, scratch, v);
+        if (r->between)
+            write_between(b, i, window, v, now, factor, to);
+        else
+            write_points(v + 2 * (k % r->hop), now.n, factor, to);
+        k = end;
     }
-}
-
-size_t
-ss_blocks_hop(const struct blocks *b, size_t i)
-{
-    return b->scale[i].hop;
 }
 
 size_t
@@ -387,7 +437,7 @@ ss_blocks_level(const struct blocks *b, size_t i)
 double
 ss_blocks_delay(const struct blocks *b, size_t i)
 {
-    double delay = 0;
+    double delay = b->scale[i].between;       /* some lie half a sample before their window */
     for (int l = 0; l <= b->scale[i].level; l++)
         delay += ldexp((double)(b->stage[l].length - b->stage[l].overlap / 2), l);
     return delay;

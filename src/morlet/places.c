@@ -1,0 +1,165 @@
+/* places.c -- coefficients at any translations from the points of an oversampled series.
+ *
+ * Between points the series is a sum over PLACES_TAPS of them with the weights of a kernel (kaiser.c),
+ * which are polynomials of the place; then the carrier is put back.  A place is known as a whole number
+ * of points and the rest: so the carrier's phase is right to the last bit. */
+#include <math.h>
+#include <string.h>
+#include "base/versions.h"
+#include "morlet/places.h"
+
+enum { LANES = 8, AT_ONCE = 64 };
+
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
+typedef double pair __attribute__((vector_size(2 * sizeof(double))));
+
+/* Part of a function that is compiled for several kinds of machine. */
+#define INLINE static inline __attribute__((always_inline))
+
+/* So many translations from one on: a point before each, and how far it is behind that, at most 1. */
+typedef struct places {
+    double point[AT_ONCE], behind[AT_ONCE];
+} places;
+
+void
+ss_places_kernel(kaiser *out, double reach, double center, double second, double bound)
+{
+    kaiser_band band = { .edge = 0.4, .reach = reach, .center = center, .second = second };
+    while (!ss_kaiser_choose(out, &band, bound) || out->taps > PLACES_TAPS)
+        band.edge *= 0.95;
+}
+
+/* As ss_scale_spot; in two loops, that it is done for several at a time. */
+INLINE void
+find_places(const point_series *s, double b_num, double b_den, double rate, double first, places *out)
+{
+    double b[AT_ONCE], sample[AT_ONCE], time[AT_ONCE], beyond[AT_ONCE], per_sample = 1 / s->samples;
+    for (int i = 0; i < AT_ONCE; i++) {
+        b[i] = (first + i) * b_num / b_den;
+        sample[i] = rint(b[i] * rate);
+        time[i] = sample[i] / rate;
+        beyond[i] = fma(b[i], rate, -sample[i]);
+    }
+    for (int i = 0; i < AT_ONCE; i++) {
+        double tau = time[i] == b[i] ? 0 : beyond[i], c = sample[i] - s->start;
+        double near = rint(c * per_sample), rest = (c - near * s->samples + tau) * per_sample;
+        double point = rint(rest - 0.5);
+        out->point[i] = near + point;
+        out->behind[i] = rest - point;
+    }
+}
+
+/* Each of four weights twice, for re and im. */
+#define TWICE(w, i) (lanes){ w[i], w[i], w[i + 1], w[i + 1], w[i + 2], w[i + 2], w[i + 3], w[i + 3] }
+
+INLINE void
+add_taps(const kaiser *ker, const double *v, const places *at, size_t n, double (*sum)[2])
+{
+    ptrdiff_t lead = ker->taps / 2 - 1;
+    for (size_t i = 0; i < n; i++) {
+        double f = at->behind[i] * KAISER_PARTS;
+        int part = (int)f < KAISER_PARTS ? (int)f : KAISER_PARTS - 1;
+        double y = 2 * (f - part) - 1;
+        const lanes *point = (const lanes *)(v + 2 * ((ptrdiff_t)at->point[i] - lead));
+        const lanes *c = (const lanes *)ker->table[part][KAISER_NODES - 1];
+        lanes low = c[0], high = c[1];
+        UNROLL
+        for (int m = KAISER_NODES - 1; m > 0; m--) {
+            c -= KAISER_TAPS_MAX / LANES;
+            low = low * y + c[0];
+            high = high * y + c[1];
+        }
+        lanes all = point[0] * TWICE(low, 0);
+        all += point[1] * TWICE(low, 4);
+        all += point[2] * TWICE(high, 0);
+        all += point[3] * TWICE(high, 4);
+        pair of[4];
+        memcpy(of, &all, sizeof of);
+        of[0] = (of[0] + of[1]) + (of[2] + of[3]);
+        memcpy(sum[i], of, sizeof *sum);
+    }
+}
+
+/* exp(2 pi i turns p): of a quarter of the angle by Taylor's series, then squared twice. */
+INLINE void
+carriers(double turns, const places *at, double (*restrict e)[2])
+{
+    for (int i = 0; i < AT_ONCE; i++) {
+        double t = turns * at->point[i], x, x2, co = 1, si = 1;
+        t = t - rint(t) + turns * at->behind[i];
+        x = (t - rint(t)) * (M_PI / 2);
+        x2 = x * x;
+        for (int m = 18; m > 0; m -= 2) {
+            co = 1 - co * x2 * (1. / (m * (m - 1)));
+            si = 1 - si * x2 * (1. / (m * (m + 1)));
+        }
+        si *= x;
+        for (int m = 0; m < 2; m++) {
+            double re = co * co - si * si;
+            si = 2 * co * si;
+            co = re;
+        }
+        e[i][0] = co;
+        e[i][1] = si;
+    }
+}
+
+INLINE void
+turn(double (*restrict sum)[2], double (*restrict e)[2], size_t n, double factor, double *restrict w)
+{
+    for (size_t i = 0; i < n; i++) {
+        w[2 * i] = (sum[i][0] * e[i][0] - sum[i][1] * e[i][1]) * factor;
+        w[2 * i + 1] = (sum[i][0] * e[i][1] + sum[i][1] * e[i][0]) * factor;
+    }
+}
+
+INLINE void
+write_any(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part,
+          double factor, double *w)
+{
+    for (size_t i = 0; i < part.n; i += AT_ONCE) {
+        size_t n = part.n - i < AT_ONCE ? part.n - i : AT_ONCE;
+        places at;
+        double sum[AT_ONCE][2], e[AT_ONCE][2];
+        find_places(s, scale->b_num, scale->b_den, rate, (double)(part.first + i), &at);
+        add_taps(ker, s->v, &at, n, sum);
+        carriers(s->turns, &at, e);
+        turn(sum, e, n, factor, w + 2 * i);
+    }
+}
+
+typedef void write_places(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
+                          span part, double factor, double *w);
+
+#define WRITE(name, target) \
+    target static void \
+    name(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part, \
+         double factor, double *w) \
+    { \
+        write_any(ker, s, scale, rate, part, factor, w); \
+    }
+
+WRITE(write_128, FAST)
+#ifdef HAVE_TARGETS
+WRITE(write_256, FAST_FOR("avx2,fma"))
+WRITE(write_512, FAST_FOR("avx512f"))
+#endif
+
+static write_places *
+best_write(void)
+{
+#ifdef HAVE_TARGETS
+    if (__builtin_cpu_supports("avx512f"))
+        return write_512;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        return write_256;
+#endif
+    return write_128;
+}
+
+void
+ss_places_write(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
+                span part, double factor, double *w)
+{
+    best_write()(ker, s, scale, rate, part, factor, w);
+}
