@@ -36,6 +36,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/gauss.h"
+#include "base/versions.h"
 #include "features/period.h"
 
 #define WIDTH 0.2               /* a cycle's period may differ so much from the record's */
@@ -70,28 +71,71 @@ typedef struct view {           /* the signal, as it is or averaged over q sampl
     size_t n;
 } view;
 
-/* Mean square difference of the m samples from i on and those lag later, less their means; the mean
- * squares of both, into *a and *b, and the mean product into *ab. */
+/* Sums over m samples and those some lag later, and over their products. */
+typedef struct sums {
+    double p, q, pp, qq, pq;
+} sums;
+
+static sums
+sums_of(const double *p, const double *q, size_t m)
+{
+    sums s = { 0, 0, 0, 0, 0 };
+    for (size_t k = 0; k < m; k++) {
+        s.p += p[k], s.q += q[k];
+        s.pp += p[k] * p[k], s.qq += q[k] * q[k], s.pq += p[k] * q[k];
+    }
+    return s;
+}
+
+/* Their sum of products alone.  In lanes, which do not wait for each other. */
+VERSIONS static double
+product(const double *p, const double *q, size_t m)
+{
+    enum { LANES = 16 };
+    double lane[LANES] = { 0 }, sum = 0;
+    size_t k = 0;
+    for (; k + LANES <= m; k += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            lane[l] += p[k + l] * q[k + l];
+    for (; k < m; k++)
+        sum += p[k] * q[k];
+    for (size_t l = 0; l < LANES && m >= LANES; l++)
+        sum += lane[l];
+    return sum;
+}
+
+/* Mean square difference of both less their means; their mean squares, into *a and *b, and the mean
+ * product into *ab. */
+static double
+difference_of(const sums *s, size_t m, double *a, double *b, double *ab)
+{
+    double one = 1 / (double)m;
+    *a = fmax(0, (s->pp - s->p * s->p * one) * one);
+    *b = fmax(0, (s->qq - s->q * s->q * one) * one);
+    *ab = (s->pq - s->p * s->q * one) * one;
+    return fmax(0, *a + *b - 2 * *ab);
+}
+
+/* The same of the m samples from i on and those lag later. */
 static double
 difference(const view *v, size_t i, size_t lag, size_t m, double *a, double *b, double *ab)
 {
-    const double *p = v->x + i, *q = p + lag;
-    double sp = 0, sq = 0, pp = 0, qq = 0, pq = 0, one = 1 / (double)m;
-    for (size_t k = 0; k < m; k++) {
-        sp += p[k], sq += q[k];
-        pp += p[k] * p[k], qq += q[k] * q[k], pq += p[k] * q[k];
-    }
-    *a = fmax(0, (pp - sp * sp * one) * one);
-    *b = fmax(0, (qq - sq * sq * one) * one);
-    *ab = (pq - sp * sq * one) * one;
-    return fmax(0, *a + *b - 2 * *ab);
+    sums s = sums_of(v->x + i, v->x + i + lag, m);
+    return difference_of(&s, m, a, b, ab);
+}
+
+static double
+relative_of(const sums *s, size_t m)
+{
+    double a, b, ab, d = difference_of(s, m, &a, &b, &ab);
+    return a + b > 0 ? d / (a + b) : 1;
 }
 
 static double
 relative(const view *v, size_t i, size_t lag, size_t m)
 {
-    double a, b, ab, d = difference(v, i, lag, m, &a, &b, &ab);
-    return a + b > 0 ? d / (a + b) : 1;
+    sums s = sums_of(v->x + i, v->x + i + lag, m);
+    return relative_of(&s, m);
 }
 
 /* The vertex of the parabola through the values at -step, 0, step. */
@@ -108,12 +152,18 @@ best_lag(const view *v, size_t i, size_t m, size_t lo, size_t hi)
 {
     size_t best = lo;
     double least = INFINITY;
-    for (size_t lag = lo; lag <= hi; lag++) {
-        double d = relative(v, i, lag, m);
+    const double *p = v->x + i, *q = p + lo;
+    sums s = sums_of(p, q, m);
+    for (size_t lag = lo;; lag++, q++) {
+        double d = relative_of(&s, m);
         if (d < least) {
             least = d;
             best = lag;
         }
+        if (lag == hi)
+            break;
+        s.q += q[m] - q[0], s.qq += q[m] * q[m] - q[0] * q[0];
+        s.pq = product(p, q + 1, m);
     }
     return best > lo && best < hi ? best : 0;
 }
