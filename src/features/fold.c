@@ -25,11 +25,12 @@ ss_fold_spikes(const search *s, ss_spikes **out, double *period)
         return SS_ENOMEM;
     for (size_t k = 0; k < over; k++) {
         size_t first = (size_t)((double)k * samples + 0.5);
-        for (size_t i = 0; i < n; i++)
-            if (!ss_gaps_near(s->gap, s->n_gaps, (double)(first + i) / s->rate, 0)) {
-                mean[i] += s->x[first + i];
-                used[i]++;
-            }
+        for (size_t i = 0; i < n; i++) {
+            if (s->n_gaps > 0 && ss_gaps_near(s->gap, s->n_gaps, (double)(first + i) / s->rate, 0))
+                continue;
+            mean[i] += s->x[first + i];
+            used[i]++;
+        }
     }
     for (size_t i = 0; i < n; i++)
         mean[i] = used[i] > 0 ? mean[i] / used[i] : 0;
