@@ -12,7 +12,6 @@
  * strongest harmonics have most power.  Long records are treated in parts, as a hum may drift. */
 #include "features/hum.h"
 
-#include <gsl/gsl_fft_complex.h>
 #include <gsl/gsl_min.h>
 #include <complex.h>
 #include <math.h>
@@ -28,8 +27,7 @@
 #define CLEAR 0.1               /* of a line's power, in free bins: with less it is not measured well */
 #define SEEN 0.001              /* the same, for it to be looked for */
 #define FAINT 1e-3              /* of the strongest harmonic: a line that is no more disturbs no fit */
-enum { LINES = 3, FEWEST = 6, FREE = 16, STRONGEST = 16 };
-enum { LANES = 4 };
+enum { LINES = 3, FEWEST = 6, FREE = 16, BATCH = 16, STRONGEST = BATCH };
 enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
 
 typedef struct zoomed {         /* x = Re z exp(i center t) in the band, at t = 0, step, 2 step ... */
@@ -46,28 +44,29 @@ typedef struct line {
     double seen;                /* of its power, in free bins */
 } line;
 
-/* Fourier sum at an angular frequency: of a line there, its amplitude.  In lanes, which do not wait for
- * each other; behind the window there are zeros. */
-VERSIONS static double complex
-sum_at(const zoomed *zoom, double w)
+/* Fourier sums at n angular frequencies, a batch: of lines there, their amplitudes. */
+VERSIONS static void
+sums_near(const zoomed *zoom, const double *w, size_t n, double complex *to)
 {
-    double turn = (w - zoom->center) * zoom->step, c = cos(LANES * turn), s = sin(LANES * turn);
-    double re[LANES] = { 0 }, im[LANES] = { 0 }, at_c[LANES], at_s[LANES];
-    double complex sum = 0;
-    for (int l = 0; l < LANES; l++)
-        at_c[l] = cos(l * turn), at_s[l] = sin(l * turn);
-    for (size_t i = 0; i < zoom->n; i += LANES)
-        for (size_t l = 0; l < LANES; l++) {
-            double a = creal(zoom->z[i + l]), b = cimag(zoom->z[i + l]);
-            double next = at_c[l] * c - at_s[l] * s;
+    double re[BATCH] = { 0 }, im[BATCH] = { 0 }, c[BATCH] = { 0 }, s[BATCH] = { 0 };
+    double at_c[BATCH], at_s[BATCH];
+    for (size_t l = 0; l < BATCH; l++) {
+        double turn = l < n ? (w[l] - zoom->center) * zoom->step : 0;
+        c[l] = cos(turn), s[l] = sin(turn);
+        at_c[l] = 1, at_s[l] = 0;
+    }
+    for (size_t i = 0; i < zoom->n; i++) {
+        double a = creal(zoom->z[i]), b = cimag(zoom->z[i]);
+        for (size_t l = 0; l < BATCH; l++) {
+            double next = at_c[l] * c[l] - at_s[l] * s[l];
             re[l] += a * at_c[l] + b * at_s[l];
             im[l] += b * at_c[l] - a * at_s[l];
-            at_s[l] = at_c[l] * s + at_s[l] * c;
+            at_s[l] = at_c[l] * s[l] + at_s[l] * c[l];
             at_c[l] = next;
         }
-    for (int l = 0; l < LANES; l++)
-        sum += re[l] + I * im[l];
-    return 2 * zoom->step / zoom->length * sum;
+    }
+    for (size_t l = 0; l < n; l++)
+        to[l] = 2 * zoom->step / zoom->length * (re[l] + I * im[l]);
 }
 
 static double
@@ -108,21 +107,21 @@ sums_at(const zoomed *zoom, double w, double by, size_t n, double complex *to)
         double t = (double)i;
         double complex c = cexp(I * half * t * t);
         if (i < zoom->n)
-            a[i] = zoom->z[i] * cexp(-I * from * t) * conj(c);
+            a[i] = zoom->z[i] * cexp(-I * (from + half * t) * t);
         if (i < n)
             chirp[i] = c;
         if (i > 0 && i < zoom->n)
             chirp[size - i] = c;
     }
-    gsl_fft_complex_radix2_forward((double *)a, 1, size);
-    gsl_fft_complex_radix2_forward((double *)chirp, 1, size);
+    ss_status st = ss_complex_fft(a, size, 2, 0);
     for (size_t i = 0; i < size; i++)
-        a[i] *= chirp[i];
-    gsl_fft_complex_radix2_inverse((double *)a, 1, size);
+        a[i] *= chirp[i] / (double)size;
+    if (st == SS_OK)
+        st = ss_complex_fft(a, size, 1, 1);
     for (size_t k = 0; k < n; k++)
         to[k] = 2 * zoom->step / zoom->length * cexp(-I * half * (double)k * (double)k) * a[k];
     free(a);
-    return SS_OK;
+    return st;
 }
 
 static ss_status
@@ -132,7 +131,7 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
     size_t half = (size_t)((BAND + BEYOND) * f * (double)size);
     size_t few = power_of_two(2. * (double)half + 1);
     double *r = calloc(size + 2, sizeof *r);
-    zoom->z = calloc(few + LANES, sizeof *zoom->z);
+    zoom->z = calloc(few, sizeof *zoom->z);
     if (r != NULL)
         memcpy(r, x, n * sizeof *r);
     if (r == NULL || zoom->z == NULL || ss_real_fft(r, size, 0) != SS_OK) {
@@ -143,11 +142,10 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
         if (j > 0)
             zoom->z[(j + few - middle) % few] = 2 / (double)size * (r[2 * j] + I * r[2 * j + 1]);
     free(r);
-    gsl_fft_complex_radix2_backward((double *)zoom->z, 1, few);
     zoom->step = (double)size / (double)few;
     zoom->center = 2 * M_PI * (double)middle / (double)size;
     zoom->n = few;
-    return SS_OK;
+    return ss_complex_fft(zoom->z, few, 1, 1);
 }
 
 static void
@@ -187,9 +185,13 @@ static double
 less_harmonic(double period, void *user)
 {
     const harmonics *h = user;
-    double sum = 0;
+    double sum = 0, w[STRONGEST] = { 0 };
+    double complex at[STRONGEST];
     for (size_t i = 0; i < h->n; i++)
-        sum -= sqrt(power(sum_at(h->zoom, 2 * M_PI * (double)h->k[i] / period)));
+        w[i] = 2 * M_PI * (double)h->k[i] / period;
+    sums_near(h->zoom, w, h->n, at);
+    for (size_t i = 0; i < h->n; i++)
+        sum -= sqrt(power(at[i]));
     return sum;
 }
 
@@ -211,14 +213,31 @@ narrow(gsl_function *f, double bin, double *at)
     return SS_OK;
 }
 
+/* The strongest harmonics of a period in the band. */
+static void
+find_harmonics(harmonics *h, double low, double high, double period)
+{
+    double w[BATCH] = { 0 };
+    double complex at[BATCH];
+    size_t k = (size_t)ceil(low * period);
+    while ((double)k <= high * period) {
+        size_t n = 0;
+        for (; n < BATCH && (double)(k + n) <= high * period; n++)
+            w[n] = 2 * M_PI * (double)(k + n) / period;
+        sums_near(h->zoom, w, n, at);
+        for (size_t i = 0; i < n; i++)
+            insert(h, k + i, power(at[i]));
+        k += n;
+    }
+}
+
 /* The period at which the strongest harmonics have most, to a thousandth of a bin; as it was where
  * that has no maximum near it. */
 static ss_status
 refine_period(const zoomed *zoom, double low, double high, double *period)
 {
     harmonics h = { .zoom = zoom };
-    for (size_t k = (size_t)ceil(low * *period); (double)k <= high * *period; k++)
-        insert(&h, k, power(sum_at(zoom, 2 * M_PI * (double)k / *period)));
+    find_harmonics(&h, low, high, *period);
     if (h.n == 0)
         return SS_OK;
     double bin = *period * *period / (zoom->length * (double)h.k[0]), best = *period;
