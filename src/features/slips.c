@@ -57,8 +57,9 @@ count_changes(fitter *k, ss_window win, size_t at, varpro_sums *once, varpro_sum
 static void
 step_column(const varpro_sums *sums, double c, double s, double of[VARPRO_COLUMNS])
 {
+    const double *by_cos = sums->g[sums->m - 2], *by_sin = sums->g[sums->m - 1];
     for (int j = 0; j < VARPRO_COLUMNS; j++)
-        of[j] = c * sums->g[VARPRO_COS][j] + s * sums->g[VARPRO_SIN][j];
+        of[j] = c * by_cos[j] + s * by_sin[j];
 }
 
 /* Add the products of a change of a window's gain with w, s and the residual.  y is the change in the
@@ -67,22 +68,22 @@ static void
 add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
           const varpro_sums *twice, score *to)
 {
-    enum { LEFT = VARPRO_T_COS };
+    const size_t left = f->m, at_cos = left - 2, at_sin = left - 1;
     const double c[] = { fitted->a, fitted->b }, s[] = { fitted->b, -fitted->a };
     double j[PARAMETERS][2], y[2][VARPRO_COLUMNS], of[VARPRO_COLUMNS];
     ss_varpro_derivatives(f, fitted->a, fitted->b, j[0], j[1]);
     for (int p = 0; p < 2; p++) {
         step_column(once, c[p], s[p], of);
         ss_varpro_substitute(f, of, y[p]);
-        memcpy(j[2 + p], y[p] + LEFT, sizeof j[0]);
-        double g = c[p] * once->x[VARPRO_COS] + s[p] * once->x[VARPRO_SIN];
-        for (int i = 0; i < LEFT; i++)
+        memcpy(j[2 + p], y[p] + left, sizeof j[0]);
+        double g = c[p] * once->x[at_cos] + s[p] * once->x[at_sin];
+        for (size_t i = 0; i < left; i++)
             g -= y[p][i] * f->y[i];
         to->g[2 + p] += g;
         step_column(twice, c[p], s[p], of);
         for (int q = 0; q <= p; q++) {
-            double h = c[q] * of[VARPRO_COS] + s[q] * of[VARPRO_SIN];
-            for (int i = 0; i < LEFT; i++)
+            double h = c[q] * of[at_cos] + s[q] * of[at_sin];
+            for (size_t i = 0; i < left; i++)
                 h -= y[p][i] * y[q][i];
             to->h[(2 + p) * PARAMETERS + 2 + q] += h;
         }

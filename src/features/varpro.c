@@ -74,61 +74,80 @@ turn(wave *z)
     z->cos = next;
 }
 
-/* Columns that are not in use are 0.  Where the forcing is slow, sin, 1 - cos and t - sin are about t,
- * t^2 and t^3: cos and t themselves would differ from the others by rounding only. */
+/* Where the forcing is slow, sin, 1 - cos and t - sin are about t, t^2 and t^3: cos and t themselves
+ * would differ from the others by rounding only. */
 static void
 make_row(const varpro_table *tab, double t, double row[COLUMNS])
 {
-    double phase = tab->forcing * t;
+    double phase = tab->forcing * t, *next = row;
     memset(row, 0, COLUMNS * sizeof *row);
-    row[VARPRO_SLOW] = 1;
-    row[VARPRO_SLOW + 1] = tab->forcing > 0 ? tab->slow.sin : t;
+    *next++ = 1;
+    *next++ = tab->forcing > 0 ? tab->slow.sin : t;
     if (tab->forcing > 0)
-        row[VARPRO_SLOW + 2] = 1 - tab->slow.cos;
+        *next++ = 1 - tab->slow.cos;
     else if (tab->is_bent)
-        row[VARPRO_SLOW + 2] = t * t;
+        *next++ = t * t;
     if (tab->is_bent)
-        row[VARPRO_SLOW + 3] = tab->forcing > 0 ? phase - tab->slow.sin : t * t * t;
+        *next++ = tab->forcing > 0 ? phase - tab->slow.sin : t * t * t;
     if (tab->line > 0)
-        row[VARPRO_LINE] = tab->steady.cos, row[VARPRO_LINE + 1] = tab->steady.sin;
-    row[VARPRO_COS] = tab->ring.cos, row[VARPRO_SIN] = tab->ring.sin;
-    row[VARPRO_T_COS] = t * tab->ring.cos, row[VARPRO_T_SIN] = t * tab->ring.sin;
+        *next++ = tab->steady.cos, *next++ = tab->steady.sin;
+    *next++ = tab->ring.cos, *next++ = tab->ring.sin;
+    *next++ = t * tab->ring.cos, *next++ = t * tab->ring.sin;
 }
 
-/* Add the products of n rows' columns. */
-VERSIONS static void
-add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS])
+/* Add the products of n rows' columns, of which the first `width` are in use. */
+static inline void
+add_products_of(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS], int width)
 {
     for (size_t i = 0; i < n; i++)
-        for (int j = 0; j < COLUMNS; j++)
-            for (int k = 0; k < COLUMNS; k++)
+        for (int j = 0; j < width; j++)
+            for (int k = 0; k < width; k++)
                 g[j][k] += row[i][j] * row[i][k];
 }
 
-/* Add the products of n rows with x less level. */
 VERSIONS static void
-add_samples(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
-            double *restrict to, double *restrict xx)
+add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS], size_t m)
+{
+    if (m + 2 <= VARPRO_NARROW)
+        add_products_of(row, n, g, VARPRO_NARROW);
+    else
+        add_products_of(row, n, g, COLUMNS);
+}
+
+/* Add the products of n rows with x less level. */
+static inline void
+add_samples_of(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
+               double *restrict to, double *restrict xx, int width)
 {
     double even[COLUMNS] = { 0 }, odd[COLUMNS] = { 0 }, squares[2] = { 0 };
     size_t i = 0;
     for (; i + 2 <= n; i += 2) {
         double a = x[i] - level, b = x[i + 1] - level;
-        for (int k = 0; k < COLUMNS; k++)
+        for (int k = 0; k < width; k++)
             even[k] += a * row[i][k];
-        for (int k = 0; k < COLUMNS; k++)
+        for (int k = 0; k < width; k++)
             odd[k] += b * row[i + 1][k];
         squares[0] += a * a, squares[1] += b * b;
     }
     if (i < n) {
         double a = x[i] - level;
-        for (int k = 0; k < COLUMNS; k++)
+        for (int k = 0; k < width; k++)
             even[k] += a * row[i][k];
         squares[0] += a * a;
     }
-    for (int k = 0; k < COLUMNS; k++)
+    for (int k = 0; k < width; k++)
         to[k] += even[k] + odd[k];
     *xx += squares[0] + squares[1];
+}
+
+VERSIONS static void
+add_samples(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
+            double *restrict to, double *restrict xx, size_t m)
+{
+    if (m + 2 <= VARPRO_NARROW)
+        add_samples_of(x, level, row, n, to, xx, VARPRO_NARROW);
+    else
+        add_samples_of(x, level, row, n, to, xx, COLUMNS);
 }
 
 /* The sums over the first n rows, of which the last may not have theirs yet. */
@@ -140,7 +159,7 @@ sum_rows(const varpro_table *tab, size_t n, double (*g)[COLUMNS])
         memcpy(g, tab->sum[known - 1], sizeof tab->sum[0]);
     else
         memset(g, 0, sizeof tab->sum[0]);
-    add_products(tab->row + known * OFTEN, n - known * OFTEN, g);
+    add_products(tab->row + known * OFTEN, n - known * OFTEN, g, tab->m);
 }
 
 /* Begin the columns again if w, s, forcing, is_bent or line have changed. */
@@ -157,6 +176,7 @@ restart(varpro *v)
     tab->slow = wave_of(v->forcing, 0);
     tab->steady = wave_of(v->line, 0);
     tab->n = 0;
+    tab->m = ss_varpro_columns(v);
     v->factored = 0;
 }
 
@@ -177,7 +197,7 @@ extend(varpro *v, size_t n)
 void
 ss_varpro_sums_start(const varpro *v, size_t origin, varpro_sums *sums)
 {
-    *sums = (varpro_sums){ .origin = origin, .level = v->x[origin] };
+    *sums = (varpro_sums){ .origin = origin, .m = ss_varpro_columns(v), .level = v->x[origin] };
 }
 
 void
@@ -185,8 +205,8 @@ ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums)
 {
     size_t from = more.first - sums->origin, n = ss_window_length(more);
     extend(v, from + n);
-    add_products(v->table.row + from, n, sums->g);
-    add_samples(v->x + more.first, sums->level, v->table.row + from, n, sums->x, &sums->xx);
+    add_products(v->table.row + from, n, sums->g, sums->m);
+    add_samples(v->x + more.first, sums->level, v->table.row + from, n, sums->x, &sums->xx, sums->m);
 }
 
 /* --- projection ------------------------------------------------------------------------------ */
@@ -194,16 +214,16 @@ ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums)
 /* The first n columns.  A column that depends on those before is left out: its row of l and what is below
  * it are 0. */
 static void
-factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], int n)
+factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], size_t n)
 {
-    for (int j = 0; j < n; j++) {
+    for (size_t j = 0; j < n; j++) {
         double pivot = g[j][j];
-        for (int k = 0; k < j; k++)
+        for (size_t k = 0; k < j; k++)
             pivot -= l[j][k] * l[j][k];
         l[j][j] = pivot > DEPENDENT * g[j][j] ? sqrt(pivot) : 0;
-        for (int i = j + 1; i < n; i++) {
+        for (size_t i = j + 1; i < n; i++) {
             double sum = g[i][j];
-            for (int k = 0; k < j && l[j][j] > 0; k++)
+            for (size_t k = 0; k < j && l[j][j] > 0; k++)
                 sum -= l[i][k] * l[j][k];
             l[i][j] = l[j][j] > 0 ? sum / l[j][j] : 0;
         }
@@ -212,11 +232,11 @@ factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], int n)
 
 /* The first n of l^-1 of. */
 static void
-substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS], int n)
+substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS], size_t n)
 {
-    for (int j = 0; j < n; j++) {
+    for (size_t j = 0; j < n; j++) {
         double sum = of[j];
-        for (int k = 0; k < j && f->l[j][j] > 0; k++)
+        for (size_t k = 0; k < j && f->l[j][j] > 0; k++)
             sum -= f->l[j][k] * to[k];
         to[j] = f->l[j][j] > 0 ? sum / f->l[j][j] : 0;
     }
@@ -225,14 +245,14 @@ substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS],
 void
 ss_varpro_substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS])
 {
-    substitute(f, of, to, COLUMNS);
+    substitute(f, of, to, f->m + 2);
 }
 
 /* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
 void
 ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2], double by_s[2])
 {
-    const double *c = &f->l[VARPRO_T_COS][VARPRO_T_COS], *s = &f->l[VARPRO_T_SIN][VARPRO_T_COS];
+    const double *c = &f->l[f->m][f->m], *s = &f->l[f->m + 1][f->m];
     by_w[0] = a * s[0] - b * c[0], by_w[1] = a * s[1];
     by_s[0] = a * c[0] + b * s[0], by_s[1] = b * s[1];
 }
@@ -241,7 +261,7 @@ ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2]
 static double
 left_of(const varpro_factor *f, double xx)
 {
-    for (int j = 0; j < VARPRO_T_COS; j++)
+    for (size_t j = 0; j < f->m; j++)
         xx -= f->y[j] * f->y[j];
     return fmax(xx, 0);
 }
@@ -249,12 +269,13 @@ left_of(const varpro_factor *f, double xx)
 static linear
 linear_of(const varpro_factor *f, double xx)
 {
-    const double *y = f->y, *left = y + VARPRO_T_COS;
+    const size_t at_cos = f->m - 2, at_sin = f->m - 1;
+    const double *y = f->y, *left = y + f->m;
     linear fit = { .whole = xx, .rss = left_of(f, xx) };
-    fit.ring = y[VARPRO_COS] * y[VARPRO_COS] + y[VARPRO_SIN] * y[VARPRO_SIN];
-    double c = f->l[VARPRO_COS][VARPRO_COS], s = f->l[VARPRO_SIN][VARPRO_SIN], w[2], d[2];
-    fit.b = s > 0 ? y[VARPRO_SIN] / s : 0;
-    fit.a = c > 0 ? (y[VARPRO_COS] - f->l[VARPRO_SIN][VARPRO_COS] * fit.b) / c : 0;
+    fit.ring = y[at_cos] * y[at_cos] + y[at_sin] * y[at_sin];
+    double c = f->l[at_cos][at_cos], s = f->l[at_sin][at_sin], w[2], d[2];
+    fit.b = s > 0 ? y[at_sin] / s : 0;
+    fit.a = c > 0 ? (y[at_cos] - f->l[at_sin][at_cos] * fit.b) / c : 0;
     ss_varpro_derivatives(f, fit.a, fit.b, w, d);
     fit.normal = (normal){ w[0] * w[0] + w[1] * w[1], w[0] * d[0] + w[1] * d[1],
                            d[0] * d[0] + d[1] * d[1], w[0] * left[0] + w[1] * left[1],
@@ -265,9 +286,9 @@ linear_of(const varpro_factor *f, double xx)
 double
 ss_varpro_left(varpro_sums *sums)
 {
-    varpro_factor f;
-    factorise(sums->g, f.l, VARPRO_T_COS);
-    substitute(&f, sums->x, f.y, VARPRO_T_COS);
+    varpro_factor f = { .m = sums->m };
+    factorise(sums->g, f.l, f.m);
+    substitute(&f, sums->x, f.y, f.m);
     return left_of(&f, sums->xx);
 }
 
@@ -280,8 +301,8 @@ find_factor(varpro *v, size_t n)
     if (v->factored == n)
         return;
     sum_rows(&v->table, n, g);
-    memset(&v->factor, 0, sizeof v->factor);
-    factorise(g, v->factor.l, COLUMNS);
+    v->factor.m = v->table.m;
+    factorise(g, v->factor.l, v->factor.m + 2);
     v->factored = n;
 }
 
@@ -291,7 +312,7 @@ ss_varpro_project(varpro *v, ss_window win)
     size_t n = ss_window_length(win);
     double x[COLUMNS] = { 0 }, xx = 0;
     find_factor(v, n);
-    add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx);
+    add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx, v->table.m);
     ss_varpro_substitute(&v->factor, x, v->factor.y);
     linear fit = linear_of(&v->factor, xx);
     fit.windows = 1;

@@ -7,25 +7,26 @@
 #include <stickslip/status.h>
 #include "features/window.h"
 
-/* What a window consists of, t samples behind an origin: a slow part (1, t, t^2, t^3, or the
- * forcing), a steady line, exp(-s t) cos(w t) and exp(-s t) sin(w t); and t times these two, the
- * derivatives.  Columns that are not in use are 0. */
+/* What a window consists of, t samples behind an origin: m columns, which are a slow part (1, t, t^2,
+ * t^3, or the forcing), a steady line if there is one, exp(-s t) cos(w t) and exp(-s t) sin(w t); and t
+ * times these two, the derivatives, behind them.  Columns behind these are 0. */
 enum {
-    VARPRO_SLOW = 0, VARPRO_LINE = 4, VARPRO_COS = 6, VARPRO_SIN, VARPRO_T_COS, VARPRO_T_SIN,
-    VARPRO_COLUMNS,
-    VARPRO_MOST = VARPRO_LINE + 3       /* columns but the derivatives' that are ever in use */
+    VARPRO_MOST = 7,            /* m is at most */
+    VARPRO_NARROW = 8,          /* columns as a rule, and their derivatives */
+    VARPRO_COLUMNS = 10         /* room for columns */
 };
 
 /* Sums over samples of products: of columns with each other and with x, and of x with itself; x less
  * level. */
 typedef struct varpro_sums {
-    size_t origin;
+    size_t origin, m;
     double level;
     double g[VARPRO_COLUMNS][VARPRO_COLUMNS], x[VARPRO_COLUMNS], xx;
 } varpro_sums;
 
 /* g = l l', l lower triangular; y = l^-1 x. */
 typedef struct varpro_factor {
+    size_t m;
     double l[VARPRO_COLUMNS][VARPRO_COLUMNS], y[VARPRO_COLUMNS];
 } varpro_factor;
 
@@ -38,7 +39,7 @@ typedef struct wave {           /* now, and what a sample turns it by */
 typedef struct varpro_table {
     double w, s, forcing, line;
     int is_bent;
-    size_t n;
+    size_t n, m;
     wave ring, slow, steady;
     double (*row)[VARPRO_COLUMNS];
     double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS];
@@ -79,7 +80,7 @@ void ss_varpro_free(varpro *v);
 /* Start from w and s with this slow part, which does not bend, and no line. */
 void ss_varpro_start(varpro *v, double w, double s, double forcing);
 
-/* How many columns are in use: those of the slow part, the line and the oscillation. */
+/* m: how many columns the slow part, the line and the oscillation have. */
 size_t ss_varpro_columns(const varpro *v);
 
 /* Fit the amplitudes to a window of more samples than columns. */
@@ -97,7 +98,7 @@ void ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums);
 /* The sum of squares that the same fit leaves, by the sums. */
 double ss_varpro_left(varpro_sums *sums);
 
-/* to = l^-1 of. */
+/* to = l^-1 of, of m + 2. */
 void ss_varpro_substitute(const varpro_factor *f, const double of[VARPRO_COLUMNS],
                           double to[VARPRO_COLUMNS]);
 
