@@ -185,6 +185,15 @@ move_behind(const search *s, const size_t *anchor, size_t n, double by, size_t *
         moved[i] = (size_t)fmin((double)anchor[i] + by * s->rate, (double)s->n - 1);
 }
 
+static int
+same_bars(const ss_window *a, size_t n, const ss_window *b, size_t n_others)
+{
+    size_t i = 0;
+    while (n == n_others && i < n && a[i].first == b[i].first && a[i].end == b[i].end)
+        i++;
+    return n == n_others && i == n;
+}
+
 /* A jump larger than the oscillation passes for the strongest oscillation in a window over it; a
  * smaller one does little harm, so that windows are kept off jumps, and then off kinks, and then
  * moved behind trains of these, only where nothing can be fitted else that deserves it; so are windows
@@ -196,7 +205,8 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
 {
     enum { STICKS = 3 };
     static const double behind[STICKS] = { 0, 2, 5 };   /* periods */
-    size_t *moved = malloc((n + 1) * sizeof *moved);
+    size_t *moved = malloc((n + 1) * sizeof *moved), n_before = 0;
+    ss_window *before = NULL;
     ss_status st = moved != NULL ? SS_OK : SS_ENOMEM;
     *why = "";
     for (bars which = BAR_GAPS; which <= BAR_EVENTS && st == SS_OK && *why != NULL; which++) {
@@ -204,9 +214,9 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
         size_t n_bars = 0;
         st = find_bars(s, which, f, &bar, &n_bars);
         int barred = n_bars > s->n_gaps;
-        for (int k = 0; k <= STICKS && st == SS_OK && *why != NULL; k++) {
-            if (k == STICKS ? which != BAR_EVENTS || (!barred && *why == trains)
-                : *why == trains || (which != BAR_GAPS && !barred))
+        int is_new = which == BAR_GAPS || (barred && !same_bars(bar, n_bars, before, n_before));
+        for (int k = is_new ? 0 : STICKS; k <= STICKS && st == SS_OK && *why != NULL; k++) {
+            if (k == STICKS ? which != BAR_EVENTS || (!barred && *why == trains) : *why == trains)
                 continue;
             if (k == STICKS)
                 move_to_sticks(s, anchor, n, f, moved);
@@ -214,8 +224,11 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
                 move_behind(s, anchor, n, behind[k] / f, moved);
             st = fit_once(s, moved, n, f, bar, n_bars, window, all, each, why);
         }
-        free(bar);
+        free(before);
+        before = bar;
+        n_before = n_bars;
     }
+    free(before);
     free(moved);
     return st;
 }

@@ -127,21 +127,57 @@ stands_out(fitter *k, const ss_window *window, size_t n)
     return all.ring > (double)all.windows * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }
 
-/* Windows about some of the cores, longer and longer, as long as the fit to them converges near its
- * start; then about all of them. */
-static ss_status
-grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int *ok)
+/* Which cores: every so many; those beside them, up to which they may grow; all others. */
+typedef enum cores { SOME, BESIDE, OTHERS } cores;
+
+static cores
+cores_of(size_t i, size_t every)
 {
-    const double start = k->fit.w;
+    size_t phase = i % every;
+    return phase == 0 ? SOME : phase == 1 || phase + 1 == every ? BESIDE : OTHERS;
+}
+
+/* Place cores about their anchors, for an oscillation w, s. */
+static void
+place_cores(fitter *k, const double at[2], const size_t *anchor, ss_window *core, size_t n, size_t every,
+            cores which)
+{
+    const double found[2] = { k->fit.w, k->fit.s };
+    k->fit.w = at[0], k->fit.s = at[1];
+    for (size_t i = 0; i < n; i++)
+        if (cores_of(i, every) == which)
+            core[i] = ss_sticks_place(k, anchor[i], CORE);
+    k->fit.w = found[0], k->fit.s = found[1];
+}
+
+/* Has one of every so many windows the least length? */
+static int
+lasts(const fitter *k, const ss_window *window, size_t n, size_t every)
+{
+    for (size_t i = 0; i < n; i += every)
+        if (ss_window_length(ss_sticks_trim(k, window[i])) > 0)
+            return 1;
+    return 0;
+}
+
+/* Windows about some of the cores, longer and longer, as long as the fit to them converges near its
+ * start; then about all of them, if some are long enough. */
+static ss_status
+grow_windows(fitter *k, const size_t *anchor, ss_window *core, ss_window *window, size_t n, int *ok)
+{
+    const double start[2] = { k->fit.w, k->fit.s };
     size_t every = 1 + n / ENOUGH, longest = 0;
     int more = 1;
+    place_cores(k, start, anchor, core, n, every, SOME);
     for (size_t i = 0; i < n; i++)
-        window[i].end = i % every == 0 ? core[i].end : core[i].first;
+        window[i] = i % every == 0 ? core[i] : (ss_window){ anchor[i], anchor[i] };
     ss_status st = fit_shared(k, window, n, COARSE, ok);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
-        *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* or it is something else */
+        *ok = *ok && fabs(log(k->fit.w / start[0])) < M_LN2 / 2;    /* or it is something else */
         if (st != SS_OK || !*ok)
             return st;
+        if (longest == 0)
+            place_cores(k, start, anchor, core, n, every, BESIDE);
         longest = periods(k, limit);
         ss_sticks_find(k, core, window, n, every, longest);
         more = 0;
@@ -149,8 +185,10 @@ grow_windows(fitter *k, const ss_window *core, ss_window *window, size_t n, int 
             more |= ss_window_length(window[i]) == longest;
         st = fit_shared(k, window, n, COARSE, ok);
     }
+    *ok = *ok && lasts(k, window, n, every);
     if (every == 1 || st != SS_OK || !*ok)
         return st;
+    place_cores(k, start, anchor, core, n, every, OTHERS);
     ss_sticks_find(k, core, window, n, 1, longest);
     return fit_shared(k, window, n, COARSE, ok);
 }
@@ -203,9 +241,7 @@ fit_all(fitter *k, const size_t *anchor, size_t n, double white, ss_window *core
         ss_value value[2], ss_value *each)
 {
     int ok = 0, is_on;
-    for (size_t i = 0; i < n; i++)
-        core[i] = window[i] = ss_sticks_place(k, anchor[i], CORE);
-    ss_status st = grow_windows(k, core, window, n, &ok);
+    ss_status st = grow_windows(k, anchor, core, window, n, &ok);
     if (st != SS_OK || !ok)
         return st;
     for (size_t i = 0; i < n; i++)
