@@ -274,26 +274,50 @@ power_behind(const search *s, const ss_scale *scale, const double *level)
     return 2 * used > out->n ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
 }
 
+/* Is it no less than that of the next scales but one, if there are some? */
+static int
+is_peak(const double *power, size_t n, size_t i)
+{
+    return power[i] > 0 && !(i >= 2 && power[i - 2] > power[i]) && !(i + 2 < n && power[i + 2] > power[i]);
+}
+
+/* The power behind the transitions at n scales: at every other one, as the wavelet's band is wider than
+ * two of them, and at those beside a peak.  0: it is not known. */
+static ss_status
+powers_behind(const search *s, double *power, size_t n)
+{
+    const ss_scale *scale = s->map.grid->scale;
+    double *level = malloc((scale[n - 1].n + 1) * sizeof *level);
+    ss_status st = level != NULL ? SS_OK : SS_ENOMEM;
+    for (int odd = 0; odd < 2; odd++)
+        for (size_t i = (size_t)odd; st == SS_OK && i < n; i += 2) {
+            int is_beside = odd && (is_peak(power, n, i - 1) || (i + 1 < n && is_peak(power, n, i + 1)));
+            power[i] = 0;
+            if (odd && !is_beside)
+                continue;
+            st = ss_levels_fill(&s->map, &(level_part){ i, 0, scale[i].n, level }, 1);
+            power[i] = st == SS_OK ? power_behind(s, &scale[i], level) : 0;
+        }
+    free(level);
+    return st;
+}
+
 /* The label of the strongest band that is a band: with less power on either side.  0: none. */
 static ss_status
 strongest_band(const search *s, double *f)
 {
     const ss_coefficients *grid = s->map.grid;
-    double before = 0, at = 0, best = 0;
-    double *level = malloc((grid->scale[grid->n_scales - 1].n + 1) * sizeof *level);
-    ss_status st = level != NULL ? SS_OK : SS_ENOMEM;
+    double *power = malloc(grid->n_scales * sizeof *power), best = 0;
+    ss_status st = power != NULL ? powers_behind(s, power, grid->n_scales) : SS_ENOMEM;
     *f = 0;
-    for (size_t i = 0; st == SS_OK && i < grid->n_scales; i++) {
-        st = ss_levels_fill(&s->map, &(level_part){ i, 0, grid->scale[i].n, level }, 1);
-        double next = st == SS_OK ? power_behind(s, &grid->scale[i], level) : 0;
+    for (size_t i = 1; st == SS_OK && i + 1 < grid->n_scales; i++) {
+        double before = power[i - 1], at = power[i], next = power[i + 1];
         if (before > 0 && at > before && at > next && next > 0 && at > best) {
             best = at;
-            *f = grid->scale[i - 1].f;
+            *f = grid->scale[i].f;
         }
-        before = at;
-        at = next;
     }
-    free(level);
+    free(power);
     return st;
 }
 
