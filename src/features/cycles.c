@@ -27,8 +27,8 @@
  * - if the energies of the cycles themselves repeat: it is modulated, and the cycle is not what
  *   repeats; or their means do: then a hum or a ringing passes for it.
  *
- * The peak of the autocorrelation may be that of two cycles, where jumps lie between samples: a half is
- * taken that repeats as well as the whole does when it is shifted by a sample. */
+ * The peak of the autocorrelation may be that of several cycles, where jumps lie between samples: a part
+ * is taken that repeats as well as the whole does when it is shifted by a sample. */
 #include "features/cycles.h"
 
 #include <gsl/gsl_cdf.h>
@@ -54,10 +54,11 @@
 #define SLOWEST 512             /* cycles in a swell */
 #define ROBUST 8                /* cycles, for their scatter to be read by the median deviation */
 #define LATER 8.0               /* cycles */
+#define PARTS 16                /* cycles that may pass for one */
 #define FEWEST 16               /* cycles, for modulation to show */
 
 typedef struct cycle {
-    int is_two;                 /* its half repeats as well as it does itself, to a sample */
+    unsigned parts;             /* bit p: so many parts of it repeat as well as it does itself, to a sample */
     double lag, next;           /* in samples; NaN: no best one; half of the lag two cycles later */
     double likeness, symmetry;
     double mean;
@@ -239,11 +240,13 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     }
     if (lag < 3 || first + lag + whole + 2 > fine->n)
         return c;
-    double half = fmin(relative(fine, first, lag / 2, whole), relative(fine, first, (lag + 1) / 2, whole));
     double d[5];
     for (size_t k = 0; k < 5; k++)
         d[k] = relative(fine, first, lag + k - 2, whole);
-    c.is_two = lag >= 8 && half <= fmin(d[1], d[3]);
+    for (size_t p = 2; p <= PARTS && lag >= 4 * p; p++)
+        if (fmin(relative(fine, first, lag / p, whole), relative(fine, first, lag / p + 1, whole))
+            <= fmin(d[1], d[3]))
+            c.parts |= 1u << p;
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.lag = (double)lag + near;
     if (first + 2 * lag + whole + 4 < fine->n)
@@ -340,17 +343,22 @@ is_in_longer(const cycle *c, size_t n, double *v)
     return repeats(v, n, sqrt(power), CYCLES_ALIKE);
 }
 
-/* Does half of a cycle repeat as well as a cycle does if it is shifted by a sample? */
-static int
-is_two(const cycle *c, size_t n, double least)
+/* Into how many parts that repeat as well as it does itself, if that is shifted by a sample, a cycle
+ * falls. */
+static size_t
+parts_of(const cycle *c, size_t n, double least)
 {
-    size_t twice = 0, all = 0;
-    for (size_t i = 0; i < n; i++)
-        if (is_known(&c[i], least)) {
-            all++;
-            twice += (size_t)c[i].is_two;
-        }
-    return all > 0 && 4 * twice >= 3 * all;
+    for (size_t p = PARTS; p > 1; p--) {
+        size_t so = 0, all = 0;
+        for (size_t i = 0; i < n; i++)
+            if (is_known(&c[i], least)) {
+                all++;
+                so += c[i].parts >> p & 1;
+            }
+        if (all > 0 && 4 * so >= 3 * all)
+            return p;
+    }
+    return 1;
 }
 
 /* The share of the variance of a period that a sinusoid of that period leaves. */
@@ -469,9 +477,9 @@ describe(const cycle *c, size_t n, const double *x, size_t step, double least, d
     out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
 }
 
-/* *twice: the cycles are two, of half the period. */
+/* *parts: the cycles are so many, of that part of the period. */
 static ss_status
-find_at(const double *x, size_t n, double period, ss_cycles *out, int *twice)
+find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
@@ -488,7 +496,7 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, int *twice)
             least += c[found++].energy;
         }
         least *= ACTIVE / (double)found;
-        *twice = is_two(c, found, least);
+        *parts = parts_of(c, found, least);
         describe(c, found, x, step, least, v, out);
     }
     free(averaged);
@@ -511,7 +519,7 @@ ss_status
 ss_cycles_find(const double *x, size_t n, ss_cycles *out)
 {
     ss_value start;
-    int twice = 0;
+    size_t parts = 1;
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
     ss_status st = ss_period_find(x, n, &start);
     if (st != SS_OK)
@@ -521,9 +529,9 @@ ss_cycles_find(const double *x, size_t n, ss_cycles *out)
         return SS_OK;
     }
     do {
-        start.value *= twice ? 0.5 : 1;
-        st = find_at(x, n, start.value, out, &twice);
-    } while (st == SS_OK && twice);
+        start.value /= (double)parts;
+        st = find_at(x, n, start.value, out, &parts);
+    } while (st == SS_OK && parts > 1);
     if (!isnan(out->period.value))
         out->lasting = lasting_of(x, n, out->period.value);
     return st;
