@@ -259,19 +259,24 @@ an_upside_down_pull_has_events_but_no_friction(void **state)
     }
 }
 
-/* A force that stands still at its largest value has slips that are not seen. */
+/* A force that stands still at its largest or least value has slips that are not seen, or not whole. */
 static void
 slips_of_a_clipped_pull_are_not_known(void **state)
 {
     const rig *r = &rigs[4];
     ss_scene scene = scene_of(r);
     (void)state;
-    for (int clips = 0; clips < 2; clips++) {
+    for (int clips = -1; clips < 2; clips++) {
         record t = record_of(&scene, 40, 1, 1);
-        for (size_t j = 0; clips && j < t.n; j++)
-            t.signal->values[j] = fmin(t.signal->values[j], scene.friction + .6 * r->drop);
-        ss_features *f = features_of(t.signal);
-        assert_true(clips ? isnan(f->slips.value) && f->why_slips != NULL : f->slips.value > 20);
+        ss_features *f = NULL;
+        for (size_t j = 0; clips != 0 && j < t.n; j++)
+            if (clips * (t.signal->values[j] - scene.friction) > .6 * r->drop)
+                t.signal->values[j] = scene.friction + clips * .6 * r->drop;
+        assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
+        if (clips == 0)
+            assert_true(f->slips.value > 20);
+        else
+            assert_true(isnan(f->slips.value) && f->why_slips != NULL && f->loading == NULL);
         ss_features_free(f);
         ss_signal_free(t.signal);
     }
@@ -325,6 +330,35 @@ what_is_no_slip_has_no_friction(void **state)
         assert_true(isnan(f->loading[i].friction.value) && isnan(f->loading[i].k_over_m.value));
     ss_features_free(f);
     ss_signal_free(signal);
+}
+
+/* A force that falls as it rises has no slips: a sine, a triangle and a random telegraph, of one sign. */
+static void
+what_falls_as_it_rises_does_not_slip(void **state)
+{
+    enum { N = 20000, PERIOD = 137 };
+    unsigned state_of = 1;
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        ss_header *head = ss_header_new(RATE, 0);
+        ss_signal *signal = NULL;
+        ss_features *f = NULL;
+        assert_int_equal(ss_header_add_column(head, "s", "N"), SS_OK);
+        assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+        ss_header_free(head);
+        double level = 1;
+        for (size_t i = 0; i < N; i++) {
+            double u = 2 * fabs((double)(i % PERIOD) / PERIOD - .5);
+            state_of = state_of * 1664525u + 1013904223u;
+            level = state_of >> 25 == 0 ? 4 - level : level;
+            signal->values[i] = kind == 0 ? 3 - cos(M_PI * u) : kind == 1 ? 2 + u : level;
+        }
+        ss_noise_add_once(signal->values, N, .003, 1);
+        assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+        assert_true(isnan(f->slips.value) && f->loading == NULL && f->why_slips != NULL);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
 }
 
 /* --- fits ----------------------------------------------------------------------------------- */
@@ -665,6 +699,7 @@ main(void)
         cmocka_unit_test(slips_of_a_clipped_pull_are_not_known),
         cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
         cmocka_unit_test(what_is_no_slip_has_no_friction),
+        cmocka_unit_test(what_falls_as_it_rises_does_not_slip),
         cmocka_unit_test(fits_of_pulls_cover),
     };
     return cmocka_run_group_tests_name("pulls", tests, NULL, NULL);

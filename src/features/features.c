@@ -226,23 +226,13 @@ confirm_repetition(search *s)
     }
 }
 
-/* The force of a slider that is pulled evenly may be a sinusoid nearly, and mirrored, but then each
- * cycle is a slip of its closed form, or they keep no time.  A force of one sign that is mirrored
- * otherwise has an offset. */
+/* What repeats with several falls a cycle, or with none, is a force of one sign only if someone says so. */
 static int
 has_offset(const search *s)
 {
-    const ss_features *out = s->out;
-    size_t fitted = 0;
-    for (size_t i = 0; i < out->n; i++)
-        fitted += (size_t)isfinite(out->loading[i].drop.value);
-    int is_one = fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS;
-    if (s->opts->drop > 0 || isnan(out->repetition_frequency.value))
-        return 0;
-    if (s->quantity == QUANTITY_UNKNOWN && !is_one)     /* nobody says that it is a force */
-        return 1;
-    return s->cycles.lasting > CYCLES_ALIKE && s->cycles.symmetry < -CYCLES_ALIKE
-        && !(is_one && 2 * fitted >= out->n);
+    return s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0
+        && !isnan(s->out->repetition_frequency.value)
+        && !(fabs(s->out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS);
 }
 
 static void
@@ -264,7 +254,9 @@ find_slip_rate(search *s)
             return;
         }
         confirm_repetition(s);
-        if (s->has_offset)
+        if (out->n > 0 && isnan(out->drop.value))
+            out->why_slips = "most falls of the force are no slips of an evenly pulled slider";
+        else if (s->has_offset)
             out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
         return;
     }

@@ -20,9 +20,10 @@
 #include "signal/gaps.h"
 
 #define OUTLIERS 0.02           /* of the samples at either end may be wrong */
-enum { FEW_FALLS = 3, PARTS = 16 };     /* to tell up from down; in the time between them */
-enum { CLIPPED = 8 };           /* samples at the largest value, one behind the other */
-#define SKEWED 0.3              /* a third moment re the second */
+enum { CLIPPED = 8 };           /* samples at the largest or least value, one behind the other */
+#define SLOWER 1.05             /* less is within what sampling makes of turning points */
+#define QUICK 2.0               /* so much slower are all rises where there are few */
+enum { FEW_RISES = 9 };
 #define LEVEL 0.5               /* of the level: less is no half-cycle */
 #define RETREAT 0.05            /* of the level: a fall by which the force has broken away */
 
@@ -54,69 +55,82 @@ set_falls(search *s, const ss_drop *drop, size_t n)
     return st;
 }
 
-/* If neither name nor unit says that the column is a force, falls must be quicker than their rises, as
- * slips are: the sign test decides at three standard deviations. */
-static int
-falls_are_quick(const ss_drop *drop, size_t n)
+/* How many samples x spends between a quarter and three quarters of the way from one turning point to the
+ * next, along lines from sample to sample.  It is the same for a signal reversed in time, or upside down. */
+static double
+passage(const double *x, size_t from, size_t to)
 {
-    double quick = 0, all = 0;
-    for (size_t i = 1; i < n; i++, all++)
-        quick += drop[i].end - drop[i].t < drop[i].t - drop[i - 1].end;
-    return quick - all / 2 > 1.5 * sqrt(all);
-}
-
-/* The steps of a force over a part of the time from drop to drop are skewed down, as it falls
- * sooner than it is loaded.  A force whose steps are skewed up is upside down: its sign is that of
- * an offset. */
-static int
-is_upside_down(const search *s, const double *x, const ss_drop *drop, size_t n)
-{
-    double squares = 0, cubes = 0;
-    if (n < FEW_FALLS)
-        return 0;
-    size_t part = 1 + (size_t)((drop[n - 1].t - drop[0].t) / (double)(n - 1) * s->rate / PARTS), m = s->n - part;
-    for (size_t i = 0; i < m; i++) {
-        double step = x[i + part] - x[i];
-        squares += step * step / (double)m;
-        cubes += step * step * step / (double)m;
+    double a = x[from] + 0.25 * (x[to] - x[from]), b = x[to] - 0.25 * (x[to] - x[from]), sum = 0;
+    double low = fmin(a, b), high = fmax(a, b);
+    for (size_t i = from; i < to; i++) {
+        double least = fmin(x[i], x[i + 1]), most = fmax(x[i], x[i + 1]);
+        if (most > least)
+            sum += fmax(0, fmin(most, high) - fmax(least, low)) / (most - least);
+        else
+            sum += least > low && least < high;
     }
-    return cubes > SKEWED * pow(squares, 1.5);
+    return sum;
 }
 
+/* Slips are quicker than what loads them: 1, falls are quicker than the rises between them, -1, slower, 0,
+ * neither.  The sign test decides at three standard deviations; of few, all must be so by a factor. */
+static int
+compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
+{
+    double signs = 0, clear = 0, all = 0;
+    for (size_t i = 1; i < n; i++, all++) {
+        size_t before = (size_t)(drop[i - 1].end * rate + 0.5), low = (size_t)(drop[i].end * rate + 0.5);
+        size_t high = (size_t)(drop[i].t * rate + 0.5);
+        double fall = passage(x, high, low), rise = passage(x, before, high);
+        signs += (SLOWER * fall < rise) - (fall > SLOWER * rise);
+        clear += (QUICK * fall < rise) - (fall > QUICK * rise);
+    }
+    if (all <= FEW_RISES)
+        return (clear == all) - (clear == -all);
+    return (signs > 3 * sqrt(all)) - (signs < -3 * sqrt(all));
+}
+
+/* Falls of x above the height.  A force that falls slower than it rises is upside down: its sign is that of
+ * an offset. */
 static ss_status
 find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
 {
     ss_drop *drop = NULL;
     size_t n = 0;
-    ss_status st = ss_drops_find(&drop, &n, x, s->n, s->rate,
+    double *y = malloc((s->n + 1) * sizeof *y);
+    ss_status st = y == NULL ? SS_ENOMEM : ss_drops_find(&drop, &n, x, s->n, s->rate,
                                  &(ss_drop_opts){ height, reload, s->gap, s->n_gaps }, NULL);
-    *decided = st == SS_OK && (named || falls_are_quick(drop, n));
-    if (*decided && !s->has_offset && s->opts->drop == 0 && is_upside_down(s, x, drop, n)) {
+    if (st == SS_OK)
+        st = ss_drops_without_glitches(y, x, s->n, drop, n);
+    int quicker = st != SS_OK ? 0 : s->opts->drop > 0 ? 1 : compare_falls(y, s->rate, drop, n);
+    *decided = st == SS_OK && (named || quicker > 0);
+    if (*decided && quicker < 0 && !s->has_offset)
         s->has_offset = 1;
-        free(drop);
-        return SS_OK;
-    }
-    if (*decided)
-        st = set_falls(s, drop, n);
-    if (*decided && st == SS_OK)
+    else if (*decided && quicker <= 0)
+        s->out->why_slips = "the force falls no quicker than it rises";
+    else if (*decided && (st = set_falls(s, drop, n)) == SS_OK)
         st = ss_loading_find(s, x, drop, n);
+    free(y);
     free(drop);
     return st;
 }
 
-/* Does x stand still at its largest value, time and again?  Then falls from above that are not seen. */
+/* Does x stand still at its largest or its least value, time and again?  Then falls from above the one or to
+ * below the other are not seen. */
 static int
 is_clipped(const double *x, size_t n)
 {
-    double top = x[0];
-    size_t run = 0, runs = 0;
+    double top = x[0], bottom = x[0];
+    size_t high = 0, low = 0, highs = 0, lows = 0;
     for (size_t i = 1; i < n; i++)
-        top = fmax(top, x[i]);
+        top = fmax(top, x[i]), bottom = fmin(bottom, x[i]);
     for (size_t i = 0; i < n; i++) {
-        run = x[i] >= top ? run + 1 : 0;
-        runs += run == CLIPPED;
+        high = x[i] >= top ? high + 1 : 0;
+        low = x[i] <= bottom ? low + 1 : 0;
+        highs += high == CLIPPED;
+        lows += low == CLIPPED;
     }
-    return runs >= FEW;
+    return highs >= FEW || lows >= FEW;
 }
 
 /* Falls of x, which is the signal or its negative, of the height that they have; of -x, if x is upside
@@ -140,8 +154,12 @@ find_typical_falls(search *s, double *x, int *decided)
             x[i] = -x[i];
         return find_typical_falls(s, x, decided);
     }
-    if (*decided && is_clipped(x, s->n))
-        s->out->why_slips = "the force is clipped: it stands still at its largest value";
+    if (*decided && is_clipped(x, s->n)) {
+        free(s->out->loading);
+        s->out->loading = NULL;
+        s->out->n = 0;
+        s->out->why_slips = "the force is clipped: it stands still at its largest or least value";
+    }
     if (st == SS_OK && *decided)
         s->out->slips.error = 0.5 * fabs((double)typical.more - (double)typical.less);
     return st;

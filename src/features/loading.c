@@ -25,6 +25,7 @@
 
 #define NEAR 3.0                /* standard deviations about the line */
 #define AWAY 4                  /* samples in a row beyond that end it */
+#define EVEN 0.1                /* of the slope: sticks scatter by less */
 
 typedef struct line {
     double slope, error;        /* per unit of the abscissa */
@@ -199,18 +200,31 @@ median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
     return ss_median_of(v, out->n, scratch);
 }
 
+/* Where fewer than half of the falls are slips of a pulled slider, these are not typical of the others;
+ * and if the rises differ, too, they are not all sticks, which an even drive loads alike. */
 static void
 summarise(ss_features *out, ss_value *v, double *scratch)
 {
+    const ss_median none = { NAN, NAN, NAN };
+    size_t slips = 0;
+    for (size_t i = 0; i < out->n; i++)
+        slips += (size_t)isfinite(out->loading[i].drop.value);
+    int is_typical = 2 * slips >= out->n;
     out->slope = median_over(out, offsetof(ss_loading, slope), v, scratch);
     out->stiffness = median_over(out, offsetof(ss_loading, stiffness), v, scratch);
-    out->drop = median_over(out, offsetof(ss_loading, drop), v, scratch);
-    out->duration = median_over(out, offsetof(ss_loading, duration), v, scratch);
-    out->recurrence = median_over(out, offsetof(ss_loading, recurrence), v, scratch);
-    out->stick = median_over(out, offsetof(ss_loading, stick), v, scratch);
-    out->static_friction = median_over(out, offsetof(ss_loading, static_friction), v, scratch);
-    out->friction = median_over(out, offsetof(ss_loading, friction), v, scratch);
-    out->k_over_m = median_over(out, offsetof(ss_loading, k_over_m), v, scratch);
+    if (!is_typical && !(out->slope.scatter <= EVEN * out->slope.value))
+        out->slope = out->stiffness = none;
+    const struct { ss_median *to; size_t offset; } of_slips[] = {
+        { &out->drop, offsetof(ss_loading, drop) },
+        { &out->duration, offsetof(ss_loading, duration) },
+        { &out->recurrence, offsetof(ss_loading, recurrence) },
+        { &out->stick, offsetof(ss_loading, stick) },
+        { &out->static_friction, offsetof(ss_loading, static_friction) },
+        { &out->friction, offsetof(ss_loading, friction) },
+        { &out->k_over_m, offsetof(ss_loading, k_over_m) },
+    };
+    for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
+        *of_slips[i].to = is_typical ? median_over(out, of_slips[i].offset, v, scratch) : none;
 }
 
 /* Lines through the rises, and slips between them, by the median slope of these. */
