@@ -4,6 +4,8 @@
 
 #include <stickslip.h>
 
+#include "unit.h"
+
 /* To be freed with free(). */
 static char *
 contour_script(const ss_coefficients *c, const ss_contour_opts *contour)

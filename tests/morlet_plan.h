@@ -3,6 +3,7 @@
 #define MORLET_PLAN_H
 
 #include "morlet_oracle.h"
+#include "unit.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 

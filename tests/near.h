@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "unit.h"
+
 /* Say how far off it is, and fail if that is more than is allowed. */
 static inline void
 near(const char *what, double got, double truth, double allowed)

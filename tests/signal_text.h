@@ -2,14 +2,11 @@
 #ifndef SIGNAL_TEXT_H
 #define SIGNAL_TEXT_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <stdio.h>
 #include <string.h>
 #include <stickslip/signal.h>
+
+#include "unit.h"
 
 /* The header of a signal as text. */
 #define HEAD "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m v/(m/s)\n"

@@ -3,14 +3,10 @@
 #define SIM_RUNS_H
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <stickslip.h>
 #include "extremes/runs.h"
 #include "shipped.h"
+#include "unit.h"
 
 static inline run
 run_by(const ss_scene *scene, const char *method, double tol)

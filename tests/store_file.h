@@ -3,11 +3,6 @@
 #ifndef STORE_FILE_H
 #define STORE_FILE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <hdf5.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 static char dir[] = "/tmp/test_store.XXXXXX", path[64];
 

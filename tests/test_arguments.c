@@ -1,14 +1,12 @@
 /* test_arguments.c -- NULL where something is needed is refused, and so is what is no known choice;
  * both change nothing.  tests/build/arguments.sh sees that no public function is left out. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 static const ss_scene scene = { .model = SS_COMPLIANT, .mass = 1, .stiffness = 1, .friction = 1,
     .base_amplitude = 1, .base_frequency = 1, .contact_stiffness = 1, .duration = 1, .rate = 8 };

@@ -6,14 +6,10 @@
  * result, and the width 2^-50 that an event at the start is given. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "motion/bernstein.h"
+#include "unit.h"
 
 enum { MOST = 9 };
 

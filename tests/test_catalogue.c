@@ -3,16 +3,11 @@
  * Truth is each source's formula, evaluated here; what is compared and how closely is printed, and the
  * page states the bounds that are asserted. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "extremes/runs.h"
 #include "near.h"
 #include "shipped.h"
+#include "unit.h"
 
 #define BIT(m) (1u << (m))
 

@@ -4,16 +4,11 @@
  * between events, in long double.  Over some tens of cycles a chaotic motion can be followed in both, and the
  * growth of a difference is compared digit by digit, not in the mean. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "oracle.h"
 #include "near.h"
 #include "shipped.h"
+#include "unit.h"
 
 #define BIT(m) (1u << (m))
 

@@ -1,13 +1,9 @@
 /* test_coefficients.c -- coefficients as a stream: read back, in any order of scales, and damaged. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include "morlet_plan.h"
+#include "unit.h"
 
 /* --- the stream ---------------------------------------------------------------------------- */
 

@@ -1,10 +1,5 @@
 /* test_contour.c -- contours of noise: lines end where it begins; colours lie between their lines, ridges
  * on oscillations, palettes are even, marks beyond the map are arrows. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +8,7 @@
 #include "plot/contour.h"
 #include "contour_script.h"
 #include "shipped.h"
+#include "unit.h"
 
 static const char *const scene[] = { "coulomb", "state-variable", "compliant-heavy", "compliant-light" };
 

@@ -3,14 +3,9 @@
  * A row is a shipped scene from rest, without settling, with settings; what must come out of it, by
  * a check that knows the truth from elsewhere; and why.  tests/test_random.c does the middle. */
 #include <float.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "extremes/runs.h"
+#include "unit.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 

@@ -1,13 +1,10 @@
 /* test_features.c -- maxima and spikes on maps whose hills are known. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <math.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 /* A map of the transform's grid, filled with a function of time and octaves. */
 typedef double height(double t, double m);      /* dB */

@@ -1,13 +1,10 @@
 /* test_inverse.c -- a signal from its coefficients: transform, invert, compare. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 enum { N = 8009 };                      /* a prime */

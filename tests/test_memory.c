@@ -4,11 +4,6 @@
  * The linker leads the library's calls of malloc and its kin through here (--wrap); those of libc,
  * GSL, FFTW and HDF5 stay their own.  What the library leaves to its caller is freed as a caller
  * would, so that whatever is still there at the end of a run has been lost. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <fftw3.h>
 #include <gsl/gsl_errno.h>
 #include <pthread.h>
@@ -17,6 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 /* --- the allocator ------------------------------------------------------------------------- */
 

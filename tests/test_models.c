@@ -4,18 +4,14 @@
  * Python, and the oracle's), to the digits given; errors and maps recomputed here from runs of an
  * integrator; the limits of the laws of friction. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
 #include <stickslip.h>
 #include "shipped.h"
+#include "unit.h"
 
 static ss_models *
 models_of(const ss_scene *scene)

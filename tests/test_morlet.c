@@ -1,16 +1,12 @@
 /* test_morlet.c -- wavelet coefficients against their sum in long double, by every engine, on one thread
  * and on several. */
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include "morlet/fft/blocks.h"
 #include "morlet_plan.h"
+#include "unit.h"
 
 /* --- the sum ------------------------------------------------------------------------------- */
 

@@ -1,14 +1,10 @@
 /* test_morlet_integral.c -- wavelet coefficients against the integral of a continuous signal by GSL. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include "morlet_plan.h"
+#include "unit.h"
 
 /* --- the integral -------------------------------------------------------------------------- */
 

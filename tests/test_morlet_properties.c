@@ -1,14 +1,10 @@
 /* test_morlet_properties.c -- what a wavelet transform has to do with any signal, which grid it stands on,
  * and signals and options at the extremes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include "morlet_plan.h"
+#include "unit.h"
 
 /* --- benchmarks of the paper --------------------------------------------------------------- */
 

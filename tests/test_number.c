@@ -2,16 +2,13 @@
 #include <float.h>
 #include <locale.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <stickslip/signal.h>
 #include "base/number.h"
 #include "stream/rows.h"
+#include "unit.h"
 
 static uint64_t
 next_random(uint64_t *s)

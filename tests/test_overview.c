@@ -1,15 +1,12 @@
 /* test_overview.c -- a recording in one pass: nothing that a picture shows is lost by thinning. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 /* Noise, with a drop to half in the middle, far from 0, so that the ends are high. */
 static ss_signal *

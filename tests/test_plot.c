@@ -1,10 +1,6 @@
 /* test_plot.c -- contour lines lie where the level says; thinning loses no spike; text from files
  * stays text. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +8,7 @@
 #include <stickslip.h>
 #include "contour_script.h"
 #include "plot/isoline.h"
+#include "unit.h"
 
 /* --- ss_isolines ------------------------------------------------------------------------------ */
 

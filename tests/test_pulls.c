@@ -1,16 +1,12 @@
 /* test_pulls.c -- events of sliders that a spring pulls, read from the spring's force, against the
  * closed form of their motion: with D = f_s - f_k, w = sqrt(k/m), q = D w / (k U) a slip lasts
  * 2 (pi - atan q) / w and a stick 2 D / (k U), and the force falls by 2 D. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <cmocka.h>
 #include <math.h>
 #include <string.h>
 #include <stickslip.h>
 #include "pull.h"
+#include "unit.h"
 
 enum { RATE = 2000 };
 #define FRICTION .0452

@@ -3,15 +3,11 @@
  * Log-uniform in each ss_model_range, from a fixed seed; SCENES=N in the environment sets how
  * many (tests/long/random-scenes-*.sh: 10000), FIRST=N with which one to begin. */
 #include <float.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 
 #include "extremes/runs.h"
 #include "random_scene.h"
+#include "unit.h"
 
 enum { DEFAULT_SCENES = 150 };
 

@@ -1,11 +1,6 @@
 /* test_rank.c -- ranking: signals whose model is known; fits: signals whose parameters are. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
@@ -14,6 +9,7 @@
 #include "study/rank/candidate.h"
 #include "study/rank/cycle.h"
 #include "study/rank/samples.h"
+#include "unit.h"
 
 enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
 

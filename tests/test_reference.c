@@ -1,18 +1,13 @@
 /* test_reference.c -- simulation against tests/reference/exact.tsv, which arbitrary precision made. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include <stickslip.h>
 #include "shipped.h"
+#include "unit.h"
 
 enum { RATE = 2000, DURATION = 10, SAMPLES = RATE * DURATION, MAX_EVENTS = 256 };
 

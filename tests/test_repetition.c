@@ -3,17 +3,14 @@
  * What does not repeat may have no repetition_frequency, or one after which it does repeat: over one of
  * its periods, and over eight, as read from the samples themselves.  What repeats, with drift or jitter,
  * has one with an error that covers its mean frequency. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <cmocka.h>
 #include <math.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 enum { RATE = 1000, N = 6000, DRAWS = 100 };
 #define SECONDS ((double)N / RATE)

@@ -5,18 +5,14 @@
  * environment sets how many random scenes are drawn, FIRST=N with which one to begin. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "extremes/runs.h"
 #include "oracle.h"
 #include "random_scene.h"
 #include "shipped.h"
+#include "unit.h"
 
 static const char *const methods[] = { "exact", "rk8pd", "taylor", "rkf45", "msadams" };
 enum { METHODS = sizeof methods / sizeof *methods };

@@ -1,16 +1,12 @@
 /* test_scene.c -- scenes: what is read, what is refused and in which words, what is written. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include <stickslip.h>
+
+#include "unit.h"
 
 static ss_status
 read_text(ss_scene *scene, const char *text, const char *const settings[], size_t n,

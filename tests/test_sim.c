@@ -3,16 +3,12 @@
  * listed beside the rows. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <stickslip.h>
 #include "oracle.h"
 #include "sim_runs.h"
+#include "unit.h"
 
 /* --- events -------------------------------------------------------------------------------- */
 

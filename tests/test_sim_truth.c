@@ -2,16 +2,12 @@
  * published physics: Den Hartog (1931), symmetries, the linear oscillator. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <stickslip.h>
 #include "oracle.h"
 #include "sim_runs.h"
+#include "unit.h"
 
 /* --- against the closed form --------------------------------------------------------------- */
 

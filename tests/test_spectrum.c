@@ -1,13 +1,10 @@
 /* test_spectrum.c -- the power spectral density of what is known. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 enum { N = 1 << 16 };
 #define RATE 1000.0

@@ -1,15 +1,11 @@
 /* test_spikes.c -- jumps, kinks, glitches, single events and drops whose places are known. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <float.h>
-#include <cmocka.h>
 #include <math.h>
 #include <stickslip.h>
 #include "spike_score.h"
+#include "unit.h"
 
 #define RATE 2000.
 

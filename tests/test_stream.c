@@ -1,13 +1,9 @@
 /* test_stream.c -- the transform of a stream against the sum in long double and against that of the
  * whole record, however its samples come. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include "morlet_oracle.h"
+#include "unit.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 

@@ -4,17 +4,12 @@
  * form, the settled numbers of independent programs listed beside the rows, and records of
  * ss_sim_run by rk8pd, which share no code with the way from event to event that is tested here. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include <stickslip.h>
 #include "shipped.h"
+#include "unit.h"
 
 #define BIT(m) (1u << (m))
 

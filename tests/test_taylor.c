@@ -2,18 +2,14 @@
  * form. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "extremes/runs.h"
 #include "oracle.h"
 #include "shipped.h"
+#include "unit.h"
 
 enum { SCENES = 60, SAMPLES = 101 };
 

@@ -1,15 +1,12 @@
 /* test_threads.c -- two threads with objects of their own, and two that execute one plan, get what
  * one gets.  tests/long/threads.sh runs it under the thread sanitizer. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+
+#include "unit.h"
 
 enum { THREADS = 2, ROUNDS = 5 };
 

@@ -5,18 +5,14 @@
  * known (rkck and bsimp at 1e-14 agree with it to 2e-13). */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include <stickslip.h>
 #include "oracle.h"
 #include "shipped.h"
+#include "unit.h"
 
 enum { ROOM = 20000 };
 

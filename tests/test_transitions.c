@@ -1,15 +1,11 @@
 /* test_transitions.c -- transitions of simulated scenes, held against the scenes' own numbers. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
 #include "shipped.h"
+#include "unit.h"
 
 enum { SEEDS = 4 };
 

@@ -3,16 +3,11 @@
  *
  * Every row is transformed by both engines and held against the sum in long double
  * (morlet_oracle.h), for the bound in stickslip/morlet.h. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "morlet_oracle.h"
+#include "unit.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 

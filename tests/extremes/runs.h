@@ -8,6 +8,8 @@
 #include <string.h>
 #include <stickslip.h>
 
+#include "../unit.h"
+
 typedef struct run {
     size_t n, n_events, room, room_events;
     ss_sample *sample;
