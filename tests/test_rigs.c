@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "extremes/runs.h"
+#include "near.h"
 #include "oracle.h"
 #include "random_scene.h"
 #include "shipped.h"
@@ -26,12 +27,6 @@ run_by(const ss_scene *scene, const char *method)
     return r;
 }
 
-static void
-near(const char *what, double got, double truth, double allowed)
-{
-    if (!(fabs(got - truth) <= allowed))
-        fail_msg("%s: %.17g, not %.17g +- %.2g", what, got, truth, allowed);
-}
 
 /* --- a slider pulled at constant speed ----------------------------------------------------- */
 

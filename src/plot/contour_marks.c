@@ -3,7 +3,6 @@
 #include "plot/contour_marks.h"
 
 #include <math.h>
-#include <string.h>
 #include "base/error.h"
 
 #define LENGTH 0.022            /* of an arrow, share of the width; */

@@ -18,16 +18,6 @@
 #define ROOM 8.0                /* for the label of a panel [ems] */
 enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
 
-static script_extent
-extent_of(const double *x, size_t n)
-{
-    script_extent e = SCRIPT_NO_EXTENT;
-    for (size_t i = 0; i < n; i++) {
-        e.lo = fmin(e.lo, x[i]);            /* of a NaN and a number, the number */
-        e.hi = fmax(e.hi, x[i]);
-    }
-    return e;
-}
 
 /* Rows of one value of the key stand together. */
 static int
@@ -66,7 +56,7 @@ static void
 write_panel(FILE *out, const map_column *column, size_t i, size_t n, double bottom, double top)
 {
     const double *x = column[0].value, *y = column[i].value;
-    script_extent e = extent_of(y, n);
+    script_extent e = ss_script_extent(y, n);
     int exponent = ss_script_exponent((double[]){ e.lo, e.hi }, 2), line = is_line(x, y, n);
     double unit = pow(10, exponent);
     script_label label = ss_map_label(column[i].label, exponent, ROOM);
@@ -88,7 +78,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     const char *scene = ss_table_note(t, "scene"), *vary = ss_table_note(t, "vary");
     size_t letters = vary != NULL ? strlen(vary) : 0;
     int log = letters > 4 && strcmp(vary + letters - 4, ":log") == 0;
-    script_extent x = extent_of(column[0].value, t->n);
+    script_extent x = ss_script_extent(column[0].value, t->n);
     double height = TITLE + FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, top = height - TITLE;
     script_label x_label = ss_map_label(column[0].label, 0, INFINITY);
     if (titled.title == NULL)
@@ -127,7 +117,7 @@ ss_plot_diagram(FILE *out, const ss_table *t, size_t x, const size_t y[], size_t
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i <= n; i++) {
         st = ss_map_read_column(&column[i], t, i == 0 ? x : y[i - 1], err);
-        script_extent e = st == SS_OK ? extent_of(column[i].value, t->n) : (script_extent){ 0, 1 };
+        script_extent e = st == SS_OK ? ss_script_extent(column[i].value, t->n) : (script_extent){ 0, 1 };
         if (!(e.lo <= e.hi) || (i == 0 && !(e.lo < e.hi)))
             st = ss_fail(err, SS_EINVAL, "%s has %s", column[i].label->name,
                          i == 0 ? "one value only" : "no value to draw");

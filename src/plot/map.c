@@ -8,7 +8,6 @@
 #include "plot/script.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"

@@ -148,12 +148,12 @@ ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int inter
 #define TIC_LETTERS 6           /* of a tic's label, which the margin has room for */
 #define TIC_INTERVALS 5
 
-static script_extent
-extent_of(const double *x, size_t n)
+script_extent
+ss_script_extent(const double *x, size_t n)
 {
     script_extent e = SCRIPT_NO_EXTENT;
     for (size_t i = 0; i < n; i++) {
-        e.lo = fmin(e.lo, x[i]);
+        e.lo = fmin(e.lo, x[i]);            /* of a NaN and a number, the number */
         e.hi = fmax(e.hi, x[i]);
     }
     return e;
@@ -185,7 +185,7 @@ is_long(double lo, double hi)
 script_scale
 ss_script_scale(const double *x, size_t n)
 {
-    script_extent e = extent_of(x, n);
+    script_extent e = ss_script_extent(x, n);
     script_scale scale = ss_script_power(ss_script_exponent(x, n));
     double power = ceil(log10(e.hi - e.lo));
     if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled(e.lo, scale), ss_script_scaled(e.hi, scale)))
@@ -436,13 +436,13 @@ ss_script_write_decades(FILE *out, const char *axis, double lo, double hi)
 }
 
 void
-ss_script_write_decade_range(FILE *out, const char *axis, double lo, double hi)
+ss_script_write_decade_range(FILE *out, double lo, double hi)
 {
     if (lo > hi)
         return;
     int first = (int)floor(log10(lo)), last = (int)floor(log10(hi)) + 1;
-    fprintf(out, "set %srange [1e%d:1e%d]; set %stics autofreq\n", axis, first, last, axis);
-    ss_script_write_decades(out, axis, pow(10, first), pow(10, last));
+    fprintf(out, "set yrange [1e%d:1e%d]; set ytics autofreq\n", first, last);
+    ss_script_write_decades(out, "y", pow(10, first), pow(10, last));
 }
 
 /* --- top and end --------------------------------------------------------------------------- */

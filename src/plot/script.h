@@ -86,6 +86,7 @@ typedef struct script_extent {
     double lo, hi;
 } script_extent;
 #define SCRIPT_NO_EXTENT ((script_extent){ INFINITY, -INFINITY })
+script_extent ss_script_extent(const double *x, size_t n);      /* NaNs are left out */
 /* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all
  * are the same, one tic at that value. */
 void ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals);
@@ -93,8 +94,8 @@ void ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int 
 /* Tics of a logarithmic axis at powers of ten, written as such; none are set, so that gnuplot's own stay,
  * where the range has less than two powers or its numbers are short: 0.001 to 100000. */
 void ss_script_write_decades(FILE *out, const char *axis, double lo, double hi);
-/* The same for a range that is widened to powers of ten; nothing if lo > hi. */
-void ss_script_write_decade_range(FILE *out, const char *axis, double lo, double hi);
+/* Set the vertical range, widened to powers of ten, and its tics as above; nothing if lo > hi. */
+void ss_script_write_decade_range(FILE *out, double lo, double hi);
 
 /* The times of a record.  Missing samples are not drawn, and a line breaks there. */
 typedef struct script_clock {

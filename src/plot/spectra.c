@@ -76,7 +76,7 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
     script_extent e = extent_of(s);
     int any = e.lo <= e.hi;
     if (!decibels)
-        ss_script_write_decade_range(out, "y", e.lo, e.hi);
+        ss_script_write_decade_range(out, e.lo, e.hi);
     if (i == n)
         fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
               "noenhanced offset 0,0.5\n", out);

@@ -94,7 +94,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
           "set key at screen 0.54,screen 0.265 center top horizontal maxcols 3 samplen 2 "
           "noenhanced\n", out);
-    ss_script_write_decade_range(out, "y", least, most);
+    ss_script_write_decade_range(out, least, most);
     fprintf(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
             trade->transform ? "W / largest |W| of its scale" : "x / max|x|");
     write_plot(out, trade);
