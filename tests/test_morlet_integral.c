@@ -1,6 +1,5 @@
 /* test_morlet_integral.c -- wavelet coefficients against the integral of a continuous signal by GSL. */
 #include <stdlib.h>
-#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include "morlet_plan.h"

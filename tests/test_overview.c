@@ -1,7 +1,6 @@
 /* test_overview.c -- a recording in one pass: nothing that a picture shows is lost by thinning. */
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>

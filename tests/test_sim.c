@@ -1,7 +1,6 @@
 /* test_sim.c -- simulation: its events, the state-variable model, sinks and what is refused.  Truth comes
  * from tests/oracle.c (closed form between events, long double) and the figures of independent programs
  * listed beside the rows. */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* test_spectrum.c -- the power spectral density of what is known. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <stickslip.h>
 
 #include "unit.h"

@@ -1,10 +1,8 @@
 /* test_taylor.c -- the method taylor: its error against long double, its events against the closed
  * form. */
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "extremes/runs.h"
 #include "oracle.h"

@@ -5,7 +5,6 @@
 #include "common.h"
 #include "files.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>

@@ -5,7 +5,6 @@
  * of the piece do not matter to those in its middle. */
 #include "features/fold.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 enum { CYCLES = 3, FEWEST = 4 };        /* cycles of the mean; cycles that are worth averaging */

@@ -17,7 +17,6 @@
 #include "features/drops.h"
 #include "features/loading.h"
 #include "features/reversals.h"
-#include "signal/gaps.h"
 
 #define OUTLIERS 0.02           /* of the samples at either end may be wrong */
 enum { CLIPPED = 8 };           /* samples at the largest or least value, one behind the other */

@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "features/loading.h"
-#include "signal/gaps.h"
 
 #define NEAR 0.05               /* of the step, or of a level: that near to it */
 #define STAYS 0.5               /* of the time from one break-away to the next, at the level or above */

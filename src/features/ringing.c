@@ -7,7 +7,6 @@
 #include "features/maxima.h"
 #include "features/scale_rows.h"
 #include "features/search.h"
-#include "signal/gaps.h"
 
 #define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
 #define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */

@@ -7,7 +7,6 @@
  * longer sharp.
  */
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/list.h"

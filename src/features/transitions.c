@@ -5,7 +5,6 @@
 #include "features/force.h"
 #include "features/scale_rows.h"
 #include "features/search.h"
-#include "signal/gaps.h"
 
 #define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
 #define APART 6.0               /* [dB] above the next weaker one: events are not swells of noise */

@@ -11,7 +11,6 @@
  * (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below twice the reach of the wavelet; steps above
  * B_0 = 1 are few and stay exact.  The grid follows from options, rate and j alone. */
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/range.h"

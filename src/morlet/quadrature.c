@@ -18,7 +18,6 @@
  * multiply the sum; exp(k tau d^2) is a product of three exps, one for the block of taps and two for
  * the place in the block: no recurrence, nothing accumulates.  Phases are reduced in cycles with
  * the products' rounding errors kept, so they are good to an ulp of pi for any omega_c and k. */
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>

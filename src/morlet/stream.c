@@ -5,7 +5,6 @@
  * longest wavelet.  So only samples are carried over.  In blocks each level keeps one window, which is
  * computed when it is full; complete coefficients that are wanted at once come from windows that are
  * filled up with zeros. */
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

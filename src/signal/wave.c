@@ -3,7 +3,6 @@
  * The error of a phase of 1e6 cycles in one double is 1e-10 cycles.  So times and phases are kept
  * in two doubles (Dekker 1971) until whole cycles are subtracted; the error is then 1e-16 cycles
  * in a record of any length. */
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,5 +1,4 @@
 /* signal_reader.c -- the columns of /signal. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/list.h"

@@ -6,9 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/error.h"
-#include "signal/header.h"
 #include "store/groups.h"
 
 static const char *const part_name[] = { "re", "im" };

@@ -1,7 +1,6 @@
 /* delimited_cells.c -- divide lines of a text table into cells, and read the numbers in cells. */
 #include <math.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>

@@ -1,11 +1,9 @@
 /* delimited_clock.c -- find the column of time of a text table, and make its rows samples of a clock. */
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include "base/error.h"
-#include "signal/header.h"
 #include "signal/resample.h"
 #include "stream/clock.h"
 #include "stream/delimited.h"

@@ -10,7 +10,6 @@
 #include <string.h>
 #include <strings.h>
 #include "base/error.h"
-#include "signal/header.h"
 #include "stream/delimited.h"
 
 static const char *const steps[] = { "Delta_X", "Interval", "delta t", NULL };

@@ -1,5 +1,4 @@
 /* delimited_names.c -- names and units of the columns of a table, from the lines above its data. */
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,13 +3,10 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
-#include "base/list.h"
-#include "signal/header.h"
 #include "stream/input.h"
 #include "stream/rows.h"
 

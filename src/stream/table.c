@@ -2,7 +2,6 @@
 #include <stickslip/table.h>
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"

@@ -5,7 +5,6 @@
  * the scale of each state.  Only a Coulomb stick, in which nothing moves, gets a step cap: without
  * one CVODE sleeps through its end.  cost_cvode SECONDS prints rows as in bench.h. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include <cvode/cvode.h>

@@ -21,10 +21,8 @@
  * the record (exact) or 1e-12 (rk8pd at that tolerance): 1e-12 and 1e-11 of 10 s.  2 where a proof ends
  * early, as it must where a motion touches what it does not cross: a pull from rest with f_s = f_k. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #ifdef FLINT_HAS_ARB                    /* FLINT 3 and later */
 #include <flint/arb.h>
 #else

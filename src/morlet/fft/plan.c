@@ -13,7 +13,6 @@
  *     2.4 exp(-R^2/2) (1 + log(1 + n d/(2 R))),   d = 1/(a rate),
  * and for images at most as much with 2 e in place of the exponential; both together TAIL_FLOOR. */
 #include <fftw3.h>
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <pthread.h>

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include "features/drops.h"
-#include "features/loading.h"
 #include "study/rank/record.h"
 
 enum { WINDOW = 512 };          /* samples of a fall at most */

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <stickslip/sim.h>
 #include "base/error.h"
 #include "base/progress.h"

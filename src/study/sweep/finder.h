@@ -5,6 +5,7 @@
 #ifndef FINDER_H
 #define FINDER_H
 
+#include <float.h>
 #include "study/sweep/meter.h"
 
 /* The state at the start of a cycle: x - U t, v over the surface, and y of the model (memory), 0

@@ -1,7 +1,6 @@
 /* shoot.c -- a periodic state by Newton's method on the map from one cycle to the next. */
 #include "study/sweep/finder.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
