@@ -223,7 +223,7 @@ const char *
 tool_input(int argc, char *argv[], int first)
 {
     if (argc - first > 1)
-        tool_usage("unexpected argument '%s'", argv[first + 1]);
+        tool_usage("unexpected argument '%s'; -o FILE names the output", argv[first + 1]);
     const char *path = "-";
     if (argc > first)
         path = argv[first];

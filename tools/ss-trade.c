@@ -241,7 +241,7 @@ main(int argc, char *argv[])
     if (first == argc)
         tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
     if (first + 1 != argc)
-        tool_usage("unexpected argument '%s'", argv[first + 1]);
+        tool_usage("unexpected argument '%s'; -o FILE names the output", argv[first + 1]);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS | TOOL_PICTURES, req.kind);
     if (req.opts.target > 0 && kind < TOOL_STREAM)
         tool_usage("--target writes options, not a picture");

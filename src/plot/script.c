@@ -15,7 +15,7 @@
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
 #define SCREEN 1.5              /* how much wider and higher on a screen */
 #define DECADES 8              /* powers of ten that stand at an axis, at most */
-#define TITLE_ROOM 34.0         /* [ems] */
+#define TITLE_ROOM 27.0         /* [ems] */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
 const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
@@ -145,7 +145,7 @@ ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int inter
     ss_script_write(out, same ? drawn.lo : step, decimals, same ? ")\n" : "\n");
 }
 
-#define TIC_LETTERS 6           /* of a tic's label, which the margin has room for */
+#define TIC_LETTERS 5           /* of a tic's label, which the margin has room for */
 #define TIC_INTERVALS 5
 
 script_extent
@@ -342,7 +342,7 @@ fit(const script_label *l, double room)
 }
 
 #define SMALL 0.6               /* letters too small to read */
-#define TWO_LINES 0.85          /* letters of two lines, which leave tics their room */
+#define TWO_LINES 0.8           /* letters of two lines, which leave tics their room */
 #define THREE_LINES 0.7         /* and of a title's three, which have the height of two */
 
 void
@@ -409,7 +409,7 @@ ss_script_write_side_label(FILE *out, int n, const script_label *l)
 {
     fprintf(out, "set label %d ", n);
     write_label(out, l);
-    fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.018" : "0.03");
+    fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.0135" : "0.03");
     write_font(out, l);
     putc('\n', out);
 }
