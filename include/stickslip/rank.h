@@ -137,15 +137,17 @@ typedef struct ss_fit {
     double noise;               /* rms of the noise in the record over the rms of the record, at most */
 } ss_fit;
 
-/* Fit a compliant scene to a column of SI units, whose values must be finite.
+/* Fit a compliant scene to a column without a unit or in SI units, whose values must be finite.
  *
  * f_k, Z_e, K_y, c and the frequency and phase of the base are adjusted; m, k, damping, f_s / f_k
  * and the release rule are those of the scene.  Samples in gaps are left out.  Standard errors
  * assume white noise of the size of the residual.  The fit is conclusive if its residual is no
- * more than noise, no other scene has as small a residual, and its sticks last long enough.
+ * more than noise, no other scene has as small a residual, its sticks last long enough, and no
+ * other damping or f_s / f_k explains the record better.
  *
  * A fit that is not conclusive is an answer, with SS_OK.  opts may be NULL; its spread and other
- * columns are not used.  SS_EINVAL: the model is another; SS_EBUDGET: the scenes to try take more
+ * columns are not used.  SS_EINVAL: the model is another; SS_EDATA: the column is in another unit,
+ * or a value is not finite; SS_EBUDGET: the scenes to try take more
  * than 1e8 integration steps, where four samples count as a step. */
 ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
                        const ss_rank_opts *opts, ss_error *err);
@@ -184,8 +186,8 @@ typedef struct ss_pull {
  * each fall; and SS_NAMED also requires that no error exceeds 30 %.
  *
  * A scene that does not explain the record is an answer, with SS_OK.  opts may be NULL; its
- * quantity must be SS_SPRING.  SS_EINVAL: another scene or column, or an elastic contact.  The
- * caller frees *out with ss_pull_free. */
+ * quantity must be SS_SPRING.  SS_EINVAL: another scene or column, or an elastic contact;
+ * SS_EDATA: the column is not in N.  The caller frees *out with ss_pull_free. */
 ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
                       const ss_rank_opts *opts, ss_error *err);
 void ss_pull_free(ss_pull *pull);               /* NULL is allowed */

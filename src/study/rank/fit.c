@@ -238,6 +238,29 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
     return NULL;
 }
 
+/* Say which term the signal contradicts as the scene has it: then the other numbers are off, too. */
+static ss_status
+judge_held(ss_fit *fit, const fitting *w)
+{
+    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
+    double most = MATCH_DECISIVE, gain;
+    ss_status st = SS_OK;
+    for (match_term term = 0; st == SS_OK && term < MATCH_TERMS; term++) {
+        ss_scene s;
+        st = ss_match_held(&gain, &s, term, &w->c, &w->best, &w->record, &silent);
+        if (st != SS_OK || !(gain > most))
+            continue;
+        most = gain;
+        if (term == MATCH_DAMPING)
+            snprintf(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
+                     s.damping);
+        else
+            snprintf(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
+                     "be %.4g times friction", s.static_friction / s.friction);
+    }
+    return st;
+}
+
 static ss_status
 judge(ss_fit *fit, const fitting *w)
 {
@@ -265,8 +288,10 @@ judge(ss_fit *fit, const fitting *w)
     else if (vague != NULL)
         snprintf(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
                  value, error);
+    else
+        st = judge_held(fit, w);
     fit->conclusive = fit->why[0] == '\0';
-    return SS_OK;
+    return st;
 }
 
 /* Numbers that are not determined are not given. */
@@ -338,6 +363,8 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_ra
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
     ss_status st = ss_column_check(signal, column, opts, err);
+    if (st == SS_OK)
+        st = ss_column_check_unit(signal, column, opts->quantity, err);
     return st == SS_OK ? ss_candidate_check(start, err) : st;
 }
 

@@ -438,7 +438,7 @@ report(matching *w, const point *at, match *m)
     }
     m->left_all /= all;
     m->left = at->left * w->used / (w->used - (double)e.n);
-    m->white = whiteness(w, left);
+    m->white = fmax(whiteness(w, left), r->steps);      /* steps are not white where they are coarse */
     m->compared = (size_t)w->used;
     m->scene = ss_candidate_resized(w->c, scene_at(w, at->p), at->size);
     memcpy(m->p, at->p, sizeof m->p);
@@ -581,6 +581,58 @@ ss_match_other(match *m, candidate *c, const match *from, const rank_record *rec
     if (stand_at(&w, &at)) {
         descend_all(&w, &at);
         report(&w, &at, m);
+    }
+    free(room);
+    return w.status;
+}
+
+/* How much a step of all unknowns would lessen the sum of squares. */
+static double
+find_gain(const matching *w, const point *at, double step[UNKNOWNS])
+{
+    double lo[UNKNOWNS], hi[UNKNOWNS];
+    normal e;
+    find_normal(w, at, &e);
+    for (size_t k = 0; k < e.n; k++)
+        lo[k] = -INFINITY, hi[k] = INFINITY;
+    ss_normal_step(&e, 0, lo, hi, step);
+    return ss_normal_gain(&e, step);
+}
+
+static void
+change_term(ss_scene *s, match_term term, double by)
+{
+    if (term == MATCH_DAMPING)
+        s->damping += by * sqrt(s->stiffness * s->mass);
+    else
+        s->static_friction = fmax(s->static_friction, s->friction) + by * s->friction;
+}
+
+ss_status
+ss_match_held(double *gain, ss_scene *nearer, match_term term, const candidate *c, const match *m,
+              const rank_record *record, const ss_stretch *progress)
+{
+    candidate changed = *c;
+    matching w = { .c = &changed, .r = record, .progress = progress, .o = m->origin, .wide = 1 };
+    point at = { .left = INFINITY };
+    double *room = prepare(&w), step[UNKNOWNS], h = step_of(&w, 0), *slope = w.tried.motion;
+    if (room == NULL)
+        return SS_ENOMEM;
+    *gain = 0;
+    *nearer = c->scene;
+    memcpy(at.p, m->p, sizeof at.p);
+    w.n_moved -= w.o.x_unit > 0 ? 0 : 2;
+    change_term(&changed.scene, term, h);
+    int runs = run(&w, at.p, slope, w.tried.clear);
+    changed.scene = c->scene;
+    if (runs && stand_at(&w, &at) && find_slopes(&w, &at)) {
+        compare(&w, &w.here, &at);
+        double held = find_gain(&w, &at, step);
+        for (size_t i = 0; i < record->n; i++)
+            slope[i] = (slope[i] - w.here.motion[i]) / h;
+        w.slope[w.n_moved++] = slope;
+        *gain = (find_gain(&w, &at, step) - held) / fmax(at.left, MATCH_QUIET * m->power);
+        change_term(nearer, term, step[w.n_moved - 1]);
     }
     free(room);
     return w.status;

@@ -57,6 +57,13 @@ ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, do
 ss_status ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
                          const ss_stretch *progress);
 
+/* The terms of the mass that a match holds as the scene has them: its damping, and f_s / f_k. */
+typedef enum match_term { MATCH_DAMPING, MATCH_STATIC, MATCH_TERMS } match_term;
+/* By how many times the variance left, at least MATCH_QUIET of the power, a match would lessen the sum of
+ * squares if it adjusted the term too, and the candidate's scene with the term so: by the slopes there. */
+ss_status ss_match_held(double *gain, ss_scene *nearer, match_term term, const candidate *c,
+                        const match *m, const rank_record *record, const ss_stretch *progress);
+
 /* Do two matches have the same keys, within MATCH_DECISIVE of the errors of the first? */
 int ss_match_same(const match *a, const match *b);
 /* The residual of a match over noise of this variance, or of less if the residual is not white. */

@@ -48,7 +48,7 @@ check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_ra
         return ss_fail(err, SS_EINVAL, "a pull is compared with the spring's force only");
     if (!ss_scene_is_pulled(start))
         return ss_fail(err, SS_EINVAL, "a scene that is forced is not compared with pulls");
-    return SS_OK;
+    return ss_column_check_unit(signal, column, SS_SPRING, err);
 }
 
 /* Have its slips a closed form with few unknowns? */

@@ -39,7 +39,7 @@ const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
 };
 
-enum { STARTS = 32, KEEP = 2, STEPS = 40 };      /* of the search */
+enum { STARTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
 #define HOPELESS 0.03                   /* of the power of a cycle */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
@@ -108,22 +108,33 @@ match_scene(found *f, const comparison *w, const ss_stretch *progress)
     return st;
 }
 
+/* How many times more to search within a factor than within the usual one: a wider range holds more
+ * hollows. */
+static double
+work_of(double factor)
+{
+    const double usual = ss_rank_defaults.spread;
+    double wider = log(factor) / log((1 + usual) / (1 - usual));
+    return fmax(1, fmin(wider * wider, CANDIDATE_KEPT / KEEP));
+}
+
 static ss_status
 rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scene,
            const ss_stretch *progress, ss_error *err)
 {
     observation l;
-    double spread = w->opts->spread;
+    double spread = w->opts->spread, factor = (1 + spread) / (1 - spread), more = work_of(factor);
     const ss_stretch search = ss_stretch_part(progress, 0, 0.5);
     const ss_stretch matching = ss_stretch_part(progress, 0.5, 1);
-    f->candidate = ss_candidate_of(scene, (int)w->opts->quantity, (1 + spread) / (1 - spread));
-    f->candidate.budget = BUDGET;
-    ss_status st = ss_candidate_search(&f->candidate, &w->goal, STARTS, KEEP, STEPS, &search);
+    f->candidate = ss_candidate_of(scene, (int)w->opts->quantity, factor);
+    f->candidate.budget = more * BUDGET;
+    ss_status st = ss_candidate_search(&f->candidate, &w->goal, (size_t)(more * STARTS),
+                                       (size_t)(more * KEEP), STEPS, &search);
     if (st == SS_OK)
         st = match_scene(f, w, &matching);
-    if (st == SS_OK && f->candidate.steps > BUDGET)
+    if (st == SS_OK && f->candidate.steps > f->candidate.budget)
         return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be "
-                       "adjusted: it is too stiff to be ranked", row->scene + 1, BUDGET);
+                       "adjusted: it is too stiff to be ranked", row->scene + 1, f->candidate.budget);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     const match *m = &f->match;
@@ -207,6 +218,39 @@ is_sinusoid(const comparison *w, const match *m)
     return ss_match_explains(&sinusoid, w->record.noise);
 }
 
+static double
+variance_of(const match *m, size_t key)
+{
+    return fmax(m->left, MATCH_QUIET * m->power) * m->covariance[key][key];
+}
+
+/* Of the adjustment of a scene. */
+static double
+adjustment_error(const found *f)
+{
+    double squares = 0;
+    for (size_t i = 0; i < f->candidate.n; i++)
+        squares += variance_of(&f->match, i);
+    return sqrt(squares / (double)(f->candidate.n + 1));
+}
+
+/* The scene that comes first is not named if this one explains the signal as well and has another law, or
+ * is as near. */
+static void
+compare_equals(ss_ranking *r, const ss_rank_row *other, const found *named)
+{
+    const ss_rank_row *first = &r->row[0];
+    double farther = other->value[SS_BY_ADJUSTMENT] - first->value[SS_BY_ADJUSTMENT];
+    if (other->adjusted.model != first->adjusted.model)
+        snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
+                 ss_model_name(first->adjusted.model), ss_model_name(other->adjusted.model));
+    else if (fabs(farther) <= sqrt(MATCH_DECISIVE) * adjustment_error(named))
+        snprintf(r->why, sizeof r->why, "two scenes are equally near to the signal, within their errors");
+    else
+        return;
+    r->verdict = SS_UNDECIDED;
+}
+
 /* The verdict, by the residuals of the scenes. */
 static void
 judge(ss_ranking *r, const comparison *w, const found *f)
@@ -236,19 +280,9 @@ judge(ss_ranking *r, const comparison *w, const found *f)
         r->verdict = SS_NAMED;
     }
     for (size_t i = 1; r->verdict == SS_NAMED && i < r->n; i++)
-        if (r->row[i].adjusted.model != first->adjusted.model
-            && ss_match_explains(&f[r->row[i].scene].match, w->record.noise)
-            && lead_of(m, &f[r->row[i].scene].match, w->record.noise) < MATCH_DECISIVE) {
-            r->verdict = SS_UNDECIDED;
-            snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
-                     ss_model_name(first->adjusted.model), ss_model_name(r->row[i].adjusted.model));
-        }
-}
-
-static double
-variance_of(const match *m, size_t key)
-{
-    return fmax(m->left, MATCH_QUIET * m->power) * m->covariance[key][key];
+        if (ss_match_explains(&f[r->row[i].scene].match, w->record.noise)
+            && lead_of(m, &f[r->row[i].scene].match, w->record.noise) < MATCH_DECISIVE)
+            compare_equals(r, &r->row[i], &f[first->scene]);
 }
 
 /* The key by which two matches of one candidate contradict each other most, beyond what their errors
@@ -285,14 +319,14 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     ss_status st = ss_record_noise(&record, w->goal.period * record.rate);
     if (st == SS_OK)
         st = ss_match_other(&m, &c, &named->match, &record, &silent);
-    if (st != SS_OK)
+    if (st != SS_OK || m.power == 0)        /* a constant does not say anything */
         return st;
     size_t key = contradicted_key(&c, &named->match, &m, &errors);
     if (!ss_match_explains(&m, record.noise))
         snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
                  "leaves %.3g %% of that, %.3g times the noise", model, first, other,
                  100 * m.left / m.power, ss_match_excess(&m, record.noise));
-    else if (key < c.n)
+    else if (key < c.n && record.noise > record.steps)      /* errors are those of white noise */
         snprintf(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
                  "%.2g %% apart, %.2g standard errors", model, first, other,
                  ss_candidate_key_name(&c, key), 100 * fabs(expm1(m.p[key] - named->match.p[key])),
