@@ -54,6 +54,7 @@
 #define SLOWEST 512             /* cycles in a swell */
 #define ROBUST 8                /* cycles, for their scatter to be read by the median deviation */
 #define LATER 8.0               /* cycles */
+#define PULLED 16               /* a hum pulls the lag by less than such a part of it */
 #define PARTS 16                /* cycles that may pass for one */
 #define FEWEST 16               /* cycles, for modulation to show */
 
@@ -216,6 +217,22 @@ lag_of_least(const view *v, size_t i, size_t m, size_t lag)
                                 relative(v, i, lag + 1, m), 1);
 }
 
+/* The lag of least difference over two cycles.  That of a hum may lie beside twice the lag over one. */
+static size_t
+lag_over_two(const view *v, size_t i, size_t m, size_t lag)
+{
+    size_t step = lag / (8 * PULLED) + 1, best = 2 * lag;
+    double least = relative(v, i, best, m);
+    for (size_t at = 2 * lag - lag / PULLED; at <= 2 * lag + lag / PULLED && i + at + m + 4 < v->n; at += step) {
+        double d = relative(v, i, at, m);
+        if (d < least) {
+            least = d;
+            best = at;
+        }
+    }
+    return refine(v, i, m, best, step);
+}
+
 static cycle
 measure(const view *fine, const view *coarse, size_t q, size_t first, double period)
 {
@@ -250,7 +267,7 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.lag = (double)lag + near;
     if (first + 2 * lag + whole + 4 < fine->n)
-        c.next = 0.5 * lag_of_least(fine, first, whole, refine(fine, first, whole, 2 * lag, 2));
+        c.next = 0.5 * lag_of_least(fine, first, whole, lag_over_two(fine, first, whole, lag));
     c.bend = fabs(near - far) / 3;
     c.change = difference(fine, first, lag, whole, &a, &b, &ab);
     c.slopes = difference(fine, first, 1, whole, &a, &b, &unit);

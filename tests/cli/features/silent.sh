@@ -80,3 +80,10 @@ ss-sim -s mass=101.60294 -s stiffness=174571.499 -s contact_stiffness=5779049.89
     -s duration=5.42297524 -s rate=616.421225 compliant-light | ss-features > found
 covers slip_rate 3.31921118 < found
 grep '^# slips:' found
+# jumps between samples: twelve cycles repeat better than one, but are not the shortest time after which it does
+awk 'BEGIN { print "t,a"; for (i = 0; i < 12000; i++) { u = i * .01103947; print i / 1000 "," u - int(u) } }' |
+    ss-features | covers repetition_frequency 11.03947
+# a rate that a strong hum pulls towards itself, over one cycle and over two by other amounts
+awk 'BEGIN { print "t,a"; for (i = 0; i < 17463; i++) { t = i / 5000; x = sin(222.761 * t)
+    print t "," (x > 0 ? x : 0) + .28 * sin(4600.85 * t) } }' | ss-features > found
+awk '$2 == "repetition_frequency:" { print ($3 == "-" || ($3 - 35.4534) ^ 2 <= 9 * $4 ^ 2 ? "covered" : $0) }' found
