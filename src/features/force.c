@@ -19,7 +19,6 @@
 #include "features/reversals.h"
 
 #define OUTLIERS 0.02           /* of the samples at either end may be wrong */
-enum { CLIPPED = 8 };           /* samples at the largest or least value, one behind the other */
 #define SLOWER 1.05             /* less is within what sampling makes of turning points */
 #define QUICK 2.0               /* so much slower are all rises where there are few */
 enum { FEW_RISES = 9 };

@@ -25,7 +25,7 @@
 
 #define NEAR 3.0                /* standard deviations about the line */
 #define AWAY 4                  /* samples in a row beyond that end it */
-#define EVEN 0.1                /* of the slope: sticks scatter by less */
+#define SHORT 0.2               /* of the time, for falls: all else may be stick */
 
 typedef struct line {
     double slope, error;        /* per unit of the abscissa */
@@ -201,18 +201,22 @@ median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
 }
 
 /* Where fewer than half of the falls are slips of a pulled slider, these are not typical of the others;
- * and if the rises differ, too, they are not all sticks, which an even drive loads alike. */
+ * and if falls take long, too, it may be sliding that is behind and before them. */
 static void
-summarise(ss_features *out, ss_value *v, double *scratch)
+summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
 {
     const ss_median none = { NAN, NAN, NAN };
     size_t slips = 0;
-    for (size_t i = 0; i < out->n; i++)
+    double falling = 0;
+    for (size_t i = 0; i < out->n; i++) {
         slips += (size_t)isfinite(out->loading[i].drop.value);
+        falling += drop[i].end - drop[i].t;
+    }
     int is_typical = 2 * slips >= out->n;
+    int is_short = out->n > 1 && falling <= SHORT * (drop[out->n - 1].end - drop[0].t);
     out->slope = median_over(out, offsetof(ss_loading, slope), v, scratch);
     out->stiffness = median_over(out, offsetof(ss_loading, stiffness), v, scratch);
-    if (!is_typical && !(out->slope.scatter <= EVEN * out->slope.value))
+    if (!is_typical && !is_short)
         out->slope = out->stiffness = none;
     const struct { ss_median *to; size_t offset; } of_slips[] = {
         { &out->drop, offsetof(ss_loading, drop) },
@@ -318,7 +322,7 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
             out->transition[i].end = f[i].slip.end.value / s->rate;
         }
     if (st == SS_OK)
-        summarise(out, v, scratch);
+        summarise(out, drop, v, scratch);
     free(f);
     free(v);
     free(y);

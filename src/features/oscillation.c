@@ -121,6 +121,16 @@ judge_fit(const ss_value all[2], double omega, size_t n, size_t cycles, size_t u
     return NULL;
 }
 
+/* The standard deviation of n fits, which the error of their median, all, is of. */
+static double
+scatter_of(ss_value all, const ss_value *each, size_t n)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++)
+        used += isfinite(each[2 * i].value);
+    return all.error * sqrt(2 * (double)used / M_PI);
+}
+
 /* Where the transitions are known already, each stick by itself, as they need not be alike. */
 static ss_status
 fit_singly(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each)
@@ -131,8 +141,9 @@ fit_singly(search *s, const size_t *anchor, double f, ss_window *window, ss_valu
     ss_status st = find_bars(s, BAR_EVENTS, f, &bar, &n_bars);
     if (st == SS_OK)
         st = ss_ringdown_fit_each(s->x, s->n, anchor, n, w, bar, n_bars, window, all, each);
-    if (st == SS_OK)
-        s->out->why_ringing = judge_fit(all, w, n, n, n, 0);
+    if (st == SS_OK && (s->out->why_ringing = judge_fit(all, w, n, n, n, 0)) == NULL
+        && !(scatter_of(all[0], each, n) < all[0].value / PRECISE))
+        s->out->why_ringing = "each transition rings at another frequency";
     free(bar);
     return st;
 }

@@ -125,13 +125,14 @@ ss_reversals_measure(search *s, const double *x)
         stay += (size_t)p[i].stays;
         v[i] = v[out->n + i] = unknown;
     }
-    if (st == SS_OK && 2 * stay <= out->n)
-        out->why_slips = "between its reversals the force does not stay at a level, as friction does";
-    if (st == SS_OK) {
+    out->reverses = st == SS_OK;
+    if (st == SS_OK && 2 * stay > out->n) {
         measure(s, x, p, v, v + out->n);
-        out->reverses = 1;
         out->friction = known_median(v, out->n, copy);
         out->stiffness = known_median(v + out->n, out->n, copy);
+    } else if (st == SS_OK) {
+        out->friction = out->stiffness = (ss_median){ NAN, NAN, NAN };
+        out->why_slips = "between its reversals the force does not stay at a level, as friction does";
     }
     free(p);
     free(v);

@@ -13,6 +13,7 @@
 #define CENTER 6.0              /* of the wavelet */
 #define STRONG 20.0             /* [dB] below the strongest: spikes that begin or end a transition */
 enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
+enum { CLIPPED = 8 };           /* samples at the largest or least value, one behind the other */
 
 static const ss_value unknown = { NAN, NAN };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };

@@ -78,6 +78,34 @@ stand_apart(const ss_bursts *found)
     return found->n < 2 || weakest - fmax(found->next, found->floor) >= APART;
 }
 
+/* Does x stand still at the value, which it does not most of the time, between two events? */
+static int
+stands_between(const search *s, const ss_bursts *found, double value)
+{
+    size_t there = 0;
+    for (size_t i = 0; i < s->n; i++)
+        there += s->x[i] == value;
+    for (size_t k = 1; k < found->n && 2 * there < s->n; k++) {
+        size_t run = 0, i = (size_t)(found->burst[k - 1].t * s->rate);
+        for (; i < (size_t)(found->burst[k].t * s->rate); i++) {
+            run = s->x[i] == value ? run + 1 : 0;
+            if (run == CLIPPED)
+                return 1;
+        }
+    }
+    return 0;
+}
+
+/* What is clipped begins and ends sharply, so that two events may be of one. */
+static int
+is_clipped_between(const search *s, const ss_bursts *found)
+{
+    double top = s->x[0], bottom = s->x[0];
+    for (size_t i = 1; i < s->n; i++)
+        top = fmax(top, s->x[i]), bottom = fmin(bottom, s->x[i]);
+    return stands_between(s, found, top) || stands_between(s, found, bottom);
+}
+
 /* Single events in a record that is quiet else. */
 static ss_status
 find_single(search *s)
@@ -85,7 +113,9 @@ find_single(search *s)
     ss_bursts *found = NULL;
     ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate,
                                   &(ss_burst_opts){ CLEAR, s->gap, s->n_gaps }, NULL);
-    if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
+    if (st == SS_OK && is_clipped_between(s, found))
+        s->out->why_slips = "two events may be one that is clipped: it stands still at an extreme between them";
+    else if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];
             size_t at = (size_t)round(found->burst[i].t * s->rate);
