@@ -205,6 +205,15 @@ tool_check(ss_status status, const ss_error *err)
                  tool_hint(status, err));
 }
 
+void *
+tool_room(void *list, size_t n, size_t size)
+{
+    void *room = realloc(list, n > 0 ? n * size : 1);
+    if (room == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    return room;
+}
+
 void
 tool_show(tool_text text)
 {
@@ -295,6 +304,15 @@ tool_read_rows(const char *path, const ss_read_opts *opts)
     return reader;
 }
 
+size_t
+tool_rows(ss_reader *reader, double *rows, size_t max)
+{
+    size_t n;
+    ss_error err = { 0 };
+    tool_check(ss_reader_rows(reader, rows, max, &n, &err), &err);
+    return n;
+}
+
 ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {
@@ -365,10 +383,7 @@ tool_name_scene(const char *path, const tool_texts *settings)
     size_t size = strlen(own) + 1;
     for (size_t i = 0; i < settings->n; i++)
         size += strlen(settings->text[i]) + 2;
-    char *name = malloc(size), *end;
-    if (name == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    end = stpcpy(name, own);
+    char *name = tool_room(NULL, size, 1), *end = stpcpy(name, own);
     for (size_t i = 0; i < settings->n; i++) {
         int physical = 1;
         for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)

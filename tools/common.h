@@ -28,6 +28,9 @@ void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr,
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
 /* The same for the file of a base, which is read without options. */
 void tool_check_base(ss_status status, const ss_error *err);
+/* Returns room for n entries of size bytes each, with what the list had (NULL: a new one), or dies; to be
+ * freed. */
+void *tool_room(void *list, size_t n, size_t size);
 /* A hint how to remedy a failure, "; text", or "". */
 const char *tool_hint(ss_status status, const ss_error *err);
 
@@ -59,6 +62,8 @@ void tool_writes(const char *path);
 FILE *tool_open(const char *path);
 /* Begin to read a signal from "-", a file or HDF5 (with ":/dataset") row by row, or die. */
 ss_reader *tool_read_rows(const char *path, const ss_read_opts *opts);
+/* Read at most max rows, as ss_reader_rows does, or die.  Returns their number; 0 at the end. */
+size_t tool_rows(ss_reader *reader, double *rows, size_t max);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read coefficients from "-", a file or HDF5, or die. */

@@ -92,10 +92,7 @@ add_known(const struct stat *st, int written, const char *name)
         if (known[i].device == st->st_dev && known[i].number == st->st_ino
             && known[i].written != written)
             tool_usage("%s is both input and output; it would be lost", name);
-    known_file *more = realloc(known, (n_known + 1) * sizeof *known);
-    if (more == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    known = more;
+    known = tool_room(known, n_known + 1, sizeof *known);
     known[n_known++] = (known_file){ st->st_dev, st->st_ino, written };
 }
 

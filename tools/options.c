@@ -104,9 +104,7 @@ void
 tool_set_texts(const tool_option *o, char *text)
 {
     tool_texts *t = o->to;
-    t->text = realloc(t->text, (t->n + 1) * sizeof *t->text);
-    if (t->text == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    t->text = tool_room(t->text, t->n + 1, sizeof *t->text);
     t->text[t->n++] = text;
 }
 

@@ -106,8 +106,8 @@ tool_signal_new(const ss_header *head, const char *path, tool_kind kind)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     s->path = path;
     s->kind = kind;
-    if (kind == TOOL_H5 && (s->kept = malloc((WHOLE + head->n_columns) * sizeof *s->kept)) == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    if (kind == TOOL_H5)
+        s->kept = tool_room(NULL, WHOLE + head->n_columns, sizeof *s->kept);
     return s;
 }
 

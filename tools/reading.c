@@ -26,9 +26,7 @@ add_calibration(tool_reading *r, char *text, ss_calibration **made)
 {
     char *equals = strrchr(text, '=');
     size_t n = r->opts.n_calibrations++;
-    r->calibration = realloc(r->calibration, (n + 1) * sizeof *r->calibration);
-    if (r->calibration == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    r->calibration = tool_room(r->calibration, n + 1, sizeof *r->calibration);
     *made = &r->calibration[n];
     **made = (ss_calibration){ .column = equals != NULL ? text : NULL };
     if (equals == NULL)

@@ -45,9 +45,7 @@ static size_t *
 choose_columns(const ss_header *head, size_t *n)
 {
     *n = wanted.n > 0 ? wanted.n : head->n_columns;
-    size_t *column = malloc(*n * sizeof *column);
-    if (column == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    size_t *column = tool_room(NULL, *n, sizeof *column);
     for (size_t i = 0; i < *n; i++)
         column[i] = wanted.n > 0 ? tool_column(head, path, wanted.text[i]) : i;
     return column;
@@ -74,18 +72,12 @@ copy_rows(tool_kind kind, const ss_read_opts *opts)
     ss_reader *reader = tool_read_rows(path, opts);
     const ss_header *head = ss_reader_header(reader);
     ss_header *chosen;
-    ss_error err = { 0 };
     size_t n, got, *column = choose_columns(head, &n), all = head->n_columns;
-    double *rows = malloc(PIECE * (all + n) * sizeof *rows), *part = rows + PIECE * all;
-    if (rows == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    double *rows = tool_room(NULL, PIECE * (all + n), sizeof *rows), *part = rows + PIECE * all;
     say_header(head);
     tool_check(ss_header_select(&chosen, head, column, n, 0), NULL);
     tool_signal *out = tool_signal_new(chosen, output, kind);
-    for (;;) {
-        tool_check(ss_reader_rows(reader, rows, PIECE, &got, &err), &err);
-        if (got == 0)
-            break;
+    while ((got = tool_rows(reader, rows, PIECE)) > 0) {
         for (size_t i = 0; i < got; i++)
             for (size_t j = 0; j < n; j++)
                 part[i * n + j] = rows[i * all + column[j]];

@@ -114,22 +114,17 @@ draw_rows(drawing *d, ss_reader *reader, FILE *in)
 {
     enum { PIECE = 8192 };
     const ss_header *head = ss_reader_header(reader);
-    size_t columns = head->n_columns, column = open_overview(d, head), n = 1;
-    double *rows = malloc(columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
+    size_t columns = head->n_columns, column = open_overview(d, head), n;
+    double *rows = tool_room(NULL, columns * PIECE, sizeof *rows), x[PIECE];
     struct stat st;
-    ss_error err = { 0 };
-    if (rows == NULL || x == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
     double size = fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
-    while (n > 0) {
-        tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
+    while ((n = tool_rows(reader, rows, PIECE)) > 0) {
         for (size_t i = 0; i < n; i++)
             x[i] = rows[i * columns + column];
         push(d, x, n);
         tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
     }
     free(rows);
-    free(x);
     end_overview(d);
 }
 

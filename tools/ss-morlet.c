@@ -278,8 +278,8 @@ transform_whole(const request *req, const char *path)
     opts.progress.function = tool_progress;
     double begin = now();
     check(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
-    if (req->check && (f.w = malloc(2 * ss_morlet_total(plan) * sizeof *f.w)) == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    if (req->check)
+        f.w = tool_room(NULL, 2 * ss_morlet_total(plan), sizeof *f.w);
     open_output(&f, req, signal->head, column, signal->n, ss_morlet_scale(plan, 0),
                 ss_morlet_scales(plan));
     store_samples(&f, signal->values, signal->n, 1, signal->n);
@@ -349,10 +349,8 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
     enum { PIECE = 8192 };
     const ss_header *head = ss_reader_header(reader);
     size_t n, all = 0;
-    double *rows = malloc(head->n_columns * PIECE * sizeof *rows), *x = malloc(PIECE * sizeof *x);
+    double *rows = tool_room(NULL, head->n_columns * PIECE, sizeof *rows), x[PIECE];
     ss_error bad = { 0 }, err = { 0 };
-    if (rows == NULL || x == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
     do {
         ss_status st = ss_reader_rows(reader, rows, PIECE, &n, &bad);
         all += n;
@@ -366,7 +364,6 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
         tool_check(st, &bad);
     } while (n > 0 && !tool_stopping());
     free(rows);
-    free(x);
 }
 
 static void

@@ -144,22 +144,18 @@ static void
 change_rows(tool_kind kind, ss_noise *noise)
 {
     ss_reader *reader = tool_read_rows(path, &reading.opts);
-    ss_error err = { 0 };
     size_t n;
     char text[128];
     ss_header *head = ss_header_copy(ss_reader_header(reader));
-    double *rows = head != NULL ? malloc(PIECE * head->n_columns * sizeof *rows) : NULL;
-    if (rows == NULL)
+    if (head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
+    double *rows = tool_room(NULL, PIECE * head->n_columns, sizeof *rows);
     double *chosen = choose_columns(head), *level = choose_columns(head);
     for (size_t c = 0; c < head->n_columns; c++)
         level[c] *= isnan(rms) ? 0 : rms;
     add_notes(head);
     tool_signal *out = tool_signal_new(head, output, kind);
-    for (;;) {
-        tool_check(ss_reader_rows(reader, rows, PIECE, &n, &err), &err);
-        if (n == 0)
-            break;
+    while ((n = tool_rows(reader, rows, PIECE)) > 0) {
         tool_check(ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level), NULL);
         size_t step = head->n_columns == 1 ? n : 1;     /* values of one column, side by side */
         for (size_t i = 0; i < n * head->n_columns && bits > 0; i += step)

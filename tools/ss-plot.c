@@ -130,10 +130,8 @@ read_line(const char *path, size_t *n)
     int points = 0;
     for (size_t room = 0; fgets(text, sizeof text, in) != NULL; ++*n) {
         if (*n == room) {
-            double *more = realloc(line, (room = 2 * room + 64) * 2 * sizeof *more);
-            if (more == NULL)
-                tool_die("%s", ss_strerror(SS_ENOMEM));
-            line = more;
+            room = 2 * room + 64;
+            line = tool_room(line, room, 2 * sizeof *line);
         }
         double x = ss_number_parse(text, &end), y = ss_number_parse(end, &rest);
         line[2 * *n] = end > text && rest > end ? x : NAN;
@@ -192,9 +190,7 @@ static void
 choose_columns(drawing *d, const ss_header *head, const char *path, const tool_texts *name)
 {
     d->n = name->n > 0 ? name->n : head->n_columns;
-    d->column = malloc((d->n + 1) * sizeof *d->column);
-    if (d->column == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    d->column = tool_room(NULL, d->n + 1, sizeof *d->column);
     for (size_t i = 0; i < d->n; i++)
         d->column[i] = name->n > 0 ? find_signal_column(d, head, path, name->text[i]) : i;
 }
@@ -225,10 +221,7 @@ read_envelope(drawing *d, const char *path, const tool_texts *name, const ss_rea
     ss_reader *reader = tool_read_rows(path, reading);
     const ss_header *head = ss_reader_header(reader);
     choose_columns(d, head, path, name);
-    size_t *column = malloc((d->n + 1) * sizeof *column);
-    if (column == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    size_t n = name_once(d, column);
+    size_t *column = tool_room(NULL, d->n + 1, sizeof *column), n = name_once(d, column);
     tool_check(ss_plot_envelope(&signal, &rows, reader, column, n, opts, &err), &err);
     tool_note("%s: %zu samples, %zu columns", tool_input_name(path), rows, head->n_columns);
     ss_reader_free(reader);

@@ -112,9 +112,7 @@ keep_event(const ss_event *e, void *user)
     output *o = user;
     if (o->n_events == o->room) {
         o->room = o->room > 0 ? 2 * o->room : 64;
-        o->events = realloc(o->events, o->room * sizeof *o->events);
-        if (o->events == NULL)
-            tool_die("%s", ss_strerror(SS_ENOMEM));
+        o->events = tool_room(o->events, o->room, sizeof *o->events);
     }
     o->events[o->n_events++] = *e;
     return 0;

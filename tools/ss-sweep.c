@@ -112,9 +112,7 @@ add_axis(const tool_option *o, char *text)
 {
     request *req = o->to;
     ss_error err = { 0 };
-    req->axis = realloc(req->axis, (req->opts.n_axes + 1) * sizeof *req->axis);
-    if (req->axis == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    req->axis = tool_room(req->axis, req->opts.n_axes + 1, sizeof *req->axis);
     if (ss_axis_parse(&req->axis[req->opts.n_axes++], text, &err) != SS_OK)
         tool_usage("--vary: %s", err.text);
 }
