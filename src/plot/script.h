@@ -46,6 +46,8 @@ void ss_script_write_span(FILE *out, const script_span *span);
 
 /* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
 void ss_script_quote(FILE *out, const char *text);
+/* The n bytes of text as they stand between the quotes of such a constant. */
+void ss_script_write_text(FILE *out, const char *text, size_t n);
 /* A number rounded to so many decimals, in any locale, and the text after it. */
 void ss_script_write(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that distinguish a tenth of a pixel column in a picture of this range. */
