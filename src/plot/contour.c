@@ -245,7 +245,7 @@ write_signal(FILE *out, drawing *d)
 {
     const ss_signal *signal = d->contour->signal;
     const double *x = signal->values + d->contour->column * signal->n;
-    script_scale scale = ss_script_scale(x + d->span.first, d->span.n);
+    script_scale scale = ss_script_scale(ss_script_span_extent(x, &d->clock, &d->span));
     d->drawn = SCRIPT_NO_EXTENT;
     ss_script_make_label(&d->label, &signal->head->column[d->contour->column], scale, ROOM);
     ss_script_write_trace(out, "$signal", x, &d->clock, &d->span, scale, &d->drawn);

@@ -84,14 +84,14 @@ write_traces(FILE *out, panel p[], size_t n, const script_clock *clock, const sc
     for (size_t i = 0; i < n; i++) {
         char name[32];
         snprintf(name, sizeof name, "$panel%zu", i + 1);
-        p[i].scale = ss_script_scale(p[i].x + span->first, span->n);
+        p[i].scale = ss_script_scale(ss_script_span_extent(p[i].x, clock, span));
         ss_script_write_trace(out, name, p[i].x, clock, span, p[i].scale, &p[i].drawn);
     }
 }
 
-/* Panel i of n, from 1 on; the lowest has the labels of time. */
+/* Panel i of n, from 1 on; the lowest has the labels of time.  A line of one sample would be invisible. */
 static void
-plot_panel(FILE *out, const panel *p, size_t i, size_t n, int over)
+plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int over)
 {
     script_label label;
     if (i == n)
@@ -102,8 +102,8 @@ plot_panel(FILE *out, const panel *p, size_t i, size_t n, int over)
     fputs("unset label 1; ", out);
     ss_script_write_side_label(out, 1, &label);
     ss_script_write_tics(out, "ytics", p->drawn, 5);
-    fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour%s\n", i,
-            over ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
+    fprintf(out, "plot $panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", i,
+            samples > 1 ? "lines" : "points pt 7 ps 1", over ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
     if (i == 1)
         fputs("unset title\n", out);
 }
@@ -144,7 +144,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
                 1 - TITLE / height, panels);
         fputs(layout, out);
         for (size_t i = 1; i <= panels; i++)
-            plot_panel(out, &p[i - 1], i, panels, over && i == 1);
+            plot_panel(out, &p[i - 1], i, panels, span.n, over && i == 1);
         fputs("unset multiplot\n", out);
         status = ss_script_end(out);
     }
@@ -194,17 +194,10 @@ make_over_path(path *over, const path *p, const ss_plot_opts *opts, ss_error *er
     return st == SS_OK ? make_path(over, opts->over, column, &span, err) : st;
 }
 
-/* The values of column i, scaled; *drawn is widened to them. */
-static void
-widen(script_extent *drawn, const path *p, int i, script_scale scale)
+static script_extent
+extent_of(const path *p, int i)
 {
-    for (size_t k = p->span.first; k < p->span.first + p->span.n; k++) {
-        double value = ss_script_scaled(p->x[i][k], scale);
-        if (ss_script_is_missing(&p->clock, k))
-            continue;
-        drawn->lo = fmin(drawn->lo, value);
-        drawn->hi = fmax(drawn->hi, value);
-    }
+    return ss_script_span_extent(p->x[i], &p->clock, &p->span);
 }
 
 /* A point nearer than half a pixel to the last one written is left out. */
@@ -215,10 +208,9 @@ write_path(FILE *out, const char *name, const path *p, const script_scale scale[
     double last[2] = { INFINITY, INFINITY }, near[2];
     int decimals[2];
     for (int i = 0; i < 2; i++) {
-        script_extent drawn = SCRIPT_NO_EXTENT;
-        widen(&drawn, p, i, scale[i]);
-        near[i] = (drawn.hi - drawn.lo) / (2 * SCRIPT_COLUMNS);
-        decimals[i] = ss_script_decimals(drawn.hi - drawn.lo);
+        script_extent e = extent_of(p, i);
+        near[i] = (e.hi - e.lo) / scale[i].unit / (2 * SCRIPT_COLUMNS);
+        decimals[i] = ss_script_decimals((e.hi - e.lo) / scale[i].unit);
     }
     fprintf(out, "%s << EOD\n", name);
     for (size_t k = p->span.first; k < end; k++) {
@@ -245,11 +237,11 @@ write_xy(FILE *out, const path *p, const path *over)
     script_extent drawn[2] = { SCRIPT_NO_EXTENT, SCRIPT_NO_EXTENT };
     script_label label[2];
     for (int i = 0; i < 2; i++) {
-        scale[i] = ss_script_scale(p->x[i] + p->span.first, p->span.n);
+        scale[i] = ss_script_scale(extent_of(p, i));
         ss_script_make_label(&label[i], p->column[i], scale[i], XY_ROOM);
-        widen(&drawn[i], p, i, scale[i]);
+        ss_script_widen(&drawn[i], extent_of(p, i), scale[i]);
         if (over != NULL)
-            widen(&drawn[i], over, i, scale[i]);
+            ss_script_widen(&drawn[i], extent_of(over, i), scale[i]);
     }
     ss_script_write_x_label(out, &label[0], "0,0.3");
     ss_script_write_side_label(out, 1, &label[1]);

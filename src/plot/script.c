@@ -170,6 +170,13 @@ ss_script_power(int exponent)
     return (script_scale){ 0, pow(10, exponent), exponent };
 }
 
+void
+ss_script_widen(script_extent *drawn, script_extent of_values, script_scale scale)
+{
+    drawn->lo = fmin(drawn->lo, ss_script_scaled(of_values.lo, scale));
+    drawn->hi = fmax(drawn->hi, ss_script_scaled(of_values.hi, scale));
+}
+
 /* Are labels of values from lo to hi longer than TIC_LETTERS? */
 static int
 is_long(double lo, double hi)
@@ -182,10 +189,9 @@ is_long(double lo, double hi)
 
 /* The offset is the middle of the values, rounded to a power of ten above their range. */
 script_scale
-ss_script_scale(const double *x, size_t n)
+ss_script_scale(script_extent e)
 {
-    script_extent e = ss_script_extent(x, n);
-    script_scale scale = ss_script_power(ss_script_exponent(x, n));
+    script_scale scale = ss_script_power(ss_script_exponent((double[]){ e.lo, e.hi }, 2));
     double power = ceil(log10(e.hi - e.lo));
     if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled(e.lo, scale), ss_script_scaled(e.hi, scale)))
         return scale;
@@ -319,6 +325,16 @@ ss_script_is_missing(const script_clock *clock, size_t i)
     return clock->n_gaps > 0 && ss_gaps_near(clock->gap, clock->n_gaps, t, 0);
 }
 
+script_extent
+ss_script_span_extent(const double *x, const script_clock *clock, const script_span *span)
+{
+    script_extent e = SCRIPT_NO_EXTENT;
+    for (size_t i = span->first; i < span->first + span->n; i++)
+        if (!ss_script_is_missing(clock, i))
+            e = (script_extent){ fmin(e.lo, x[i]), fmax(e.hi, x[i]) };
+    return e;
+}
+
 /* A trace while it is written. */
 typedef struct trace {
     FILE *out;
@@ -366,16 +382,10 @@ ss_script_write_trace(FILE *out, const char *name, const double *x, const script
                       const script_span *span, script_scale scale, script_extent *drawn)
 {
     trace t = { .out = out, .x = x, .clock = clock, .scale = scale };
-    script_extent own = SCRIPT_NO_EXTENT;
-    for (size_t i = span->first; i < span->first + span->n; i++) {
-        double value = ss_script_scaled(x[i], scale);
-        if (ss_script_is_missing(clock, i))
-            continue;
-        own.lo = fmin(own.lo, value);
-        own.hi = fmax(own.hi, value);
-    }
+    script_extent e = ss_script_span_extent(x, clock, span);
+    ss_script_widen(drawn, e, scale);
     t.decimals[0] = ss_script_decimals(span->to - span->from);
-    t.decimals[1] = ss_script_decimals(own.hi - own.lo);
+    t.decimals[1] = ss_script_decimals((e.hi - e.lo) / scale.unit);
     size_t columns = span->n > 2 * SCRIPT_COLUMNS ? SCRIPT_COLUMNS : span->n;
     fprintf(out, "%s << EOD\n", name);
     for (size_t c = 0, i = span->first; c < columns; c++) {
@@ -384,6 +394,4 @@ ss_script_write_trace(FILE *out, const char *name, const double *x, const script
         i = end;
     }
     fputs("EOD\n", out);
-    drawn->lo = fmin(drawn->lo, own.lo);
-    drawn->hi = fmax(drawn->hi, own.hi);
 }

@@ -53,6 +53,11 @@ void ss_script_write(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that distinguish a tenth of a pixel column in a picture of this range. */
 int ss_script_decimals(double range);
 
+/* The least and the largest value; lo > hi: there is none. */
+typedef struct script_extent {
+    double lo, hi;
+} script_extent;
+#define SCRIPT_NO_EXTENT ((script_extent){ INFINITY, -INFINITY })
 /* The power of ten, a multiple of 3, by which the n values are divided to be short to read. */
 int ss_script_exponent(const double *x, size_t n);
 /* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */
@@ -60,9 +65,11 @@ typedef struct script_scale {
     double offset, unit;        /* unit: 10^exponent */
     int exponent;
 } script_scale;
-script_scale ss_script_scale(const double *x, size_t n);
+script_scale ss_script_scale(script_extent of_values);
 script_scale ss_script_power(int exponent);     /* without an offset */
 double ss_script_scaled(double x, script_scale scale);
+/* *drawn shall hold these values, scaled, too. */
+void ss_script_widen(script_extent *drawn, script_extent of_values, script_scale scale);
 /* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room in two
  * lines, "name" and "(10^-3 unit)", or broken near its middle, and in smaller letters; cut where it is
  * longer than any picture. */
@@ -83,11 +90,6 @@ void ss_script_write_x_label(FILE *out, const script_label *label, const char *o
 /* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */
 void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 
-/* The least and the largest value drawn; lo > hi: none yet. */
-typedef struct script_extent {
-    double lo, hi;
-} script_extent;
-#define SCRIPT_NO_EXTENT ((script_extent){ INFINITY, -INFINITY })
 script_extent ss_script_extent(const double *x, size_t n);      /* NaNs are left out */
 /* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all
  * are the same, one tic at that value. */
@@ -108,6 +110,8 @@ typedef struct script_clock {
 /* SS_EINVAL, and nothing to be freed, if all samples of the span are missing. */
 ss_status ss_script_make_clock(script_clock *clock, const ss_header *head, const script_span *span, ss_error *err);
 int ss_script_is_missing(const script_clock *clock, size_t i);
+/* Of the span, as it is found; x points at the whole record. */
+script_extent ss_script_span_extent(const double *x, const script_clock *clock, const script_span *span);
 
 /* A datablock of time and scaled x: the smallest and largest of each pixel column, so that no spike is
  * lost.  span as found; x points at the whole record.  *drawn is widened to the values. */

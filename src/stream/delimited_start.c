@@ -29,16 +29,36 @@ count_cells(const struct table *t, const char *line, const char *shape, size_t n
     return numbers > 0 && n > first && strcspn(shape + first, wrong) >= n - first ? n : 0;
 }
 
+/* The number of cells of the line above, which may name the columns; 0 if there is none. */
+static ss_status
+count_names(struct table *t, char separator, size_t *n)
+{
+    size_t last = t->n_head;
+    while (last > 0 && t->head[last - 1].comment)
+        last--;
+    *n = 0;
+    char *copy = last > 0 ? strdup(t->head[last - 1].text) : NULL;
+    if (copy != NULL)
+        *n = ss_delimited_split(t, copy, separator);
+    free(copy);
+    return (last > 0 && copy == NULL) || *n == NONE ? SS_ENOMEM : SS_OK;
+}
+
+/* Where gaps are allowed, cells that are empty at the end of the row count if each has a name above. */
 ss_status
 ss_delimited_is_data(struct table *t, const char *line, int *yes)
 {
+    size_t columns = t->n_columns;
     *yes = 0;
     for (size_t i = 0; !*yes && i < CANDIDATES; i++) {
         char separator = candidate[i];
         size_t numbers;
         if (!may_separate(t, line, separator))
             continue;
+        if (t->opts->gaps != SS_GAPS_REFUSE && count_names(t, separator, &t->n_columns) != SS_OK)
+            return SS_ENOMEM;
         char *shape = ss_delimited_shape(t, line, separator, &numbers);
+        t->n_columns = columns;
         if (shape == NULL)
             return SS_ENOMEM;
         size_t n = count_cells(t, line, shape, numbers);

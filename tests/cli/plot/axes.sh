@@ -28,5 +28,12 @@ ss-plot name.csv | grep -o 'label 1 "[^"]*"'
 ss-signal sine --rate 2e6 --duration 1e-4 --frequency 1e5 > fast.tsv
 ss-contour -o fast.gp fast.tsv
 grep -o 'label 2 "freq[^"]*"' fast.gp
+
+# Zeros that stand for missing samples do not choose the scale; one sample is a point.
+awk 'BEGIN { print "time (s),F (N)"; for (i = 0; i < 99; i++) print i/1000 "," (i % 9 ? 1000 + i%7/100 : "") }' > holes.csv
+ss-plot --gaps split holes.csv | grep -o 'label 1 "[^"]*"'
+ss-signal sine --duration 0.0005 | ss-plot | grep '^plot'
+
+# microseconds, as gnuplot writes them
 command -v gnuplot > /dev/null || exit 0
 { echo 'set terminal dumb 99,40'; cat fast.gp; } | gnuplot 2> /dev/null | grep -o 'time / .*s'
