@@ -358,26 +358,56 @@ refuses_options_out_of_range(void **state)
 
 /* --- extremes ------------------------------------------------------------------------------ */
 
+/* To the last bit, also where coefficients are subnormal; samples of 20 bits are exact there. */
 static void
 amplitudes_of_any_size_scale_the_coefficients(void **state)
 {
     enum { N = 300 };
-    static const int power[] = { 996, -996, -1000 };    /* 1e300 and 1e-300 */
+    static const int power[] = { 996, -996, -1000, -1040, -1054 };
     double x[N], y[N];
+    ss_morlet_opts opts = ss_morlet_defaults;
     (void)state;
     make(TONE, x, N);
-    ss_morlet *plan = plan_of(N, 2000, &ss_morlet_defaults);
-    double *u = transform(plan, x);
-    for (size_t i = 0; i < LENGTH(power); i++) {
+    for (size_t k = 0; k < N; k++)
+        x[k] = rint(x[k] * 0x1p20) * 0x1p-20;
+    for (size_t i = 0; i < 3 * LENGTH(power); i++) {
+        opts.engine = (ss_engine)(i % 3), opts.norm = i % 2 == 0 ? SS_NORM_L1 : SS_NORM_L2;
+        ss_morlet *plan = plan_of(N, 2000, &opts);
+        double *u = transform(plan, x);
         for (size_t k = 0; k < N; k++)
-            y[k] = ldexp(x[k], power[i]);
+            y[k] = ldexp(x[k], power[i / 3]);
         double *v = transform(plan, y);
         for (size_t c = 0; c < 2 * ss_morlet_total(plan); c++)
-            assert_true(fabs(v[c] - ldexp(u[c], power[i])) <= 0x1p-1070);   /* a subnormal ulp */
+            assert_true(v[c] == ldexp(u[c], power[i / 3]));
         free(v);
+        free(u);
+        ss_morlet_free(plan);
     }
-    ss_morlet_free(plan);
-    free(u);
+}
+
+/* Samples that products with the wavelet would make subnormal count as zeros, others do not. */
+static void
+samples_below_2_to_the_minus_900_of_the_largest_count_as_zeros(void **state)
+{
+    enum { N = 3000 };
+    double x[N], y[N];
+    ss_morlet_opts opts = ss_morlet_defaults;
+    (void)state;
+    for (size_t k = 0; k < N; k++) {
+        x[k] = ldexp(k % 3 == 0 ? 1.5 : -1, k < N / 2 ? -(int)k : -899);
+        y[k] = fabs(x[k]) < 0x1.8p-900 ? 0 : x[k];
+    }
+    for (opts.engine = SS_ENGINE_QUADRATURE; opts.engine <= SS_ENGINE_FFT; opts.engine++) {
+        ss_morlet *plan = plan_of(N, 2000, &opts);
+        double *u = transform(plan, x), *v = transform(plan, y);
+        assert_memory_equal(u, v, 2 * ss_morlet_total(plan) * sizeof *u);
+        const ss_scale *shortest = ss_morlet_scale(plan, ss_morlet_scales(plan) - 1);
+        assert_true(opts.engine != SS_ENGINE_QUADRATURE
+                    || fabs(u[2 * (shortest->offset + shortest->n * 3 / 4)]) > 0x1p-960);
+        free(u);
+        free(v);
+        ss_morlet_free(plan);
+    }
 }
 
 static void
@@ -512,6 +542,7 @@ main(void)
         cmocka_unit_test(refuses_what_is_not_usable),
         cmocka_unit_test(refuses_options_out_of_range),
         cmocka_unit_test(amplitudes_of_any_size_scale_the_coefficients),
+        cmocka_unit_test(samples_below_2_to_the_minus_900_of_the_largest_count_as_zeros),
         cmocka_unit_test(refuses_coefficients_that_overflow),
         cmocka_unit_test(one_and_two_samples_give_the_wavelet_itself),
         cmocka_unit_test(trends_are_subtracted),

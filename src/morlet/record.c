@@ -28,10 +28,25 @@ largest(const double *x, size_t n)
 }
 
 VERSIONS static void
-multiply(double *x, size_t n, double factor)
+multiply(double *x, size_t n, double factor, double least)
 {
-    for (size_t i = 0; i < n; i++)
-        x[i] *= factor;
+    for (size_t i = 0; i < n; i++) {
+        double kept = fabs(x[i]) < least ? 0 : x[i];
+        x[i] = kept * factor;
+    }
+}
+
+void
+ss_morlet_divide(double *x, size_t n, int exponent, double most)
+{
+    double least = ldexp(most, -900);
+    int left = -exponent;
+    do {                                    /* 2^-exponent may be too large for a double */
+        int step = left > 1000 ? 1000 : left < -1000 ? -1000 : left;
+        multiply(x, n, ldexp(1, step), least);
+        least = 0;
+        left -= step;
+    } while (left != 0);
 }
 
 static void
@@ -39,11 +54,7 @@ normalise(record *rec, double most)
 {
     int e;
     rec->x_max = frexp(most, &e);
-    for (int left = -e; left != 0;) {       /* 2^-e may be too large for a double */
-        int step = left > 1000 ? 1000 : left < -1000 ? -1000 : left;
-        multiply(rec->x, rec->n, ldexp(1, step));
-        left -= step;
-    }
+    ss_morlet_divide(rec->x, rec->n, e, most);
     rec->exponent += e;
 }
 
@@ -104,12 +115,26 @@ ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_
     return SS_OK;
 }
 
+/* x 2^exponent, as ldexp rounds it.  A subnormal number is made of its bits, which count units of 2^-1074:
+ * some processors take 100 times as long to compute it.  all: 2^exponent in these units, or infinity. */
+static double
+move_exponent(double x, int exponent, double all)
+{
+    double units = fabs(x) * all, y;
+    if (!(units < 0x1p52))
+        return ldexp(x, exponent);
+    uint64_t bits = (uint64_t)rint(units);
+    memcpy(&y, &bits, sizeof y);
+    return copysign(y, x);
+}
+
 ss_status
 ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err)
 {
     double factor = norm == SS_NORM_L1 ? 1 : sqrt(a);
+    double all = exponent < -500 ? ldexp(1, exponent + 1074) : INFINITY;
     for (size_t i = 0; i < 2 * n; i++) {
-        w[i] = ldexp(w[i] * factor, exponent);
+        w[i] = move_exponent(w[i] * factor, exponent, all);
         if (!isfinite(w[i]))
             return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
                            a);

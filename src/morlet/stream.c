@@ -48,16 +48,32 @@ transform_full(ss_stream *s, ss_error *err)
     return st;
 }
 
+/* Samples are kept divided by this power of 2, so that squares neither overflow nor underflow: 0 but for a
+ * signal near the ends of what a double holds. */
+static int
+exponent_of(double x_max)
+{
+    enum { FAR = 300 };
+    return x_max > 0 ? FAR * (ilogb(x_max) / FAR) : 0;
+}
+
 static ss_status
 append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
     double most;
     size_t good = ss_morlet_finite(x, n, &most);
     s->x_max = fmax(most, s->x_max);
+    int exponent = exponent_of(s->x_max);
     make_room(s, good);
-    memcpy(s->x + ((ptrdiff_t)s->samples - s->origin), x, good * sizeof *x);
+    size_t held = (size_t)((ptrdiff_t)s->samples - s->origin);
+    double *to = s->x + held;
+    if (exponent != s->exponent)
+        ss_morlet_divide(s->x, held, exponent - s->exponent, ldexp(s->x_max, -s->exponent));
+    s->exponent = exponent;
+    memcpy(to, x, good * sizeof *x);
+    ss_morlet_divide(to, good, exponent, s->x_max);
     if (s->cascade != NULL)
-        ss_cascade_append(s->cascade, x, good, ss_blocks_exponent(s->x_max));
+        ss_cascade_append(s->cascade, to, good, exponent);
     s->samples += good;
     ss_status st = s->samples == s->full ? transform_full(s, err) : SS_OK;
     return st == SS_OK && good < n ? ss_morlet_not_finite(err, s->samples + 1, x[good]) : st;

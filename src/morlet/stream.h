@@ -55,7 +55,8 @@ struct ss_stream {
     group *group;               /* the others */
     stream_worker *worker;      /* as many as threads */
     size_t worker_room;         /* coefficients in w of a worker */
-    double *x, x_max;           /* the last samples, for groups, and max|x| of all */
+    double *x, x_max;           /* the last samples / 2^exponent, for groups; max|x| of all */
+    int exponent;
     ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
     size_t room;                /* in x */
     int ended;
@@ -79,9 +80,6 @@ ptrdiff_t ss_group_start(const ss_stream *s, const group *g);
 /* All coefficients of a group's window at start to the sink, of those that have arrived. */
 ss_status ss_group_transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err);
 
-/* By this power of 2 samples are divided, the largest of which is x_max, for blocks: 0 but for sizes
- * near the ends of what a double holds. */
-int ss_blocks_exponent(double x_max);
 /* The coefficients in blocks whose windows are full to the sink; then all that need no sample from
  * limit on, PTRDIFF_MAX: all. */
 ss_status ss_blocks_transform_full(ss_stream *s, ss_error *err);

@@ -15,8 +15,7 @@
 
 enum {
     WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone, */
-    BLOCK_WORTH_THREADS = 1 << 14,      /* in blocks */
-    FAR = 600                   /* powers of 2 by which the samples of blocks are divided */
+    BLOCK_WORTH_THREADS = 1 << 14       /* in blocks */
 };
 
 typedef struct window {
@@ -208,28 +207,15 @@ compute_window(ss_stream *s, const window *win, ss_error *err)
 
 /* --- a window of a group ---------------------------------------------------------------------- */
 
-/* The samples of a window, of a size whose squares neither overflow nor underflow; *scaled: the
- * caller's to free. */
-static ss_status
-fill_record(window *win, double **scaled)
+static record
+record_of(const window *win)
 {
     const ss_stream *s = win->stream;
     ptrdiff_t there = (ptrdiff_t)s->samples - win->start;
     size_t n = there < 0 ? 0 : (size_t)there;
-    record *rec = &win->rec;
-    n = n < win->group->plan->n ? n : win->group->plan->n;
-    *rec = (record){ .n = n, .x = s->x + (win->start - s->origin), .x_max = s->x_max,
-                     .origin = win->start };
-    if (s->x_max == 0 || (s->x_max > 0x1p-300 && s->x_max < 0x1p300))
-        return SS_OK;
-    double *x = *scaled = malloc((n + 1) * sizeof *x);
-    if (x == NULL)
-        return SS_ENOMEM;
-    rec->x_max = frexp(s->x_max, &rec->exponent);
-    for (size_t i = 0; i < n; i++)
-        x[i] = ldexp(rec->x[i], -rec->exponent);
-    rec->x = x;
-    return SS_OK;
+    return (record){ .n = n < win->group->plan->n ? n : win->group->plan->n,
+                     .x = s->x + (win->start - s->origin), .x_max = ldexp(s->x_max, -s->exponent),
+                     .exponent = s->exponent, .origin = win->start };
 }
 
 /* Is the definition cheaper for the coefficients of a window? */
@@ -259,16 +245,15 @@ ss_group_transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
                    .workers = (size_t)s->opts.threads,
                    .limit = s->ended || limit < samples ? limit : samples };
     spectra made = { .size = { NULL } };
-    double *scaled = NULL;
-    ss_status st = fill_record(&win, &scaled);
-    if (st == SS_OK && !cheaper_by_sum(s, g, win.limit)) {
+    ss_status st = SS_OK;
+    win.rec = record_of(&win);
+    if (!cheaper_by_sum(s, g, win.limit)) {
         win.spectra = &made;
         st = ss_fft_forward(g->plan->fft, &win.rec, &made);
     }
     if (st == SS_OK)
         st = compute_window(s, &win, err);
     ss_spectra_free(&made);
-    free(scaled);
     return st;
 }
 
@@ -311,7 +296,7 @@ transform_blocks(size_t level, size_t number, double *spectrum, void *user)
     spectra made = { .blocks.first = number };
     made.blocks.level[level] = spectrum;
     window win = { .stream = s, .group = &s->blocks, .number = number, .limit = asked->limit,
-                   .rec.exponent = ss_blocks_exponent(s->x_max), .spectra = &made };
+                   .rec.exponent = s->exponent, .spectra = &made };
     while (win.first < n_scales && ss_blocks_level(b, win.first) > level)
         win.first++;
     win.end = win.first;
@@ -319,12 +304,6 @@ transform_blocks(size_t level, size_t number, double *spectrum, void *user)
         win.end++;
     divide_scales(&win);
     return compute_window(s, &win, asked->err);
-}
-
-int
-ss_blocks_exponent(double x_max)
-{
-    return x_max > 0 ? FAR * (ilogb(x_max) / FAR) : 0;
 }
 
 ss_status

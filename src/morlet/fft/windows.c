@@ -307,9 +307,7 @@ ss_cascade_append(cascade *c, const double *x, size_t n, int exponent)
         for (size_t i = 0; i < c->level[l].have; i++)
             c->level[l].x[i] = ldexp(c->level[l].x[i], c->exponent - exponent);
     c->exponent = exponent;
-    double *to = c->level[0].x + c->level[0].have;
-    for (size_t i = 0; i < n; i++)
-        to[i] = exponent == 0 ? x[i] : ldexp(x[i], -exponent);
+    memcpy(c->level[0].x + c->level[0].have, x, n * sizeof *x);
     c->level[0].have += n;
 }
 
