@@ -113,11 +113,11 @@ sums_at(const zoomed *zoom, double w, double by, size_t n, double complex *to)
         if (i > 0 && i < zoom->n)
             chirp[size - i] = c;
     }
-    ss_status st = ss_complex_fft(a, size, 2, 0);
+    ss_status st = ss_complex_fft(a, size, 2, 1, 0);
     for (size_t i = 0; i < size; i++)
         a[i] *= chirp[i] / (double)size;
     if (st == SS_OK)
-        st = ss_complex_fft(a, size, 1, 1);
+        st = ss_complex_fft(a, size, 1, 1, 1);
     for (size_t k = 0; k < n; k++)
         to[k] = 2 * zoom->step / zoom->length * cexp(-I * half * (double)k * (double)k) * a[k];
     free(a);
@@ -145,7 +145,7 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
     zoom->step = (double)size / (double)few;
     zoom->center = 2 * M_PI * (double)middle / (double)size;
     zoom->n = few;
-    return ss_complex_fft(zoom->z, few, 1, 1);
+    return ss_complex_fft(zoom->z, few, 1, 1, 1);
 }
 
 static void

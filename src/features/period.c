@@ -8,6 +8,7 @@
  * scatter is its error. */
 #include "features/period.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,30 +22,95 @@
 #define LEAST 0.15
 #define SIGMAS 5.5
 
-/* x to its autocorrelation, compressed, at lags 0 ... size/2, 1 at 0.  x has n samples less their mean,
- * then zeros up to size, and room for two numbers more. */
-static ss_status
-autocorrelation(double *x, size_t n, size_t size)
+/* --- the autocorrelation -----------------------------------------------------------------------
+ *
+ * Two real samples are one complex one, and these stand in rows and columns: FFTs of all columns, a twist,
+ * and FFTs of all rows leave term r + rows c in row r and column c.  Back they need not be put in order, as
+ * a magnitude needs only its own term and the mirrored one.  So no FFT, and no table of FFTW's, is longer
+ * than about the root of the record. */
+
+typedef struct grid {
+    size_t rows, columns;
+    double complex *z;          /* row by row */
+} grid;
+
+/* exp(-2 pi i k / n). */
+static double complex
+turn(double k, double n)
 {
-    ss_status st = ss_real_fft(x, size, 0);
-    for (size_t k = 0; st == SS_OK && k <= size / 2; k++) {
-        x[2 * k] = magnitude_of(x + 2 * k);
-        x[2 * k + 1] = 0;
+    return cexp(-2 * M_PI * I * k / n);
+}
+
+static void
+twist(const grid *g, int back)
+{
+    for (size_t r = 1; r < g->rows; r++) {
+        double complex step = turn((double)r, (double)(g->rows * g->columns)), at = 1;
+        double complex *z = g->z + r * g->columns;
+        step = back ? conj(step) : step;
+        for (size_t c = 0; c < g->columns; c++, at *= step)
+            z[c] *= at;
     }
+}
+
+/* Replace two terms of the complex samples, one mirrored, by those of the samples that the magnitudes of
+ * the terms of the real ones are of; turned: exp(-2 pi i k / n) of the first. */
+static void
+compress(double complex *a, double complex *b, double complex turned)
+{
+    double complex even = (*a + conj(*b)) / 2, odd = (*a - conj(*b)) * (-0.5 * I) * turned;
+    double complex sum = even + odd, rest = even - odd;
+    double p = magnitude_of((double[]){ creal(sum), cimag(sum) });
+    double q = magnitude_of((double[]){ creal(rest), cimag(rest) });
+    *a = (p + q) / 2 + (p - q) / 2 * I * conj(turned);
+    *b = (p + q) / 2 + (p - q) / 2 * I * turned;
+}
+
+static void
+compress_all(const grid *g)
+{
+    const double n = 2 * (double)(g->rows * g->columns);
+    double complex step = turn((double)g->rows, n);
+    for (size_t r = 0; 2 * r <= g->rows; r++) {
+        size_t mirrored = r > 0 ? g->rows - r : 0;
+        double complex *z = g->z + r * g->columns, *other = g->z + mirrored * g->columns;
+        double complex turned = turn((double)r, n);
+        for (size_t c = 0; c < g->columns; c++, turned *= step) {
+            size_t to = r > 0 ? g->columns - 1 - c : (g->columns - c) % g->columns;
+            if (other + to >= z + c)
+                compress(z + c, other + to, turned);
+        }
+    }
+}
+
+/* x to its autocorrelation, compressed, at lags 0 ... rows columns - 1, 1 at 0.  x has n samples less
+ * their mean, then zeros up to 2 rows columns. */
+static ss_status
+autocorrelation(double *x, size_t n, size_t rows, size_t columns)
+{
+    grid g = { rows, columns, (double complex *)x };
+    ss_status st = ss_complex_fft(g.z, rows, columns, columns, 0);
+    twist(&g, 0);
     if (st == SS_OK)
-        st = ss_real_fft(x, size, 1);
+        st = ss_complex_fft(g.z, columns, rows, 1, 0);
+    compress_all(&g);
+    if (st == SS_OK)
+        st = ss_complex_fft(g.z, columns, rows, 1, 1);
+    twist(&g, 1);
+    if (st == SS_OK)
+        st = ss_complex_fft(g.z, rows, columns, columns, 1);
     double first = x[0];
-    for (size_t i = 0; st == SS_OK && i <= size / 2; i++)
+    for (size_t i = 0; st == SS_OK && i < rows * columns; i++)
         x[i] = first > 0 ? x[i] / first * (double)n / (double)(n > i ? n - i : 1) : 0;
     return st;
 }
 
-/* x less its mean, over its largest |value|, then zeros up to size, and room for two more. */
+/* x less its mean, over its largest |value|, then zeros up to size. */
 static double *
 centred(const double *x, size_t n, size_t size)
 {
     double mean = 0, largest = 0;
-    double *r = calloc(size + 2, sizeof *r);
+    double *r = calloc(size, sizeof *r);
     if (r == NULL)
         return NULL;
     for (size_t i = 0; i < n; i++) {
@@ -128,17 +194,17 @@ first_peak(const double *r, size_t last, double least)
 ss_status
 ss_period_find(const double *x, size_t n, ss_value *period)
 {
-    size_t size = 1;
+    size_t rows = 1, columns = 1;
     double height;
     *period = (ss_value){ NAN, NAN };
     if (n < 8)
         return SS_OK;
     if (n > SIZE_MAX / 4 / sizeof *x)
         return SS_ENOMEM;
-    while (size < 2 * n)
-        size *= 2;
-    double *r = centred(x, n, size);
-    ss_status st = r != NULL ? autocorrelation(r, n, size) : SS_ENOMEM;
+    while (rows * columns < n)
+        *(rows < columns ? &rows : &columns) *= 2;
+    double *r = centred(x, n, 2 * rows * columns);
+    ss_status st = r != NULL ? autocorrelation(r, n, rows, columns) : SS_ENOMEM;
     size_t peak = st != SS_OK ? 0 : first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
     if (peak > 0)
         period->value = follow(r, peak, 0.75 * (double)n, INFINITY, &height, &period->error);

@@ -28,13 +28,13 @@ ss_real_fft(double *x, size_t n, int back)
 }
 
 ss_status
-ss_complex_fft(double complex *z, size_t n, size_t records, int back)
+ss_complex_fft(double complex *z, size_t n, size_t records, size_t stride, int back)
 {
     fftw_complex *at = (fftw_complex *)z;
-    const int length = (int)n;
-    if (n > INT_MAX || records > INT_MAX)
+    const int length = (int)n, apart = (int)stride, next = stride == 1 ? length : 1;
+    if (n > INT_MAX || records > INT_MAX || stride > INT_MAX)
         return SS_ENOMEM;
     pthread_mutex_lock(&ss_fftw_planner);
-    return run(fftw_plan_many_dft(1, &length, (int)records, at, NULL, 1, length, at, NULL, 1, length,
+    return run(fftw_plan_many_dft(1, &length, (int)records, at, NULL, apart, next, at, NULL, apart, next,
                                   back ? FFTW_BACKWARD : FFTW_FORWARD, FFTW_ESTIMATE));
 }

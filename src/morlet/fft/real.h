@@ -10,7 +10,8 @@
  * back, n times as large.  x has room for n + 2.  SS_ENOMEM: x is as it was. */
 ss_status ss_real_fft(double *x, size_t n, int back);
 
-/* The same of n complex samples each of so many records, one behind the other. */
-ss_status ss_complex_fft(double complex *z, size_t n, size_t records, int back);
+/* The same of n complex samples, stride apart, for each of so many records: these begin n samples apart
+ * if the stride is 1, else one behind the other. */
+ss_status ss_complex_fft(double complex *z, size_t n, size_t records, size_t stride, int back);
 
 #endif
