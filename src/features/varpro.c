@@ -286,7 +286,8 @@ linear_of(const varpro_factor *f, double xx)
 double
 ss_varpro_left(varpro_sums *sums)
 {
-    varpro_factor f = { .m = sums->m };
+    varpro_factor f;
+    f.m = sums->m;
     factorise(sums->g, f.l, f.m);
     substitute(&f, sums->x, f.y, f.m);
     return left_of(&f, sums->xx);
