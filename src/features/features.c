@@ -347,9 +347,9 @@ report_transform(double done, void *user)
     return report_progress(user, TRANSFORMED * done) != SS_OK;
 }
 
-/* From the lowest usable frequency on; SS_ESCALE where there is none. */
+/* Of the map from the lowest usable frequency on; SS_ESCALE where there is none. */
 static ss_status
-transform(search *s, size_t column, const double *x, ss_error *err)
+plan_map(search *s, size_t column, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
     double lowest = CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n);
@@ -358,14 +358,20 @@ transform(search *s, size_t column, const double *x, ss_error *err)
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
+    return ss_levels_new(&s->map, s->signal, column, &opts, err);
+}
+
+static ss_status
+read_map(search *s, const double *x, ss_error *err)
+{
     if (s->n_gaps == 0)
-        return ss_levels_new(&s->map, s->signal, column, x, &opts, err);
+        return ss_levels_read(&s->map, x, err);
     double *bridged = malloc(s->n * sizeof *bridged);   /* zeros in a gap are steep */
     if (bridged == NULL)
         return SS_ENOMEM;
     memcpy(bridged, x, s->n * sizeof *x);
     ss_gaps_bridge(bridged, s->n, s->rate, s->gap, s->n_gaps);
-    ss_status st = ss_levels_new(&s->map, s->signal, column, bridged, &opts, err);
+    ss_status st = ss_levels_read(&s->map, bridged, err);
     free(bridged);
     return st;
 }
@@ -400,8 +406,9 @@ find_repetition(search *s)
     return SS_OK;
 }
 
+/* What needs no map, so that its memory is not taken yet. */
 static ss_status
-find_all(search *s)
+find_before_map(search *s)
 {
     ss_status st = find_repetition(s);
     if (st != SS_OK)
@@ -409,8 +416,14 @@ find_all(search *s)
     ss_spike_opts sharp = ss_spike_defaults;
     sharp.gap = s->gap;
     sharp.n_gaps = s->n_gaps;
-    if ((st = ss_spikes_find(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL)) != SS_OK
-        || (st = find_maxima(s)) != SS_OK || (st = report_progress(s, FLOODED)) != SS_OK)
+    return ss_spikes_find(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL);
+}
+
+static ss_status
+find_with_map(search *s)
+{
+    ss_status st = find_maxima(s);
+    if (st != SS_OK || (st = report_progress(s, FLOODED)) != SS_OK)
         return st;
     if ((st = ss_transitions_find(s)) != SS_OK || (st = report_progress(s, FITTED)) != SS_OK)
         return st;
@@ -477,8 +490,12 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
         = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
     s.out->why_ringing = "the recording is too short";
-    ss_status st = s.n > 0 ? transform(&s, column, x, err) : SS_ESCALE;
-    if (st == SS_OK && (st = find_all(&s)) != SS_OK)
+    ss_status st = s.n > 0 ? plan_map(&s, column, err) : SS_ESCALE;
+    if (st == SS_OK && (st = find_before_map(&s)) != SS_OK)
+        ss_fail(err, st, "%s", ss_strerror(st));
+    if (st == SS_OK)
+        st = read_map(&s, x, err);
+    if (st == SS_OK && (st = find_with_map(&s)) != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));
     ss_levels_free(&s.map);
     free(s.gap);

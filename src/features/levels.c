@@ -125,25 +125,35 @@ ss_levels_progress(const map_source *source, double done)
         : ss_progress_at(&source->levels->plan->opts.progress, done);
 }
 
-ss_status
-ss_levels_of_samples(map_source *out, const double *x, size_t n, double rate,
-                     const ss_morlet_opts *opts, ss_error *err)
+static ss_status
+new_plan(map_source *out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
 {
     levels *l = calloc(1, sizeof *l);
     *out = (map_source){ .levels = l };
-    if (l == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_morlet_new(&l->plan, n, rate, opts, err);
-    if (st == SS_OK)
-        st = ss_morlet_record(&l->rec, x, n, opts->detrend, err);
+    return l != NULL ? ss_morlet_new(&l->plan, n, rate, opts, err) : SS_ENOMEM;
+}
+
+ss_status
+ss_levels_read(map_source *source, const double *x, ss_error *err)
+{
+    levels *l = source->levels;
+    ss_status st = ss_morlet_record(&l->rec, x, l->plan->n, l->plan->opts.detrend, err);
     return st == SS_OK ? ss_morlet_forward(l->plan, &l->rec, &l->spectra) : st;
 }
 
 ss_status
-ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
-              const ss_morlet_opts *opts, ss_error *err)
+ss_levels_of_samples(map_source *out, const double *x, size_t n, double rate,
+                     const ss_morlet_opts *opts, ss_error *err)
 {
-    ss_status st = ss_levels_of_samples(out, x, signal->n, signal->head->rate, opts, err);
+    ss_status st = new_plan(out, n, rate, opts, err);
+    return st == SS_OK ? ss_levels_read(out, x, err) : st;
+}
+
+ss_status
+ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const ss_morlet_opts *opts,
+              ss_error *err)
+{
+    ss_status st = new_plan(out, signal->n, signal->head->rate, opts, err);
     if (st == SS_OK)
         st = ss_morlet_grid_of(&out->levels->grid, signal, column, out->levels->plan, opts);
     if (out->levels != NULL)

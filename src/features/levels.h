@@ -30,11 +30,13 @@ typedef struct level_part {
     double *level;
 } level_part;
 
-/* The grid of a column's transform, without w, and what computes |W| on it; x are the column's samples,
- * those of gaps replaced.  SS_ESCALE as ss_morlet_new. */
-ss_status ss_levels_new(map_source *out, const ss_signal *signal, size_t column, const double *x,
+/* The grid of a column's transform, without w, and what computes |W| on it, when ss_levels_read has been
+ * called.  SS_ESCALE as ss_morlet_new. */
+ss_status ss_levels_new(map_source *out, const ss_signal *signal, size_t column,
                         const ss_morlet_opts *opts, ss_error *err);
-/* The same of n samples, without a grid. */
+/* The column's samples, those of gaps replaced. */
+ss_status ss_levels_read(map_source *source, const double *x, ss_error *err);
+/* Both of n samples, without a grid. */
 ss_status ss_levels_of_samples(map_source *out, const double *x, size_t n, double rate,
                                const ss_morlet_opts *opts, ss_error *err);
 /* Row 0 is that of the longest scale. */

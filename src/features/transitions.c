@@ -106,11 +106,13 @@ is_clipped_between(const search *s, const ss_bursts *found)
     return stands_between(s, found, top) || stands_between(s, found, bottom);
 }
 
-/* Single events in a record that is quiet else. */
+/* Single events in a record that is quiet else.  The map is not needed any more. */
 static ss_status
 find_single(search *s)
 {
     ss_bursts *found = NULL;
+    ss_levels_free(&s->map);
+    s->map = (map_source){ NULL, NULL };
     ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate,
                                   &(ss_burst_opts){ CLEAR, s->gap, s->n_gaps }, NULL);
     if (st == SS_OK && is_clipped_between(s, found))
