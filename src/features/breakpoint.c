@@ -1,9 +1,10 @@
 /* breakpoint.c -- a two-sided fit with a free break.
  *
- * A cubic is fitted to the samples on either side of the break.  At a jump the two cubics are free;
- * at a kink they must meet.  Free cubics leave r.  If they differ by d at the break, where their
- * variances are u and v, cubics that meet leave d^2 / (u + v) more.  The break is where least is left.
- * Between two samples all places of a jump give the same samples, so it is put half way. */
+ * A cubic is fitted to the samples on each side of the break.  At a jump the two cubics are free;
+ * at a kink they must meet.  Let free cubics leave the sum of squares r.  If they differ by d at
+ * the break, where their variances are u and v, cubics that meet leave d^2 / (u + v) more.  The
+ * break is where the sum is least.  All places of a jump between two samples give the same
+ * samples, so the middle is chosen. */
 #include "features/breakpoint.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* breakpoint.h -- where between two smooth pieces a signal breaks. */
+/* breakpoint.h -- find the break between two smooth pieces of a signal. */
 #ifndef BREAKPOINT_H
 #define BREAKPOINT_H
 

@@ -1,8 +1,8 @@
-/* bursts.c -- the few events of a record that is quiet between them.
+/* bursts.c -- find the few events of a record that is quiet between them.
  *
- * The row of |W| in which the largest maximum stands highest above the noise shows them best,
- * whatever their length and the colour of the noise; its maxima within a range of the largest are
- * the events, and the next one below says how sure that is. */
+ * The row of |W| whose largest maximum is highest above the noise shows events best, whatever their
+ * length and the colour of the noise.  The events are its maxima within a range of the largest; the
+ * next lower maximum tells how certain this is. */
 #include <math.h>
 #include <stdlib.h>
 #include "base/error.h"

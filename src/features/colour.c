@@ -1,8 +1,9 @@
-/* colour.c -- how many samples of a residual count as one.
+/* colour.c -- how many samples of a residual count as one independent sample.
  *
- * Of samples whose neighbours are correlated by rho, as in a smooth misfit, only (1 - rho) / (1 + rho)
- * count.  Noise of 1/f goes on for longer: then the sum of its correlations counts, to where they first
- * are none.  The larger of the two is taken. */
+ * If neighbours are correlated by rho, as in a smooth misfit, only a part (1 - rho) / (1 + rho) of
+ * the samples counts.  Noise of 1/f is correlated over longer times; the number is then the sum of
+ * the correlations, up to the first that is not positive.  The larger of the two numbers is used.
+ */
 #include "features/colour.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* colour.h -- how many samples of a residual count as one. */
+/* colour.h -- how many samples of a residual count as one independent sample. */
 #ifndef COLOUR_H
 #define COLOUR_H
 

@@ -1,10 +1,10 @@
-/* extent.c -- how long a single event lasts.
+/* extent.c -- measure how long a single event lasts.
  *
- * |W| is no judge of that: it is wider than the event by some scales on either side.  So a line is
- * laid through the samples on one side that are out of the wavelet's reach, and the event reaches
- * to the last sample that is farther from it than noise is expected to come in so many samples,
- * sqrt(2 ln m) of its standard deviations, before all are near for half a period: an oscillation
- * crosses the line more often than that. */
+ * |W| does not show this: it is wider than the event by some scales on each side.  So a line is
+ * fitted to the samples on one side that the wavelet does not reach.  The event ends at the last
+ * sample that is farther from this line than noise is expected to come in m samples, sqrt(2 ln m)
+ * of its standard deviations, before all samples are near the line for half a period.  (An
+ * oscillation crosses the line more often.) */
 #include "features/extent.h"
 
 #include <math.h>

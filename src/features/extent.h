@@ -1,4 +1,4 @@
-/* extent.h -- how long a single event lasts. */
+/* extent.h -- measure how long a single event lasts. */
 #ifndef EXTENT_H
 #define EXTENT_H
 

@@ -1,8 +1,8 @@
 /* fold.c -- the mean cycle of a signal that repeats itself.
  *
- * Micro-slips that the noise hides in every single cycle show in the mean of them, whose noise is less
- * by the root of their number.  CYCLES of the mean are made, one behind the other, so that the ends
- * of the piece do not matter to those in its middle. */
+ * The mean of cycles shows micro-slips that noise hides in each of them, as its noise is less by
+ * the root of their number.  CYCLES copies of the mean are put one behind the other, so that the
+ * ends do not influence the cycles in the middle. */
 #include "features/fold.h"
 
 #include <stdlib.h>

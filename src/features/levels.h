@@ -1,4 +1,4 @@
-/* levels.h -- |W| of a map, part by part: of given coefficients, or computed when asked for. */
+/* levels.h -- |W| of a map, part by part, from given coefficients or computed on demand. */
 #ifndef LEVELS_H
 #define LEVELS_H
 

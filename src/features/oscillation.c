@@ -1,4 +1,4 @@
-/* oscillation.c -- the oscillation behind transitions that are known by about, and its judgement. */
+/* oscillation.c -- fit the oscillation after transitions that are roughly known, and judge the fit. */
 #include <math.h>
 #include <stdlib.h>
 #include "base/list.h"

@@ -1,4 +1,4 @@
-/* ringing.c -- transitions that ring: found by that, or the ringing behind those that are known. */
+/* ringing.c -- find transitions by their oscillation, or the oscillation after known transitions. */
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* search.c -- room for transitions of which nothing is known yet. */
+/* search.c -- allocate transitions whose numbers are not known yet. */
 #include "features/search.h"
 
 #include <stdlib.h>

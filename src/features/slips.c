@@ -1,4 +1,5 @@
-/* slips.c -- micro-slips too weak to show in one window, and what rings behind the windows. */
+/* slips.c -- find micro-slips that are too weak for a single window, and oscillations after the
+ * windows. */
 #include "features/fitter.h"
 
 #include <gsl/gsl_cdf.h>

@@ -1,9 +1,9 @@
-/* sticks.c -- where a stick begins and ends.
+/* sticks.c -- find where a stick begins and ends.
  *
- * A core shorter than any stick that can be used is put where an oscillation explains most; from
- * there the window grows.  With w and s fixed, q more samples raise the sum of squares by the
- * noise's variance times chi-square of q degrees of freedom if they still belong to the stick:
- * growth ends where they raise it by more. */
+ * A core shorter than any usable stick is placed where an oscillation explains most; from there
+ * the window grows.  If q more samples still belong to the stick, then with w and s fixed they
+ * raise the sum of squares by the noise's variance times chi-square of q degrees of freedom.  The
+ * window stops growing when they raise it by more. */
 #include "features/fitter.h"
 
 #include <gsl/gsl_cdf.h>

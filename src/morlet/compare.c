@@ -1,8 +1,8 @@
-/* compare.c -- coefficients of a transform against the engine that did not compute them.
+/* compare.c -- compare coefficients with those of another engine.
  *
- * Scales that FFT computed are computed again by the definition, at a few translations drawn at
- * random; scales that the definition computed are computed again by FFT, where possible, each as a
- * whole. */
+ * Scales that were computed by FFT are computed again by the definition, at a few random
+ * translations.  Scales that were computed by the definition are computed again by FFT, as a whole,
+ * if that is possible. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

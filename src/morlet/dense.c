@@ -1,11 +1,12 @@
-/* dense.c -- a coefficient a sample from the points of an oversampled series.
+/* dense.c -- compute a coefficient at each sample from the points of an oversampled series.
  *
- * Positions between points repeat, and so do their weights: a table holds LANES positions side by
- * side, over the points that any of the LANES needs, with zeros where a position does not need one.
- * Each weight is there twice, for re and im, which are adjacent in the series and in the output.
- * The inner loop is then a product of that table with points, ROWS places of the pattern at once.
- * The carrier at a place is that at its place in the pattern times that of its row, a pattern's
- * length; for rows it is a product of two tables. */
+ * The positions of samples between points repeat, and so do their weights.  A table has the
+ * weights of LANES positions side by side, for all points that any of these positions needs, with
+ * zeros for the points that a position does not need.  Each weight is there twice, for re and im,
+ * which are adjacent in the series and in the output.  The inner loop multiplies this table by
+ * points, for ROWS repetitions of the pattern at once.  The carrier of a sample is the product of
+ * the carrier at its place in the pattern and that of its row, a repetition of the pattern; the
+ * latter is a product of two tables. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

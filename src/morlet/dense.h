@@ -1,4 +1,4 @@
-/* dense.h -- a coefficient a sample from the points of an oversampled series. */
+/* dense.h -- compute a coefficient at each sample from the points of an oversampled series. */
 #ifndef DENSE_H
 #define DENSE_H
 

@@ -1,8 +1,9 @@
-/* places.c -- coefficients at any translations from the points of an oversampled series.
+/* places.c -- compute coefficients at any translations from the points of an oversampled series.
  *
- * Between points the series is a sum over PLACES_TAPS of them with the weights of a kernel (kaiser.c),
- * which are polynomials of the place; then the carrier is put back.  A place is known as a whole number
- * of points and the rest: so the carrier's phase is right to the last bit. */
+ * Between points the series is a sum of PLACES_TAPS points with the weights of a kernel
+ * (kaiser.c), which are polynomials of the place.  This sum is then multiplied by the carrier.  A
+ * place is kept as a whole number of points and a rest, so that the phase of the carrier is right
+ * to the last bit. */
 #include <math.h>
 #include <string.h>
 #include "base/versions.h"

@@ -1,4 +1,4 @@
-/* places.h -- coefficients at any translations from the points of an oversampled series. */
+/* places.h -- compute coefficients at any translations from the points of an oversampled series. */
 #ifndef PLACES_H
 #define PLACES_H
 

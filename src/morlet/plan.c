@@ -1,4 +1,4 @@
-/* plan.c -- a plan: the grid of a record, and each scale left to the engine that does it. */
+/* plan.c -- a plan: the grid of a record, and the engine of each scale. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

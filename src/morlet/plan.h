@@ -1,4 +1,4 @@
-/* plan.h -- shared by the files of the wavelet transform. */
+/* plan.h -- declarations that the files of the wavelet transform share. */
 #ifndef PLAN_H
 #define PLAN_H
 

@@ -1,5 +1,5 @@
-/* record.c -- the input of both engines: samples that are checked, detrended and scaled so that
- * nothing overflows or underflows. */
+/* record.c -- prepare the input of both engines: check the samples, subtract their trend, and scale
+ * them so that nothing overflows or underflows. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

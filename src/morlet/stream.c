@@ -1,10 +1,10 @@
-/* stream.c -- the transform of a signal that has no end yet, window by window.
+/* stream.c -- transform a signal whose end is not known, window by window.
  *
- * A window of a group of scales begins where its next coefficient needs it to, and yields all
- * coefficients of the group whose wavelets lie inside; the next window overlaps it by the length of the
- * longest wavelet.  So only samples are carried over.  In blocks each level keeps one window, which is
- * computed when it is full; complete coefficients that are wanted at once come from windows that are
- * filled up with zeros. */
+ * A window of a group of scales begins where the next coefficient of the group needs it to begin.
+ * It gives all coefficients of the group whose wavelets lie inside.  The next window overlaps it
+ * by the length of the longest wavelet, so only samples are kept from one window to the next.  In
+ * blocks each level keeps one window, which is computed when it is full.  When complete
+ * coefficients are wanted at once, windows are filled up with zeros and computed. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* stream.h -- shared by the files of a stream: stream.c takes the samples, stream_plan.c chooses the
- * windows, stream_window.c computes one. */
+/* stream.h -- declarations that the files of a stream share: stream.c receives the samples,
+ * stream_plan.c chooses the windows, stream_window.c computes one window. */
 #ifndef STREAM_H
 #define STREAM_H
 

@@ -1,8 +1,9 @@
-/* stream_plan.c -- the windows of a stream, and what is made before its first sample.
+/* stream_plan.c -- choose the windows of a stream, and allocate what it needs, before its first
+ * sample.
  *
  * The longest scales of a stepped grid are computed in blocks, as those of a record are
- * (fft/windows.c).  Of the others, scales of similar length form a group, which has a plan for windows
- * of a fixed length, at least twice the length of its longest wavelet. */
+ * (fft/windows.c).  Of the others, scales of similar length form a group, which has a plan for
+ * windows of a fixed length, at least twice the length of its longest wavelet. */
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>

@@ -1,12 +1,12 @@
-/* stream_window.c -- one window of a stream: the coefficients that it gives, and their way to the sink.
+/* stream_window.c -- compute one window of a stream and send its coefficients to the sink.
  *
- * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to the
- * error of its engine, nothing compared with the promise.  The engines hold TOL against the largest
- * |W| of a scale so far, which is at most the record's.
+ * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to
+ * the error of its engine, nothing compared with the promise.  The engines hold TOL against the
+ * largest |W| of a scale so far, which is at most the record's.
  *
- * A full window is computed by the engine that its plan found cheapest.  A window that is not full,
- * because the signal has ended or because complete coefficients are wanted at once, is computed by
- * the definition where that is cheaper for its few coefficients. */
+ * A full window is computed by the engine that its plan found cheapest.  A window that is not
+ * full, because the signal has ended or because complete coefficients are wanted at once, is
+ * computed by the definition where that is cheaper for its few coefficients. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

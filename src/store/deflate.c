@@ -1,6 +1,6 @@
-/* deflate.c -- numbers as the filters shuffle and deflate keep them, by libdeflate, which takes
- * about half of the time of zlib: a zlib stream (RFC 1950) of all first bytes, then all second
- * bytes, and so on. */
+/* deflate.c -- pack numbers as HDF5's filters shuffle and deflate do: a zlib stream (RFC 1950) of
+ * the first bytes of all numbers, then of all second bytes, and so on.  libdeflate takes about
+ * half of the time of zlib. */
 #include "store/deflate.h"
 
 #include <libdeflate.h>

@@ -1,4 +1,4 @@
-/* deflate.h -- numbers as HDF5's filters shuffle and deflate keep them. */
+/* deflate.h -- pack numbers as HDF5's filters shuffle and deflate do. */
 #ifndef DEFLATE_H
 #define DEFLATE_H
 

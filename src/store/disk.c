@@ -1,8 +1,8 @@
-/* disk.c -- the file that HDF5 writes to, which never fails.
+/* disk.c -- a driver of HDF5 whose writes never fail.
  *
- * HDF5 cannot close a file that it failed to write (a full disk): it tries again at exit, in vain,
- * and prints messages.  So this driver reports no failure: it keeps the first one and writes nothing
- * after it, and the caller checks it at the end. */
+ * If HDF5 fails to write a file (a full disk), it cannot close it: it tries again at exit, fails
+ * again, and prints messages.  So this driver reports no failure to HDF5.  It keeps the first
+ * failure and writes nothing after it; the caller asks for the failure at the end. */
 #include "store/h5.h"
 
 #include <errno.h>

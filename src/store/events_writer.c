@@ -1,4 +1,4 @@
-/* events_writer.c -- the events of a run as lists of one length in /events. */
+/* events_writer.c -- write the events of a run as datasets of one length in /events. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* h5_write.h -- attributes, groups and datasets as they are written. */
+/* h5_write.h -- write attributes, groups and datasets. */
 #ifndef H5_WRITE_H
 #define H5_WRITE_H
 

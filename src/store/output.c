@@ -1,7 +1,7 @@
 /* output.c -- the file that HDF5 writes, whole or absent.
  *
  * The same input gives the same bytes: nothing in the file depends on the clock, the path or the
- * machine.  Where HDF5 cannot go to and fro in the file, it gets one without a name, which is
+ * machine.  If HDF5 cannot seek in the output, it writes a file without a name, which is then
  * copied. */
 #include "store/output.h"
 

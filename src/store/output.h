@@ -1,4 +1,4 @@
-/* output.h -- the file that HDF5 writes, from its making to its end. */
+/* output.h -- make, complete or remove the file that HDF5 writes. */
 #ifndef STORE_OUTPUT_H
 #define STORE_OUTPUT_H
 

@@ -1,4 +1,4 @@
-/* read.c -- our own files back into memory, and the arrays of others. */
+/* read.c -- read our own files, and arrays in files of other programs, into memory. */
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"

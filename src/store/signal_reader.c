@@ -1,4 +1,4 @@
-/* signal_reader.c -- the columns of /signal. */
+/* signal_reader.c -- read the columns of /signal. */
 #include <stdlib.h>
 #include <string.h>
 #include "base/list.h"

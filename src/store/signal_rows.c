@@ -1,5 +1,5 @@
-/* signal_rows.c -- the rows of a signal in HDF5, in pieces of whole chunks, none of which is unpacked
- * twice. */
+/* signal_rows.c -- read the rows of a signal in HDF5 in pieces of whole chunks, so that no chunk is
+ * unpacked twice. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

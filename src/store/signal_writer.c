@@ -1,4 +1,5 @@
-/* signal_writer.c -- the samples of a signal, in pieces, as a dataset a column in /signal. */
+/* signal_writer.c -- write the samples of a signal, in pieces, with a dataset for each column in
+ * /signal. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

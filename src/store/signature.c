@@ -1,4 +1,4 @@
-/* signature.c -- what makes a file HDF5, found without that library. */
+/* signature.c -- recognise an HDF5 file without the HDF5 library. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
-/* wavelet_reader.c -- the coefficients of /wavelet, scale by scale.
+/* wavelet_reader.c -- read the coefficients of /wavelet, scale by scale.
  *
- * Another program may have changed a file, so every size is checked before it is used: sizes of
- * datasets against each other, sizes in attributes against the datasets. */
+ * Another program may have changed a file, so every size is checked before it is used: the sizes of
+ * datasets must agree with each other, and sizes in attributes with the datasets. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
-/* write.c -- a record as an HDF5 file, at once or in pieces.
+/* write.c -- write a record as an HDF5 file, at once or in pieces.
  *
- * Samples and coefficients come in pieces.  Where their number is not known, all datasets stay open, in
- * chunks so short that one of each fits into memory. */
+ * If the number of samples and coefficients is not known, all datasets stay open, with chunks so
+ * short that one of each fits into memory. */
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"

@@ -1,12 +1,12 @@
 /* candidate.c -- adjust a scene to a mean cycle, within a range about its own parameters.
  *
- * A scene names one set of parameters and the rig that was measured has another, known to within
- * some tenths; a model is judged by the best that it can do within these.  Size and phase are free
- * and found in closed form (cycle.c): motion is proportional to f_k and Z_e together, if alpha
- * goes down as they go up.  Two to four numbers are left to search.  Events move, appear
- * and vanish as these change, so the misfit has steps and creases; hence no slopes but points all
- * over the range (Sobol's, always the same) and a simplex (Nelder and Mead 1965) from the best of
- * them. */
+ * The parameters of the measured rig differ from those of the scene by some tenths, so a model is
+ * judged by its best fit within this range.  Size and phase are free and found in closed form
+ * (cycle.c): motion is proportional to f_k and Z_e together, if alpha decreases as they increase.
+ * Two to four numbers remain to search.  Events move, appear and vanish as these change, so the
+ * misfit has steps and creases, and its derivative is of no use.  The search therefore tries
+ * points all over the range (Sobol's, always the same), and continues with a simplex (Nelder and
+ * Mead 1965) from the best of them. */
 #include "study/rank/candidate.h"
 
 #include <math.h>

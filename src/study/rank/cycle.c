@@ -1,9 +1,9 @@
 /* cycle.c -- fold a signal at its period, and compare two cycles whatever their phase and size.
  *
- * The repeated part of a record adds up over its cycles and noise does not, so that a mean cycle is
- * a better and much smaller thing to fit than the record: a model's settled motion is one cycle
- * too.  Its phase and its size need no search: the correlation of two cycles, at all shifts at once
- * by their spectra, gives the best of both in closed form. */
+ * The repeated part of a record adds up over its cycles, and noise does not.  So the mean cycle
+ * has less noise than the record and far fewer samples to fit; a model's settled motion is one
+ * cycle too.  Its phase and its size need no search: the correlation of two cycles, computed at
+ * all shifts from their spectra, gives the best phase and size in closed form. */
 #include "study/rank/cycle.h"
 
 #include <math.h>

@@ -1,16 +1,16 @@
 /* falls_fit.c -- fit a scene that is pulled to the falls of its spring's force, by simulation.
  *
- * Static and kinetic friction differ from slip to slip in every measured pull, the rig and its law do
- * not.  So onset, f_s and f_k of each fall, and mass, speed, damping and the numbers of the law of all
- * of them, are found by one least-squares fit (GSL's, Levenberg and Marquardt's) to the samples about
- * the falls.  The stiffness is held: a force shows k/m and k U only.  A scene is simulated with the
- * frictions of a fall until it has settled, which takes one slip or a few, and its force is
- * laid over the samples: any scene that sticks and slips can be fitted so.
+ * In every measured pull, static and kinetic friction differ from slip to slip; the rig and its
+ * law do not.  So onset, f_s and f_k of each fall, and mass, speed, damping and the numbers of the
+ * law of all of them, are found by one least-squares fit (GSL's, Levenberg and Marquardt's) to the
+ * samples about the falls.  The stiffness is held: a force shows k/m and k U only.  A scene is
+ * simulated with the frictions of a fall until it has settled, which takes one slip or a few, and
+ * its force is laid over the samples: any scene that sticks and slips can be fitted so.
  *
- * The slope of loading is known from the whole sticks, better than from the samples about the falls: it
- * is one datum more for each fall, but where a contact may ring in the stick.  Where the scene knows its
- * rig to within a factor, each of its numbers is one, too: then a number that the falls do not tell
- * stays where it is. */
+ * The slope of loading is known from the whole sticks, better than from the samples about the
+ * falls: it is one datum more for each fall, but where a contact may ring in the stick.  Where the
+ * scene knows its rig to within a factor, each of its numbers is one, too: then a number that the
+ * falls do not tell stays where it is. */
 #include "study/rank/falls.h"
 
 #include <gsl/gsl_blas.h>

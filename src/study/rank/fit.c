@@ -1,12 +1,14 @@
-/* fit.c -- the compliant scene that moves as a signal does, and no other.
+/* fit.c -- find the only compliant scene that moves as a signal does.
  *
- * The settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c), from the
- * stiffness and damping that the transitions show or, where they show none, from wide about the
- * scene's; from the best starts so found the motion is fitted to the record (match.c).
+ * The settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c).  The
+ * search begins at the stiffness and damping that the transitions show; if they show none, in a
+ * wide range about those of the scene.  From the best results of this search, the motion is fitted
+ * to the record (match.c).
  *
- * The sum of squares has many hollows: a motion with one micro-slip more or less is another motion.
- * So there are several starts, and the lowest is the answer only if its residual is no more than
- * noise and no other, as low within the effect of noise, has other parameters. */
+ * The sum of squares has many minima: a motion with one micro-slip more or less is another motion.
+ * So there are several starts.  The lowest minimum is the answer only if its residual is no more
+ * than noise, and if no other minimum that is as low within the effect of noise has other
+ * parameters. */
 #include <stickslip/rank.h>
 
 #include <math.h>

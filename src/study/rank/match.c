@@ -1,21 +1,23 @@
 /* match.c -- fit a scene to a record, sample by sample.
  *
- * The mean cycle finds the right motion (candidate.c), but a record is seldom settled to the last
- * digit, and the rest of the transient would shift the parameters or seem an error of the model.
- * So the motion is fitted to the record itself, from a start of its own: position and velocity
- * within a slip, half a cycle or more before the record.  There they are the whole state, or the
- * rest of the state has died out when the record begins.
+ * The mean cycle finds the right motion (candidate.c).  But a record is seldom completely settled,
+ * and the rest of the transient would shift the parameters or look like an error of the model.  So
+ * the motion is fitted to the record itself, with its own start: position and velocity within a
+ * slip, half a cycle or more before the record.  These two are the whole state there, or the rest
+ * of the state has decayed when the record begins.
  *
  * Size and offset are linear and follow from the rest in closed form; the other unknowns are found
- * by least squares (Levenberg 1944, Marquardt 1963).  When a parameter moves an event across a sample,
- * the sample jumps, so the sum of squares has steps.  But an event slightly out of place changes only
- * the samples beside it: these have weight 0, and the weight of others grows with their distance from
- * the events of the motion.  The weighted sum is smooth, with one minimum and the errors of a linear
- * problem.  The weights reach 1 after many samples first, then after fewer and fewer.  In the end some
- * two samples an event are lost, of hundreds a cycle, with their information on the event's time.
+ * by least squares (Levenberg 1944, Marquardt 1963).  When a parameter moves an event across a
+ * sample, the sample jumps, so the sum of squares has steps.  But an event slightly out of place
+ * changes only the samples beside it: these have weight 0, and the weight of others grows with
+ * their distance from the events of the motion.  The weighted sum is smooth, with one minimum and
+ * the errors of a linear problem.  At first the weights reach 1 after many samples, then after
+ * fewer and fewer.  In the end some two samples per event are lost, of hundreds per cycle, with
+ * their information on its time.
  *
- * A fit that explains a record leaves white noise.  Half the mean square difference of the residual
- * over any lag is the variance of that noise if it is white, and less at some lag if it is not. */
+ * A fit that explains a record leaves white noise.  Half the mean square difference of the
+ * residual over any lag is the variance of that noise if it is white, and less at some lag if it
+ * is not. */
 #include "study/rank/match.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* normal.c -- a step of least squares, damped and within ranges, from its normal equations. */
+/* normal.c -- solve the normal equations for a step of least squares, damped and within ranges. */
 #include "study/rank/normal.h"
 
 #include <float.h>

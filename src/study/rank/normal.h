@@ -1,4 +1,4 @@
-/* normal.h -- a step of least squares, damped and within ranges, from its normal equations. */
+/* normal.h -- solve the normal equations for a step of least squares, damped and within ranges. */
 #ifndef NORMAL_H
 #define NORMAL_H
 

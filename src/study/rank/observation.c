@@ -1,5 +1,5 @@
-/* observation.c -- what the features, the spikes and the contours of a signal show, and how far two
- * signals are apart by it. */
+/* observation.c -- numbers from the features, spikes and contours of a signal, and the distance of
+ * two signals by them. */
 #include "study/rank/observation.h"
 
 #include <gsl/gsl_statistics_double.h>

@@ -1,18 +1,19 @@
 /* pull.c -- a slider pulled at constant speed, from the force of its spring.
  *
- * What friction does differs from slip to slip in every measured pull, so the record repeats nothing
- * and no one motion can be laid over it.
+ * In every measured pull, friction differs from slip to slip.  So the record does not repeat
+ * itself, and no single motion fits it.
  *
- * Each slip by itself, if there is no damping, is the motion of the Coulomb slider
- * (src/features/slip.c), and has a static and a kinetic friction and a k/m of its own; each stick has
- * the slope k (U - S).  The scene has the medians.  Its stiffness is that given: the force says k U and
- * k/m only, so that mass and speed follow from it, to be held against those given.  With damping or
- * by another model slips have no closed form, or none with so few unknowns: then the scene is
- * simulated and fitted to some of them together (falls.c).
+ * Without damping, each slip is the motion of the Coulomb slider (src/features/slip.c), with its
+ * own static and kinetic friction and its own k/m; each stick has the slope k (U - S).  The fitted
+ * scene has the medians.  Its stiffness is that given: the force shows only k U and k/m, so mass
+ * and speed follow from it and can be compared with those given.  With damping, or with another
+ * model, slips have no closed form, or none with so few unknowns.  The scene is then simulated and
+ * fitted to some slips together (falls.c).
  *
- * In a ranking a scene stands for all rigs within the spread of its parameters.  Each is fitted to
- * the same samples by simulation, whatever its model: what they leave can be compared.  Of mass,
- * stiffness and speed those are changed the least that move alike. */
+ * In a ranking a scene represents all rigs within the spread of its parameters.  Each scene is
+ * fitted to the same samples by simulation, whatever its model, so that their residuals can be
+ * compared.  Of all masses, stiffnesses and speeds with the same motion, those with the least
+ * change are chosen. */
 #include "study/rank/pull.h"
 
 #include <math.h>

@@ -1,13 +1,13 @@
-/* rank.c -- which scene explains a signal: its samples, and the features of its contours.
+/* rank.c -- find the scene that explains a signal: its samples, and the features of its contours.
  *
- * A scene stands for all rigs within the spread of its parameters.  So each is first adjusted to
- * the signal's mean cycle (candidate.c), then to its samples (match.c), and run for as long and with
- * as much noise as the signal has; from then on both are treated alike: the same features, the same
- * transform, the same phase.
+ * A scene represents all rigs within the spread of its parameters.  So each scene is first
+ * adjusted to the signal's mean cycle (candidate.c) and then to its samples (match.c).  It is run
+ * for the duration of the signal with the same noise.  After that, scene and signal are treated in
+ * the same way: the same features, the same transform, the same phase.
  *
- * A scene is named only if what it leaves of the samples is no more than the noise: whatever else
- * moved there, no criterion makes up for that.  A model of a real rig is wrong in details that this
- * sees too, and the other criteria then say which model shows what the signal shows. */
+ * A scene is named only if its residual is no more than the noise; no criterion replaces this.  A
+ * model of a real rig is wrong in details, which the residual shows too; the other criteria then
+ * tell which model has the features of the signal. */
 #include <stickslip/rank.h>
 
 #include <math.h>

@@ -1,8 +1,8 @@
-/* record.c -- the samples that a motion is fitted to: their power, their noise, their distance
+/* record.c -- the samples to which a motion is fitted: their power, their noise, their distance
  * from a sinusoid.
  *
- * Slow motion is not in fourth differences, and what repeats is not in what differs one cycle later:
- * the median of either's sizes is that of the noise, or more. */
+ * Fourth differences do not contain slow motion, and differences over one cycle do not contain
+ * what repeats.  So the median size of either is that of the noise, or more. */
 #include "study/rank/record.h"
 
 #include <math.h>

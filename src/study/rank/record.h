@@ -1,4 +1,4 @@
-/* record.h -- the samples that a motion is fitted to: their power, their noise, their distance
+/* record.h -- the samples to which a motion is fitted: their power, their noise, their distance
  * from a sinusoid. */
 #ifndef RECORD_H
 #define RECORD_H

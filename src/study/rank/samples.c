@@ -1,12 +1,13 @@
-/* samples.c -- the samples of a scene's motion, at the accuracy and cost that a comparison asks for.
+/* samples.c -- samples of a scene's motion, with the accuracy and cost that a comparison needs.
  *
- * The closed form where there is one.  Else rkck, which at a tolerance of 1e-7 keeps 3e-6 of the
- * largest acceleration at a twentieth of the cost of the default.
+ * The method is the closed form if there is one, else rkck.  At a tolerance of 1e-7 its error is
+ * 3e-6 of the largest acceleration, at a twentieth of the cost of the default.
  *
- * The motion of a model without events is smooth, and the Jacobian gives its second derivative: what
- * lies inside a step is read off the polynomial of degree 5 that has the state and two derivatives at
- * both ends.  Its error is of the sixth order in the step, as the method's own.  (ss_sim_run, which
- * promises more digits, repeats the step for each sample: here that was more than half of the cost.) */
+ * The motion of a model without events is smooth, and the Jacobian gives its second derivative.
+ * So the state inside a step is the polynomial of degree 5 that has the state and two derivatives
+ * at both ends.  Its error is of the sixth order in the step, as that of the method.  (ss_sim_run,
+ * which promises more digits, repeats the step for each sample; here this was more than half of
+ * the cost.) */
 #include "study/rank/samples.h"
 
 #include <math.h>

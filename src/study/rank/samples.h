@@ -1,4 +1,4 @@
-/* samples.h -- the samples of a scene's motion, at the accuracy and cost that a comparison asks for. */
+/* samples.h -- samples of a scene's motion, with the accuracy and cost that a comparison needs. */
 #ifndef SAMPLES_H
 #define SAMPLES_H
 
