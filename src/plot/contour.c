@@ -1,5 +1,5 @@
-/* contour.c -- contours of |W| in decibels over time and frequency, below the signal: the script,
- * with its axes and cone of influence. */
+/* contour.c -- draw contours of |W| in decibels over time and frequency, below the signal: the
+ * script, its axes and the cone of influence. */
 #include "plot/contour_marks.h"
 
 #include <float.h>
@@ -14,8 +14,8 @@ const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80, .noise =
 
 /* --- axes and cone --------------------------------------------------------------------------- */
 
-/* One side of a shaded area: from lo to hi Hz the times that are sqrt(2) a after t, or before it where
- * the sign is -1, but not beyond stop. */
+/* Write one side of a shaded area: for the frequencies of band, the times that are sqrt(2) a after
+ * t, or before t if the sign is -1, but not beyond stop. */
 static void
 write_side(FILE *out, const script_span *span, double t, int sign, double stop, double center,
            const double band[2])
@@ -32,9 +32,9 @@ write_side(FILE *out, const script_span *span, double t, int sign, double stop, 
     }
 }
 
-/* The cone of influence, within sqrt(2) a of an end of the record, and the same around gaps: closed
- * curves, two blank lines between them.  Each has a plot command of its own, since gnuplot 5.2 draws
- * a line from one to the next. */
+/* Write the cone of influence, within sqrt(2) a of an end of the record, and the same around gaps,
+ * as closed curves with two blank lines between them.  Each has its own plot command, since
+ * gnuplot 5.2 draws a line from one curve to the next. */
 static void
 write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
 {
@@ -54,7 +54,8 @@ write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const d
 }
 
 /* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
- * where those would not fit, and at every digit where there are few.  High ones are in 10^3 Hz, 10^6 Hz. */
+ * where those would not fit, and at every digit where there are few.  High ones are in 10^3 Hz,
+ * 10^6 Hz. */
 static void
 write_frequency_tics(FILE *out, double lo, double hi)
 {
@@ -126,7 +127,7 @@ typedef struct drawing {
     size_t ridge;               /* points */
 } drawing;
 
-/* Colours stand for lines, or for what lies between two. */
+/* A colour is that of a line, or that of the area between two lines. */
 static void
 write_key(FILE *out, const drawing *d)
 {
@@ -137,9 +138,9 @@ write_key(FILE *out, const drawing *d)
               "\n", out);
 }
 
-/* Events first, so that they lie behind the lines; then the cone, over colours if there are any,
- * the contours, and the features.  Each level has one colour: gnuplot 6.0 loses some lines that
- * have a colour for each point. */
+/* The cone is drawn first, over the colours if there are any, then events, contours and features,
+ * so that events lie behind the contours.  Each level has one colour: gnuplot 6.0 loses some lines
+ * that have a colour for each point. */
 static ss_status
 write_panel_b(FILE *out, const drawing *d)
 {

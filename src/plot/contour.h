@@ -1,4 +1,4 @@
-/* contour.h -- the parts of a contour plot: the map, its noise, its lines, what lies between them. */
+/* contour.h -- the parts of a contour plot: the map, its noise, its lines, the areas between them. */
 #ifndef CONTOUR_H
 #define CONTOUR_H
 
@@ -9,8 +9,8 @@
 #define CONTOUR_LEVELS 100      /* the most levels */
 #define CONTOUR_FLOOR 1000.0    /* [dB] below the largest |W|: the level of |W| = 0 */
 
-/* |W| in decibels relative to the largest, CONTOUR_COLUMNS + 1 values a row; a row is a scale, the
- * first and the last where the labels drawn begin and end. */
+/* |W| in decibels relative to the largest, with CONTOUR_COLUMNS + 1 values in a row.  A row is a
+ * scale; the first and the last row are at the ends of the range of labels that is drawn. */
 typedef struct contour_map {
     const script_span *span_of_time;
     double from, to;            /* [s] its first and its last column: of this span, what the record has */
@@ -24,22 +24,24 @@ ss_status ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_co
                          const script_span *span, ss_error *err);
 void ss_contour_map_free(contour_map *map);
 
-/* A datablock of time, frequency and number of the level, a blank line after each line and two after
- * each level, and which levels have lines; *any is 1 if one has. */
+/* Write a datablock of time, frequency and number of the level, with a blank line after each line
+ * and two after each level, and the list of levels that have lines.  *any becomes 1 if a level has
+ * one. */
 ss_status ss_contour_write_lines(FILE *out, const contour_map *map, int levels, int *any);
-/* Polygons that fill what lies between the lines. */
+/* Write polygons that fill the areas between the lines. */
 ss_status ss_contour_write_fill(FILE *out, const contour_map *map, int levels);
-/* A datablock of the ridge points, time and frequency; returns their number. */
+/* Write a datablock of time and frequency of the ridge points.  Returns their number. */
 size_t ss_contour_write_ridge(FILE *out, const contour_map *map, const ss_coefficients *c);
 
-/* A point of the map, column and row, as time and frequency, with the texts between and behind them. */
+/* Write a point of the map, given by column and row, as time and frequency, with the texts between
+ * and behind them. */
 void ss_contour_write_point(FILE *out, const contour_map *map, const double point[2], char between,
                             const char *behind);
-/* The next point after first, of n, that a line needs to keep within a fraction of a pixel. */
+/* The next of n points, after first, that is needed to keep a line within a fraction of a pixel. */
 size_t ss_contour_next_point(const contour_map *map, const double (*point)[2], size_t n, size_t first);
 
 int ss_palette_is_known(const char *name);
-/* The variable colours: those of a palette, light to dark, for lines on white or for areas. */
+/* Write the variable colours: those of a palette from light to dark, for lines on white or for areas. */
 void ss_palette_write(FILE *out, const char *name, int areas);
 
 #endif

@@ -1,9 +1,10 @@
-/* contour_fill.c -- colours between lines of equal |W|.
+/* contour_fill.c -- fill the areas between lines of equal |W| with colours.
  *
- * Beyond the border of the map all is low, so that every line is closed.  Lines do not cross, so of
- * two areas that they enclose one contains the other, or they have nothing in common: painted in
- * the order of their size, each in the colour of what lies within its line, they give every level
- * its place, holes too. */
+ * The map is extended by a border of very low values, so that every line is closed.  Lines do not
+ * cross: of two areas that they enclose, one contains the other, or they have nothing in common.
+ * So the areas are painted in the order of their size, the largest first, each in the colour of
+ * the level just inside its line.  Every level, with its holes, is then visible where it belongs.
+ */
 #include "plot/contour.h"
 
 #include <math.h>
@@ -13,13 +14,13 @@
 
 typedef struct polygon {
     double area;                /* [cells] */
-    int band;                   /* within it: between lines band and band + 1 */
+    int band;                   /* just inside, |W| is between lines band and band + 1 */
     size_t first, n;            /* points */
 } polygon;
 
 typedef struct painting {
     const contour_map *map;
-    int line;                   /* that is being traced */
+    int line;                   /* the number of the line that is being traced */
     polygon *polygon;
     size_t n, room;
     double (*point)[2];
@@ -27,7 +28,7 @@ typedef struct painting {
     int failed;
 } painting;
 
-/* Twice the area, > 0 if it lies left of the line. */
+/* Twice the area that a closed line encloses, > 0 if it lies on its left. */
 static double
 area_of(const double (*point)[2], size_t n)
 {
@@ -37,7 +38,7 @@ area_of(const double (*point)[2], size_t n)
     return area;
 }
 
-/* The point of the map that is a point of the map with its border. */
+/* Append a point, given in the map with its border, as a point of the map. */
 static void
 keep_point(painting *p, const double at[2])
 {
@@ -73,7 +74,7 @@ larger_first(const void *a, const void *b)
         : (p->first > q->first) - (p->first < q->first);
 }
 
-/* What lies below the last line is as white as paper. */
+/* An area below the last line is white, as the paper is. */
 static void
 write_polygon(FILE *out, const painting *p, const polygon *area, int levels)
 {

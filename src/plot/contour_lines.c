@@ -1,12 +1,12 @@
-/* contour_lines.c -- lines of equal |W|, with the fewest points that keep them within a fraction of a
- * pixel. */
+/* contour_lines.c -- write lines of equal |W|, with the fewest points that keep them within a
+ * fraction of a pixel. */
 #include "plot/contour.h"
 
 #include <math.h>
 #include <string.h>
 #include "plot/isoline.h"
 
-#define BLUR 0.2                /* pixels by which a line may move if points are left out */
+#define BLUR 0.2                /* a line may move by so many pixels when points are left out */
 
 void
 ss_contour_write_point(FILE *out, const contour_map *map, const double point[2], char between,

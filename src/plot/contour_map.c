@@ -1,8 +1,8 @@
-/* contour_map.c -- the map of |W| that a contour plot draws.
+/* contour_map.c -- the map of |W| that a contour plot shows.
  *
- * |W| is mapped to a rectangle as wide as the picture, one row a scale.  A column has the largest
- * |W| of its translations, so that no spike is lost; between translations farther apart |W| is
- * interpolated linearly. */
+ * The map has as many columns as the picture, and a row for each scale.  A column has the largest
+ * |W| of its translations, so that no spike is lost.  Where translations are farther apart than
+ * columns, |W| is interpolated linearly. */
 #include "plot/contour.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@ typedef struct filling {
     const ss_coefficients *c;
     const ss_contour_opts *contour;
     size_t first;               /* scale of the first row */
-    double outside, anywhere;   /* the largest |W| outside the cone of influence, -1: there is none;
-                                   and of all */
+    double outside;             /* the largest |W| outside the cone of influence; -1: none is outside */
+    double anywhere;            /* the largest |W| */
     noise_level *noise;         /* NULL: not measured */
 } filling;
 
@@ -29,7 +29,7 @@ magnitude(const double *w, size_t k)
     return hypot(w[2 * k], w[2 * k + 1]);
 }
 
-/* |W| of a scale in the column of time [lo, hi], from the first sample. */
+/* The |W| of a scale in the column of the times lo ... hi from the first sample. */
 static double
 in_column(const ss_scale *scale, const double *w, double lo, double hi)
 {
@@ -45,7 +45,7 @@ in_column(const ss_scale *scale, const double *w, double lo, double hi)
     return level;
 }
 
-/* The largest |W| and the noise of scale i; returns 0 if a |W| is not finite. */
+/* Find the largest |W| and the noise of scale i.  Returns 0 if a |W| is not finite. */
 static int
 survey(filling *f, size_t i, const double *w)
 {
@@ -73,7 +73,7 @@ fill_row(double *row, const contour_map *map, const filling *f, size_t s, const 
     }
 }
 
-/* |W|, a row each, and what survey finds of all scales. */
+/* Fill the rows with |W|, and survey all scales. */
 static ss_status
 fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
 {
@@ -94,7 +94,7 @@ fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
     return SS_OK;
 }
 
-/* Decibels in place of |W|, and how far down the lines go. */
+/* Replace |W| by decibels, and decide how far down the lines go. */
 static void
 set_levels(contour_map *map, const filling *f)
 {
@@ -111,7 +111,8 @@ set_levels(contour_map *map, const filling *f)
         map->span = fmin(fmax(-map->noise, LEAST_SPAN), map->span);
 }
 
-/* The first row becomes the map at the label fmin, the last at fmax, where these are given. */
+/* If fmin and fmax are given, replace the first row by the map at the label fmin, the last by that
+ * at fmax. */
 static void
 cut_rows(contour_map *map, double fmin, double fmax)
 {
@@ -129,7 +130,7 @@ cut_rows(contour_map *map, double fmin, double fmax)
     f[last] = hi < 1 ? fmax : f[last];
 }
 
-/* The scales that are drawn: those in the labels, and one beyond at either end. */
+/* Choose the scales to draw: those within the labels, and one more beyond each end. */
 static ss_status
 choose_rows(contour_map *map, filling *f, ss_error *err)
 {

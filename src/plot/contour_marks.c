@@ -1,5 +1,6 @@
-/* contour_marks.c -- events and features over the contours: those in the map at their places, the
- * others as arrows at its border, one for all of a kind that lie beyond the same place of it. */
+/* contour_marks.c -- draw events and features over the contours.  Those outside the map become
+ * arrows at its border, one arrow for all of a kind that lie beyond the same place of the border.
+ */
 #include "plot/contour_marks.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ ss_contour_decimals(double f)
     return (int)fmax(6, 5 - floor(log10(f)));
 }
 
-/* The border and its arrows: the first two sides are left and right, the others bottom and top. */
+/* The border and its arrows.  Its sides are left, right, bottom and top. */
 typedef struct border {
     FILE *out;
     const char *kind;           /* of marks: the name of the datablock, which exists if it has an arrow */
@@ -54,8 +55,8 @@ height_of(const border *b, double f)
     return log(f / b->fmin) / log(b->fmax / b->fmin);
 }
 
-/* An arrow to the border for what lies beyond it, at this time and height; nothing if it lies
- * within. */
+/* Write an arrow at the border for a mark beyond it, at this time and height; nothing for a mark
+ * inside. */
 static void
 point_to(border *b, double t, double height)
 {
@@ -97,7 +98,7 @@ write_events(FILE *out, const contour_map *map, const ss_contour_opts *contour)
     return end_arrows(&b);
 }
 
-/* Spans, cut at the ends, spikes, and maxima with their frequencies. */
+/* Write spans, cut at the ends of the map, then spikes, and maxima with their frequencies. */
 static void
 write_features(FILE *out, const contour_map *map, const ss_overlay *overlay, contour_marks *seen)
 {

@@ -1,16 +1,16 @@
-/* contour_marks.h -- what was read from a signal, over its contours. */
+/* contour_marks.h -- draw the events and features of a signal over its contours. */
 #ifndef CONTOUR_MARKS_H
 #define CONTOUR_MARKS_H
 
 #include "plot/contour.h"
 
-/* What there is of each kind to draw: an empty block is an error for gnuplot. */
+/* The number of marks of each kind that can be drawn: an empty block is an error in gnuplot. */
 typedef struct contour_marks {
     size_t spans, spikes, maxima;
     size_t event_arrows, feature_arrows;
 } contour_marks;
 
-/* The datablocks of events and overlay, as far as they lie in the map, and of arrows for the rest. */
+/* Write datablocks of the events and the overlay inside the map, and of arrows for the others. */
 contour_marks ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts *contour);
 /* In the plot command: events lie behind the lines, features before them. */
 void ss_contour_plot_events(FILE *out, const contour_marks *marks, size_t n_events);

@@ -1,4 +1,4 @@
-/* contour_ridge.c -- the ridges of a map of |W|: at each time, the scales where it is largest. */
+/* contour_ridge.c -- find the ridges of a map of |W|: at each time, the scales of its maxima. */
 #include "plot/contour.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
-/* diagram.c -- a sweep over one parameter: columns of its rows over the key that was varied.
+/* diagram.c -- draw a sweep over one parameter: columns of its rows over the key that was varied.
  *
- * Where the rows of a value differ, as the points of a stroboscopic map do, they are drawn as points, a
- * bifurcation diagram; else as a line. */
+ * If the rows of one value differ, as the points of a stroboscopic map do, they are drawn as
+ * points (a bifurcation diagram), else as a line. */
 #include "plot/map.h"
 #include "plot/script.h"
 

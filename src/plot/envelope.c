@@ -1,5 +1,5 @@
-/* envelope.c -- a signal of any length for a picture over time: what is longer than memory should
- * hold becomes the extremes of blocks, many in each column of pixels. */
+/* envelope.c -- reduce a signal of any length for a picture over time: a long signal becomes the
+ * extremes of blocks, of which each column of pixels has many. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ read_start(envelope *e, ss_error *err)
     return st;
 }
 
-/* The rows that were read, as a signal. */
+/* Make a signal of the rows that were read. */
 static ss_status
 give_whole(const envelope *e, ss_header *head, ss_signal **out)
 {
@@ -44,7 +44,7 @@ give_whole(const envelope *e, ss_header *head, ss_signal **out)
     return st;
 }
 
-/* Add rows of which the first is number at. */
+/* Add n rows; the first of them is row number at of the source. */
 static void
 add_rows(envelope *e, size_t at, size_t n)
 {
@@ -78,7 +78,7 @@ read_rest(envelope *e, ss_error *err)
     return st;
 }
 
-/* The blocks as a signal; the span becomes that of the source. */
+/* Make a signal of the blocks; opts get the span of the source. */
 static ss_status
 give_blocks(const envelope *e, ss_header *head, ss_signal **out, ss_plot_opts *opts, ss_error *err)
 {

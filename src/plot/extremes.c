@@ -21,7 +21,7 @@ ss_extremes_free(extremes *b)
     free(b->falls);
 }
 
-/* Which of two neighbours are the smallest and the largest, and in which order. */
+/* Merge the smallest values of two neighbours, and the order of smallest and largest. */
 static void
 halve_least(extremes *b)
 {
@@ -44,7 +44,7 @@ ss_extremes_halve(extremes *b)
     b->order++;
 }
 
-/* Add m values to block i, which they lie in. */
+/* Add m values, all of them in block i. */
 static void
 add_to_block(extremes *b, size_t i, const double *x, size_t m)
 {

@@ -1,6 +1,5 @@
-/* extremes.h -- values of any number, of which the largest, or the smallest and the largest, of
- * each block are kept: when all blocks are full, each two become one, and blocks are twice as long
- * from there on. */
+/* extremes.h -- keep the largest, or the smallest and the largest, of each block of any number of
+ * values.  When all blocks are full, each two become one, and blocks are then twice as long. */
 #ifndef EXTREMES_H
 #define EXTREMES_H
 
@@ -15,12 +14,12 @@ typedef struct extremes {
     unsigned char *falls;       /* 1: the largest comes before the smallest */
 } extremes;
 
-/* Begin with zeros; 0: no memory, to be freed nevertheless. */
+/* Make empty blocks.  Returns 0 if there is no memory; they are to be freed even then. */
 int ss_extremes_make(extremes *b, size_t room, int both);
 void ss_extremes_free(extremes *b);
 
 void ss_extremes_halve(extremes *b);
-/* Of the next n values, how many lie in block *i, the first that has room. */
+/* *i becomes the first block that has room.  Returns how many of the next n values lie in it. */
 static inline size_t
 ss_extremes_next(extremes *b, size_t n, size_t *i)
 {
@@ -31,13 +30,13 @@ ss_extremes_next(extremes *b, size_t n, size_t *i)
     return room < n ? room : n;
 }
 
-/* Add values of which both extremes are kept. */
+/* Add n values to blocks that keep both extremes. */
 void ss_extremes_add(extremes *b, const double *x, size_t n);
-/* Blocks that have values. */
+/* The number of blocks that have values. */
 size_t ss_extremes_count(const extremes *b);
-/* How many of both extremes there are of a block: one of blocks of one value, else two. */
+/* The number of extremes of a block: 1 if blocks have one value, else 2. */
 size_t ss_extremes_each(const extremes *b);
-/* Both extremes of each block, in the order of their times. */
+/* Write the extremes of each block to x, in the order of their times. */
 void ss_extremes_give(const extremes *b, double *x);
 
 #endif

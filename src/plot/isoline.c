@@ -1,10 +1,10 @@
 /* isoline.c -- lines of equal height on a rectangle of heights, traced from cell to cell.
  *
  * Linear interpolation gives the point at which a line crosses the side of a cell.  If all four
- * sides of a cell are crossed (a saddle), the mean of its corners decides which are joined.
- * Every crossed side belongs to one line and is passed once, so all lines of a level cost one
- * test of every side and one step a crossing.  (gnuplot's own contouring searches for each new line
- * from the start of a list: 4 s for a clean signal, 10 s and more for noise.) */
+ * sides of a cell are crossed (a saddle), the mean of its corners decides which crossings are
+ * joined.  Every crossed side belongs to one line and is passed once.  So all lines of a level
+ * need one test of every side and one step for each crossing.  (gnuplot's own contouring searches
+ * for each new line from the start of a list: 4 s for a clean signal, 10 s and more for noise.) */
 #include "plot/isoline.h"
 
 #include <stdlib.h>

@@ -1,8 +1,8 @@
-/* map.c -- a sweep over two parameters: regions of equal count, lines of equal value.
+/* map.c -- draw a sweep over two parameters: regions of equal count, lines of equal value.
  *
- * A region is drawn as the boxes of its grid points, those next to each other in a row as one, and
- * each overlaps the next row by a quarter, so that no seams show.  The lines are those of
- * map_lines.c. */
+ * A region is drawn as boxes.  The neighbouring grid points of a region in one row make one box,
+ * which overlaps the next row by a quarter, so that no seams are visible.  map_lines.c makes the
+ * lines. */
 #include <stickslip/sweep.h>
 #include "plot/map.h"
 #include "plot/script.h"
@@ -15,8 +15,8 @@
 
 enum { REGIONS_MAX = 10, COLUMNS_MAX = 4 };     /* COLUMNS_MAX: x, y and two over them */
 
-/* Light to dark, in equal steps of lightness, from pale yellow to violet: the order is seen by all
- * kinds of colour vision, in print without colour too. */
+/* Light to dark, in equal steps of lightness, from pale yellow to violet.  Readers with any kind of
+ * colour vision see the order, also in print without colour. */
 static const char *const shade[REGIONS_MAX] = { "#fbf3d5", "#dcebc8", "#b7dec3", "#93cdc4",
     "#74b9c4", "#5fa3c0", "#558bb7", "#5273a9", "#505b97", "#4b4381" };
 
@@ -63,8 +63,7 @@ typedef struct regions {
     int missing;                    /* there are points without one */
 } regions;
 
-/* 1 if the column holds few different values, or few whole ones: a count.  An amplitude that is 0 at
- * some points of a grid is none. */
+/* Returns 1 if the column has at most REGIONS_MAX different values, and stores them. */
 static int
 find_regions(regions *r, const map_grid *g, const double *column)
 {
@@ -85,7 +84,7 @@ find_regions(regions *r, const map_grid *g, const double *column)
     return r->n > 0;
 }
 
-/* No stop in a cycle has two reasons: the mass never moves, or it never stops. */
+/* There are two reasons for no stop in a cycle: the mass never moves, or it never stops. */
 #define AT_REST (-1.0)
 
 static void
@@ -100,7 +99,7 @@ mark_rest(const drawn *d, size_t c)
             d->column[c].value[i] = AT_REST;
 }
 
-/* Lines do not show where a share of the time is all of it or none. */
+/* Lines do not show where a part of the time is 1 or 0, so these two become regions. */
 static void
 find_ends(regions *r, const map_grid *g, const map_column *column, size_t c)
 {
@@ -167,8 +166,8 @@ write_curve(FILE *out, const ss_map_opts *map, const map_grid *g)
     fputs("EOD\n", out);
 }
 
-/* The most letters of a tic's label, gnuplot's tics being at powers of ten or, evenly, at some ten
- * values. */
+/* The length of the longest label of a tic.  gnuplot sets tics at powers of ten, or at some ten
+ * equally spaced values. */
 static int
 letters_of(const map_axis *a)
 {

@@ -1,4 +1,4 @@
-/* map_grid.c -- the rows of a table as the points of a grid over two of its columns. */
+/* map_grid.c -- arrange the rows of a table as the points of a grid over two of its columns. */
 #include "plot/map.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/sort.h"
 
-/* A cell: a number, "-" for an unknown value, or the period of a motion that has none. */
+/* Read a cell: a number, "-" for an unknown value, or "aperiodic". */
 static ss_status
 read_cell(double *x, const char *cell, const char *column, size_t row, ss_error *err)
 {
@@ -49,7 +49,7 @@ ss_map_label(const ss_column *column, int exponent, double room)
     return label;
 }
 
-/* The step that varies less over the values is the grid's. */
+/* Returns 1 if the ratios of neighbouring values vary less than their differences. */
 static int
 is_log(const map_axis *a)
 {

@@ -1,7 +1,8 @@
-/* map_lines.c -- lines of equal value on a map, and their labels.
+/* map_lines.c -- draw lines of equal value on a map, and their labels.
  *
- * isoline.c traces the lines.  Each level has a label on at least one line: lines with the least
- * choice of place are labelled first; other long lines have a label where it covers no other. */
+ * isoline.c traces the lines.  Each level has a label on at least one line; the lines with the
+ * fewest places for a label get theirs first.  Another long line has a label if it covers no other
+ * label. */
 #include "plot/map.h"
 
 #include <math.h>
@@ -13,10 +14,10 @@
 #include "plot/isoline.h"
 
 enum { LEVELS_MAX = 40, LABELS_MAX = 80 };
-#define LONG 0.15                       /* a line worth a second label: in widths of the map */
-#define RIM 0.04                        /* where labels are avoided */
+#define LONG 0.15                       /* least length of a line with a second label, in widths of the map */
+#define RIM 0.04                        /* labels avoid the border of the map by this */
 
-/* A piece of a line, all corners of its cells known. */
+/* A piece of a line; the values at all corners of its cells are known. */
 typedef struct line_piece {
     size_t first, n;                /* of the points */
     double level, length;           /* [widths of the map] */
@@ -150,7 +151,8 @@ write_label_on(FILE *out, labels *l, const map_lines *s, const line_piece *p, in
     l->width[l->n++] = width;
 }
 
-/* The longest piece of each level first, the shortest of these before; then the longer before. */
+/* First the longest piece of each level, in ascending order of length; then the other pieces, in
+ * descending order. */
 static int
 by_need(const void *a, const void *b)
 {
@@ -182,8 +184,9 @@ write_line_labels(FILE *out, map_lines *s)
     fputs("EOD\n", out);
 }
 
-/* Levels at 1, 2 and 5 times powers of ten where the middle 96 % of values above 0 span more than a
- * factor of 20 and none is below, else in equal steps of that kind. */
+/* If no value is below 0 and the middle 96 % of those above 0 span more than a factor of 20,
+ * levels are at 1, 2 and 5 times powers of ten; else they have equal steps of 1, 2 or 5 times a
+ * power of ten. */
 static size_t
 choose_levels(double level[LEVELS_MAX], double *sorted, size_t n)
 {
@@ -210,8 +213,8 @@ choose_levels(double level[LEVELS_MAX], double *sorted, size_t n)
     return count;
 }
 
-/* Heights for the tracing; an unknown height is replaced by its neighbour's, and no line is drawn
- * there. */
+/* Fill in the heights to trace.  An unknown height is replaced by that of a neighbour; no line is
+ * drawn there. */
 static void
 fill_heights(double *height, double *known, size_t *n_known, const map_grid *g, const double *column)
 {

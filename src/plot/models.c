@@ -1,5 +1,5 @@
-/* models.c -- what a simpler scene costs in accuracy and saves in time: a colour a scene, a kind of
- * point a quantity.  An error of 0 has no place on a logarithmic axis and is left out. */
+/* models.c -- draw the errors of simpler scenes over their times: each scene has a colour, each
+ * quantity a kind of point.  An error of 0 is left out, as the axis is logarithmic. */
 #include "plot/script.h"
 
 #include <math.h>
@@ -123,7 +123,7 @@ write_lower(FILE *out, const ss_models *models)
     write_scenes(out, models, UPPER, DRAWN);
 }
 
-/* Times of what was run, as multiples of the scene's. */
+/* The least and the largest time of the scenes that were run, as multiples of the first one's. */
 static ss_status
 find_times(double *least, double *most, const ss_models *models, ss_error *err)
 {

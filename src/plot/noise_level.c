@@ -1,12 +1,13 @@
-/* noise_level.c -- where noise begins in a map of |W|.
+/* noise_level.c -- find the level at which noise begins in a map of |W|.
  *
- * Of Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential
- * distribution: its quantile u is -s^2 ln(1 - u).  A scale at which the quantiles of |W|^2 keep
- * these ratios in the lower half, which few events reach, shows noise, and how high it is.  Steady
- * oscillations have no such spread; transients, and the rounding left between them, have far more.
+ * In Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential
+ * distribution: its quantile u is -s^2 ln(1 - u).  A scale shows noise if the quantiles of its
+ * |W|^2 have these ratios in the lower half, which few events reach; they also give s.  The |W|^2
+ * of steady oscillations varies far less; that of transients, with rounding between them, far
+ * more.
  *
- * Quantiles come from histograms in bins of 1/8 of a binary order, 0.26 to 0.51 dB, within which
- * they are interpolated: so no coefficient need be kept. */
+ * Quantiles are interpolated in histograms with bins of 1/8 of a binary order, 0.26 to 0.51 dB, so
+ * no coefficient is kept. */
 #include "plot/noise_level.h"
 
 #include <math.h>
@@ -17,10 +18,10 @@
 
 enum { ORDERS = 1024, PART_BITS = 3, BINS = ORDERS << PART_BITS };
 #define LEAST_ORDER (-512)      /* of |W|^2 */
-#define RATIO_OFF 1.0           /* [dB] that a ratio of quantiles may be off */
-#define LENGTHS 100.0           /* independent coefficients that this takes */
-#define SHARE 0.9               /* of the scales, at which noise is no higher */
-#define APART 2.0               /* scales an octave whose noise is independent */
+#define RATIO_OFF 1.0           /* [dB] the largest error of a ratio of quantiles */
+#define LENGTHS 100.0           /* the least number of independent coefficients for this */
+#define SHARE 0.9               /* the part of the scales whose noise is no higher */
+#define APART 2.0               /* scales per octave whose noise is independent */
 
 struct noise_level {
     size_t n_scales;
@@ -97,7 +98,7 @@ total_of(const uint64_t *count)
     return total;
 }
 
-/* In lengths of the wavelet: noise is independent over so many. */
+/* The duration of the coefficients in lengths of the wavelet: so many of them are independent. */
 static double
 lengths_of(double total, const ss_scale *scale)
 {

@@ -1,4 +1,4 @@
-/* overview.c -- a recording of any length in one pass, thinned to what a picture shows of it. */
+/* overview.c -- reduce a recording of any length in one pass to what a picture shows. */
 #include <stickslip/overview.h>
 
 #include <math.h>
@@ -46,7 +46,7 @@ largest_of(const double *x, size_t n)
     return most;
 }
 
-/* Add n levels, squares or not, of which a row has the roots; returns the largest root. */
+/* Add n levels, or their squares, to a row of levels.  Returns the largest level. */
 VERSIONS static double
 add_levels(extremes *r, const double *level, size_t n, int squares)
 {
@@ -75,8 +75,8 @@ square(double *restrict level, const double *restrict w, size_t n)
     return largest_of(level, n);
 }
 
-/* |W|^2, and returns 1; or |W|, which takes longer, where the largest square overflows or
- * underflows. */
+/* Compute |W|^2 and return 1.  If the largest square overflows or underflows, compute |W|, which
+ * takes longer, and return 0. */
 static int
 find_levels(double *level, const double *w, size_t n)
 {
@@ -105,7 +105,7 @@ are_inside(const ss_overview *o, const ss_scale *scale, size_t first, size_t las
                          (to - from) / 2 + wavelet_cone(scale->a));
 }
 
-/* Noise is as well measured by two coefficients a length of the wavelet, 2 sqrt(pi) a, as by all:
+/* Two coefficients per length of the wavelet, 2 sqrt(pi) a, measure noise as well as all do, since
  * those between follow from them.  Each counts for all up to the next. */
 static size_t
 noise_step(const ss_scale *scale)
@@ -114,7 +114,8 @@ noise_step(const ss_scale *scale)
     return step > 1 ? (size_t)step : 1;
 }
 
-/* Levels of translations from first on, all in the cone of influence or all outside. */
+/* Add the levels of n translations from first on, which lie all in the cone of influence or all
+ * outside. */
 static void
 add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, double *level, int squares,
             int edge)
@@ -206,7 +207,7 @@ make_signal(ss_overview *o)
     return st;
 }
 
-/* Scales that are longer than the cone of influence leaves something of are left out. */
+/* A scale that lies inside the cone of influence as a whole is left out. */
 static ss_status
 make_coefficients(ss_overview *o)
 {

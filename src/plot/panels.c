@@ -1,4 +1,4 @@
-/* panels.c -- a signal over time, one panel a column, and one column over another. */
+/* panels.c -- draw a signal over time with a panel for each column, or one column over another. */
 #include "plot/script.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ typedef struct panel {
     script_scale scale;
 } panel;
 
-/* A panel for each of n columns, or of all for NULL; to be freed even after a failure. */
+/* Make a panel for each of n columns, or for all if column is NULL; to be freed even after a failure. */
 static ss_status
 make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t n, ss_error *err)
 {
@@ -49,7 +49,7 @@ make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t 
     return SS_OK;
 }
 
-/* The part of opts->over that is drawn, as if it were sampled from the start of the signal on. */
+/* Find the part of opts->over to draw, as if it began at the same time as the signal. */
 static ss_status
 find_over_span(script_span *span, double start, const ss_plot_opts *opts, ss_error *err)
 {
@@ -58,7 +58,7 @@ find_over_span(script_span *span, double start, const ss_plot_opts *opts, ss_err
     return ss_script_find_span(span, &head, opts->over->n, opts, err);
 }
 
-/* The first column of opts->over.  Its values count in the range, but not in the scale. */
+/* Prepare the first column of opts->over.  Its values count in the range, but not in the scale. */
 static ss_status
 make_over(script_clock *clock, script_span *span, double start, const ss_plot_opts *opts, ss_error *err)
 {
