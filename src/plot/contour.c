@@ -166,7 +166,7 @@ write_panel_b(FILE *out, const drawing *d)
         fputs(", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines lw 1 "
               "lc palette cb -word(drawn,i)*step", out);
     if (d->ridge > 0)
-        fputs(", \\\n    $ridge using 1:2 with points pt 7 ps 0.22 lc rgb ridge_colour", out);
+        fputs(", \\\n    $ridge using 1:2 with points pt 7 ps 0.2*mark lc rgb ridge_colour", out);
     ss_contour_plot_features(out, &d->marks);
     fputs("\nunset multiplot\n", out);
     return st;

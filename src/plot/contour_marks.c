@@ -193,11 +193,12 @@ ss_contour_plot_features(FILE *out, const contour_marks *seen)
         fputs(", \\\n    $spans using 1:(rim(0.02)):($2-$1):(0) with vectors nohead lw 3 "
               "lc rgb feature_colour", out);
     if (seen->spikes > 0)
-        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6 "
+        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6*mark "
               "lc rgb feature_colour", out);
     if (seen->maxima > 0)
-        fputs(", \\\n    $maxima using 1:2 with points pt 6 ps 0.9 lw 3.5 lc rgb 'white', \\\n"
-              "    $maxima using 1:2 with points pt 6 ps 0.9 lw 1.5 lc rgb feature_colour", out);
+        fputs(", \\\n    $maxima using 1:2 with points pt 7 ps 0.9*mark lc rgb 'white', \\\n"
+              "    $maxima using 1:2 with points pt 7 ps 0.7*mark lc rgb feature_colour, \\\n"
+              "    $maxima using 1:2 with points pt 7 ps 0.35*mark lc rgb 'white'", out);
     if (seen->feature_arrows > 0)
         plot_arrows(out, "feature");
 }

@@ -204,6 +204,13 @@ ss_script_scale(script_extent e)
 
 /* --- top and end --------------------------------------------------------------------------- */
 
+/* gnuplot's points do not grow with the resolution of a picture as letters do. */
+static const char *
+size_of_marks(const char *format)
+{
+    return format == NULL ? "1" : strcmp(format, "png") == 0 ? "2.4" : "0.8";
+}
+
 /* The terminal of a format, or NULL. */
 static const char *
 terminal(const char *format)
@@ -254,7 +261,7 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
     else
         fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
-    fputs("set encoding utf8; set termoption noenhanced\n", out);
+    fprintf(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", size_of_marks(format));
     return SS_OK;
 }
 
