@@ -13,17 +13,18 @@ typedef struct step_guard {
     int degree;
     double p[MOST_DEGREE + 1];      /* p's coefficients in Bernstein's form */
     double h;                       /* length of the step */
-    double rounding;                /* error of h p' in units of 2^-50, besides that of p's own size */
+    double rounding;                /* error of h p' in units of 2^-50, without that of p's own size */
 } step_guard;
 
 /* Set degree and p from p and its ORDERS derivatives at the ends of a step h within the step caps. */
 void ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[]);
-/* Set them from p's degree + 1 Taylor coefficients in s / h; adds their rounding. */
+/* Set them from the degree + 1 Taylor coefficients of p in s / h, and add their rounding. */
 void ss_guard_by_series(step_guard *g, int degree, const double c[]);
-/* 1 if these show already that the guard, set but for degree and p, does not become negative. */
+/* 1 if these coefficients alone show that the guard does not become negative; its degree and p
+ * need not be set. */
 int ss_guard_is_clear(const step_guard *g, int degree, const double c[]);
-/* 1 if the guard becomes negative, at *s_event; 0 if not; -1 if a number is not finite.  *unresolved
- * becomes 1 where rounding alone decides whether, or where, it does. */
+/* Returns 1 if the guard becomes negative, at *s_event; 0 if it does not; -1 if a number is not
+ * finite.  *unresolved becomes 1 if only rounding decides whether, or at which time, it does. */
 int ss_first_zero(const step_guard *g, double *s_event, int *unresolved);
 
 #endif

@@ -7,36 +7,37 @@
 
 typedef struct engine engine;
 
-/* The purpose of reading a state.  In a run of samples, each one interval after the last, an engine may
- * compute a sample from the one before. */
+/* The purpose of reading a state.  In a run of samples, each one interval after the last, an
+ * engine may compute a sample from the one before. */
 typedef enum reading {
     ANYWHERE, FIRST_SAMPLE, NEXT_SAMPLE
 } reading;
 
 struct engine_type {
-    /* The motion has entered a mode: forget what belonged to the last one. */
+    /* The motion has entered a mode: discard what belongs to the one before. */
     void (*begin)(engine *e);
-    /* Take one step from now and fill h, q1, dq1.  The step is at most h_max long, but may be longer if
-     * the guard cannot reach 0 within it. */
+    /* Take one step from now and fill h, q1, dq1.  The step is at most h_max long, but may be
+     * longer if the guard cannot reach 0 within it. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
-    /* Look for the end of the mode without steps, up to s_max from now.  1: it is at *s_event.  0: it is
-     * later, and h, q1 and dq1 are those of s_max.  -1: only steps can find it.  May be NULL. */
+    /* Search the end of the mode without steps, up to s_max from now.  Returns 1: it is at
+     * *s_event; 0: it is later, and h, q1 and dq1 are those of s_max; -1: only steps can find it.
+     * May be NULL. */
     int (*ahead)(engine *e, double s_max, double *s_event);
-    /* The state s from now, 0 <= s <= h, within the step just taken, and its rate of change, of which a
-     * sample needs only the first two parts; base is the phase there. */
+    /* The state at s from now, 0 <= s <= h, within the step just taken, and its rate of change, of
+     * which a sample needs only the first two numbers; base is the phase of the base there. */
     void (*at)(engine *e, reading where, double s, turn base, double q[], double dqdt[]);
-    /* The derivative by x_ref (or the state's third number), q[0] and v now of the same three s from
-     * now, within that step.  NULL if the engine does not know it. */
+    /* The derivative of x_ref (or of the state's third number), q[0] and v at s from now, within that
+     * step, by the same three numbers now.  NULL if the engine cannot compute it. */
     void (*response)(engine *e, double s, double d[D_MOST][D_MOST]);
-    /* Write the Taylor coefficients in s / h of the state within that step to c and return the degree,
-     * at most MOST_DEGREE.  NULL if the state is no polynomial. */
+    /* Write the Taylor coefficients of the state within that step, in s / h, to c, and return their
+     * degree, at most MOST_DEGREE.  NULL if the state is not a polynomial. */
     int (*curve)(const engine *e, double c[][MAX_DIM]);
-    /* Keep another tolerance from the next step on.  NULL: this engine knows only that of its start, or
-     * none. */
+    /* Keep another tolerance from the next step on.  NULL if the engine cannot change its
+     * tolerance, or has none. */
     void (*keep)(engine *e, double tol);
-    /* The motion has reached the end of the step: count u from a new origin if the engine needs it. */
+    /* The motion has reached the end of the step: let u have a new origin if the engine needs one. */
     void (*go_on)(engine *e);
-    /* Free what the engine holds besides itself.  May be NULL. */
+    /* Free all that the engine holds, but not the engine.  May be NULL. */
     void (*release)(engine *e);
 };
 
@@ -46,28 +47,28 @@ struct engine {
     double h;                               /* of the last step */
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
-    int clear;                              /* step() has proven that no event is in it */
-    /* The guard in this mode is level + of_q q + of_v v, or level less the size of the rest. */
+    int clear;                              /* 1: step() has proven that it contains no event */
+    /* The guard in this mode is level + of_q q + of_v v, or level - |of_q q + of_v v|. */
     int has_guard;
     double level, of_q, of_v;
-    /* The state and its first ORDERS derivatives at both ends, once asked for. */
+    /* The state and its first ORDERS derivatives at both ends, if they have been computed. */
     int has_start, has_end;
     double start[ORDERS + 1][MAX_DIM], end[ORDERS + 1][MAX_DIM];
-    int lands_on_samples;                   /* at() gives the state at the nearer end */
-    int lost;                               /* a guard within a step was NaN */
+    int lands_on_samples;                   /* 1: at() gives the state at the nearer end */
+    int lost;                               /* 1: a guard within a step was NaN */
     unsigned long steps, rhs, events;
 };
 
 #define EXACT "exact"                       /* the name of the method in closed form */
 #define TAYLOR "taylor"
-/* An engine by its method's name, for the motion as it stands. */
+/* Make the engine of a method, for the motion in its present state. */
 ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err);
 void ss_engine_free(engine *e);                     /* NULL is allowed */
 
 const char *ss_ode_method_name(size_t i);   /* NULL after the last */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
 ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
-int ss_exact_applies(const ss_scene *scene);        /* has it a closed form? */
+int ss_exact_applies(const ss_scene *scene);        /* 1: the scene has a closed form */
 ss_status ss_exact_check(const ss_scene *scene, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 

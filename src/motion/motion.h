@@ -9,22 +9,22 @@ typedef struct motion {
     state now;                      /* at the start of the present step */
     instant origin;                 /* now.u, the time within a mode, counts from here */
     double phase;                   /* of the base at t = 0, in [-pi, pi] */
-    double doubt;                   /* what tolerance or rounding leaves of x in a step [m] */
-    double x_begin;                 /* where the mode began */
-    unsigned long unresolved;       /* slips over no more than the doubt */
+    double doubt;                   /* the error of x in a step by tolerance or rounding [m] */
+    double x_begin;                 /* the position at which the mode began */
+    unsigned long unresolved;       /* slips no longer than doubt */
 } motion;
 
-/* Steps a period of the mode's fastest motion.  At 40, the terms that rk8pd drops are below
- * (2 pi / 40)^9 / 9! = 2e-13 of a step's change, and the polynomial through the derivatives at both
- * ends (ode.c) is as good as the motion. */
+/* Steps per period of the mode's fastest motion.  With 40, the terms that rk8pd neglects are below
+ * (2 pi / 40)^9 / 9! = 2e-13 of the change in a step, and the polynomial through the derivatives at
+ * both ends (ode.c) is as accurate as the motion. */
 enum { STEPS_PER_PERIOD = 40 };
 
 double ss_step_cap(const state *m);                 /* the longest step in the mode */
 
 /* The shortest step that double precision can resolve. */
 double ss_step_floor(const state *m);
-/* The scales of the parts of the state: absolute tolerances are tol times these.  SS_ERANGE if such a
- * tolerance is not above 0. */
+/* The scales of the parts of the state: absolute tolerances are tol times these.  SS_ERANGE if
+ * such a tolerance is not above 0. */
 ss_status ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err);
 
 /* The motion at t = 0, before its first mode; exact is 1 if a closed form moves it. */
@@ -34,9 +34,9 @@ void ss_motion_rebase(motion *m);                   /* let u count from the pres
 turn ss_motion_base(const motion *m, instant t);    /* the phase of the base */
 double ss_motion_x(const motion *m);                /* now, at u = 0 */
 unsigned long ss_motion_unresolved(const motion *m);    /* see ss_sim_stats */
-/* 1 if a slip has become so slow that the doubt of x hides its end, as damping lets it near 0. */
+/* 1 if damping has made a slip so slow that the error of x hides its end. */
 int ss_motion_fades(const motion *m);
-/* A mode has lasted this long [s]: SS_ECHATTER after too many short ones in a row. */
+/* Call after a mode that has lasted so long [s].  SS_ECHATTER: too many short modes in a row. */
 ss_status ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err);
 
 /* Fill in a sample, except its time, from state, rate of change and phase of the base at u. */

@@ -7,30 +7,30 @@
 
 #include "motion/engine.h"
 
-/* A step that takes more right-hand sides than this counts as more than one: rk8pd with its events
- * takes so many, while a step of an implicit method may take hundreds. */
+/* A step that needs more right-hand sides than this counts as more than one step.  A step of rk8pd
+ * with its events needs so many; a step of an implicit method may need hundreds. */
 enum { RHS_PER_STEP = 20 };
 
 typedef struct walk {
     motion m;                       /* at the start of the leg; engines point at it: do not copy */
     engine *e;
-    unsigned long max_steps;        /* 0: as many as it takes */
-    double lasted;                  /* of the present mode, before the leg */
+    unsigned long max_steps;        /* 0: no limit */
+    double lasted;                  /* duration of the present mode before the leg [s] */
     int in_a_row;                   /* events that follow each other at once */
-    double h;                       /* length of the leg */
-    int still;                      /* the mass stands still on it */
-    int ends;                       /* an event ends it */
+    double h;                       /* length of the leg [s] */
+    int still;                      /* 1: the mass stands still on it */
+    int ends;                       /* 1: an event ends it */
 } walk;
 
-/* At the start of the scene, which stays the caller's.  opts: method, tol and max_steps count. */
+/* Begin at the start of a scene, which the caller keeps.  Of opts, method, tol and max_steps count. */
 ss_status ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err);
-/* At the state of a motion with the same scene, whose instant becomes t = 0. */
+/* Begin at the state of a motion with the same scene; its time becomes t = 0. */
 void ss_walk_begin_at(walk *w, const motion *from);
-/* Find the next leg: until the next event, for at most `longest` seconds. */
+/* Find the next leg.  It lasts until the next event, but at most `longest` seconds. */
 ss_status ss_walk_leg(walk *w, double longest, ss_error *err);
-/* State and rate of change s after its start, 0 <= s <= h. */
+/* The state and its rate of change at s after the start of the leg, 0 <= s <= h. */
 void ss_walk_at(walk *w, double s, double q[], double dqdt[]);
-/* Go to the end of the leg.  *is_event says whether that is an event, which *event then holds. */
+/* Go to the end of the leg.  If this is an event, *is_event becomes 1 and *event the event. */
 ss_status ss_walk_on(walk *w, int *is_event, ss_event *event, ss_error *err);
 void ss_walk_end(walk *w);
 

@@ -7,8 +7,9 @@
 
 enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
 enum { ANY_TEXT, PATH };                           /* of texts; a PATH does not leave its folder */
-/* A TERM of the equation of motion that most scenes do not have: 0 if left out, and then a scene is
- * written without it.  FORCING is left out altogether or not at all. */
+/* TERM: a term of the equation of motion that most scenes do not have; it is 0 if the key is left
+ * out, and a scene is then written without it.  FORCING: either all these keys are left out, or
+ * none. */
 enum { OPTIONAL, REQUIRED, TERM, FORCING };
 
 typedef struct scene_key {
@@ -32,11 +33,11 @@ typedef struct scene_key {
 /* A number of the scene that a fit may vary besides k and f_k / (k Z_e). */
 typedef struct parameter {
     size_t offset;                  /* in ss_scene */
-    int by_mass;                    /* the motion stays the same if it grows as the mass does */
-    int by_speed;                   /* the motion keeps its shape if it falls as the speed grows; -1: if
-                                       it grows as the speed does */
+    int by_mass;                    /* 1: the motion stays the same if it grows in proportion to mass */
+    int by_speed;                   /* 1: the motion keeps its shape if it falls as the speed grows; -1: if
+                                       it grows with the speed */
 } parameter;
-enum { PARAMETERS = 2 };             /* of a model at most */
+enum { PARAMETERS = 2 };             /* the most that a model has */
 
 struct model;
 /* keys.c: the i-th key of a model, in the order in which scenes are written; NULL after the last. */

@@ -22,13 +22,13 @@
 
 enum { MAX_DIM = 3, ORDERS = 4, MOST_SERIES = 26, SERIES_PARTS = MAX_DIM + 1 };
 
-/* base.c; n samples at start + i / rate. */
+/* A measured base (base.c): n samples at start + i / rate. */
 struct ss_base {
     double start, rate;
     size_t n;
     double size;                    /* largest |z| */
     double *z, *bend;               /* bend: z'' in units of the interval */
-    char cksum[48];                 /* of the file, as POSIX's cksum prints it; "": of none */
+    char cksum[48];                 /* of its file, as POSIX's cksum prints it; "": it has no file */
 };
 
 /* The mass, its contact and the base at one instant of a mode. */
@@ -39,32 +39,33 @@ typedef struct state {
     double drive;                   /* k Z_e [N] */
     double ramp;                    /* k (U - S) [N/s] */
     double drag;                    /* d S [N] */
-    int moves;                      /* there is a pull, a surface that moves or a measured base */
-    double z[4];                    /* the measured base in powers of u - u_piece, until u_knot */
+    int moves;                      /* 1: there is a pull, a moving surface or a measured base */
+    double z[4];                    /* coefficients of the measured base in powers of u - u_piece, valid
+                                       until u_knot */
     double u_piece, u_knot;
     double x_scale;                 /* the scale of x: absolute tolerances are tol times it */
     double tol;                     /* of the integrator */
 
     int mode;
-    double k, c, f0;                /* of the mode, see above */
-    double x_ref;                   /* x_ref + q[0]: the position; q[0] is y in microstick */
-    double graze;                   /* a contact this far beyond its limit only touches it [m] */
-    double slack;                   /* graze once it has in this microstick, else 0 */
-    unsigned long touches;
+    double k, c, f0;                /* coefficients of the mode's equation, see above */
+    double x_ref;                   /* the position is x_ref + q[0]; in microstick q[0] is y */
+    double graze;                   /* a contact no farther beyond its limit only touches it [m] */
+    double slack;                   /* graze, if the contact has touched in this microstick; else 0 */
+    unsigned long touches;          /* so far */
 
     double theta;                   /* phase of the base at u = 0 [rad] */
     double u;                       /* the instant [s], from an origin that the integrator sets */
     double q[MAX_DIM];              /* position or y, velocity, theta at u */
 } state;
 
-/* state.c: before its first mode, at u = 0. */
+/* state.c: the state before the first mode, at u = 0. */
 state ss_state_of(const ss_scene *scene, double tol);
-/* Let positions count from the present place of the pull (below), which moves since u = 0. */
+/* Make positions relative to the present position of the pull (below), which moves since u = 0. */
 void ss_state_follow(state *m);
-/* base.c: set the piece of the measured base, which there must be, for the interval that begins at
- * u, which is the time t. */
+/* base.c: set the coefficients of the measured base, which must exist, for the interval that
+ * begins at u; t is the time of u. */
 void ss_state_meet_base(state *m, double t);
-/* SS_EDATA if the base is not known from 0 to end; name is that of its file. */
+/* SS_EDATA if the base is not known from 0 to end; err calls its file by name. */
 ss_status ss_base_covers(const ss_base *base, double end, const char *name, ss_error *err);
 
 /* The modes in which the friction force varies. */
@@ -74,18 +75,18 @@ enum { IN_STICK = 1, IN_SLIP = 2 };
  * number, if it has one), q[0], v. */
 enum { D_REF, D_Q, D_V, D_MOST };
 struct variation {
-    /* Set is_free to 1 for each of the three that can differ within the mode. */
+    /* Set is_free to 1 for each of the three numbers that can differ within the mode. */
     void (*free)(const state *m, int is_free[D_MOST]);
-    /* Carry d across the event at q that ended `mode`; the rate of change was before and is after it.
-     * A neighbouring state reaches the event at another time.  Each column of d is the difference
-     * caused by one of those at the start.  NULL if the model has no events. */
+    /* Carry d across the event at q that ended `mode`; before and after are the rates of change on
+     * its two sides.  A neighbouring state reaches the event at another time.  Each column of d is
+     * the difference that one initial difference has caused.  NULL if the model has no events. */
     void (*cross)(const state *m, int mode, const double q[], const double before[],
                   const double after[], double d[D_MOST][D_MOST]);
-    /* Move a state; 0 if its mode does not hold there. */
+    /* Move a state by d.  Returns 0 if its mode is not valid there. */
     int (*move)(state *m, const double d[D_MOST]);
 };
 
-/* A number of the scene whose absence makes it simpler. */
+/* A number of the scene; the scene is simpler without it. */
 typedef struct vanishing {
     const char *name;               /* of the simpler scene: "damping=0" */
     size_t offset;                  /* in ss_scene */
@@ -93,75 +94,77 @@ typedef struct vanishing {
 
 struct model {
     const char *name;               /* in scenes */
-    const scene_key *keys;          /* besides those of every scene (keys.c) */
+    const scene_key *keys;          /* keys that not every scene has (keys.c has the others) */
     size_t n_keys;
-    const ss_scene_range *ranges;   /* besides those of every scene (ranges.c) */
+    const ss_scene_range *ranges;   /* ranges that not every scene has (ranges.c has the others) */
     size_t n_ranges;
     parameter parameter[PARAMETERS];
     size_t n_parameters;
-    const vanishing *vanishing;     /* besides those of every scene (simpler.c) */
+    const vanishing *vanishing;     /* numbers that not every scene has (simpler.c has the others) */
     size_t n_vanishing;
-    /* Rewrite a scene as one of the simpler model that it comes to as its own laws become fast or
-     * stiff; NULL if it is the simplest. */
+    /* Change a scene to the simpler model that is the limit of this one as its laws become fast or
+     * stiff; NULL if this is the simplest model. */
     void (*limit)(ss_scene *scene);
     size_t dim;                     /* of the state */
-    int linear;                     /* in each mode, with the coefficients k, c and f0 */
-    int has_contact;                /* an elastic one, of contact_stiffness and contact_damping */
+    int linear;                     /* 1: each mode is linear, with the coefficients k, c and f0 */
+    int has_contact;                /* 1: it has an elastic contact, with contact_stiffness and
+                                       contact_damping */
     unsigned force_varies;          /* IN_STICK, IN_SLIP */
 
-    /* Rewrite a scene as one that moves alike and keeps the shape of its motion if f_k and Z_e grow
-     * together; NULL if all do. */
+    /* Change a scene to one with the same motion that keeps the shape of this motion when f_k and Z_e
+     * grow together; NULL if every scene of the model does. */
     void (*normalise)(ss_scene *scene);
-    /* Enter the first mode at the scene's initial state; 1 if it starts in slip. */
+    /* Enter the first mode at the scene's initial state.  Returns 1 if it is slip. */
     int (*start)(state *m);
-    /* Largest angular frequency or rate of decay of the mode, which caps the steps [rad/s]; *what
-     * becomes its name for a diagnosis, unless what is NULL. */
+    /* The largest angular frequency or rate of decay of the mode [rad/s], which caps the steps.
+     * *what, unless what is NULL, becomes its name for a diagnosis. */
     double (*fastest)(const state *m, const char **what);
     /* A faster rate, for which the tolerance may shorten steps further [rad/s]; NULL if none. */
     double (*quickest)(const ss_scene *scene);
-    /* The longest step from the present state whose error an integrator can still judge; NULL if
-     * `fastest` is limit enough. */
+    /* The longest step from the present state whose error an integrator can estimate; NULL if the
+     * cap of `fastest` suffices. */
     double (*sight)(const state *m, const double dqdt[]);
-    /* 1 if an implicit method is the cheaper one; NULL if that cannot be. */
+    /* Returns 1 if an implicit method costs less for this scene; NULL if it never does. */
     int (*stiff)(const ss_scene *scene);
-    /* The state's rate of change under the force of the base. */
+    /* The rate of change of the state under the force `drive` of the base. */
     void (*rates)(const state *m, double drive, const double q[], double dqdt[]);
-    /* Its derivatives by the state (row after row) and by time. */
+    /* The derivatives of this rate by the state (row after row) and by time. */
     void (*jacobian)(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
-    /* The ORDERS - 1 rates of change after dqdt of a state at u; NULL if steps are to be repeated
-     * for what lies inside them, which the multistep methods cannot do where there are events. */
+    /* The next ORDERS - 1 derivatives of a state at u, after dqdt.  NULL if a step is repeated to
+     * know the state inside it; multistep methods cannot do this for a model with events. */
     void (*derivatives)(const state *m, double u, const double q[], const double dqdt[],
                         double higher[][MAX_DIM]);
-    /* The Taylor coefficients in s / unit of the present state up to an order of MOST_SERIES at most, and
-     * of v', the last part, up to one order less, by step[n] = unit / (n + 1).  Parts that the model does
-     * not have are left alone.  NULL if it has no recurrence for them. */
+    /* The Taylor coefficients of the present state in s / unit, up to an order of at most
+     * MOST_SERIES, and those of v', the last part, up to one order less; step[n] = unit / (n + 1).
+     * Parts that the model does not have are not written.  NULL if the model has no recurrence. */
     void (*series)(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
-    /* The Taylor coefficients along the series c, up to the same order, of what the state's last rate of
-     * change gains with v.  NULL if that is the same everywhere in a mode. */
+    /* The Taylor coefficients, along the series c and up to the same order, of the derivative of the
+     * state's last rate of change by v.  NULL if this derivative is constant in a mode. */
     void (*slope)(const state *m, const double step[], int order, double c[][SERIES_PARTS],
                   double slope[]);
-    /* Shorten a step [unit] to the range in which those coefficients describe the motion: they may not
-     * show a pole beyond which the motion is another.  NULL if they always describe it. */
+    /* Shorten a step [unit] to the range in which these coefficients describe the motion: beyond a
+     * pole that they do not show, the motion differs.  NULL if they always describe it. */
     double (*reach)(const state *m, double c[][SERIES_PARTS], double step);
-    /* A function that is not negative within the mode; *slope is its rate of change.  NULL if the model
-     * has no events.  If the model has derivatives or a series, the guard is level + p with p linear in q
-     * and v, or level - |p| in a mode 0 in which the mass moves. */
+    /* A function that is not negative within the mode; *slope becomes its rate of change.  NULL if
+     * the model has no events.  If the model has derivatives or a series, the guard is level + p
+     * with p linear in q and v, or in a mode 0 in which the mass moves, level - |p|. */
     double (*guard)(const state *m, const double q[], const double dqdt[], double *slope);
-    /* 1 if the mass stands still in this mode, until *u_end (INFINITY: for ever); NULL if in none. */
+    /* Returns 1 if the mass stands still in this mode; *u_end becomes the end of this time
+     * (INFINITY: it never ends).  NULL if it stands still in no mode. */
     int (*still)(const state *m, double *u_end);
-    /* The mode ends in this state: enter the next.  1 if that is an event, which is written to *e. */
+    /* The mode ends in this state: enter the next one.  Returns 1 if this is an event, and writes *e. */
     int (*next)(state *m, ss_event *e);
     /* Fill in the sample, in the frame of the surface, from state, rate of change and force of the
-     * base; t, z and s are left to the caller. */
+     * base.  The caller fills in t, z and s. */
     void (*sample)(const state *m, double drive, const double q[], const double dqdt[],
                    ss_sample *s);
-    /* The quantity besides x and v on which the next motion depends, which is the state's third number
-     * if it has one; *unit is its scale.  NULL if there is none. */
+    /* The quantity, beside x and v, on which the further motion depends: the third number of the
+     * state, if it has one.  *unit becomes its scale.  NULL if there is none. */
     double (*memory)(const state *m, double *unit);
-    /* 1 where the mass neither slips nor stands still, so that it may oscillate on its contact; NULL
-     * if there is no such place. */
+    /* Returns 1 if the mass neither slips nor stands still, so that it may oscillate on its
+     * contact; NULL if this never happens. */
     int (*in_transition)(const state *m, double v);
-    /* NULL if the model does not follow neighbouring states. */
+    /* NULL if the model cannot follow neighbouring states. */
     const struct variation *variation;
 };
 
@@ -197,8 +200,8 @@ amplitude_of(const ss_scene *s)                     /* X of the supported ranges
     return pull_of(s) != 0 ? fmax(X, static_friction(s) / s->stiffness) : X;
 }
 
-/* A friction force may reverse within |v| <= front.  A step across that range would not see the change,
- * and neither would its error estimate: so v may change by at most half its size plus front, as
+/* A friction force may reverse within |v| <= front.  A step across this range would miss the
+ * change, and so would its error estimate.  So v may change by at most |v| / 2 + front, as
  * estimated from v' and v''. */
 static inline double
 sight_of(double v, double front, double a, double jerk)
@@ -215,7 +218,8 @@ sign(double x)
 
 /* --- the base: its force on the spring is k (Z_e cos(Omega t + phase) + (U - S) u) ----------
  *
- * The forces below are less d S, by which the damper pulls a mass that rests on the surface. */
+ * From the forces below d S is subtracted, the force of the damper on a mass that rests on the
+ * surface. */
 
 typedef struct turn {
     double co, si;                  /* cosine and sine of an angle */
@@ -310,8 +314,8 @@ base_force_series(const state *m, const double step[], int order, double c[])
     c[3] += k * unit * unit * unit * m->z[3];
 }
 
-/* The sum of a_i b_j over i + j = n, i and j > 0, from the middle outwards: the coefficients that have
- * just been computed come last, so that the processor does not wait for them. */
+/* The sum of a_i b_j over i + j = n, i and j > 0.  It goes from the middle outwards, so that the
+ * coefficients that have just been computed come last, and the processor does not wait for them. */
 static inline double
 inner_products(const double a[], const double b[], int n)
 {

@@ -4,10 +4,10 @@
 
 #include <stickslip/trade.h>
 
-/* [s] of this thread. */
+/* The CPU time of this thread [s]. */
 double ss_trade_cpu_time(void);
-/* Time the short rows that are measured again, in turns; each is run by again, which gives its
- * seconds, done being the share of the whole that is done. */
+/* Measure the times of short rows again, in turns.  again runs a row and gives its seconds; done
+ * is the part of the whole work that is done. */
 typedef ss_status ss_trade_again(void *user, const ss_trade_row *row, double done, double *seconds);
 ss_status ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user);
 void ss_trade_mark_frontier(ss_trade *trade);
