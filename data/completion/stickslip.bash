@@ -63,14 +63,13 @@ _stickslip_columns()    # WORD ...: of the last file among them
         if [[ -f ${word%%:/*} ]]; then file=$word; fi
     done
     if [[ -z $file ]]; then return; fi
-    { sed -n "$pick" "$file" 2> /dev/null | grep . || ss-cat "$file" 2> /dev/null | sed -n "$pick"; } |
-        tr ' ' '\n'
+    { sed -n "$pick" < "$file" | grep . || ss-cat -- "$file" | sed -n "$pick"; } 2> /dev/null | tr ' ' '\n'
 }
 
 _stickslip()
 {
     local tool=$1 seen=${2#=} line=${COMP_LINE:0:COMP_POINT} current option= takes= front= list=
-    local -a words options
+    local -a words options known=()
     current=${line##*[[:space:]]}
     read -ra words <<< "${line%"$current"}"
     mapfile -t options < <(_stickslip_options "$tool")
@@ -117,7 +116,11 @@ _stickslip()
         list=$(_stickslip_ask "$tool" "$option?" '--?') ;;
     esac
 
-    mapfile -t COMPREPLY < <(compgen -W "$list" -- "${current#"$front"}")
+    # Not by compgen -W, which would run a name of a file's column that is $(a command).
+    read -r -d '' -a known <<< "$list" || :
+    for line in ${known[@]+"${known[@]}"}; do
+        if [[ $line == "${current#"$front"}"* ]]; then COMPREPLY+=("$(printf %q "$line")"); fi
+    done
     if [[ $takes == *FILE* ]]; then
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -f -- "${current#"$front"}")
         compopt -o filenames 2> /dev/null

@@ -48,6 +48,19 @@ LINES
     done
 } > lines
 
+# A column of a stranger's file is completed, quoted, and never run.
+printf '# stickslip signal 1\n# rate: 1\n# start: 0\n# columns: t/s $(touch${IFS}ran)/m `touch${IFS}ran`/m b/m\n0\t1\t2\t3\n' \
+    > theirs.tsv
+bash -eu <<'BASH'
+compopt() { :; }
+. "$SRC/data/completion/stickslip.bash"
+COMP_LINE='ss-plot theirs.tsv -c ' COMP_POINT=22
+_stickslip ss-plot '' -c
+printf '%s\n' "${COMPREPLY[@]}"
+[[ ! -e ran ]] || echo 'a name was run'
+rm -f theirs.tsv
+BASH
+
 # "LINE: what it may go on with", sorted, without what the line has of it.  Lines end in a blank unless
 # the word goes on.
 sed -e 's/--set$/& /' -e 's/--column$/& /' -e 's/ -c$/& /' -e 's/--xy$/& /' -e 's/^ss-signal$/& /' \
