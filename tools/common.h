@@ -1,5 +1,5 @@
-/* common.h -- what every tool does the same way: its name in messages, exit codes, input, and output
- * that is whole or absent. */
+/* common.h -- functions for every tool: messages with its name, exit codes, input, and output that
+ * is whole or absent. */
 #ifndef COMMON_H
 #define COMMON_H
 
@@ -17,19 +17,19 @@
 
 /* Call first.  usage is the text of --help. */
 void tool_begin(char *argv[], const char *name, const char *usage);
-/* Call last, before returning 0: finishes standard output, or dies; with -v says what it all cost. */
+/* Call last, before returning 0: finishes standard output, or dies; with -v, reports the cost. */
 void tool_end(void);
 
 void tool_die(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;    /* "ss-x: text", exit 1 */
-/* Wrong usage: "ss-x: text", exit 2; NULL after getopt, which has said what is wrong. */
+/* Wrong usage: "ss-x: text", exit 2.  format is NULL after a message of getopt. */
 void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
-/* The same for the file of a base, which is read without options. */
+/* The same for the file of a base; the hint names no option, as the file is read without options. */
 void tool_check_base(ss_status status, const ss_error *err);
-/* Returns room for n entries of size bytes each, with what the list had (NULL: a new one), or dies; to be
- * freed. */
+/* Returns room for n entries of size bytes each, with what the list had (NULL: a new one), or
+ * dies; to be freed. */
 void *tool_room(void *list, size_t n, size_t size);
 /* A hint how to remedy a failure, "; text", or "". */
 const char *tool_hint(ss_status status, const ss_error *err);
@@ -52,11 +52,11 @@ typedef struct tool_texts {
 const char *tool_input(int argc, char *argv[], int optind);
 /* The name of a path in messages: "<stdin>" for "-". */
 const char *tool_input_name(const char *path);
-/* Call with what any option or argument names as a file to read, before or after output is opened: dies
- * if the output would take its place, under whatever name.  Returns path.  The functions below do
- * it. */
+/* Call with each path that an option or argument names as a file to read, before or after output
+ * is opened.  Dies if the output is the same file, by whatever name.  Returns path.  The functions
+ * below call it. */
 const char *tool_reads(const char *path);
-/* The same for what -o names, as early as it is known; tool_output_kind and tool_output do it. */
+/* The same for the path after -o, as soon as it is known; tool_output_kind and tool_output call it. */
 void tool_writes(const char *path);
 /* Open for reading, or die; "-" is stdin. */
 FILE *tool_open(const char *path);
@@ -68,23 +68,22 @@ size_t tool_rows(ss_reader *reader, double *rows, size_t max);
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read coefficients from "-", a file or HDF5, or die. */
 ss_coefficients *tool_read_coefficients(const char *path);
-/* Read a scene given by path, by the bare name of a shipped one, or "-", with settings
- * "key=value" in place of its own; dies, a setting at fault being wrong usage. */
+/* Read a scene from a path, the name of a shipped scene, or "-"; then settings "key=value" replace
+ * its values.  Dies if that fails; a wrong setting is wrong usage. */
 ss_scene tool_read_scene(const char *path, const tool_texts *settings);
-/* The name by which it is known, without its directories, and what was changed in its physics; to be
- * freed. */
+/* The name of a scene without directories, and the settings that change its physics; to be freed. */
 char *tool_name_scene(const char *path, const tool_texts *settings);
 /* 1 if path holds HDF5 or names a dataset in it, else 0. */
 int tool_is_hdf5(const char *path);
 /* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
 void tool_list(char *list, size_t size, const char *word);
-/* The index of a column by name or number, or die with the list of those that are there; name
- * NULL: "a", else the only one. */
+/* The index of a column by name or number, or die with a list of the columns.  If name is NULL:
+ * that of "a", or else of the only column. */
 size_t tool_column(const ss_header *head, const char *path, const char *name);
 
 /* --- output -------------------------------------------------------------------------------- */
 
-typedef enum tool_kind {        /* what the ending of -o or --format asks for */
+typedef enum tool_kind {        /* chosen by the ending of the file after -o, or by --format */
     TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF,
     TOOL_STREAM,                /* and from here on a format of streams: see tool_stream */
     TOOL_TSV = TOOL_STREAM + SS_TSV
@@ -105,46 +104,48 @@ ss_format tool_stream(tool_kind kind);
  * names them; standard output (NULL or "-") has the fallback. */
 tool_kind tool_output_kind(const char *path, unsigned allowed, tool_kind fallback);
 
-/* Open what -o names: NULL or "-" is standard output, else a file that gets its name in tool_end: it is
- * whole or absent.  It has no name before, or where the system has no such files a temporary one beside
- * path, which tool_die, SIGINT, SIGTERM, SIGHUP and SIGQUIT remove. */
+/* Open the output that -o names.  NULL or "-" is standard output.  A file is whole or absent: it
+ * gets its name in tool_end.  Before, it has no name, or if the system has no such files, a
+ * temporary name beside path, which tool_die, SIGINT, SIGTERM, SIGHUP and SIGQUIT remove. */
 FILE *tool_output(const char *path);
-/* The same for a library call that wants a path: one that leads to the file. */
+/* The same for a library call that needs a path: returns one that leads to the file. */
 const char *tool_output_path(const char *path);
 
-/* Open a file that another run is to go on with, from its start, or make it: what is written stays
- * there whatever happens.  Dies if another process has it open so. */
+/* Open a file at its start, or make it, so that a later run can continue it: all that is written
+ * stays, whatever happens.  Dies if another process has opened it in this way. */
 FILE *tool_output_kept(const char *path);
-/* Go on writing at this offset; what lies behind it is dropped. */
+/* Continue to write at this offset, and remove the rest of the file. */
 void tool_cut(FILE *out, long offset);
 
-/* Write a whole signal to what -o names, as .tsv, .au or .h5, or die. */
+/* Write a whole signal to the output that -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
-/* The same for a signal that comes in pieces, in constant memory; its header is copied.  Rows, of which
- * the first open the file, are one after the other.  A note that is known at the end is left out by AU and
- * CSV.  The functions die if they fail; end frees. */
+/* The same for a signal that comes in pieces, in constant memory; its header is copied.  Rows, of
+ * which the first open the file, are one after the other.  A note that is known at the end is left
+ * out by AU and CSV.  The functions die if they fail; end frees. */
 typedef struct tool_signal tool_signal;
 tool_signal *tool_signal_new(const ss_header *head, const char *path, tool_kind kind);
 void tool_signal_rows(tool_signal *signal, const double *rows, size_t n);
 void tool_signal_note(tool_signal *signal, const char *key, const char *value);
 void tool_signal_end(tool_signal *signal);
 
-/* Write a script to what -o names, a .gp or standard output, or the picture that gnuplot makes of
- * it; opts get the picture's format.  Dies with gnuplot's own words if that fails. */
+/* Write a script to the output that -o names, a .gp or standard output, or the picture that
+ * gnuplot makes of it; opts get the format of the picture.  Dies with the message of gnuplot if
+ * that fails. */
 typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
 void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
 
 /* --- long work ----------------------------------------------------------------------------- */
 
-/* Call before long work, with what -o names.  If that is standard output, the first SIGINT, SIGTERM
- * or SIGHUP from here on does not kill at once: tool_progress answers 1 and sinks should too
- * (tool_stopping), the row is finished, and tool_end dies of the signal. */
+/* Call before long work, with the path after -o.  If this is standard output, the first SIGINT,
+ * SIGTERM or SIGHUP after this call does not kill at once: tool_progress returns 1, sinks should
+ * return 1 too (tool_stopping), the row is finished, and tool_end dies of the signal. */
 void tool_end_at_rows(const char *path);
 int tool_stopping(void);
-/* How far the work is, 0 to 1: after a second, on a terminal that the data do not go to, a line on
- * standard error shows it with the time left.  user is not NULL where data only come later.  1 if the
- * user has asked to stop; the function of an ss_progress. */
+/* The function of an ss_progress, called with the part of the work that is done, 0 to 1.  After a
+ * second, if standard error is a terminal and the data do not go to one, a line there shows it
+ * with the time left.  user is not NULL if data are written only later.  Returns 1 if the user has
+ * asked to stop. */
 int tool_progress(double done, void *user);
 
 #endif

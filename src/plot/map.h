@@ -11,22 +11,22 @@
 /* A column that is drawn. */
 typedef struct map_column {
     const ss_column *label;
-    double *value;              /* a row each; NaN: it has none */
+    double *value;              /* of each row; NaN: the row has none */
 } map_column;
 
-/* Column c of the rows: "-" is NaN, and "aperiodic" a period of 0; its value is to be freed even
- * after a failure.  SS_EDATA: another word. */
+/* Read column c of the rows, where "-" is NaN, and "aperiodic" a period of 0.  value is to be
+ * freed even after a failure.  SS_EDATA: there is another word. */
 ss_status ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *err);
-/* "base frequency / Hz" of base_frequency. */
+/* The label of a column: "base frequency / Hz" of base_frequency. */
 script_label ss_map_label(const ss_column *column, int exponent, double room);
 
-/* A column's values that differ, ascending. */
+/* The different values of a column, ascending. */
 typedef struct map_axis {
     const double *column;
     double *value;
     size_t n;
-    int log;                    /* their ratios are equal, not their differences */
-    int digits;                 /* that tell apart a hundred-thousandth of their range */
+    int log;                    /* 1: the axis is logarithmic */
+    int digits;                 /* enough to show a hundred-thousandth of the range */
 } map_axis;
 
 typedef struct map_grid {
@@ -34,16 +34,16 @@ typedef struct map_grid {
     size_t *row;                /* of the table at x i, y j: row[j * x.n + i]; SIZE_MAX: none */
 } map_grid;
 
-/* The grid of n rows over two columns; to be freed even after a failure. */
+/* Arrange n rows as a grid over two columns; to be freed even after a failure. */
 ss_status ss_map_grid_make(map_grid *g, const map_column axis[2], size_t n, ss_error *err);
 void ss_map_grid_free(map_grid *g);
-/* The column's value at x i, y j; NaN: none. */
+/* The value of a column at x i, y j; NaN: there is none. */
 double ss_map_value(const map_grid *g, const double *column, size_t i, size_t j);
-/* The coordinate at a place between the axis's values, in units of their number. */
+/* The coordinate at a place on the axis: value i is at the place i, and others lie between. */
 double ss_map_along(const map_axis *a, double at);
 void ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind);
 
-/* $line and $label: lines of equal value of the column, and their labels (map_lines.c). */
+/* Write $line and $label: lines of equal value of the column, and their labels (map_lines.c). */
 ss_status ss_map_write_lines(FILE *out, const map_grid *g, const double *column, ss_error *err);
 
 #endif

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <stickslip/signal.h>
 
-/* More than any honest input has: they bound the memory and time of hostile input. */
+/* The most columns and notes, far more than any real file has.  They bound the memory and time of
+ * hostile input. */
 enum { MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
 
 /* The lines of a header, to be freed, or NULL if there is no memory. */
@@ -17,7 +18,7 @@ ss_status ss_header_read_line(ss_header *head, char *line, const char **reason);
 void ss_write_label(FILE *out, const char *name, const char *unit);
 /* A copy of a unit whose brackets match, so that a label can be read back, to be freed; "" for NULL. */
 char *ss_clean_unit(const char *unit);
-/* "name", "name/unit", "name/(unit)" into its two parts, in place. */
+/* Split "name", "name/unit" or "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);
 
 #endif

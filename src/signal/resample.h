@@ -5,9 +5,10 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-/* Rows of columns values each at the stamps t, n >= 2 of them, to n_out rows, to be freed, from t[0]
- * on at this rate.  NaN in them are skipped; samples between stamps more than ten median steps
- * apart, or beyond a column's own first and last, are NaN. */
+/* Bring n >= 2 rows, of so many columns, at the stamps t to *n_out rows at this rate, from t[0]
+ * on; *out is to be freed.  NaN in the input are skipped.  A sample is NaN if it lies between
+ * stamps that are more than ten median steps apart, or beyond the first or last number of its
+ * column. */
 ss_status ss_resample(double **out, size_t *n_out, const double *t, const double *value, size_t n,
                       size_t columns, double usual_step, double rate, const char *name,
                       ss_error *err);

@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-/* What a uniform clock is found from, of stamps that come one after the other: begin with zeros. */
+/* Sums over stamps that come one after the other, from which the uniform clock follows.  Begin with
+ * zeros. */
 struct clock_point {
     double sample, stamp;
 };
@@ -19,23 +20,23 @@ typedef struct clock_fit {
     } side[2];
 } clock_fit;
 
-/* Add a stamp that is later than the one before; 0: no memory. */
+/* Add a stamp that is later than the one before.  Returns 0 if there is no memory. */
 int ss_clock_add(clock_fit *f, double sample, double stamp);
 /* The rate; SS_EUNEVEN, without a text, if the stamps are not uniform. */
 ss_status ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err);
 void ss_clock_free(clock_fit *f);
 
-/* Find the uniform clock of n time stamps t; row i stands in line line[i].  sample[i] becomes the
- * number of row i's sample, from 0, which is i unless gaps are allowed. */
+/* Find the uniform clock of n time stamps t; row i is in line line[i].  sample[i] becomes the
+ * number of the sample of row i, from 0; it is i unless gaps are allowed. */
 ss_status ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
                         int gaps, size_t *sample, double *rate, ss_error *err);
 /* The median step of stamps, which must ascend. */
 ss_status ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n,
                         double *usual, ss_error *err);
 
-/* Refuse options that are for input without a clock, as this input has a rate of its own. */
+/* Refuse options for input without a clock; this input has the rate own. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
-/* Refuse a clock so fast or slow that its times might not be finite: SS_EDATA. */
+/* SS_EDATA: the clock is so fast or slow that its times might not be finite. */
 ss_status ss_refuse_range(const char *name, double rate, double start, ss_error *err);
 
 #endif

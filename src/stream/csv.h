@@ -8,7 +8,7 @@
 
 ss_status ss_csv_begin(FILE *out, const ss_header *head, const char *magic, ss_error *err);
 size_t ss_csv_number(char *to, double x, int last);
-/* A cell, in quotes if it needs them; nothing for "-", an unknown value. */
+/* Write a cell, in quotes if it needs them; nothing for "-", an unknown value. */
 void ss_csv_word(FILE *out, const char *word);
 
 #endif

@@ -11,19 +11,21 @@
 struct format {
     const char *name;           /* "au": the name for users; a file's ending is a dot and this */
 
-    /* Reading a signal: the bytes with which it begins, "?" for any; NULL: tried last. */
+    /* To read a signal: the bytes with which it begins, where "?" is any byte; NULL: this format
+     * is tried last. */
     const char *magic;
-    int has_header;             /* our own, whose first line names the kind: also of coefficients */
+    int has_header;             /* 1: it begins with our header, whose first line names the kind, so that it
+                                   may hold coefficients too */
     ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
 
-    /* Writing numbers under a header that begins with magic; NULL if none are. */
+    /* To write numbers: begin a file with a header whose first line is magic; NULL: it is not written. */
     ss_status (*begin)(FILE *out, const ss_header *head, const char *magic, ss_error *err);
-    /* A cell of at most SS_NUMBER_MAX bytes, the last of its row or not; gives its length. */
+    /* Write a cell of at most SS_NUMBER_MAX bytes; last: 1 if it ends its row.  Returns its length. */
     size_t (*number)(char *to, double x, int last);
-    int has_time;               /* a column of time is written as the others are */
-    int has_notes;              /* lines "# key: value" may stand anywhere */
+    int has_time;               /* 1: it has a column of time, like the other columns */
+    int has_notes;              /* 1: lines "# key: value" are allowed everywhere */
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
-    void (*word)(FILE *out, const char *word);  /* writes such a cell; NULL: as it is */
+    void (*word)(FILE *out, const char *word);  /* write such a cell; NULL: as it is */
 };
 
 /* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried

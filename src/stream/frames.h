@@ -4,11 +4,11 @@
 
 #include "stream/reader.h"
 
-/* Columns ch1, ch2, ... for n channels without names. */
+/* Add columns ch1, ch2, ... for n channels without names. */
 ss_status ss_frames_columns(ss_header *head, size_t n);
-/* Let the reader give the frames that follow as rows; its columns are the channels.  bytes: their
- * length; UINT64_MAX: up to the end.  If end > 0, the frames end at this byte of the file and
- * nothing may follow them, except chunks with reader->is_chunk. */
+/* Let the reader give the frames that follow as rows; its columns are the channels.  bytes is
+ * their length; UINT64_MAX: up to the end of the file.  If end > 0, the frames end at this byte of
+ * the file, and nothing may follow them, except chunks if reader->is_chunk is 1. */
 void ss_frames_begin(ss_reader *reader, sample_type type, uint64_t bytes, uint64_t end);
 
 /* One value without scaling: an integer, or floating point. */

@@ -8,18 +8,19 @@
 #include <sys/types.h>
 #include <stickslip/status.h>
 
-/* More than any honest input has: it bounds the memory of hostile input. */
+/* The longest line [bytes], far longer than any in a real file.  It bounds the memory of hostile
+ * input. */
 enum { MAX_LINE = 1 << 24 };
 
-/* Bytes of a stream, as they come: never waits for more than is asked for. */
+/* Bytes of a stream as they arrive.  No call waits for more bytes than it needs. */
 struct input {
     FILE *file;
     const char *name;           /* in messages; owned */
     char *buffer;
     size_t capacity, lo, hi;    /* unread bytes: buffer[lo ... hi) */
-    size_t scanned;             /* no newline before this */
+    size_t scanned;             /* there is no newline before this byte */
     int ended;
-    unsigned long line;         /* of the line read last, from 1 */
+    unsigned long line;         /* the number of the line read last, from 1 */
 };
 ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err);
 void ss_input_close(struct input *in);
@@ -40,9 +41,9 @@ ss_status ss_input_number(const struct input *in, const char **text, const char 
                           ss_error *err);
 /* The place of the next unread byte in a regular file, or -1: what was read cannot be read again. */
 off_t ss_input_place(const struct input *in);
-/* Go on at a place, behind so many lines. */
+/* Continue at a place that has so many lines before it. */
 ss_status ss_input_return(struct input *in, off_t place, unsigned long line, ss_error *err);
-int ss_input_has_line(struct input *in);           /* is a whole line in the buffer? */
-int ss_input_waits(const struct input *in);        /* would reading more bytes block? */
+int ss_input_has_line(struct input *in);           /* 1: a whole line is in the buffer */
+int ss_input_waits(const struct input *in);        /* 1: reading more bytes would block */
 
 #endif

@@ -38,17 +38,18 @@ struct ss_reader {
     struct table *table;        /* delimited text that is read piece by piece, or NULL */
 };
 
-/* Begin to read the kind, in the format of the first bytes; to be closed even after a failure. */
+/* Begin to read a file of this kind, in the format that its first bytes show; to be closed even
+ * after a failure. */
 ss_status ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind,
                          const ss_read_opts *opts, ss_error *err);
 void ss_reader_close(ss_reader *reader);
-/* The last step of opening: apply the options that hold for every format; needs the header, length and
- * in.name. */
+/* The last step of opening: apply the options that hold for every format; needs the header, length
+ * and in.name. */
 ss_status ss_reader_adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
 
-/* Up to max of the values, as rows. */
+/* Give at most max rows of reader->values; *n becomes their number. */
 void ss_reader_give(ss_reader *reader, double *rows, size_t max, size_t *n);
-/* All rows that are left. */
+/* Read all remaining rows. */
 ss_status ss_reader_all(ss_signal **out, ss_reader *reader, ss_error *err);
 
 #endif

@@ -14,19 +14,19 @@ struct rows {
     size_t cells;               /* written so far, of the row or of the line of columns */
 };
 
-/* Write the first line of text of this kind.  SS_EINVAL: the format has no words. */
+/* Write the first line of a text of this kind.  SS_EINVAL: the format has no words. */
 ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind);
-/* A line "# key: value", in a format that has notes. */
+/* Write a line "# key: value", if the format has notes. */
 SS_PRINTF(2, 3)
 void ss_rows_note(struct rows *rows, const char *text, ...);
-/* The notes of a header; is_left_out may be NULL. */
+/* Write the notes of a header, except those for which is_left_out, unless it is NULL, returns 1. */
 void ss_rows_notes(struct rows *rows, const ss_header *head, int (*is_left_out)(const char *note));
 
 /* Write one column, and ss_rows_end after the last; or write all columns. */
 void ss_rows_column(struct rows *rows, const char *name, const char *unit);
 void ss_rows_columns(struct rows *rows, const char *const label[][2], size_t n);
 
-/* The cells of a row and its end. */
+/* Write the cells of a row, and then its end. */
 void ss_rows_word(struct rows *rows, const char *word);
 void ss_rows_count(struct rows *rows, size_t n);
 void ss_rows_number(struct rows *rows, double x);      /* "-" for NaN */

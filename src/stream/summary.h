@@ -5,8 +5,8 @@
 #include <stickslip/features.h>
 #include "stream/rows.h"
 
-/* A note "key: value error" for each number that belongs to these features and options, but for the
- * count of transitions; medians have the scatter of the events, too. */
+/* Write a note "key: value error" for each number that these features and options have, except the
+ * count of transitions.  A median also has the scatter of the events. */
 void ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts);
 
 /* 1 if a note has the key of such a number. */
