@@ -13,17 +13,21 @@ END
 ss-cat --rate 2 matlab.mat:/y
 for data in '' :/y :/text :/z; do ss-cat "matlab.mat$data" || echo $?; done
 ss-sim compliant-light | ss-morlet --dense -o dense.h5
+ss-sim compliant-light | ss-morlet --dense --exact-bits -o exact.h5
 ss-sim compliant-light | ss-morlet -o stepped.h5
 "$python" - <<'END'
 import xarray as xr
 def show(path, group):
     d = xr.open_dataset(path, engine="h5netcdf", group=group)
     for name in sorted(d.variables):
-        print(group, name, d[name].dims, d[name].shape, d[name].attrs["units"])
+        print(group, name, d[name].dtype, d[name].dims, d[name].shape, d[name].attrs["units"])
     return d
 s = show("dense.h5", "signal")
 w = show("dense.h5", "wavelet")
 show("stepped.h5", "wavelet/scale100")
 assert xr.open_dataset("dense.h5", engine="h5netcdf").attrs["scene"] == "compliant-light"
 assert (w.time.values == s.t.values).all() and "frequency" in w.coords
+e = xr.open_dataset("exact.h5", engine="h5netcdf", group="wavelet")
+largest = abs(e.re + 1j * e.im).max("time")
+assert (abs(w.re - e.re + 1j * (w.im - e.im)).max("time") <= 2e-6 * largest).all()    # 1e-6 each
 END
