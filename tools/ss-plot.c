@@ -71,6 +71,16 @@ set_xy(const tool_option *o, char *pair)
     tool_set_texts(o, comma + 1);
 }
 
+/* --over FILE: one at most. */
+static void
+set_over(const tool_option *o, char *path)
+{
+    const char **over = o->to;
+    if (*over != NULL)
+        tool_usage("--over: one other signal is drawn, and '%s' is the second", path);
+    *over = path;
+}
+
 /* --- maps ---------------------------------------------------------------------------------- */
 
 enum { MAP_COLUMNS = 8 };
@@ -268,7 +278,7 @@ main(int argc, char *argv[])
         TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &d.decibels),
         TOOL_NUMBER(0, "resolution", &d.resolution, ((ss_range){ 1e-300, 1e300 })),
         TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
-        TOOL_TEXT(0, "over", &over), TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
+        TOOL_VALUE(0, "over", set_over, &over), TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
         TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
 
     tool_begin(argv, "ss-plot", usage);

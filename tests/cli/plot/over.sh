@@ -17,4 +17,5 @@ ss-plot --xy x,y --over three.tsv one.tsv | sed -n '/^\$over/,/^EOD/p'
 # and as much of them as of the signal
 ss-plot --xy x,y --from 5.1 --to 5.15 --over one.tsv one.tsv | sed -n '/ << EOD/,/^EOD/p'
 ss-plot --over two.tsv --xy x,y one.tsv || echo $?
+ss-plot --over two.tsv --over three.tsv one.tsv || echo $?
 ss-plot --over absent.tsv one.tsv > /dev/null || echo $?
