@@ -224,6 +224,54 @@ events_of_pulls_are_found_and_their_errors_cover(void **state)
     }
 }
 
+/* Add noise of about 1/f, of this rms, less its mean: as many processes of first order as there are octaves. */
+static void
+add_pink(double *x, size_t n, double rms, unsigned long seed)
+{
+    enum { OCTAVES = 12 };
+    double *white = calloc(n, sizeof *white), *pink = calloc(n, sizeof *pink), mean = 0;
+    for (unsigned k = 0; k < OCTAVES; k++) {
+        double level = 0, keeps = exp(-exp2(-(double)k));
+        memset(white, 0, n * sizeof *white);
+        ss_noise_add_once(white, n, rms / sqrt(OCTAVES), seed * OCTAVES + k);
+        for (size_t i = 0; i < n; i++) {
+            level = keeps * level + sqrt(1 - keeps * keeps) * white[i];
+            pink[i] += level;
+            mean += level / (double)n;
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        x[i] += pink[i] - mean;
+    free(pink);
+    free(white);
+}
+
+/* Errors count what wanders more slowly than an event. */
+static void
+errors_cover_in_pink_noise(void **state)
+{
+    coverage all[NUMBERS] = { { 0, 0, 0, 0 } }, medians = { 0, 0, 0, 0 };
+    (void)state;
+    for (size_t i = 0; i < RIGS; i++) {
+        ss_scene scene = scene_of(&rigs[i]);
+        record t = record_of(&scene, 300, 1, 1);
+        add_pink(t.signal->values, t.n, .005 * rigs[i].drop, i + 1);
+        ss_features *f = features_of(t.signal);
+        compare(all, &medians, &rigs[i], &scene, f);
+        ss_features_free(f);
+        ss_signal_free(t.signal);
+    }
+    for (size_t i = 0; i < NUMBERS; i++) {
+        const coverage *c = &all[i];
+        print_message("%s: %g, within 2 errors %.3g, beyond 5 %.3g\n", names[i], c->n, c->within_2 / c->n,
+                      c->beyond_5 / c->n);
+        assert_true(c->n > 300 && c->beyond_5 <= .01 * c->n);
+    }
+    print_message("medians: within 2 errors %.3g, beyond 5 %.3g\n", medians.within_2 / medians.n,
+                  medians.beyond_5 / medians.n);
+    assert_true(medians.within_2 >= .88 * medians.n && medians.beyond_5 == 0);
+}
+
 /* A force less an offset that is larger than it: its drops are rises, and its zero is lost. */
 static void
 an_upside_down_pull_has_events_but_no_friction(void **state)
@@ -691,6 +739,7 @@ main(void)
         cmocka_unit_test(scenes_that_do_not_pull_stand_aside),
         cmocka_unit_test(falling_friction_is_not_named),
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
+        cmocka_unit_test(errors_cover_in_pink_noise),
         cmocka_unit_test(an_upside_down_pull_has_events_but_no_friction),
         cmocka_unit_test(slips_of_a_clipped_pull_are_not_known),
         cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
