@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "motion/bernstein.h"
+#include "random_scene.h"
 #include "unit.h"
 
 enum { MOST = 9 };
@@ -163,19 +164,9 @@ says_where_rounding_decides(void **unused)
     }
 }
 
-/* splitmix64 (Steele, Lea & Flood 2014) */
-static double
-uniform(uint64_t *s)
-{
-    uint64_t z = *s += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
 /* Zeros in [-.5, 1.5], some of them in close pairs; the sign is that of a mode that lasts at 0. */
 static product
-random_product(uint64_t *s)
+random_product(rng *s)
 {
     product p = { .n = 1 + (int)(MOST * uniform(s)) };
     double at_0 = 1;
@@ -192,7 +183,7 @@ random_product(uint64_t *s)
 static void
 finds_the_first_of_random_zeros(void **unused)
 {
-    uint64_t s = 1;
+    rng s = { 1 };
     int hits = 0, misses = 0;
     (void)unused;
     for (int i = 0; i < 100000; i++) {
@@ -232,7 +223,7 @@ static void
 finds_zeros_of_series(void **unused)
 {
     static const int degree[] = { MOST, 12, 20, MOST_DEGREE };
-    uint64_t s = 2;
+    rng s = { 2 };
     int hits = 0, misses = 0;
     (void)unused;
     for (int i = 0; i < 40000; i++) {

@@ -7,16 +7,10 @@
 #include "extremes/runs.h"
 #include "oracle.h"
 #include "shipped.h"
+#include "uniform.h"
 #include "unit.h"
 
 enum { SCENES = 60, SAMPLES = 101 };
-
-static double
-uniform(uint64_t *seed)
-{
-    *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(*seed >> 11) * 0x1p-53;
-}
 
 static double
 about(uint64_t *seed, double x, double factor)

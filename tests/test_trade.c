@@ -12,6 +12,7 @@
 #include <stickslip.h>
 #include "oracle.h"
 #include "shipped.h"
+#include "uniform.h"
 #include "unit.h"
 
 enum { ROOM = 20000 };
@@ -191,13 +192,6 @@ keeps_the_accuracy_on_shipped_scenes(void **state)
 }
 
 /* 64-bit linear congruence (Knuth); uniform in [0, 1). */
-static double
-uniform(uint64_t *seed)
-{
-    *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(*seed >> 11) * 0x1p-53;
-}
-
 static double
 about(uint64_t *seed, double x)         /* log-uniform within a factor of 3 */
 {

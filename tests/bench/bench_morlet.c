@@ -8,16 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include "../morlet_oracle.h"
-
-static double
-now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "bench.h"
 
 /* Seconds for one transform of n samples at 2 kHz, the best of three; its largest error over the bound into *worst. */
 static double
@@ -32,10 +24,10 @@ run(kind which, size_t n, const ss_morlet_opts *opts, double *worst, size_t *coe
     w = malloc(2 * *coefficients * sizeof *w);
     seconds = INFINITY;
     for (int i = 0; i < 3; i++) {
-        double begin = now();
+        double begin = bench_seconds();
         if (ss_morlet_execute(plan, x, w, NULL) != SS_OK)
             exit(2);
-        seconds = fmin(seconds, now() - begin);
+        seconds = fmin(seconds, bench_seconds() - begin);
     }
     if (worst != NULL)
         *worst = worst_error(plan, x, n, 2000, opts, w, 7);
@@ -81,9 +73,9 @@ fft_seconds(const double *x, size_t n)
     fftw_plan plan = fftw_plan_dft_r2c_1d((int)n, in, out, FFTW_ESTIMATE);
     for (int i = 0; i < 10; i++) {
         memcpy(in, x, n * sizeof *in);
-        double t = now();
+        double t = bench_seconds();
         fftw_execute(plan);
-        best = fmin(best, now() - t);
+        best = fmin(best, bench_seconds() - t);
     }
     fftw_destroy_plan(plan);
     fftw_free(in);
@@ -113,15 +105,15 @@ run_work(const struct work *work, double accuracy)
     opts.voices = work->voices, opts.dense = work->dense, opts.step = 1, opts.force = 1;
     opts.octaves = 1, opts.m0 = ceil(v * log2(13.8 / M_PI)) / v;
     opts.m1 = opts.m0 + work->octaves - 1 / v;
-    double fft = fft_seconds(x, work->n), begin = now();
+    double fft = fft_seconds(x, work->n), begin = bench_seconds();
     if (ss_morlet_new(&plan, work->n, 1, &opts, NULL) != SS_OK)
         exit(2);
-    double planning = now() - begin, *w = calloc(2 * ss_morlet_total(plan), sizeof *w);
+    double planning = bench_seconds() - begin, *w = calloc(2 * ss_morlet_total(plan), sizeof *w);
     for (int i = 0; i < 5; i++) {
-        begin = now();
+        begin = bench_seconds();
         if (ss_morlet_execute(plan, x, w, NULL) != SS_OK)
             exit(2);
-        best = fmin(best, now() - begin);
+        best = fmin(best, bench_seconds() - begin);
     }
     if (ss_morlet_compare(plan, x, w, 2, &differs, NULL) != SS_OK)
         exit(2);

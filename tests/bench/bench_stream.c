@@ -10,17 +10,9 @@
 #include <math.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 #include <stickslip.h>
-
-static double
-now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "bench.h"
 
 static double
 megabytes(void)
@@ -100,13 +92,13 @@ stream(const ss_morlet_opts *opts, const double *x, size_t n, sum *s)
     ss_stream *st;
     if (ss_stream_new(&st, 1, opts, add, s, NULL) != SS_OK)
         exit(2);
-    double begin = now();
+    double begin = bench_seconds();
     for (size_t i = 0; i < n; i += PUSH)
         if (ss_stream_push(st, x + i % REPEAT, n - i < PUSH ? n - i : PUSH, NULL) != SS_OK)
             exit(2);
     if (ss_stream_end(st, NULL) != SS_OK)
         exit(2);
-    double seconds = now() - begin;
+    double seconds = bench_seconds() - begin;
     ss_stream_free(st);
     return seconds;
 }
@@ -118,10 +110,10 @@ in_memory(const ss_morlet_opts *opts, const double *x, size_t n, ss_morlet **pla
         exit(2);
     *w = malloc(2 * ss_morlet_total(*plan) * sizeof **w);
     memset(*w, 0, 2 * ss_morlet_total(*plan) * sizeof **w);
-    double begin = now();
+    double begin = bench_seconds();
     if (ss_morlet_execute(*plan, x, *w, NULL) != SS_OK)
         exit(2);
-    return now() - begin;
+    return bench_seconds() - begin;
 }
 
 /* What one run in a process of its own says of itself. */
@@ -141,9 +133,9 @@ run_apart(const ss_morlet_opts *opts, const double *x, size_t n)
     pid_t child = fork();
     if (child == 0) {
         sum s = { 0 };
-        double begin = now(), seconds = stream(opts, x, n, &s);
+        double begin = bench_seconds(), seconds = stream(opts, x, n, &s);
         c.ns = 1e9 * seconds / (double)n;
-        c.planning = 1e3 * (now() - begin - seconds);
+        c.planning = 1e3 * (bench_seconds() - begin - seconds);
         c.megabytes = megabytes();
         _exit(write(ends[1], &c, sizeof c) != sizeof c);
     }

@@ -6,19 +6,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <stickslip.h>
+#include "bench.h"
 
 enum { N = 20000, ROUNDS = 7, RECORDS = 3 };
 #define MOST 3.0
-
-static double
-cpu_time(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void
 fill(double x[RECORDS][N])
@@ -46,11 +38,11 @@ time_of(const ss_morlet_opts *opts, const ss_morlet *plan, const double *x, doub
     ss_stream *stream = NULL;
     if (streamed && ss_stream_new(&stream, 2000, opts, ignore, NULL, NULL) != SS_OK)
         return NAN;
-    double began = cpu_time();
+    double began = bench_seconds();
     ss_status st = streamed ? ss_stream_push(stream, x, N, NULL) : ss_morlet_execute(plan, x, w, NULL);
     if (st == SS_OK && streamed)
         st = ss_stream_end(stream, NULL);
-    double seconds = cpu_time() - began;
+    double seconds = bench_seconds() - began;
     ss_stream_free(stream);
     return st == SS_OK ? seconds : NAN;
 }

@@ -25,7 +25,7 @@ ss-cat --gaps=interpolate both.csv || echo $?
 ss-cat --resample 10 --gaps=interpolate both.csv | sed -n '/^# rate/p;/^# gaps/p;$p'
 
 # A gap in the first row, in its last column: it is a row of data all the same.
-for s in , ';'; do
+for s in ',' ';'; do
     printf "t${s}a${s}b\n0${s}7${s}\n0.5${s}5${s}7\n" | ss-cat --gaps split - | tail -n 3
     printf "t${s}a\n0${s}\n0.5${s}5\n" | ss-cat --gaps split - | tail -n 3
     printf "t${s}a${s}\n0${s}1${s}\n0.5${s}5${s}\n" | ss-cat --gaps split - | tail -n 3
