@@ -90,13 +90,15 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     fprintf(out, "colour = '#0072b2'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
             "set border lw 0.8; set lmargin at screen 0.175; set rmargin at screen 0.965\n"
             "set xrange [%.9g:%.9g]%s; set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
-            "set grid xtics lc rgb '#dddddd' lt 1; set xtics format ''\n", x.lo, x.hi,
-            log ? "; set logscale x" : "");
+            "set grid xtics lc rgb '#dddddd' lt 1; set xtics format ''\n", log ? x.lo * (1 - 1e-8) : x.lo,
+            log ? x.hi * (1 + 1e-8) : x.hi, log ? "; set logscale x" : "");
     for (size_t i = 1; i < n_columns; i++) {
         double tall = i == 1 ? FIRST : NEXT;
         if (i + 1 == n_columns) {
             fputs("set xtics format '%g'; ", out);
             ss_script_write_x_label(out, &x_label, "0,0.4");
+            if (log)
+                ss_script_write_decades(out, "x", x.lo, x.hi);
         }
         write_panel(out, column, i, t->n, (top - tall) / height, top / height);
         top -= tall + GAP;

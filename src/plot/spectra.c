@@ -77,9 +77,11 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
     int any = e.lo <= e.hi;
     if (!decibels)
         ss_script_write_decade_range(out, e.lo, e.hi);
-    if (i == n)
+    if (i == n) {
         fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
               "noenhanced offset 0,0.5\n", out);
+        ss_script_write_decades(out, "x", s->step, (double)(s->n - 1) * s->step);
+    }
     fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel + "
             "0.08*panel*(%zu)\nunset label 1; ", i - 1, i, (size_t)(i < n));
     ss_script_write_side_label(out, 1, label);

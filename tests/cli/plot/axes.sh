@@ -29,6 +29,8 @@ ss-signal sine --rate 2e6 --duration 1e-4 --frequency 1e5 > fast.tsv
 ss-contour -o fast.gp fast.tsv
 grep -o 'label 2 "freq[^"]*"' fast.gp
 
+ss-plot --spectrum fast.tsv | grep -o "^set xtics ('[^']*' [^,]*"
+
 # Zeros that stand for missing samples do not choose the scale; one sample is a point.
 awk 'BEGIN { print "time (s),F (N)"; for (i = 0; i < 99; i++) print i/1000 "," (i % 9 ? 1000 + i%7/100 : "") }' > holes.csv
 ss-plot --gaps split holes.csv | grep -o 'label 1 "[^"]*"'
