@@ -263,8 +263,8 @@ find_slip_rate(search *s)
     if (isnan(out->repetition_frequency.value)) {
         if (out->n == 0)
             out->why_slips = "nothing stands out: slips that are smooth or weak are not seen";
-        else if (!isnan(out->slip_rate.value))
-            out->why_slips = "counted by what rings, as nothing repeats that would confirm it";
+        else
+            out->why_slips = "counted by what stands out, as nothing repeats that would confirm it";
         return;
     }
     size_t each = slips_in_cycle(s);
