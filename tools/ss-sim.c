@@ -274,7 +274,7 @@ simulate(request *req, const ss_scene *scene, output *o)
     tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req->opts.method,
               req->opts.tol, stats.steps, stats.rhs, stats.events);
     if (stats.unresolved > 0 && req->accuracy == 0)     /* else the events have been counted twice */
-        tool_warn("%lu slips and touches of the limit are smaller than the error of x: x is right, "
+        tool_warn("slips and touches of the limit smaller than the error of x: %lu; x is right, "
                   "their number and times are not resolved", stats.unresolved);
 }
 
