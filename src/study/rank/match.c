@@ -566,11 +566,21 @@ ss_match_find(match *m, candidate *c, const candidate_start *start, double perio
     return w.status;
 }
 
+/* Go to where a match ended, with a free start if it had one; 0 if there is no motion. */
+static int
+resume(matching *w, point *at, const match *m)
+{
+    w->o = m->origin;
+    memcpy(at->p, m->p, sizeof at->p);
+    w->n_moved -= w->o.x_unit > 0 ? 0 : 2;
+    return stand_at(w, at);
+}
+
 ss_status
 ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
                const ss_stretch *progress)
 {
-    matching w = { .c = c, .r = record, .progress = progress, .o = from->origin };
+    matching w = { .c = c, .r = record, .progress = progress };
     point at = { .left = INFINITY };
     double *room = prepare(&w);
     if (room == NULL)
@@ -578,9 +588,7 @@ ss_match_other(match *m, candidate *c, const match *from, const rank_record *rec
     *m = no_match(record);
     m->scene = from->scene;
     memcpy(m->p, from->p, sizeof m->p);
-    memcpy(at.p, from->p, sizeof at.p);
-    w.n_moved -= w.o.x_unit > 0 ? 0 : 2;
-    if (stand_at(&w, &at)) {
+    if (resume(&w, &at, from)) {
         descend_all(&w, &at);
         report(&w, &at, m);
     }
@@ -592,12 +600,9 @@ ss_match_other(match *m, candidate *c, const match *from, const rank_record *rec
 static double
 find_gain(const matching *w, const point *at, double step[UNKNOWNS])
 {
-    double lo[UNKNOWNS], hi[UNKNOWNS];
     normal e;
     find_normal(w, at, &e);
-    for (size_t k = 0; k < e.n; k++)
-        lo[k] = -INFINITY, hi[k] = INFINITY;
-    ss_normal_step(&e, 0, lo, hi, step);
+    ss_normal_step(&e, 0, NULL, NULL, step);
     return ss_normal_gain(&e, step);
 }
 
@@ -615,19 +620,16 @@ ss_match_held(double *gain, ss_scene *nearer, match_term term, const candidate *
               const rank_record *record, const ss_stretch *progress)
 {
     candidate changed = *c;
-    matching w = { .c = &changed, .r = record, .progress = progress, .o = m->origin, .wide = 1 };
+    matching w = { .c = &changed, .r = record, .progress = progress, .wide = 1 };
     point at = { .left = INFINITY };
     double *room = prepare(&w), step[UNKNOWNS], h = step_of(&w, 0), *slope = w.tried.motion;
     if (room == NULL)
         return SS_ENOMEM;
     *gain = 0;
     *nearer = c->scene;
-    memcpy(at.p, m->p, sizeof at.p);
-    w.n_moved -= w.o.x_unit > 0 ? 0 : 2;
+    int runs = resume(&w, &at, m) && find_slopes(&w, &at);
     change_term(&changed.scene, term, h);
-    int runs = run(&w, at.p, slope, w.tried.clear);
-    changed.scene = c->scene;
-    if (runs && stand_at(&w, &at) && find_slopes(&w, &at)) {
+    if (runs && run(&w, at.p, slope, w.tried.clear)) {
         compare(&w, &w.here, &at);
         double held = find_gain(&w, &at, step);
         for (size_t i = 0; i < record->n; i++)

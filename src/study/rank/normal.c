@@ -58,7 +58,8 @@ ss_normal_step(const normal *e, double damping, const double lo[], const double 
         substitute(e, l, b);
         again = 0;
         for (size_t i = 0; i < e->n; i++) {
-            step[i] = held[i] ? step[i] : fmin(fmax(b[i], lo[i]), hi[i]);
+            if (!held[i])
+                step[i] = lo != NULL ? fmin(fmax(b[i], lo[i]), hi[i]) : b[i];
             if (!held[i] && step[i] != b[i])
                 held[i] = again = 1;
         }

@@ -13,7 +13,7 @@ typedef struct normal {
 } normal;
 
 /* The step for the diagonal of a times 1 + damping, with lo <= step <= hi: an unknown that would leave
- * its range goes to the end of the range, and the others are solved for again. */
+ * its range goes to the end of the range, and the others are solved for again.  lo NULL: no ranges. */
 void ss_normal_step(const normal *e, double damping, const double lo[], const double hi[],
                     double step[]);
 /* The amount by which a step lowers the sum of squares, if the problem were linear. */

@@ -450,22 +450,32 @@ refuse(ss_ranking *r, const trial *t, double noise)
                  "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
 }
 
+/* Is it not known whether a scene explains the falls?  Then it may be that none of the others is to be
+ * named. */
+static int
+leaves_open(ss_ranking *r, const trial *t)
+{
+    for (size_t i = 0; i < r->n; i++) {
+        const char *model = ss_model_name(r->row[i].adjusted.model);
+        if (t[i].rings)
+            snprintf(r->why, sizeof r->why, "the contact of a scene with %s friction rings from slip to slip, "
+                     "and has many fits: whether it explains the falls is not known", model);
+        else if (t[i].unfinished)
+            snprintf(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
+                     "integration steps to be adjusted", model, BUDGET);
+        if (t[i].rings || t[i].unfinished)
+            return 1;
+    }
+    return 0;
+}
+
 /* The scene that is named; r->n: none, and why. */
 static size_t
 name_scene(ss_ranking *r, const trial *t, double noise)
 {
     size_t least = r->n, nearest;
-    for (size_t i = 0; i < r->n; i++)
-        if (t[i].rings) {
-            snprintf(r->why, sizeof r->why, "the contact of a scene with %s friction rings from slip to slip, "
-                     "and has many fits: whether it explains the falls is not known",
-                     ss_model_name(r->row[i].adjusted.model));
-            return r->n;
-        } else if (t[i].unfinished) {
-            snprintf(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
-                     "integration steps to be adjusted", ss_model_name(r->row[i].adjusted.model), BUDGET);
-            return r->n;
-        }
+    if (leaves_open(r, t))
+        return r->n;
     for (size_t i = 0; i < r->n; i++)
         if (t[i].explains && t[i].near && (least == r->n || t[i].match.left < t[least].match.left))
             least = i;

@@ -40,6 +40,7 @@ const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
 };
 
 enum { STARTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
+#define EQUAL 0.01                      /* of the spread: no scene is nearer by so little */
 #define HOPELESS 0.03                   /* of the power of a cycle */
 #define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
 enum { WINDOW = 4 };                    /* cycles of which features are compared */
@@ -224,28 +225,39 @@ variance_of(const match *m, size_t key)
     return fmax(m->left, MATCH_QUIET * m->power) * m->covariance[key][key];
 }
 
-/* Of the adjustment of a scene. */
+/* Of the difference of two adjustments by one record: what moves both alike does not count. */
 static double
-adjustment_error(const found *f)
+difference_error(const found *a, const found *b)
 {
+    const double h = 1e-4;
     double squares = 0;
-    for (size_t i = 0; i < f->candidate.n; i++)
-        squares += variance_of(&f->match, i);
-    return sqrt(squares / (double)(f->candidate.n + 1));
+    for (size_t k = 0; k < a->candidate.n; k++) {
+        double p[MATCH_SIZE], q[MATCH_SIZE];
+        memcpy(p, a->match.p, sizeof p);
+        memcpy(q, b->match.p, sizeof q);
+        p[k] += h, q[k] += h;
+        double slope = (ss_candidate_distance(&a->candidate, p) - ss_candidate_distance(&b->candidate, q)
+                        - ss_candidate_distance(&a->candidate, a->match.p)
+                        + ss_candidate_distance(&b->candidate, b->match.p)) / h;
+        squares += slope * slope * variance_of(&a->match, k);
+    }
+    return sqrt(squares);
 }
 
 /* The scene that comes first is not named if this one explains the signal as well and has another law, or
  * is as near. */
 static void
-compare_equals(ss_ranking *r, const ss_rank_row *other, const found *named)
+compare_equals(ss_ranking *r, const ss_rank_row *other, const found *f, double spread)
 {
     const ss_rank_row *first = &r->row[0];
     double farther = other->value[SS_BY_ADJUSTMENT] - first->value[SS_BY_ADJUSTMENT];
     if (other->adjusted.model != first->adjusted.model)
         snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
                  ss_model_name(first->adjusted.model), ss_model_name(other->adjusted.model));
-    else if (fabs(farther) <= sqrt(MATCH_DECISIVE) * adjustment_error(named))
-        snprintf(r->why, sizeof r->why, "two scenes are equally near to the signal, within their errors");
+    else if (fabs(farther) <= fmax(sqrt(MATCH_DECISIVE) * difference_error(&f[first->scene], &f[other->scene]),
+                                   EQUAL * log(1 + spread)))
+        snprintf(r->why, sizeof r->why, "two scenes with %s friction are equally near to the signal",
+                 ss_model_name(first->adjusted.model));
     else
         return;
     r->verdict = SS_UNDECIDED;
@@ -282,7 +294,7 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     for (size_t i = 1; r->verdict == SS_NAMED && i < r->n; i++)
         if (ss_match_explains(&f[r->row[i].scene].match, w->record.noise)
             && lead_of(m, &f[r->row[i].scene].match, w->record.noise) < MATCH_DECISIVE)
-            compare_equals(r, &r->row[i], &f[first->scene]);
+            compare_equals(r, &r->row[i], f, w->opts->spread);
 }
 
 /* The key by which two matches of one candidate contradict each other most, beyond what their errors

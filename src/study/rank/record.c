@@ -155,8 +155,6 @@ sinusoid_at(const rank_record *r, double frequency, size_t i, double row[OF_SINU
 double
 ss_record_sinusoid(const rank_record *r, double frequency)
 {
-    const double lo[OF_SINUSOID] = { -INFINITY, -INFINITY, -INFINITY };
-    const double hi[OF_SINUSOID] = { INFINITY, INFINITY, INFINITY };
     double row[OF_SINUSOID], c[OF_SINUSOID], squares = 0, count = 0;
     normal e = { .n = OF_SINUSOID };
     for (size_t i = 0; i < r->n; i++) {
@@ -169,7 +167,7 @@ ss_record_sinusoid(const rank_record *r, double frequency)
                 e.a[k][l] += row[k] * row[l];
         }
     }
-    ss_normal_step(&e, 0, lo, hi, c);
+    ss_normal_step(&e, 0, NULL, NULL, c);
     for (size_t i = 0; i < r->n; i++) {
         if (is_missing(r, i, 1))
             continue;
