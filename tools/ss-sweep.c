@@ -218,6 +218,31 @@ check_settings(const request *req)
     }
 }
 
+/* Where the model is set, the scene may lack a key of it that is varied: then the first value stands for
+ * all. */
+static ss_scene
+read_scene(const request *req)
+{
+    enum { LONGEST = 80 };
+    int sets_model = 0;
+    tool_texts all = { malloc((req->settings.n + req->opts.n_axes + 1) * sizeof *all.text), 0 };
+    char (*first)[LONGEST] = malloc((req->opts.n_axes + 1) * sizeof *first);
+    if (all.text == NULL || first == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    for (; all.n < req->settings.n; all.n++) {
+        all.text[all.n] = req->settings.text[all.n];
+        sets_model |= strncmp(all.text[all.n], "model", strlen("model")) == 0;
+    }
+    for (size_t i = 0; sets_model && i < req->opts.n_axes; i++) {
+        snprintf(first[i], LONGEST, "%s=%.17g", req->axis[i].key, req->axis[i].from);
+        all.text[all.n++] = first[i];
+    }
+    const ss_scene scene = tool_read_scene(req->scene_path, &all);
+    free(first);
+    free(all.text);
+    return scene;
+}
+
 int
 main(int argc, char *argv[])
 {
@@ -228,7 +253,7 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-sweep", usage);
     parse(&req, argc, argv);
     check_settings(&req);
-    ss_scene scene = tool_read_scene(req.scene_path, &req.settings);
+    ss_scene scene = read_scene(&req);
     if (req.n_picks == 0)
         pick_usual(&req, scene.model);
     req.opts.axis = req.axis;

@@ -9,3 +9,9 @@ ss-sweep -m period,amplitude --vary alpha=1000:3000:2 state-variable | grep -v '
 ss-sweep --vary base_frequency=0:2.5:2 -m stops --shoot coulomb | grep -v '^#'
 ss-sweep --set base_frequency=0 --set static_friction=1.4 -m cycle_time,stick,period --vary surface_velocity=0:1e-2:3 \
     coulomb | grep -v '^#' | rows
+# a key of the model that is set may be varied, though the scene's own model has no such key
+falling='-m x_max -s model=stribeck -s static_friction=1.35'
+# shellcheck disable=SC2086  # several words
+{ ss-sweep $falling --vary stribeck_velocity=1e-3:1e-2:2 coulomb | cut -f 3 | tail -n 2
+  ss-sweep $falling -s stribeck_velocity=1e-2 --vary friction=1.28:1.28:1 coulomb | cut -f 3 | tail -n 1; } | uniq -c |
+    awk '{ print $1 }'
