@@ -154,10 +154,10 @@ fit_once(const search *s, const size_t *anchor, size_t n, double f, const ss_win
          ss_window *window, ss_value all[2], ss_value *each, const char **why)
 {
     double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
-    size_t used, crossed;
+    size_t used = 0, crossed = 0;
     ss_status st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f, isnan(forcing) ? 0 : turn * forcing,
                                    s->out->noise / s->largest, bar, n_bars, window, all, each);
-    if (st == SS_OK)
+    if (st == SS_OK && !isnan(all[0].value))
         st = count_crossings(s, window, n, f, &used, &crossed);
     if (st == SS_OK)
         *why = judge_fit(all, turn * f, n, isnan(forcing) ? n : s->cycles.n, used, crossed);

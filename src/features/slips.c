@@ -81,7 +81,8 @@ add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
         for (size_t i = 0; i < left; i++)
             g -= y[p][i] * f->y[i];
         to->g[2 + p] += g;
-        step_column(twice, c[p], s[p], of);
+        if (twice != once)
+            step_column(twice, c[p], s[p], of);
         for (int q = 0; q <= p; q++) {
             double h = c[q] * of[at_cos] + s[q] * of[at_sin];
             for (size_t i = 0; i < left; i++)

@@ -236,9 +236,12 @@ substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS],
 {
     for (size_t j = 0; j < n; j++) {
         double sum = of[j];
-        for (size_t k = 0; k < j && f->l[j][j] > 0; k++)
+        to[j] = 0;
+        if (!(f->l[j][j] > 0))
+            continue;
+        for (size_t k = 0; k < j; k++)
             sum -= f->l[j][k] * to[k];
-        to[j] = f->l[j][j] > 0 ? sum / f->l[j][j] : 0;
+        to[j] = sum / f->l[j][j];
     }
 }
 
