@@ -165,6 +165,8 @@ headers_and_samples_refuse_null(void **state)
     assert_null(ss_reader_header(NULL));
     assert_int_equal(ss_reader_waits(NULL), 0);
     assert_refused(ss_writer_flush(NULL), NULL);
+    assert_refused(ss_reader_resample(NULL, 1, &e), &e);
+    assert_refused(ss_reader_resample(&(ss_reader *){ NULL }, 1, &e), &e);
     assert_refused(ss_signal_resample(NULL, NULL, 1, NULL), NULL);
     assert_refused(ss_signal_resample(&signal, NULL, 1, NULL), NULL);
     assert_refused(ss_wave_new(NULL, SS_SINE, &ss_wave_defaults, &e), &e);

@@ -274,22 +274,24 @@ tool_open(const char *path)
     return in;
 }
 
-/* A signal at this rate; the one given is freed if it has another. */
-static ss_signal *
-resampled(ss_signal *signal, const char *path, double rate)
+/* Is a signal to be resampled?  Delimited text at this rate was. */
+static int
+is_resampled(const ss_header *head, const char *path, const ss_read_opts *opts)
 {
-    ss_signal *other;
-    ss_error err = { 0 };
-    double own = signal->head->rate;
-    if (!(own < rate || own > rate))
-        return signal;
-    if (signal->n < 2)
-        tool_die("%s: one row cannot be resampled", tool_input_name(path));
+    double own = head->rate, rate = opts != NULL ? opts->resample : 0;
+    if (!(rate > 0) || !(own < rate || own > rate))
+        return 0;
     if (own > rate)
         tool_warn("%s: frequencies above %g Hz fold down", tool_input_name(path), rate / 2);
-    tool_check(ss_signal_resample(&other, signal, rate, &err), &err);
-    ss_signal_free(signal);
-    return other;
+    return 1;
+}
+
+void
+tool_resample(ss_reader **reader, const char *path, const ss_read_opts *opts)
+{
+    ss_error err = { 0 };
+    if (is_resampled(ss_reader_header(*reader), path, opts))
+        tool_check(ss_reader_resample(reader, opts->resample, &err), &err);
 }
 
 ss_reader *
@@ -301,6 +303,7 @@ tool_read_rows(const char *path, const ss_read_opts *opts)
         tool_check(ss_reader_new(&reader, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_reader_load(&reader, path, opts, &err), &err);
+    tool_resample(&reader, path, opts);
     return reader;
 }
 
@@ -316,13 +319,19 @@ tool_rows(ss_reader *reader, double *rows, size_t max)
 ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {
-    ss_signal *signal = NULL;
+    ss_signal *signal = NULL, *other;
     ss_error err = { 0 };
     if (is_stdin(path))
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_signal_load(&signal, path, opts, &err), &err);
-    return opts != NULL && opts->resample > 0 ? resampled(signal, path, opts->resample) : signal;
+    if (!is_resampled(signal->head, path, opts))
+        return signal;
+    if (signal->n < 2)
+        tool_die("%s: one row cannot be resampled", tool_input_name(path));
+    tool_check(ss_signal_resample(&other, signal, opts->resample, &err), &err);
+    ss_signal_free(signal);
+    return other;
 }
 
 ss_coefficients *

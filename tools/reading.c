@@ -60,6 +60,7 @@ tool_reading_options(tool_reading *r, tool_option row[TOOL_READING_OPTIONS])
     const ss_range positive = { DBL_MIN, DBL_MAX }, any = { -DBL_MAX, DBL_MAX };
     ss_read_opts *opts = &r->opts;
     opts->warn = warn;
+    opts->folder = getenv("TMPDIR");
     r->from = r->to = NAN;
     const tool_option option[TOOL_READING_OPTIONS] = {
         TOOL_TEXT(r->time_letter, "time", &opts->time),

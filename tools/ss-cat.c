@@ -51,20 +51,6 @@ choose_columns(const ss_header *head, size_t *n)
     return column;
 }
 
-/* The columns asked for of a whole signal. */
-static void
-copy_whole(tool_kind kind, const ss_read_opts *opts)
-{
-    ss_signal *signal = tool_read_signal(path, opts), *chosen;
-    size_t n, *column = choose_columns(signal->head, &n);
-    say_header(signal->head);
-    tool_check(ss_signal_select(&chosen, signal, column, n, 0, signal->n, NULL), NULL);
-    tool_write_signal(chosen, output, kind);
-    ss_signal_free(chosen);
-    ss_signal_free(signal);
-    free(column);
-}
-
 /* Row by row, in constant memory and as they come. */
 static void
 copy_rows(tool_kind kind, const ss_read_opts *opts)
@@ -102,10 +88,7 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
-    if (reading.opts.resample > 0)
-        copy_whole(kind, &reading.opts);
-    else
-        copy_rows(kind, &reading.opts);
+    copy_rows(kind, &reading.opts);
     tool_reading_free(&reading);
     free(wanted.text);
     tool_end();

@@ -98,17 +98,7 @@ end_overview(drawing *d)
     d->opts.fmin = d->opts.fmax = 0;
 }
 
-/* A signal that is held whole: HDF5 is not read piece by piece, nor can a piece be resampled. */
-static void
-draw_whole(drawing *d)
-{
-    ss_signal *signal = tool_read_signal(d->path, &d->reading.opts);
-    size_t column = open_overview(d, signal->head);
-    push(d, signal->values + column * signal->n, signal->n);
-    ss_signal_free(signal);
-    end_overview(d);
-}
-
+/* in: the file whose place shows how far the work is, or NULL. */
 static void
 draw_rows(drawing *d, ss_reader *reader, FILE *in)
 {
@@ -117,12 +107,13 @@ draw_rows(drawing *d, ss_reader *reader, FILE *in)
     size_t columns = head->n_columns, column = open_overview(d, head), n;
     double *rows = tool_room(NULL, columns * PIECE, sizeof *rows), x[PIECE];
     struct stat st;
-    double size = fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
+    double size = in != NULL && fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
     while ((n = tool_rows(reader, rows, PIECE)) > 0) {
         for (size_t i = 0; i < n; i++)
             x[i] = rows[i * columns + column];
         push(d, x, n);
-        tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
+        if (in != NULL)
+            tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
     }
     free(rows);
     end_overview(d);
@@ -140,12 +131,11 @@ draw_recording(drawing *d)
     FILE *in = tool_open(d->path);
     ss_status st = ss_reader_new(&reader, in, d->path, &d->reading.opts, &err);
     int is_signal = st != SS_EKIND && !(st == SS_EDATA && s.st_size == 0);
-    if (is_signal)
+    if (is_signal) {
         tool_check(st, &err);
-    if (is_signal && d->reading.opts.resample > 0)
-        draw_whole(d);
-    else if (is_signal)
+        tool_resample(&reader, d->path, &d->reading.opts);
         draw_rows(d, reader, in);
+    }
     ss_reader_free(reader);
     fclose(in);
     return is_signal;
@@ -165,7 +155,9 @@ open_input(drawing *d)
     }
     ss_status st = ss_store_reader_new(&d->reader, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
-        draw_whole(d);
+        ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
+        draw_rows(d, reader, NULL);
+        ss_reader_free(reader);
         return;
     }
     tool_check(st, &err);

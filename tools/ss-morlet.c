@@ -386,17 +386,6 @@ transform_stream(const request *req, const char *path)
 {
     flow f = { .text = NULL };
     ss_error err = { 0 };
-    if (req->reading.opts.resample > 0) {       /* not read row by row */
-        ss_signal *signal = tool_read_signal(path, &req->reading.opts);
-        size_t column = tool_column(signal->head, path, req->column);
-        check(ss_stream_new(&f.stream, signal->head->rate, &req->opts, write_rows, &f, &err), &err, path);
-        open_output(&f, req, signal->head, column, 0, ss_stream_scale(f.stream, 0), ss_stream_scales(f.stream));
-        store_samples(&f, signal->values, signal->n, 1, signal->n);
-        push_samples(&f, signal->values + column * signal->n, signal->n, req, path);
-        close_flow(&f, path);
-        ss_signal_free(signal);
-        return;
-    }
     ss_reader *reader = tool_read_rows(path, &req->reading.opts);
     const ss_header *head = ss_reader_header(reader);
     size_t column = tool_column(head, path, req->column);

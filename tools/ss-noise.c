@@ -207,7 +207,7 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
-    if (!isnan(snr) || !isnan(band[0]) || reading.opts.resample > 0)
+    if (!isnan(snr) || !isnan(band[0]))
         change_whole(kind, noise);
     else
         change_rows(kind, noise);

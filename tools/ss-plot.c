@@ -254,7 +254,7 @@ static void
 draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *output,
             const ss_read_opts *reading, ss_plot_opts *opts)
 {
-    int whole = d.xy || d.spectrum || over != NULL || reading->resample > 0;
+    int whole = d.xy || d.spectrum || over != NULL;
     ss_signal *signal = whole ? read_whole(&d, path, name, reading)
         : read_envelope(&d, path, name, reading, opts);
     d.signal = signal;

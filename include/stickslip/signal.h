@@ -93,6 +93,7 @@ typedef struct ss_read_opts {
     size_t table;               /* number of a table in delimited text, from 1; 0: the only one */
     double from, to;            /* [s] on the source's clock: only samples at from or later and before
                                    to are read; from >= to: all are */
+    const char *folder;         /* folder of a temporary file; NULL: /var/tmp, or else /tmp */
     const ss_calibration *calibration;
     size_t n_calibrations;
     /* Called with one line of text about a decision that a user may not expect.  about is the status
@@ -120,8 +121,9 @@ typedef struct ss_reader ss_reader;
  * a pipe before.  Messages call the file by name.  opts may be NULL.
  *
  * Text and AU streams are read as they arrive, in constant memory.  Delimited text is first read
- * to its end, to check its clock.  A file is then read a second time, in constant memory too.  A
- * pipe is held in memory, and so is a file with missing samples, uneven stamps or several tables.
+ * to its end, to check its clock, and then a second time.  Its memory grows with its gaps only.  The
+ * second reading is of the file, or, if the text comes through a pipe or may have gaps or uneven
+ * stamps, of its numbers in a temporary file, 8 bytes each.
  */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
@@ -134,6 +136,10 @@ ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n,
 /* 1 if that call would wait for the source; 0 if a part of a row has arrived, or at the end. */
 int ss_reader_waits(const ss_reader *reader);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
+
+/* Make *reader, which is at its first row, give its rows at another rate [Hz], as ss_signal_resample has them,
+ * in constant memory.  A failure leaves it as it is.  Reading fails where there is but one row. */
+ss_status ss_reader_resample(ss_reader **reader, double rate, ss_error *err);
 
 /* A whole signal in memory. */
 typedef struct ss_signal {
@@ -184,7 +190,8 @@ void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flu
 /* The simple case: write a whole signal. */
 ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err);
 
-/* Copy a signal to another rate [Hz], by the cubic spline through each column.  Frequencies above
+/* Copy a signal to another rate [Hz], by the cubic spline through each column; a long signal is
+ * interpolated part by part, which is as exact.  Frequencies above
  * half the new rate must have been filtered out before.  SS_EINVAL: the signal has fewer than two
  * rows, or the rate is not positive; SS_ERANGE: a value of the spline is larger than a double can
  * hold. */

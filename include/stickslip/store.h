@@ -73,8 +73,8 @@ int ss_store_has_signal(const char *path);
  * a dataset of two dimensions the columns are the shorter one.
  *
  * A dataset takes its clock from opts->rate.  /signal has its own clock; SS_EDATA: opts ask for
- * another.  The reader reads chunk by chunk, in memory that does not grow with the number of rows;
- * but if gaps are to be filled, it reads all rows at once. */
+ * another.  The reader reads chunk by chunk, in memory that does not grow with the number of rows.
+ * If gaps are to be filled, it reads all rows twice, and its memory grows with the gaps. */
 ss_status ss_store_signal_reader(ss_reader **out, const char *path, const char *dataset,
                                  const ss_read_opts *opts, ss_error *err);
 /* The simple case: all rows of it. */

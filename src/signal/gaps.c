@@ -3,55 +3,120 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "signal/gaps.h"
 
 static const char key[] = "gaps";
 
-/* Replace a run of missing values, [i, j) of n that are a row apart. */
-static void
-fill_run(double *x, size_t row, size_t i, size_t j, size_t n, ss_gaps how)
+/* The value in place of number k of a run of missing values, [i, j) of n, between those beside it; the one
+ * there is, where i is 0 or j is n. */
+static double
+between(double left, double right, size_t k, size_t i, size_t j)
 {
-    double left = i > 0 ? x[(i - 1) * row] : j < n ? x[j * row] : 0;
-    double right = j < n ? x[j * row] : left;
-    for (size_t k = i; k < j; k++) {
-        double part = (double)(k - i + 1) / (double)(j - i + 1);
-        x[k * row] = how == SS_GAPS_SPLIT ? 0 : (1 - part) * left + part * right;
-    }
+    double part = (double)(k - i + 1) / (double)(j - i + 1);
+    return (1 - part) * left + part * right;
 }
 
-/* Fill one column, and mark the rows; returns the number of values present. */
-static size_t
-fill_column(double *x, size_t row, size_t n, ss_gaps how, char *missing)
+/* Replace such a run in x. */
+static void
+fill_run(double *x, size_t i, size_t j, size_t n)
 {
-    size_t there = 0;
-    for (size_t i = 0, j; i < n; i = j + 1) {
-        for (j = i; j < n && isnan(x[j * row]); j++)
-            missing[j] = 1;
-        if (j > i)
-            fill_run(x, row, i, j, n, how);
-        there += j < n;
+    double left = i > 0 ? x[i - 1] : j < n ? x[j] : 0, right = j < n ? x[j] : left;
+    for (size_t k = i; k < j; k++)
+        x[k] = between(left, right, k, i, j);
+}
+
+/* --- rows that are read twice -------------------------------------------------------------- */
+
+/* Missing values of one column, [first, end), and those beside them. */
+struct run {
+    size_t first, end;
+    double left, right;
+};
+
+struct runs {
+    struct run *run;
+    size_t n, room, next;
+    int open;                   /* does the last one reach the row that was added last? */
+    size_t there;               /* values that are there */
+    double last;                /* the last of these */
+};
+
+struct gap_filler {
+    ss_gaps how;
+    size_t n_columns, row;      /* row: the next one */
+    struct runs *column, rows;  /* rows: of which a value is missing in any column */
+};
+
+gap_filler *
+ss_gaps_new(size_t n_columns, ss_gaps how)
+{
+    gap_filler *g = calloc(1, sizeof *g);
+    if (g == NULL || (g->column = calloc(n_columns, sizeof *g->column)) == NULL) {
+        free(g);
+        return NULL;
     }
-    return there;
+    g->how = how;
+    g->n_columns = n_columns;
+    return g;
+}
+
+/* Add the value of a row, which may be missing; 0: no memory. */
+static int
+add_value(struct runs *r, size_t row, double value)
+{
+    int missing = isnan(value);
+    if (missing && !r->open) {
+        struct run *more = ss_list_room(r->run, &r->room, r->n, sizeof *more);
+        if (more == NULL)
+            return 0;
+        r->run = more;
+        more[r->n++] = (struct run){ .first = row, .left = r->last };
+    }
+    if (r->open || missing)
+        r->run[r->n - 1].end = row + (size_t)missing;
+    if (r->open && !missing) {
+        struct run *run = &r->run[r->n - 1];
+        run->right = value;
+        run->left = run->first > 0 ? run->left : value;
+    }
+    r->open = missing;
+    r->last = missing ? r->last : value;
+    r->there += !missing;
+    return 1;
+}
+
+int
+ss_gaps_add(gap_filler *g, const double *rows, size_t n)
+{
+    for (size_t i = 0; i < n; i++, g->row++) {
+        double zero = 0;                        /* or NaN */
+        for (size_t c = 0; c < g->n_columns; c++) {
+            double x = rows[i * g->n_columns + c];
+            if (g->how == SS_GAPS_SPLIT)
+                g->column[c].there += !isnan(x);
+            else if (!add_value(&g->column[c], g->row, x))
+                return 0;
+            zero = isnan(x) ? x : zero;
+        }
+        if (!add_value(&g->rows, g->row, zero))
+            return 0;
+    }
+    return 1;
 }
 
 /* "from:to from:to ...", to be freed: from the first missing sample to the next one present. */
 static char *
-spans(const char *missing, size_t n, const ss_header *head)
+spans(const struct runs *r, const ss_header *head)
 {
-    size_t room = 1, length = 0;
-    for (size_t i = 0; i < n; i++)
-        room += (missing[i] && (i == 0 || !missing[i - 1])) * (2 * SS_NUMBER_MAX + 2);
-    char *text = malloc(room);
-    for (size_t i = 0, j; text != NULL && i < n; i = j + 1) {
-        for (j = i; j < n && missing[j]; j++)
-            ;
-        if (j == i)
-            continue;
+    size_t length = 0;
+    char *text = malloc(r->n * (2 * SS_NUMBER_MAX + 2) + 1);
+    for (size_t i = 0; text != NULL && i < r->n; i++) {
         if (length > 0)
             text[length++] = ' ';
-        length += ss_number_format(text + length, head->start + (double)i / head->rate);
+        length += ss_number_format(text + length, head->start + (double)r->run[i].first / head->rate);
         text[length++] = ':';
-        length += ss_number_format(text + length, head->start + (double)j / head->rate);
+        length += ss_number_format(text + length, head->start + (double)r->run[i].end / head->rate);
     }
     if (text != NULL)
         text[length] = '\0';
@@ -59,22 +124,55 @@ spans(const char *missing, size_t n, const ss_header *head)
 }
 
 ss_status
-ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss_gaps how,
-             const char *name, ss_error *err)
+ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
 {
-    char *missing = calloc(n + 1, 1), *text = NULL;
-    ss_status st = missing != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t c = 0; st == SS_OK && c < head->n_columns; c++)
-        if (fill_column(x + c * column, row, n, how, missing) == 0 && n > 0)
-            st = ss_fail(err, SS_EDATA, "%s: column %s: no numbers", name, head->column[c].name);
-    if (st == SS_OK && memchr(missing, 1, n) != NULL) {
-        text = spans(missing, n, head);
-        st = text != NULL ? ss_header_note(head, key, text) : SS_ENOMEM;
+    for (size_t c = 0; c < g->n_columns; c++) {
+        struct runs *r = &g->column[c];
+        if (g->row > 0 && r->there == 0)
+            return ss_fail(err, SS_EDATA, "%s: column %s: no numbers", name, head->column[c].name);
+        if (r->open)
+            r->run[r->n - 1].right = r->last;
     }
+    g->row = 0;
+    if (g->rows.n == 0)
+        return SS_OK;
+    char *text = spans(&g->rows, head);
+    ss_status st = text != NULL ? ss_header_note(head, key, text) : SS_ENOMEM;
     free(text);
-    free(missing);
-    return st == SS_ENOMEM ? ss_fail_memory(err, name) : st;
+    return st == SS_OK ? st : ss_fail_memory(err, name);
 }
+
+void
+ss_gaps_fill(gap_filler *g, double *rows, size_t n)
+{
+    for (size_t i = 0; i < n; i++, g->row++)
+        for (size_t c = 0; c < g->n_columns; c++) {
+            double *x = &rows[i * g->n_columns + c];
+            struct runs *r = &g->column[c];
+            if (isnan(*x) && g->how == SS_GAPS_SPLIT)
+                *x = 0;
+            if (!isnan(*x))
+                continue;
+            while (r->run[r->next].end <= g->row)
+                r->next++;
+            const struct run *run = &r->run[r->next];
+            *x = between(run->left, run->right, g->row, run->first, run->end);
+        }
+}
+
+void
+ss_gaps_free(gap_filler *g)
+{
+    if (g == NULL)
+        return;
+    for (size_t c = 0; c < g->n_columns; c++)
+        free(g->column[c].run);
+    free(g->column);
+    free(g->rows.run);
+    free(g);
+}
+
+/* --- the note ------------------------------------------------------------------------------ */
 
 ss_status
 ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
@@ -155,7 +253,7 @@ ss_gaps_bridge(double *x, size_t n, double rate, const ss_span *gap, size_t n_ga
     for (size_t g = 0; g < n_gaps; g++) {
         size_t first, end;
         ss_gap_rows(&gap[g], rate, &first, &end);
-        fill_run(x, 1, first, end < n ? end : n, n, SS_GAPS_INTERPOLATE);
+        fill_run(x, first, end < n ? end : n, n);
     }
 }
 

@@ -5,10 +5,15 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-/* Replace NaN by numbers in n rows, and note their times in head.  Value c of row i is
- * x[i * row + c * column]. */
-ss_status ss_fill_gaps(double *x, size_t n, size_t row, size_t column, ss_header *head, ss_gaps how,
-                       const char *name, ss_error *err);
+/* Replaces NaN by numbers in rows of so many columns, one after the other, that are read twice: all rows are
+ * added; begin notes the times in head, or refuses a column without numbers; then all are filled.  Memory
+ * grows with the gaps.  NULL, 0: no memory. */
+typedef struct gap_filler gap_filler;
+gap_filler *ss_gaps_new(size_t n_columns, ss_gaps how);
+int ss_gaps_add(gap_filler *g, const double *rows, size_t n);
+ss_status ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err);
+void ss_gaps_fill(gap_filler *g, double *rows, size_t n);
+void ss_gaps_free(gap_filler *g);               /* NULL is allowed */
 
 /* The gaps of a record of so many rows, which head notes, in seconds from its first sample.  Each
  * is a whole number of samples and lies within the record.  *out is to be freed. */

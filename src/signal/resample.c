@@ -1,19 +1,41 @@
 /* resample.c -- bring values at time stamps of any spacing to a uniform clock, by a natural cubic
- * spline through each piece between gaps. */
+ * spline through each piece between gaps.
+ *
+ * A value changes the spline k stamps away by less than 2^-k of itself.  So a long piece is interpolated part by
+ * part, with MARGIN stamps more on either side. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "signal/resample.h"
 
-#define LONGEST 10              /* median steps; stamps farther apart have a gap between them */
 #define AT_END 1e-6             /* sample periods that a sample may lie beyond the last stamp */
+enum {
+    MARGIN = 64,                /* rows; their effect is below the rounding of a double */
+    ROWS = 4096, VALUES = 1 << 19       /* in memory, at most, unless margins take more */
+};
 
-/* Samples of one column: sample i at from + i / rate goes to x[i * row]. */
+struct resampler {
+    const char *name;           /* of the file */
+    size_t columns;
+    double rate, longest, first;        /* first: the first stamp */
+    stamped_row *next;
+    void *source;
+    int ended;                  /* are all rows read? */
+    size_t n, room;             /* rows in memory; as many samples at a time */
+    double *stamp, *value;      /* value c of row i is value[i * columns + c] */
+    double *kept_stamp, *kept;  /* of a piece of one column */
+    double at;                  /* the number of the next sample */
+    double *sample;             /* samples that are there, from the given-th on */
+    size_t samples, given;
+};
+
+/* Samples of one column: sample first + i, at from + (first + i) / rate, goes to x[i * row]. */
 struct target {
-    double from, rate;
+    double from, rate, first;
     double *x;
     size_t n, row;
 };
@@ -31,72 +53,190 @@ fill_piece(const struct target *to, const double *t, const double *value, size_t
     if (n > 1 && spline == NULL)
         return SS_ENOMEM;
     int good = n == 1 || gsl_interp_init(spline, t, value, n) == GSL_SUCCESS;
-    for (double i = fmax(first, 0); good && i <= last && i < (double)to->n; i++) {
+    for (double i = fmax(first, to->first); good && i <= last && i < to->first + (double)to->n; i++) {
         double s = fmin(fmax(to->from + i / to->rate, t[0]), t[n - 1]);
         double x = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
-        to->x[(size_t)i * to->row] = x;
+        to->x[(size_t)(i - to->first) * to->row] = x;
         good = isfinite(x);
     }
     gsl_interp_free(spline);
     return good ? SS_OK : SS_ERANGE;
 }
 
-/* One column of n values, a row apart: a spline through each piece without a gap, NaN between. */
+/* One column: a spline through each piece without a gap, NaN between. */
 static ss_status
-fill_column(const struct target *to, const double *t, const double *value, size_t row, size_t n,
-            double longest, double *kept, double *kept_t)
+fill_column(const resampler *r, const struct target *to, const double *value)
 {
     size_t k = 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < to->n; i++)
         to->x[i * to->row] = NAN;
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
-        int there = !isnan(value[i * row]);
-        if (k > 0 && (!there || t[i] - kept_t[k - 1] > longest)) {
-            st = fill_piece(to, kept_t, kept, k);
+    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
+        int there = !isnan(value[i * r->columns]);
+        if (k > 0 && (!there || r->stamp[i] - r->kept_stamp[k - 1] > r->longest)) {
+            st = fill_piece(to, r->kept_stamp, r->kept, k);
             k = 0;
         }
-        kept_t[k] = t[i];
-        kept[k] = value[i * row];
+        r->kept_stamp[k] = r->stamp[i];
+        r->kept[k] = value[i * r->columns];
         k += (size_t)there;
     }
-    return st == SS_OK && k > 0 ? fill_piece(to, kept_t, kept, k) : st;
+    return st == SS_OK && k > 0 ? fill_piece(to, r->kept_stamp, r->kept, k) : st;
 }
 
-/* The number of samples from the first stamp to the last; 0: more than memory holds. */
-static size_t
-count_samples(const double *t, size_t n, double rate, size_t columns)
+/* Forget the rows that the next sample does not need, and read others in their place. */
+static ss_status
+read_on(resampler *r, ss_error *err)
 {
-    double samples = floor((t[n - 1] - t[0]) * rate + AT_END) + 1;
-    return samples < (double)(SIZE_MAX / sizeof *t / columns / 2) ? (size_t)samples : 0;
+    size_t drop = 0;
+    int there = 1;
+    while (drop + 2 * MARGIN < r->n && (r->stamp[drop + MARGIN] - r->first) * r->rate < r->at)
+        drop++;
+    r->n -= drop;
+    memmove(r->stamp, r->stamp + drop, r->n * sizeof *r->stamp);
+    memmove(r->value, r->value + drop * r->columns, r->n * r->columns * sizeof *r->value);
+    while (r->n < r->room && !r->ended) {
+        ss_status st = r->next(r->source, &there, &r->stamp[r->n], r->value + r->n * r->columns, err);
+        if (st != SS_OK)
+            return st;
+        r->ended = !there;
+        r->n += (size_t)there;
+        if (r->at == 0)
+            r->first = r->stamp[0];
+    }
+    if (r->ended && r->at == 0 && r->n < 2)
+        return ss_fail(err, SS_EDATA, "%s: one row cannot be resampled", r->name);
+    return SS_OK;
 }
 
-/* A short file may not claim much memory by two time stamps that lie far apart. */
-enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
+/* The number of samples that the rows in memory determine. */
+static size_t
+count_ready(const resampler *r)
+{
+    double all = r->ended ? ss_resample_count(r->first, r->stamp[r->n - 1], r->rate)
+        : floor((r->stamp[r->n - 1 - MARGIN] - r->first) * r->rate) + 1;
+    return all > r->at ? (size_t)fmin(all - r->at, (double)r->room) : 0;
+}
+
+/* The next samples; none at the end. */
+static ss_status
+make_samples(resampler *r, ss_error *err)
+{
+    ss_status st;
+    r->given = 0;
+    do {
+        st = read_on(r, err);
+        r->samples = st == SS_OK ? count_ready(r) : 0;
+    } while (st == SS_OK && r->samples == 0 && !r->ended);
+    for (size_t c = 0; st == SS_OK && r->samples > 0 && c < r->columns; c++) {
+        const struct target to = { r->first, r->rate, r->at, r->sample + c, r->samples, r->columns };
+        st = fill_column(r, &to, r->value + c);
+        if (st == SS_ENOMEM)
+            ss_fail_memory(err, r->name);
+        else if (st == SS_ERANGE)
+            ss_fail(err, st, "%s: a resampled value exceeds what a double holds", r->name);
+    }
+    r->at += (double)r->samples;
+    return st;
+}
 
 ss_status
-ss_resample(double **out, size_t *n_out, const double *t, const double *value, size_t n,
-            size_t columns, double usual_step, double rate, const char *name, ss_error *err)
+ss_resampler_new(resampler **out, const char *name, size_t columns, double rate, double longest,
+                 stamped_row *next, void *source, ss_error *err)
 {
-    *n_out = count_samples(t, n, rate, columns);
-    *out = NULL;
-    if (*n_out > MOST_SAMPLES && *n_out / MOST_PER_STAMP > n)
-        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %zu samples at %g Hz", name, n, *n_out,
-                       rate);
-    double *kept = malloc(2 * n * sizeof *kept);
-    *out = *n_out > 0 ? malloc(*n_out * columns * sizeof **out) : NULL;
-    ss_status st = kept != NULL && *out != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t c = 0; st == SS_OK && c < columns; c++) {
-        struct target to = { t[0], rate, *out + c, *n_out, columns };
-        st = fill_column(&to, t, value + c, columns, n, LONGEST * usual_step, kept, kept + n);
+    resampler *r = *out = calloc(1, sizeof *r);
+    if (r == NULL)
+        return ss_fail_memory(err, name);
+    r->name = name;
+    r->columns = columns;
+    r->rate = rate;
+    r->longest = longest;
+    r->next = next;
+    r->source = source;
+    r->room = VALUES / columns < ROWS ? VALUES / columns : ROWS;
+    r->room = r->room < 4 * MARGIN ? 4 * MARGIN : r->room;
+    r->stamp = malloc(3 * r->room * sizeof *r->stamp);
+    r->value = malloc(r->room * columns * sizeof *r->value);
+    r->sample = malloc(r->room * columns * sizeof *r->sample);
+    if (r->stamp == NULL || r->value == NULL || r->sample == NULL)
+        return ss_fail_memory(err, name);
+    r->kept_stamp = r->stamp + r->room;
+    r->kept = r->kept_stamp + r->room;
+    return SS_OK;
+}
+
+ss_status
+ss_resampler_rows(resampler *r, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    ss_status st = r->given == r->samples ? make_samples(r, err) : SS_OK;
+    size_t left = st == SS_OK ? r->samples - r->given : 0;
+    *n = left < max ? left : max;
+    memcpy(rows, r->sample + r->given * r->columns, *n * r->columns * sizeof *rows);
+    r->given += *n;
+    return st;
+}
+
+void
+ss_resampler_free(resampler *r)
+{
+    if (r == NULL)
+        return;
+    free(r->stamp);
+    free(r->value);
+    free(r->sample);
+    free(r);
+}
+
+double
+ss_resample_gap(double end, double next, double rate)
+{
+    double missing = floor(end * rate + AT_END) + 1;
+    return missing < ceil(next * rate - AT_END) ? missing : -1;
+}
+
+double
+ss_resample_count(double first, double last, double rate)
+{
+    return floor((last - first) * rate + AT_END) + 1;
+}
+
+/* --- a signal in memory -------------------------------------------------------------------- */
+
+struct held {
+    const ss_signal *signal;
+    size_t next;
+};
+
+static ss_status
+next_row(void *source, int *there, double *stamp, double *row, ss_error *err)
+{
+    struct held *h = source;
+    const ss_signal *s = h->signal;
+    (void)err;
+    *there = h->next < s->n;
+    if (!*there)
+        return SS_OK;
+    *stamp = s->head->start + (double)h->next / s->head->rate;
+    for (size_t c = 0; c < s->head->n_columns; c++)
+        row[c] = s->values[c * s->n + h->next];
+    h->next++;
+    return SS_OK;
+}
+
+/* Into a signal that has room for all samples. */
+static ss_status
+fill_signal(ss_signal *out, resampler *r, ss_error *err)
+{
+    ss_status st = SS_OK;
+    for (size_t done = 0; st == SS_OK && done < out->n; done += r->samples) {
+        st = make_samples(r, err);
+        if (st == SS_OK && r->samples == 0)
+            return SS_ERANGE;
+        for (size_t i = 0; st == SS_OK && i < r->samples && done + i < out->n; i++)
+            for (size_t c = 0; c < r->columns; c++)
+                out->values[c * out->n + done + i] = r->sample[i * r->columns + c];
     }
-    free(kept);
-    if (st == SS_OK)
-        return st;
-    free(*out);
-    *out = NULL;
-    return ss_fail(err, st, st == SS_ERANGE ? "%s: a resampled value exceeds what a double holds"
-                   : "%s: no memory for a record this long", name);
+    return st;
 }
 
 ss_status
@@ -105,27 +245,28 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_err
     if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
+    struct held held = { signal, 0 };
+    resampler *r = NULL;
     size_t n = signal->n;
     *out = NULL;
     if (n < 2 || !(rate > 0) || !isfinite(rate))
         return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n,
                        n == 1 ? "" : "s", rate);
-    double *t = malloc(n * sizeof *t);
+    double last = head->start + (double)(n - 1) / head->rate, samples = ss_resample_count(head->start, last, rate);
     ss_header *new_head = ss_header_copy(head);
-    ss_status st = t != NULL && new_head != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        t[i] = head->start + (double)i / head->rate;
-    size_t n_out = st == SS_OK ? count_samples(t, n, rate, head->n_columns + 1) : 0;
-    if (st == SS_OK)
+    int fits = samples < (double)(SIZE_MAX / sizeof last / (head->n_columns + 1) / 2);
+    ss_status st = new_head != NULL && fits ? SS_OK : ss_fail_memory(err, NULL);
+    if (st == SS_OK) {
         new_head->rate = rate;
-    if (st == SS_OK)
-        st = n_out > 0 ? ss_signal_new(out, new_head, n_out) : SS_ENOMEM;
-    for (size_t c = 0; st == SS_OK && c < head->n_columns; c++) {
-        struct target to = { t[0], rate, (*out)->values + c * n_out, n_out, 1 };
-        st = fill_piece(&to, t, signal->values + c * n, n);
+        st = ss_signal_new(out, new_head, (size_t)samples);
+        st = st == SS_OK ? st : ss_fail_memory(err, NULL);
     }
+    if (st == SS_OK)
+        st = ss_resampler_new(&r, "signal", head->n_columns, rate, INFINITY, next_row, &held, err);
+    if (st == SS_OK)
+        st = fill_signal(*out, r, err);
+    ss_resampler_free(r);
     ss_header_free(new_head);
-    free(t);
     if (st == SS_OK)
         return st;
     ss_signal_free(*out);

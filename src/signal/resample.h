@@ -5,12 +5,23 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-/* Bring n >= 2 rows, of so many columns, at the stamps t to *n_out rows at this rate, from t[0]
- * on; *out is to be freed.  NaN in the input are skipped.  A sample is NaN if it lies between
- * stamps that are more than ten median steps apart, or beyond the first or last number of its
- * column. */
-ss_status ss_resample(double **out, size_t *n_out, const double *t, const double *value, size_t n,
-                      size_t columns, double usual_step, double rate, const char *name,
-                      ss_error *err);
+/* The next row: its stamp, later than those before it, and its values, of which NaN are skipped; *there = 0: there
+ * is none. */
+typedef ss_status stamped_row(void *source, int *there, double *stamp, double *row, ss_error *err);
+
+/* Rows at stamps of any spacing, as they come, to rows from the first stamp on at this rate [Hz].  Samples
+ * between stamps more than longest [s] apart, or beyond a column's own first and last, are NaN. */
+typedef struct resampler resampler;
+ss_status ss_resampler_new(resampler **out, const char *name, size_t columns, double rate, double longest,
+                           stamped_row *next, void *source, ss_error *err);
+/* As ss_reader_rows.  SS_EDATA: there is but one row; SS_ERANGE: a value is not finite. */
+ss_status ss_resampler_rows(resampler *r, double *rows, size_t max, size_t *n, ss_error *err);
+void ss_resampler_free(resampler *r);           /* NULL is allowed */
+
+/* The first sample in which there is no value, if stamps end at one and go on at another, or a negative
+ * number; both count from the first stamp. */
+double ss_resample_gap(double end, double next, double rate);
+/* The number of samples from the first stamp to the last, which may be more than an integer holds. */
+double ss_resample_count(double first, double last, double rate);
 
 #endif

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "signal/gaps.h"
 #include "store/groups.h"
 
 enum { PIECE = 1 << 18 };       /* values that are read at a time, if chunks are not larger */
@@ -54,7 +53,7 @@ piece_rows(const signal_rows *s, size_t columns)
         chunk = own > chunk ? own : chunk;
     }
     hsize_t rows = chunk < target ? target / chunk * chunk : chunk;
-    return rows < s->n && !s->gaps ? (size_t)rows : s->n;
+    return rows < s->n ? (size_t)rows : s->n;
 }
 
 /* Of n rows of dataset d, in x, of so many columns. */
@@ -126,12 +125,22 @@ close_rows(ss_reader *reader)
     free(s);
 }
 
-/* Room for a piece; where gaps are to be filled, all is read. */
+static ss_status
+rewind_rows(ss_reader *reader, ss_error *err)
+{
+    signal_rows *s = reader->source;
+    (void)err;
+    s->row = 0;
+    reader->next = reader->n_rows = 0;
+    return SS_OK;
+}
+
 static ss_status
 begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
 {
     size_t all = reader->head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
     reader->rows = give_rows;
+    reader->rewind = rewind_rows;
     reader->length = s->n;
     s->piece = piece_rows(s, all);
     reader->values = malloc((s->piece * all + 1) * sizeof *reader->values);
@@ -139,11 +148,7 @@ begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
         s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);
     if (reader->values == NULL || (s->by_columns && s->raw == NULL))
         return SS_ENOMEM;
-    ss_status status = s->gaps ? read_piece(reader, s, s->n) : SS_OK;
-    if (status != SS_OK || !s->gaps)
-        return status;
-    return ss_fill_gaps(reader->values, s->n, all, 1, reader->head, opts->gaps, reader->in.name,
-                        s->file.err);
+    return s->gaps ? ss_reader_fill_gaps(reader, opts->gaps, s->file.err) : SS_OK;
 }
 
 ss_status

@@ -7,12 +7,13 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "base/sort.h"
 #include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* sample periods that a stamp may be off */
+enum { DIGIT = 16 };            /* bits of a step that are found at a time */
 
 /* --- the straight line through stamps, by least squares ------------------------------------- */
 
@@ -88,98 +89,176 @@ largest_distance(const clock_fit *f, struct line l)
     return most;
 }
 
-/* --- stamps in an array --------------------------------------------------------------------- */
+/* --- stamps that are read several times ----------------------------------------------------- */
+
+struct walk {
+    const struct stamps *of;
+    double stamp, before;       /* before: the one before it */
+    unsigned long line;
+    size_t n;                   /* stamps so far */
+    ss_status status;
+    ss_error *err;
+};
+
+static struct walk
+start(const struct stamps *s, ss_error *err)
+{
+    return (struct walk){ .of = s, .status = s->rewind(s->source, err), .err = err };
+}
+
+/* 0: there is no other stamp, or it cannot be read. */
+static int
+step(struct walk *w)
+{
+    int there = 0;
+    w->before = w->stamp;
+    if (w->status == SS_OK)
+        w->status = w->of->next(w->of->source, &there, &w->stamp, &w->line, w->err);
+    w->n += (size_t)there;
+    return w->status == SS_OK && there;
+}
 
 static ss_status
-check_stamps(const char *file, const double *t, const unsigned long *line, size_t n, ss_error *err)
+check_stamps(const struct stamps *s, size_t *n, ss_error *err)
 {
-    if (n < 2)
-        return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", file);
-    for (size_t i = 1; i < n; i++)
-        if (!(t[i] > t[i - 1]))
-            return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps do not ascend", file, line[i]);
-    if (!isfinite(t[n - 1] - t[0]))
-        return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", file, t[0],
-                       t[n - 1]);
+    double first = 0;
+    struct walk w = start(s, err);
+    while (step(&w))
+        if (w.n == 1)
+            first = w.stamp;
+        else if (!(w.stamp > w.before))
+            return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps do not ascend", s->file, w.line);
+    *n = w.n;
+    if (w.status != SS_OK)
+        return w.status;
+    if (w.n < 2)
+        return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", s->file);
+    if (!isfinite(w.stamp - first))
+        return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", s->file, first,
+                       w.stamp);
     return SS_OK;
+}
+
+/* A step between stamps that ascend, as an integer that ascends with it. */
+static uint64_t
+bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Find the next DIGIT bits of the step of this rank, in ascending order, among those whose highest bits
+ * are known; *rank becomes that among those that have the new ones too. */
+static ss_status
+next_digit(const struct stamps *s, size_t *count, int below, uint64_t *known, size_t *rank, ss_error *err)
+{
+    memset(count, 0, ((size_t)1 << DIGIT) * sizeof *count);
+    struct walk w = start(s, err);
+    while (step(&w)) {
+        uint64_t bits = bits_of(w.stamp - w.before) >> below;
+        if (w.n > 1 && bits >> DIGIT == *known)
+            count[bits & ((1 << DIGIT) - 1)]++;
+    }
+    uint64_t digit = 0;
+    for (; digit < (1 << DIGIT) - 1 && *rank >= count[digit]; digit++)
+        *rank -= count[digit];
+    *known = *known << DIGIT | digit;
+    return w.status;
 }
 
 ss_status
-ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n, double *usual,
-              ss_error *err)
+ss_usual_step(const struct stamps *s, double *usual, ss_error *err)
 {
-    ss_status st = check_stamps(file, t, line, n, err);
+    size_t n, *count;
+    uint64_t known = 0;
+    ss_status st = check_stamps(s, &n, err);
     if (st != SS_OK)
         return st;
-    double *step = malloc(n * sizeof *step);
-    if (step == NULL)
-        return ss_fail_memory(err, file);
-    for (size_t i = 1; i < n; i++)
-        step[i - 1] = t[i] - t[i - 1];
-    qsort(step, n - 1, sizeof *step, ss_ascending);
-    *usual = step[(n - 2) / 2];                 /* the lower median: gaps lengthen steps */
-    free(step);
-    return SS_OK;
+    if ((count = malloc(((size_t)1 << DIGIT) * sizeof *count)) == NULL)
+        return ss_fail_memory(err, s->file);
+    size_t rank = (n - 2) / 2;                  /* the lower median: gaps lengthen steps */
+    for (int below = 64 - DIGIT; st == SS_OK && below >= 0; below -= DIGIT)
+        st = next_digit(s, count, below, &known, &rank, err);
+    memcpy(usual, &known, sizeof *usual);
+    free(count);
+    return st;
 }
 
-/* The first, where rounding alone tells two apart. */
-static size_t
-farthest_from(struct line l, const double *t, const size_t *sample, size_t n)
+size_t
+ss_clock_sample(struct sample_count *c, double stamp)
 {
-    size_t worst = 0;
-    double most = 0;
-    for (size_t i = 0; i < n; i++) {
-        double off = distance(l, (struct clock_point){ (double)sample[i], t[i] });
-        if (!(off <= most * (1 + 1e-9))) {
-            most = off;
-            worst = i;
-        }
+    size_t sample = c->next;
+    if (c->usual > 0 && sample > 0) {
+        double steps = rint((stamp - c->last) / c->usual), room = (double)(SIZE_MAX / 2 - (sample - 1));
+        sample += steps < 1 ? 0 : steps < room ? (size_t)steps - 1 : ((size_t)1 << 62) - 1;
     }
-    return worst;
+    c->last = stamp;
+    c->next = sample + 1;
+    return sample;
+}
+
+/* A stamp that is off. */
+struct off {
+    double by, stamp, before;
+    unsigned long line;
+};
+
+/* The farthest from the line; the first, where rounding alone tells two apart. */
+static ss_status
+farthest_from(struct line l, const struct stamps *s, double usual, struct off *worst, ss_error *err)
+{
+    struct sample_count count = { .usual = usual };
+    double most = 0;
+    *worst = (struct off){ .by = NAN };
+    struct walk w = start(s, err);
+    while (step(&w)) {
+        double off = distance(l, (struct clock_point){ (double)ss_clock_sample(&count, w.stamp), w.stamp });
+        if (w.n > 1 && off <= most * (1 + 1e-9))
+            continue;
+        most = off;
+        *worst = (struct off){ off, w.stamp, w.before, w.line };
+    }
+    return w.status;
+}
+
+/* The farthest from the one before and a usual step. */
+static ss_status
+farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error *err)
+{
+    struct walk w = start(s, err);
+    *worst = (struct off){ .by = 0 };
+    while (step(&w))
+        if (w.n > 1 && fabs(w.stamp - w.before - usual) > worst->by)
+            *worst = (struct off){ fabs(w.stamp - w.before - usual), w.stamp, w.before, w.line };
+    return w.status;
 }
 
 /* Name the row at fault: the one whose step from the row before is farthest from the usual one, or,
  * where no step is out of line, the one farthest from the best clock. */
 static ss_status
-refuse(const char *file, const double *t, const unsigned long *line, size_t n, const size_t *sample,
-       int gaps, struct line l, ss_error *err)
+refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
 {
-    size_t farthest = farthest_from(l, t, sample, n), worst = 1;
-    double deviation = distance(l, (struct clock_point){ (double)sample[farthest], t[farthest] });
-    if (gaps && l.period > 0)
+    struct off worst, from_line;
+    ss_status st = farthest_from(l, s, usual, &from_line, err);
+    if (st == SS_OK && usual > 0 && l.period > 0)
         return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
-                       "this one is off by %.3g sample periods, %.1f is allowed", file, line[farthest],
-                       deviation / l.period, TOLERANCE);
-    double off = 0, usual;
-    ss_status st = ss_usual_step(file, t, line, n, &usual, err);
+                       "this one is off by %.3g sample periods, %.1f is allowed", s->file, from_line.line,
+                       from_line.by / l.period, TOLERANCE);
+    if (st == SS_OK)
+        st = ss_usual_step(s, &usual, err);
+    if (st == SS_OK)
+        st = farthest_step(s, usual, &worst, err);
     if (st != SS_OK)
         return st;
-    for (size_t i = 1; i < n; i++)
-        if (fabs(t[i] - t[i - 1] - usual) > off) {
-            off = fabs(t[i] - t[i - 1] - usual);
-            worst = i;
-        }
-    if (off <= TOLERANCE * usual) {
-        off = deviation;
-        worst = farthest;
-    }
-    double missing = rint(off / usual);
-    if (missing > 0 && t[worst] - t[worst - 1] > usual && fabs(off / usual - missing) <= 2 * TOLERANCE)
-        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", file,
-                       line[worst], missing, missing > 1 ? "s are" : " is");
+    if (worst.by <= TOLERANCE * usual)
+        worst = from_line;
+    double off = worst.by / usual, missing = rint(off);
+    if (missing > 0 && worst.stamp - worst.before > usual && fabs(off - missing) <= 2 * TOLERANCE)
+        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", s->file,
+                       worst.line, missing, missing > 1 ? "s are" : " is");
     return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
-                   "sample periods, %.1f is allowed", file, line[worst], off / usual, TOLERANCE);
-}
-
-/* The samples' numbers, where some may be missing. */
-static void
-count_samples(const double *t, size_t n, double usual, size_t *sample)
-{
-    for (size_t i = 1; i < n; i++) {
-        double step = rint((t[i] - t[i - 1]) / usual);
-        double room = (double)(SIZE_MAX / 2 - sample[i - 1]);
-        sample[i] = sample[i - 1] + (step < 1 ? 1 : step < room ? (size_t)step : (size_t)1 << 62);
-    }
+                   "sample periods, %.1f is allowed", s->file, worst.line, off, TOLERANCE);
 }
 
 ss_status
@@ -232,28 +311,22 @@ ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
 }
 
 ss_status
-ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n, int gaps,
-              size_t *sample, double *rate, ss_error *err)
+ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err)
 {
-    double usual;
-    clock_fit fit = { 0 };
-    ss_status st = check_stamps(file, t, line, n, err);
-    if (st == SS_OK && gaps)
-        st = ss_usual_step(file, t, line, n, &usual, err);
+    size_t n;
+    struct sample_count count = { .usual = usual };
+    ss_status st = check_stamps(s, &n, err);
     if (st != SS_OK)
         return st;
-    for (size_t i = 0; i < n; i++)
-        sample[i] = i;
-    if (gaps)
-        count_samples(t, n, usual, sample);
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = ss_clock_add(&fit, (double)sample[i], t[i]) ? SS_OK : ss_fail_memory(err, file);
-    if (st == SS_OK)
-        st = ss_clock_rate(&fit, file, rate, err);
-    if (st == SS_EUNEVEN)
-        st = refuse(file, t, line, n, sample, gaps, line_of(&fit), err);
-    ss_clock_free(&fit);
-    return st;
+    struct walk w = start(s, err);
+    while (step(&w))
+        if (!ss_clock_add(fit, (double)ss_clock_sample(&count, w.stamp), w.stamp))
+            return ss_fail_memory(err, s->file);
+    if (w.status == SS_OK)
+        st = ss_clock_rate(fit, s->file, rate, err);
+    else
+        st = w.status;
+    return st == SS_EUNEVEN ? refuse(s, usual, line_of(fit), err) : st;
 }
 
 ss_status

@@ -26,13 +26,28 @@ int ss_clock_add(clock_fit *f, double sample, double stamp);
 ss_status ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err);
 void ss_clock_free(clock_fit *f);
 
-/* Find the uniform clock of n time stamps t; row i is in line line[i].  sample[i] becomes the
- * number of the sample of row i, from 0; it is i unless gaps are allowed. */
-ss_status ss_find_clock(const char *file, const double *t, const unsigned long *line, size_t n,
-                        int gaps, size_t *sample, double *rate, ss_error *err);
+/* Stamps of a file that are read several times: from the first on, the next with the number of its line;
+ * *there = 0: there is none. */
+struct stamps {
+    const char *file;
+    ss_status (*rewind)(void *source, ss_error *err);
+    ss_status (*next)(void *source, int *there, double *stamp, unsigned long *line, ss_error *err);
+    void *source;
+};
+
+/* The samples of rows: one after the other, or, where some may be missing, as the steps of their stamps show.
+ * Begin with the usual step, or 0, and zeros. */
+struct sample_count {
+    double usual, last;         /* last: stamp */
+    size_t next;
+};
+size_t ss_clock_sample(struct sample_count *c, double stamp);
+
+/* Find the uniform clock of the stamps; *fit, from zeros, is to be freed.  usual > 0: that step, and some may
+ * be missing. */
+ss_status ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err);
 /* The median step of stamps, which must ascend. */
-ss_status ss_usual_step(const char *file, const double *t, const unsigned long *line, size_t n,
-                        double *usual, ss_error *err);
+ss_status ss_usual_step(const struct stamps *s, double *usual, ss_error *err);
 
 /* Refuse options for input without a clock; this input has the rate own. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);

@@ -1,9 +1,8 @@
 /* delimited.c -- text tables of data-acquisition systems.
  *
  * The first line with nothing but numbers begins the data and shows the separator; the lines above
- * it are searched for names and units, and one column becomes the clock.  The whole table is read
- * first, as only all stamps together show the rate.  A line of words below the rows begins another
- * table if rows follow it again. */
+ * it are searched for names and units, and one column becomes the clock.  A line of words below the rows
+ * begins another table if rows follow it again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +10,6 @@
 #include "base/list.h"
 #include "base/number.h"
 #include "base/utf8.h"
-#include "signal/gaps.h"
 #include "signal/header.h"
 #include "stream/csv.h"
 #include "stream/delimited.h"
@@ -31,7 +29,7 @@ keep_line(struct table *t, const char *line, int comment, ss_error *err)
     t->head = more != NULL ? more : t->head;
     if (copy == NULL)
         return ss_delimited_no_memory(t, err);
-    more[t->n_head++] = (struct table_line){ copy, t->in->line, comment };
+    more[t->n_head++] = (struct table_line){ copy, t->in->line, ss_input_place(t->in), comment };
     return SS_OK;
 }
 
@@ -43,35 +41,6 @@ drop_lines(struct table *t)
     t->n_head = 0;
 }
 
-/* The first letter that is no blank. */
-static char
-first_of(const char *line)
-{
-    while (*line == ' ' || *line == '\t')
-        line++;
-    return *line;
-}
-
-/* The next line that is not empty; comment is set if it is one.  NULL at the end. */
-static ss_status
-next_line(struct table *t, char **line, int *comment, ss_error *err)
-{
-    size_t length;
-    do {
-        ss_status st = ss_input_line(t->in, line, &length, err);
-        if (st != SS_OK || *line == NULL)
-            return st;
-        if (strlen(*line) != length)
-            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters",
-                           t->in->name, t->in->line);
-        if (strchr(*line, '\r') != NULL)
-            return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
-                           "makes them)", t->in->name, t->in->line);
-    } while (first_of(*line) == '\0');
-    *comment = **line == '#';
-    return SS_OK;
-}
-
 /* Keep the lines above the first row of data, which becomes *row; NULL: there is none. */
 static ss_status
 keep_header(struct table *t, char **row, ss_error *err)
@@ -80,7 +49,7 @@ keep_header(struct table *t, char **row, ss_error *err)
     char *line;
     *row = NULL;
     while (t->n_head < HEADER_LINES) {
-        ss_status st = next_line(t, &line, &comment, err);
+        ss_status st = ss_delimited_line(t, &line, &comment, err);
         if (st != SS_OK || line == NULL)
             return st;
         t->labview |= t->in->line == 1 && strncmp(line, "LabVIEW Measurement", 19) == 0;
@@ -99,120 +68,28 @@ keep_header(struct table *t, char **row, ss_error *err)
 
 /* --- rows ---------------------------------------------------------------------------------- */
 
-/* Room for one more row, and its line. */
-static int
-make_room(struct table *t)
-{
-    size_t room = t->room;
-    double *value = ss_list_room(t->value, &room, t->n_rows, t->n_columns * sizeof *value);
-    t->value = value != NULL ? value : t->value;
-    unsigned long *line = ss_list_room(t->line, &t->room, t->n_rows, sizeof *line);
-    t->line = line != NULL ? line : t->line;
-    return value != NULL && line != NULL;
-}
-
-/* Numbers of one file have one decimal mark: 1,234 beside 0.5 may be either of two numbers. */
+/* Add the stamp of a row to the clock. */
 static ss_status
-check_mark(struct table *t, size_t column, ss_error *err)
+add_stamp(struct table *t, const double *row, ss_error *err)
 {
-    const char *cell = t->cell[column];
-    char mark = cell[strcspn(cell, t->separator == ',' ? "." : ".,")];
-    if (t->mark == '\0')
-        t->mark = mark;
-    if (mark == '\0' || mark == t->mark)
-        return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it "
-                   "have a %s", t->in->name, t->in->line, t->names->column[column].name, cell,
-                   mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
-}
-
-/* The seconds of a stamp: of the day without a date, and going on at midnight; else from the midnight
- * before the first row. */
-static double
-read_stamp(struct table_column *c, const char *cell)
-{
-    const time_stamp s = ss_stamp_read(cell);
-    if (s.parts != c->parts)
-        return NAN;
-    if (c->parts & STAMP_DATE) {
-        if (isnan(c->day))
-            c->day = (double)s.day;
-        return 86400 * ((double)s.day - c->day) + s.seconds;
+    struct time_column *c = &t->fitted;
+    if (t->rows.n == 1) {
+        *c = ss_delimited_time(t);
+        t->ascends = c->column != NONE;
     }
-    double days = isnan(c->last) ? 0 : floor((c->last - s.seconds) / 86400 + 0.5);
-    return c->last = s.seconds + 86400 * days;  /* the nearest to the row before */
-}
-
-/* The value of one cell of the line that was split. */
-static ss_status
-read_cell(struct table *t, size_t i, double *value, ss_error *err)
-{
-    struct table_column *c = &t->column[i];
-    char *cell = t->cell[i];
-    *value = 0;
-    if (c->kind == COLUMN_TEXT)
+    if (!t->ascends)
         return SS_OK;
-    enum cell_kind kind = ss_cell_read(cell, t->separator, value);
-    int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
-    if (missing && t->opts->gaps != SS_GAPS_REFUSE) {
-        *value = NAN;
-        return SS_OK;
-    }
-    if (c->kind == COLUMN_STAMPS && !isnan(*value = read_stamp(c, cell)))
-        return SS_OK;
-    if (c->kind == COLUMN_NUMBERS && kind == CELL_NUMBER)
-        return check_mark(t, i, err);
-    const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
-        ? "finite number" : "number";
-    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s",
-                   t->in->name, t->in->line, t->names->column[i].name, cell, what);
-}
-
-/* Read a row of nothing but plain numbers, as most are; 0: it must be looked at cell by cell. */
-static int
-read_plain(const struct table *t, char *p, double *row)
-{
-    const char point = t->separator == ',' || t->mark == '\0' ? '.' : t->mark;
-    char *end;
-    if (t->separator != ',' && t->mark == '\0' && strpbrk(p, ".,") != NULL)
-        return 0;
-    for (size_t i = 0; i < t->n_columns; i++, p = end + 1) {
-        while (*p == ' ')
-            p++;
-        const char *digit = p + (*p == '-');
-        if (t->column[i].kind != COLUMN_NUMBERS || *digit < '0' || *digit > '9')
-            return 0;
-        row[i] = ss_number_parse_point(p, point, &end);
-        if (*end != (i + 1 < t->n_columns ? t->separator : '\0') || !isfinite(row[i]))
-            return 0;
-    }
-    return 1;
+    double stamp = row[c->column] * c->factor / c->divisor;
+    t->ascends = t->fit.n == 0 || stamp > t->fit.last.stamp;
+    return !t->ascends || ss_clock_add(&t->fit, (double)t->fit.n, stamp) ? SS_OK : ss_delimited_no_memory(t, err);
 }
 
 static ss_status
 append_row(struct table *t, char *text, ss_error *err)
 {
-    if (!make_room(t))
-        return ss_delimited_no_memory(t, err);
-    t->line[t->n_rows] = t->in->line;
-    if (read_plain(t, text, t->value + t->n_rows * t->n_columns)) {
-        t->n_rows++;
-        return SS_OK;
-    }
-    size_t n = ss_delimited_split(t, text, t->separator);
-    if (n == NONE)
-        return ss_delimited_no_memory(t, err);
-    if (n != t->n_columns && !(n == t->n_columns + 1 && (t->comments || t->labview)))
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", t->in->name,
-                       t->in->line, t->n_columns, n);
-    double *row = t->value + t->n_rows * t->n_columns;
-    for (size_t i = 0; i < t->n_columns; i++) {
-        ss_status st = read_cell(t, i, &row[i], err);
-        if (st != SS_OK)
-            return st;
-    }
-    t->n_rows++;
-    return SS_OK;
+    const double *row;
+    ss_status st = ss_delimited_read_row(t, text, &row, err);
+    return st == SS_OK ? add_stamp(t, row, err) : st;
 }
 
 /* Find the kinds of the columns, as the cells of the first row show. */
@@ -244,9 +121,9 @@ warn_of_text(const struct table *t, const char *row)
                               t->in->name, t->in->line, i + 1, t->names->column[i].name);
 }
 
-/* Begin a table with this row, below the lines that were kept. */
+/* Begin a table with this row, at this place of the file, below the lines that were kept. */
 static ss_status
-begin_table(struct table *t, const char *row, ss_error *err)
+begin_table(struct table *t, const char *row, off_t place, ss_error *err)
 {
     if (t->n_columns > MAX_COLUMNS)
         return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
@@ -258,6 +135,7 @@ begin_table(struct table *t, const char *row, ss_error *err)
         st = ss_delimited_read_labview(t, err);
     if (st == SS_OK) {
         warn_of_text(t, first);
+        ss_delimited_begin_rows(t, place, t->in->line);
         st = append_row(t, first, err);
     }
     free(first);
@@ -272,7 +150,7 @@ begin_kept(struct table *t, size_t first, ss_error *err)
     unsigned long line = t->in->line;
     t->n_head = first;                          /* for the names */
     t->in->line = t->head[first].number;
-    ss_status st = begin_table(t, t->head[first].text, err);
+    ss_status st = begin_table(t, t->head[first].text, t->head[first].place, err);
     for (size_t i = first + 1; st == SS_OK && i < n; i++) {
         t->in->line = t->head[i].number;
         st = t->head[i].comment ? SS_OK : append_row(t, t->head[i].text, err);
@@ -294,7 +172,7 @@ begin_first(struct table *t, const char *row, ss_error *err)
     if (row != NULL && ss_delimited_ends_mixed(t, &mixed) != SS_OK)
         return ss_delimited_no_memory(t, err);
     if (!mixed)
-        return begin_table(t, row, err);
+        return begin_table(t, row, ss_input_place(t->in), err);
     ss_status st = row != NULL ? keep_line(t, row, 0, err) : SS_OK;
     if (st != SS_OK)
         return st;
@@ -317,7 +195,7 @@ is_heading(struct table *t, const char *line, int *yes, ss_error *err)
 {
     size_t numbers;
     *yes = 0;
-    if (strchr("0123456789-.+", first_of(line)) != NULL)
+    if (strchr("0123456789-.+", ss_delimited_first_of(line)) != NULL)
         return SS_OK;
     char *shape = ss_delimited_shape(t, line, t->separator, &numbers);
     if (shape == NULL)
@@ -360,7 +238,7 @@ read_body(struct table *t, char **row, ss_error *err)
     int comment, heading = 0;
     ss_status st;
     *row = NULL;
-    while ((st = next_line(t, &line, &comment, err)) == SS_OK && line != NULL) {
+    while ((st = ss_delimited_line(t, &line, &comment, err)) == SS_OK && line != NULL) {
         if (!comment)
             st = is_heading(t, line, &heading, err);
         if (st == SS_OK && heading)
@@ -373,150 +251,6 @@ read_body(struct table *t, char **row, ss_error *err)
     return st;
 }
 
-/* --- a table that is read twice ------------------------------------------------------------- */
-
-enum { PIECE = 4096 };          /* rows that are read again at a time */
-
-static int
-may_read_twice(const struct table *t)
-{
-    const ss_read_opts *opts = t->opts;
-    return opts->gaps == SS_GAPS_REFUSE && !(opts->resample > 0) && opts->table == 0 && !t->labview
-        && !(t->counted.increment > 0);
-}
-
-/* Add the stamp of a row to the clock; 0 if it is not later than the one before. */
-static int
-add_stamp(struct table *t, struct time_column time, size_t row)
-{
-    if (time.column == NONE)
-        return 1;
-    double stamp = t->value[row * t->n_columns + time.column] * time.factor / time.divisor;
-    return (t->fit.n == 0 || stamp > t->fit.last.stamp) && ss_clock_add(&t->fit, (double)t->fit.n, stamp);
-}
-
-/* Add the last n rows to the sum that shows whether they are the same when they are read again. */
-static void
-add_to_sum(struct table *t, size_t n)
-{
-    uint64_t bits;
-    for (size_t i = (t->n_rows - n) * t->n_columns; i < t->n_rows * t->n_columns; i++) {
-        memcpy(&bits, &t->value[i], sizeof bits);
-        t->sum = (t->sum ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
-        t->sum ^= t->sum >> 32;
-    }
-}
-
-/* Keep the sum of a piece that is full, or of the last one. */
-static int
-keep_sum(struct table *t)
-{
-    uint64_t *more = ss_list_room(t->sums, &t->sums_room, t->n_sums, sizeof *more);
-    if (more == NULL)
-        return 0;
-    t->sums = more;
-    more[t->n_sums++] = t->sum;
-    t->sum = 0;
-    return 1;
-}
-
-/* Check all rows, and find their clock, keeping none but the first.  Sets t->twice unless there is
- * another table or the clock is not uniform. */
-static ss_status
-survey(struct table *t, ss_error *err)
-{
-    const struct time_column time = ss_delimited_time(t);
-    size_t kept = t->n_rows;
-    int comment, heading = 0, even = 1;
-    double rate;
-    char *line;
-    for (size_t i = 0; even && i < kept; i++)
-        even = add_stamp(t, time, i);
-    while (even) {
-        ss_status st = next_line(t, &line, &comment, err);
-        if (st == SS_OK && line != NULL && !comment)
-            st = is_heading(t, line, &heading, err);
-        if (st != SS_OK || heading)
-            return st;
-        if (line == NULL)
-            break;
-        if (comment)
-            continue;
-        if ((st = append_row(t, line, err)) != SS_OK)
-            return st;
-        even = add_stamp(t, time, kept);
-        add_to_sum(t, 1);
-        t->n_rows = kept;
-        if (++t->left % PIECE == 0 && !keep_sum(t))
-            return ss_delimited_no_memory(t, err);
-    }
-    if (!keep_sum(t))
-        return ss_delimited_no_memory(t, err);
-    t->twice = even && (time.column == NONE || ss_clock_rate(&t->fit, t->in->name, &rate, NULL) == SS_OK);
-    return SS_OK;
-}
-
-/* Survey a table that can be read again, and return to the line below the rows that are kept. */
-static ss_status
-try_twice(struct table *t, ss_error *err)
-{
-    off_t place = may_read_twice(t) ? ss_input_place(t->in) : -1;
-    unsigned long line = t->in->line;
-    char mark = t->mark;
-    if (place < 0)
-        return SS_OK;
-    ss_status st = survey(t, err);
-    const double *last = t->value + (t->n_rows - 1) * t->n_columns;
-    t->mark = mark;
-    for (size_t i = 0; st == SS_OK && i < t->n_columns; i++)    /* times of day go on from there */
-        t->column[i].last = last[i];
-    return st == SS_OK ? ss_input_return(t->in, place, line, err) : st;
-}
-
-/* Leave the columns that are not kept out of the rows. */
-static void
-drop_columns(struct table *t)
-{
-    size_t to = 0;
-    for (size_t i = 0; i < t->n_rows; i++)
-        for (size_t c = 0; c < t->n_kept; c++)
-            t->value[to++] = t->value[i * t->n_columns + t->kept[c]];
-}
-
-/* Read rows again, as many as fit into a piece.  Rows that a recorder has appended since are not
- * read. */
-static ss_status
-read_piece(ss_reader *reader, struct table *t, ss_error *err)
-{
-    char *line;
-    int comment;
-    ss_status st = SS_OK;
-    t->value = reader->values;
-    t->n_rows = 0;
-    while (st == SS_OK && t->n_rows < PIECE && t->n_rows < t->left
-           && (st = next_line(t, &line, &comment, err)) == SS_OK) {
-        if (line == NULL)
-            st = ss_fail(err, SS_EDATA, "%s:%lu: the file has become shorter while it was read", t->in->name,
-                         t->in->line);
-        else if (!comment)
-            st = append_row(t, line, err);
-    }
-    if (st == SS_OK && t->n_rows > 0) {
-        add_to_sum(t, t->n_rows);
-        if (t->sum != t->sums[t->piece++])
-            st = ss_fail(err, SS_EDATA, "%s:%lu: the rows up to here have changed while the file was read",
-                         t->in->name, t->in->line);
-        t->sum = 0;
-    }
-    t->left -= t->n_rows;
-    drop_columns(t);
-    reader->values = t->value;
-    reader->n_rows = t->n_rows;
-    reader->next = 0;
-    t->value = NULL;
-    return st;
-}
-
 /* --- several tables ------------------------------------------------------------------------- */
 
 /* Forget the rows and columns of a table before the next. */
@@ -524,13 +258,10 @@ static ss_status
 clear_table(struct table *t, ss_error *err)
 {
     free(t->column);
-    free(t->value);
-    free(t->line);
     ss_header_free(t->names);
+    ss_clock_free(&t->fit);
     t->column = NULL;
-    t->value = NULL;
-    t->line = NULL;
-    t->n_rows = t->room = 0;
+    t->fit = (clock_fit){ 0 };
     t->mark = '\0';
     t->n_columns = t->next_columns;
     t->separator = t->next_separator;
@@ -545,8 +276,8 @@ static void
 list_table(const struct table *t, size_t number, char *list, size_t size)
 {
     size_t n = strlen(list);
-    int more = snprintf(list + n, size - n, "%s%zu from line %lu, %zu rows of", number > 1 ? "; " : "",
-                        number, t->line[0], t->n_rows);
+    int more = snprintf(list + n, size - n, "%s%zu from line %.0f, %llu rows of", number > 1 ? "; " : "",
+                        number, t->first[t->n_columns], (unsigned long long)t->rows.n);
     for (size_t c = 0; c < t->n_columns && more >= 0 && n + (size_t)more < size; c++) {
         n += (size_t)more;
         more = snprintf(list + n, size - n, " %s", t->names->column[c].name);
@@ -561,17 +292,13 @@ read_table(struct table *t, ss_error *err)
     ss_status st = keep_header(t, &row, err);
     if (st == SS_OK)
         st = begin_first(t, row, err);
-    if (st == SS_OK)
-        st = try_twice(t, err);
-    if (t->twice)
-        return st;
     for (; st == SS_OK && (st = read_body(t, &row, err)) == SS_OK && row != NULL; number++) {
         if (number == wanted)
             return SS_OK;
         list_table(t, number, list, sizeof list);
         st = clear_table(t, err);
         if (st == SS_OK)
-            st = begin_table(t, row, err);
+            st = begin_table(t, row, ss_input_place(t->in), err);
     }
     if (st != SS_OK || number == wanted || (number == 1 && wanted == 0))
         return st;
@@ -589,45 +316,57 @@ keep_columns(struct table *t, ss_header **head)
     if (t->kept == NULL)
         return SS_ENOMEM;
     for (size_t c = 0; c < t->n_columns; c++)
-        if (c != t->time && t->column[c].kind == COLUMN_NUMBERS)
+        if (c != t->time.column && t->column[c].kind == COLUMN_NUMBERS)
             t->kept[t->n_kept++] = c;
     ss_header_free(*head);
-    ss_status st = ss_header_select(head, t->names, t->kept, t->n_kept, 0);
-    drop_columns(t);
-    return st;
+    *head = NULL;
+    return ss_header_select(head, t->names, t->kept, t->n_kept, 0);
+}
+
+static ss_status
+rewind_samples(ss_reader *reader, ss_error *err)
+{
+    return ss_delimited_begin_samples(reader->table, err);
 }
 
 /* Errors of rows were found at the start, unless the file changes. */
 static ss_status
-table_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+give_samples(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
-    ss_status st = SS_OK;
-    if (reader->next == reader->n_rows && reader->table != NULL)
-        st = read_piece(reader, reader->table, err);
-    if (st != SS_OK)
-        return st;
-    ss_reader_give(reader, rows, max, n);
-    return SS_OK;
+    return ss_delimited_samples(reader->table, rows, max, n, err);
 }
 
 ss_status
 ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
 {
-    ss_status st = ss_delimited_choose_clock(t, err);
+    static const ss_read_opts none;             /* for rows that are read again */
+    ss_gaps gaps = t->opts->gaps;
+    ss_status st = ss_delimited_end_rows(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_check_labview(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_choose_clock(t, err);
     if (st == SS_OK && keep_columns(t, &reader->head) != SS_OK)
         st = ss_delimited_no_memory(t, err);
-    size_t columns = reader->head != NULL ? reader->head->n_columns : 0;
-    if (st == SS_OK && columns == 0)
+    if (st == SS_OK && t->n_kept == 0)
         st = ss_fail(err, SS_EDATA, "%s: no column but time", t->in->name);
-    if (st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE)
-        st = ss_fill_gaps(t->value, t->n_rows, columns, 1, reader->head, t->opts->gaps, t->in->name, err);
-    if (st != SS_OK)
-        return st;
-    reader->values = t->value;
-    reader->n_rows = t->n_rows;
-    reader->rows = table_rows;
-    t->value = NULL;
-    return SS_OK;
+    if (st == SS_OK)
+        st = ss_delimited_begin_samples(t, err);
+    t->opts = &none;
+    reader->rows = give_samples;
+    reader->rewind = rewind_samples;
+    return st == SS_OK && gaps != SS_GAPS_REFUSE ? ss_reader_fill_gaps(reader, gaps, err) : st;
+}
+
+struct table *
+ss_delimited_new(ss_reader *reader, const ss_read_opts *opts)
+{
+    struct table *t = reader->table = malloc(sizeof *t);
+    if (t == NULL)
+        return NULL;
+    *t = (struct table){ .in = &reader->in, .opts = opts, .time = { NONE, 0, 1, 1 }, .fitted = { NONE, 0, 1, 1 },
+                         .layout = LAYOUT_ONE, .names = ss_header_new(0, 0) };
+    return t->names != NULL ? t : NULL;
 }
 
 void
@@ -639,48 +378,27 @@ ss_delimited_free(struct table *t)
     free(t->head);
     free(t->column);
     free(t->cell);
-    free(t->value);
-    free(t->line);
     free(t->kept);
-    free(t->sums);
+    ss_delimited_free_rows(t);
+    ss_resampler_free(t->resampler);
     ss_clock_free(&t->fit);
     ss_header_free(t->names);
-}
-
-static ss_status
-open_text(struct table *t, ss_reader *reader, ss_error *err)
-{
-    struct input *in = t->in;
-    ss_status st = ss_input_need(in, 3, err);
-    if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
-        in->lo += 3;                            /* a byte-order mark */
-    if (st == SS_OK && t->names == NULL)
-        st = ss_delimited_no_memory(t, err);
-    if (st == SS_OK)
-        st = read_table(t, err);
-    if (st == SS_OK)
-        st = ss_delimited_check_labview(t, err);
-    return st == SS_OK ? ss_delimited_finish(t, reader, err) : st;
+    free(t);
 }
 
 static ss_status
 open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
-    static const ss_read_opts none;             /* for rows that are read again */
-    struct table *t = malloc(sizeof *t);
+    struct input *in = &reader->in;
+    struct table *t = ss_delimited_new(reader, opts);
     if (t == NULL)
-        return ss_fail_memory(err, reader->in.name);
-    *t = (struct table){ .in = &reader->in, .opts = opts, .time = NONE, .layout = LAYOUT_ONE,
-                         .names = ss_header_new(0, 0) };
-    ss_status st = open_text(t, reader, err);
-    t->opts = &none;
-    if (st == SS_OK && t->twice) {
-        reader->table = t;
-        return SS_OK;
-    }
-    ss_delimited_free(t);
-    free(t);
-    return st;
+        return ss_fail_memory(err, in->name);
+    ss_status st = ss_input_need(in, 3, err);
+    if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
+        in->lo += 3;                            /* a byte-order mark */
+    if (st == SS_OK)
+        st = read_table(t, err);
+    return st == SS_OK ? ss_delimited_finish(t, reader, err) : st;
 }
 
 const struct format ss_format_delimited = {

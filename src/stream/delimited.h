@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
+#include "signal/resample.h"
 #include "stream/clock.h"
 #include "stream/input.h"
 #include "stream/reader.h"
@@ -34,16 +35,33 @@ struct table_column {
     double last;                /* the stamp of the row before */
 };
 
-/* A column of times: seconds are its values * factor / divisor. */
+/* A column of times: seconds are origin + its values * factor / divisor. */
 struct time_column {
     size_t column;              /* NONE: there is none */
-    double factor, divisor;
+    double origin, factor, divisor;
 };
 
 struct table_line {             /* above the data, to be freed */
     char *text;
     unsigned long number;
+    off_t place;                /* in the file; -1: it is none */
     int comment;
+};
+
+/* Rows, each of them the values of all columns and the number of its line, which are read again
+ * (delimited_rows.c). */
+struct table_rows {
+    size_t width;               /* numbers a row */
+    uint64_t n;                 /* rows */
+    double *block;              /* some of them, one after the other, or all of few */
+    size_t room, held, at;      /* numbers; rows in it; of these, the one that is given next */
+    uint64_t given;             /* rows */
+    int is_away;                /* are rows not in the block? */
+    off_t place;                /* of the first row in text that can be read again, or -1 */
+    unsigned long line;         /* its line */
+    uint64_t *sum;              /* of each piece of such text */
+    size_t n_sums, sums_room, next_sum;
+    FILE *file;                 /* of the rows of other text */
 };
 
 struct table {
@@ -59,7 +77,7 @@ struct table {
     size_t cell_room;
     struct table_line *head;    /* lines above the data */
     size_t n_head, head_room;
-    size_t time;                /* column of time, or NONE */
+    struct time_column time;
     struct counted counted;
     int named;                  /* is there a row of names? */
     int labview;                /* does it begin as the files of LabVIEW do? */
@@ -67,15 +85,17 @@ struct table {
     int first_x;                /* is the first column no channel? */
     int comments;               /* cells too many are comments, which LabVIEW writes behind its rows */
     ss_header *names;           /* all columns, that of time among them, and the clock */
-    double *value;              /* rows, one after the other */
-    unsigned long *line;        /* where each row stands */
-    size_t n_rows, room;
+    struct table_rows rows;
+    double *first;              /* the first of them */
+    struct time_column fitted;  /* fit is that of its stamps, if they ascend */
+    clock_fit fit;
+    int ascends;
     size_t *kept, n_kept;       /* the columns of the signal */
-    int twice;                  /* value has the first rows only; the others are read again */
-    uint64_t left;              /* the number of these that are still to be read */
-    clock_fit fit;              /* of all stamps of such a table */
-    uint64_t sum, *sums;        /* of the rows that are read again: of this piece, of each of n_sums */
-    size_t n_sums, sums_room, piece;    /* piece: of these, the one that is read next */
+    struct sample_count count;
+    const double *row;          /* that is given next, as this sample; NULL: it is not read yet */
+    size_t sample, given;       /* given: samples so far */
+    double longest;             /* [s] between two stamps without a gap, where they are resampled */
+    struct resampler *resampler;        /* or NULL */
 };
 
 ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
@@ -83,10 +103,32 @@ ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
 SS_PRINTF(3, 4)
 void ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...);
 
-/* Hand the rows of a table, whose names and values are complete, to the reader: with a clock, without
- * the columns of time and text, with gaps filled. */
+/* A table of the reader, which frees it.  NULL: no memory. */
+struct table *ss_delimited_new(ss_reader *reader, const ss_read_opts *opts);
+/* Hand the rows of a table, whose names and rows are complete, to the reader: with a clock, without the
+ * columns of time and text, with gaps filled. */
 ss_status ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err);
 void ss_delimited_free(struct table *t);        /* NULL is allowed */
+
+/* Rows (delimited_rows.c). */
+
+/* The first letter that is no blank. */
+char ss_delimited_first_of(const char *line);
+/* The next line that is not empty; comment is set if it is one.  NULL at the end. */
+ss_status ss_delimited_line(struct table *t, char **line, int *comment, ss_error *err);
+/* Begin with none, the first to be in this line, at this place of a file that can be read again, or -1. */
+void ss_delimited_begin_rows(struct table *t, off_t place, unsigned long line);
+/* Read a line, which is cut up, as a row. */
+ss_status ss_delimited_read_row(struct table *t, char *text, const double **row, ss_error *err);
+/* Or room for the values of one more row, and, when they are there, add it. */
+ss_status ss_delimited_new_row(struct table *t, double **row, ss_error *err);
+ss_status ss_delimited_add_row(struct table *t, ss_error *err);
+ss_status ss_delimited_end_rows(struct table *t, ss_error *err);
+/* After that: go back to the first row, before each reading of them; and the next that has a time, if there
+ * is a column of time, or NULL. */
+ss_status ss_delimited_rewind(struct table *t, ss_error *err);
+ss_status ss_delimited_next(struct table *t, const double **row, ss_error *err);
+void ss_delimited_free_rows(struct table *t);
 
 /* Cells (delimited_cells.c). */
 
@@ -127,8 +169,12 @@ ss_status ss_delimited_check_labview(struct table *t, ss_error *err);
 /* Does this line begin another segment of a LabVIEW file? */
 int ss_delimited_is_segment(const struct table *t, const char *line);
 
-/* Find the column of time and turn the rows into samples of its clock (delimited_clock.c). */
+/* Find the column of time and the clock on which the rows are samples (delimited_clock.c). */
 ss_status ss_delimited_choose_clock(struct table *t, ss_error *err);
+/* Go back to the first sample; and up to max more of them as rows of the columns kept, NaN where there is
+ * none. */
+ss_status ss_delimited_begin_samples(struct table *t, ss_error *err);
+ss_status ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_error *err);
 /* The column of time that it will take, as names, kinds and the first row show. */
 struct time_column ss_delimited_time(const struct table *t);
 

@@ -10,6 +10,9 @@
 #include "stream/stamp.h"
 
 enum { GAPS_MOST = 1000 };      /* samples for each that is there */
+#define LONGEST 10              /* usual steps; stamps farther apart have a gap between them */
+/* A short file may not claim much by two time stamps that lie far apart. */
+enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
 
 #define LEAST_RATE (1 / 3600. * (1 - 1e-9))     /* a sample an hour */
 #define MOST_RATE 1e10
@@ -110,106 +113,180 @@ unit_of_times(const struct table *t, size_t column, const struct time_unit **uni
     if (*unit == NULL && *own != '\0')
         return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
                        c->name, own);
-    *is_date = *unit == NULL && (*unit = unit_of_date(t->value[column])) != NULL;
+    *is_date = *unit == NULL && (*unit = unit_of_date(t->first[column])) != NULL;
     return SS_OK;
 }
 
-/* Forget the rows without a time. */
-static void
-drop_rows_without(struct table *t, size_t column)
+/* --- the stamps of the rows ---------------------------------------------------------------- */
+
+static double
+stamp_of(const struct table *t, const double *row)
 {
-    size_t kept = 0, n = t->n_columns;
-    for (size_t i = 0; i < t->n_rows; i++)
-        if (!isnan(t->value[i * n + column])) {
-            memmove(t->value + kept * n, t->value + i * n, n * sizeof *t->value);
-            t->line[kept++] = t->line[i];
-        }
-    t->n_rows = kept;
+    const struct time_column *c = &t->time;
+    return c->origin + row[c->column] * c->factor / c->divisor;
 }
 
-/* The rows as samples at their indices, NaN between them. */
 static ss_status
-spread_rows(struct table *t, const size_t *sample, ss_error *err)
+rewind_rows(void *source, ss_error *err)
 {
-    size_t n = t->n_columns, all = sample[t->n_rows - 1] + 1;
-    if (all == t->n_rows)
-        return SS_OK;
-    if (all / GAPS_MOST > t->n_rows)
-        return ss_fail(err, SS_EDATA, "%s: of %zu samples only %zu are there", t->in->name, all,
-                       t->n_rows);
-    double *value = malloc(all * n * sizeof *value);
-    if (value == NULL)
-        return ss_delimited_no_memory(t, err);
-    for (size_t i = 0; i < all * n; i++)
-        value[i] = NAN;
-    for (size_t i = 0; i < t->n_rows; i++)
-        memcpy(value + sample[i] * n, t->value + i * n, n * sizeof *value);
-    free(t->value);
-    t->value = value;
-    t->n_rows = all;
-    return SS_OK;
+    return ss_delimited_rewind(source, err);
 }
 
-/* Rows at stamps as samples of a clock: that of the stamps, or that of opts->resample.  *own: the
- * rate of the stamps. */
 static ss_status
-place_rows(struct table *t, const double *stamp, double *own, ss_error *err)
+next_stamp(void *source, int *there, double *stamp, unsigned long *line, ss_error *err)
 {
-    const char *name = t->in->name;
-    int gaps = t->opts->gaps != SS_GAPS_REFUSE;
-    size_t *sample = NULL, n = t->n_rows;
-    double usual, *value;
-    if (!(t->opts->resample > 0)) {
-        sample = malloc((n + 1) * sizeof *sample);
-        if (sample == NULL)
-            return ss_delimited_no_memory(t, err);
-        ss_status st = ss_find_clock(name, stamp, t->line, n, gaps, sample, &t->names->rate, err);
-        if (st == SS_OK)
-            st = spread_rows(t, sample, err);
-        free(sample);
-        *own = t->names->rate;
-        return st;
+    struct table *t = source;
+    const double *row;
+    ss_status st = ss_delimited_next(t, &row, err);
+    *there = row != NULL;
+    if (*there) {
+        *stamp = stamp_of(t, row);
+        *line = (unsigned long)row[t->n_columns];
     }
-    ss_status st = ss_usual_step(name, stamp, t->line, n, &usual, err);
-    t->names->rate = t->opts->resample;
-    *own = 1 / usual;
-    if (st == SS_OK)
-        st = ss_resample(&value, &n, stamp, t->value, n, t->n_columns, usual, t->names->rate, name, err);
-    if (st != SS_OK)
-        return st;
-    free(t->value);
-    t->value = value;
-    t->n_rows = n;
-    for (size_t i = 0; !gaps && i < n; i++)
-        if (isnan(value[i * t->n_columns]))
-            return ss_fail(err, SS_EGAPS, "%s: a gap around %g s, of more than ten usual steps of %g s", name,
-                           stamp[0] + (double)i / t->names->rate, usual);
-    return SS_OK;
-}
-
-/* The column holds times in this unit, counted from an origin; *own: their rate. */
-static ss_status
-read_stamps(struct table *t, size_t column, double factor, double divisor, double *own, ss_error *err)
-{
-    t->time = column;
-    if (t->twice) {
-        ss_status even = ss_clock_rate(&t->fit, t->in->name, &t->names->rate, err);
-        t->names->start = t->fit.first.stamp;
-        *own = t->names->rate;
-        return even;
-    }
-    drop_rows_without(t, column);
-    double *stamp = malloc((t->n_rows + 1) * sizeof *stamp);
-    if (stamp == NULL)
-        return ss_delimited_no_memory(t, err);
-    for (size_t i = 0; i < t->n_rows; i++)
-        stamp[i] = t->counted.origin + t->value[i * t->n_columns + column] * factor / divisor;
-    ss_status st = place_rows(t, stamp, own, err);
-    if (st == SS_OK)
-        t->names->start = stamp[0];
-    free(stamp);
     return st;
 }
+
+/* Find the clock of the stamps, on which rows are samples. */
+static ss_status
+find_clock(struct table *t, const struct stamps *s, ss_error *err)
+{
+    const struct time_column *a = &t->time, *b = &t->fitted;
+    ss_header *head = t->names;
+    int gaps = t->opts->gaps != SS_GAPS_REFUSE;
+    head->start = t->fit.first.stamp;
+    if (!gaps && t->ascends && a->column == b->column && a->origin == b->origin && a->factor == b->factor
+        && a->divisor == b->divisor && ss_clock_rate(&t->fit, s->file, &head->rate, NULL) == SS_OK)
+        return SS_OK;
+    clock_fit fit = { 0 };
+    ss_status st = gaps ? ss_usual_step(s, &t->count.usual, err) : SS_OK;
+    if (st == SS_OK)
+        st = ss_find_clock(s, t->count.usual, &fit, &head->rate, err);
+    head->start = fit.first.stamp;
+    if (st == SS_OK && (fit.last.sample + 1) / GAPS_MOST >= (double)fit.n + 1)
+        st = ss_fail(err, SS_EDATA, "%s: of %.15g samples only %zu are there", s->file, fit.last.sample + 1, fit.n);
+    ss_clock_free(&fit);
+    return st;
+}
+
+/* The first and the last stamp, how many there are, and, behind gap, the first sample at this rate that lies in a
+ * gap, or a negative number. */
+static ss_status
+survey_stamps(struct table *t, double *gap, double *last, size_t *n, ss_error *err)
+{
+    const double *row;
+    double rate = t->opts->resample;
+    ss_status st = ss_delimited_rewind(t, err);
+    *gap = -1;
+    *last = 0;
+    for (*n = 0; st == SS_OK && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL; ++*n) {
+        double stamp = stamp_of(t, row), start = t->names->start;
+        if (*n == 0)
+            t->names->start = stamp;
+        else if (*gap < 0 && stamp - *last > t->longest)
+            *gap = ss_resample_gap(*last - start, stamp - start, rate);
+        *last = stamp;
+    }
+    return st;
+}
+
+/* A clock of opts->resample, to which a spline leads from the stamps. */
+static ss_status
+resample_stamps(struct table *t, const struct stamps *s, double *own, ss_error *err)
+{
+    double usual, gap, last, rate = t->names->rate = t->opts->resample;
+    size_t n;
+    ss_status st = ss_usual_step(s, &usual, err);
+    if (st != SS_OK)
+        return st;
+    *own = 1 / usual;
+    t->longest = LONGEST * usual;
+    if ((st = survey_stamps(t, &gap, &last, &n, err)) != SS_OK)
+        return st;
+    double samples = ss_resample_count(t->names->start, last, rate);
+    if (samples > MOST_SAMPLES && samples / MOST_PER_STAMP >= (double)n + 1)
+        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %.15g samples at %g Hz", s->file, n, samples,
+                       rate);
+    if (t->opts->gaps != SS_GAPS_REFUSE || gap < 0)
+        return SS_OK;
+    return ss_fail(err, SS_EGAPS, "%s: a gap around %g s, of more than ten usual steps of %g s", s->file,
+                   t->names->start + gap / rate, usual);
+}
+
+/* The column holds times; *own: their rate. */
+static ss_status
+read_stamps(struct table *t, struct time_column time, double *own, ss_error *err)
+{
+    const struct stamps s = { t->in->name, rewind_rows, next_stamp, t };
+    t->time = time;
+    if (t->opts->resample > 0)
+        return resample_stamps(t, &s, own, err);
+    ss_status st = find_clock(t, &s, err);
+    *own = t->names->rate;
+    return st;
+}
+
+/* --- samples ------------------------------------------------------------------------------- */
+
+static void
+keep_values(const struct table *t, const double *row, double *to)
+{
+    for (size_t c = 0; c < t->n_kept; c++)
+        to[c] = row[t->kept[c]];
+}
+
+static ss_status
+next_row(void *source, int *there, double *stamp, double *to, ss_error *err)
+{
+    struct table *t = source;
+    const double *row;
+    ss_status st = ss_delimited_next(t, &row, err);
+    *there = row != NULL;
+    if (*there) {
+        *stamp = stamp_of(t, row);
+        keep_values(t, row, to);
+    }
+    return st;
+}
+
+ss_status
+ss_delimited_begin_samples(struct table *t, ss_error *err)
+{
+    ss_resampler_free(t->resampler);
+    t->resampler = NULL;
+    t->count = (struct sample_count){ .usual = t->count.usual };
+    t->row = NULL;
+    t->given = 0;
+    ss_status st = ss_delimited_rewind(t, err);
+    if (st == SS_OK && t->longest > 0)
+        st = ss_resampler_new(&t->resampler, t->in->name, t->n_kept, t->names->rate, t->longest, next_row, t, err);
+    return st;
+}
+
+ss_status
+ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    if (t->resampler != NULL)
+        return ss_resampler_rows(t->resampler, rows, max, n, err);
+    for (*n = 0; *n < max; ++*n, t->given++) {
+        double *to = rows + *n * t->n_kept;
+        if (t->row == NULL) {
+            ss_status st = ss_delimited_next(t, &t->row, err);
+            if (st != SS_OK || t->row == NULL)
+                return st;
+            t->sample = t->time.column == NONE ? t->given : ss_clock_sample(&t->count, stamp_of(t, t->row));
+        }
+        if (t->sample == t->given) {
+            keep_values(t, t->row, to);
+            t->row = NULL;
+        } else {
+            for (size_t c = 0; c < t->n_kept; c++)
+                to[c] = NAN;
+        }
+    }
+    return SS_OK;
+}
+
+/* ------------------------------------------------------------------------------------------- */
 
 /* Ask about a clock that no laboratory has, unless the caller gave its unit; doubt one without unit
  * that would be usual with another. */
@@ -242,7 +319,7 @@ read_clock(struct table *t, size_t column, ss_error *err)
         ss_delimited_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->in->name,
                           name, known->name);
     const struct time_unit *unit = known != NULL ? known : &units_of_time[0];
-    st = read_stamps(t, column, unit->factor, unit->divisor, &rate, err);
+    st = read_stamps(t, (struct time_column){ column, t->counted.origin, unit->factor, unit->divisor }, &rate, err);
     return st == SS_OK ? check_rate(t, name, known, rate, err) : st;
 }
 
@@ -273,7 +350,7 @@ read_stamp_clock(struct table *t, size_t column, ss_error *err)
             day = t->column[i].day;
     if (!isnan(t->column[column].day))
         day = t->column[column].day;
-    ss_status st = read_stamps(t, column, 1, 1, &rate, err);
+    ss_status st = read_stamps(t, (struct time_column){ column, t->counted.origin, 1, 1 }, &rate, err);
     if (st == SS_OK && !isnan(day) && note_date(t, day) != SS_OK)
         st = ss_delimited_no_memory(t, err);
     return st;
@@ -369,15 +446,15 @@ struct time_column
 ss_delimited_time(const struct table *t)
 {
     int guessed, is_date;
-    struct time_column time = { find_time(t, &guessed), 1, 1 };
+    struct time_column time = { find_time(t, &guessed), 0, 1, 1 };
     const struct time_unit *unit;
     if (time.column == NONE || t->column[time.column].kind == COLUMN_STAMPS)
         return time;
     if (t->column[time.column].kind == COLUMN_TEXT
         || unit_of_times(t, time.column, &unit, &is_date, NULL) != SS_OK)
-        return (struct time_column){ NONE, 1, 1 };
+        return (struct time_column){ NONE, 0, 1, 1 };
     if (unit != NULL)
-        time = (struct time_column){ time.column, unit->factor, unit->divisor };
+        time = (struct time_column){ time.column, 0, unit->factor, unit->divisor };
     return time;
 }
 
@@ -394,7 +471,9 @@ ss_delimited_choose_clock(struct table *t, ss_error *err)
         return SS_OK;
     }
     if (t->counted.increment > 0)
-        return t->counted.numbered ? read_stamps(t, 0, t->counted.increment, 1, &rate, err) : count_rows(t);
+        return t->counted.numbered
+            ? read_stamps(t, (struct time_column){ 0, t->counted.origin, t->counted.increment, 1 }, &rate, err)
+            : count_rows(t);
     if (column != NONE && !guessed)
         return t->column[column].kind == COLUMN_STAMPS ? read_stamp_clock(t, column, err)
             : read_clock(t, column, err);

@@ -186,28 +186,47 @@ ss_delimited_read_labview(struct table *t, ss_error *err)
     return st;
 }
 
-/* Are these two columns the same? */
-static int
-equal_columns(const struct table *t, size_t a, size_t b)
+/* The first of the columns of x that is not the same as column 0; n_columns: all are. */
+static ss_status
+find_other_times(struct table *t, size_t *first, ss_error *err)
 {
-    for (size_t i = 0; i < t->n_rows; i++)
-        if (t->value[i * t->n_columns + a] < t->value[i * t->n_columns + b]
-            || t->value[i * t->n_columns + a] > t->value[i * t->n_columns + b])
-            return 0;
-    return 1;
+    const double *row;
+    ss_status st = ss_delimited_rewind(t, err);
+    *first = t->n_columns;
+    while (st == SS_OK && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL)
+        for (size_t i = 2; i < *first; i += 2)
+            if (row[0] < row[i] || row[0] > row[i])
+                *first = i;
+    return st;
 }
 
 #define MOST_APART 0.1          /* sample periods that a time may be off, as on any clock */
 #define MOST_ROUNDING 5.1e-7    /* [s] of LabVIEW's six decimals */
 
 /* The largest distance of the first column from rows of this step. */
-static double
-farthest(const struct table *t, double step)
+static ss_status
+find_farthest(struct table *t, double step, double *most, ss_error *err)
 {
-    double most = 0;
-    for (size_t i = 0; i < t->n_rows; i++)
-        most = fmax(most, fabs(t->value[i * t->n_columns] - t->value[0] - (double)i * step));
-    return most;
+    const double *row;
+    ss_status st = ss_delimited_rewind(t, err);
+    *most = 0;
+    for (double i = 0; st == SS_OK && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL; i++)
+        *most = fmax(*most, fabs(row[0] - t->first[0] - i * step));
+    return st;
+}
+
+/* Each channel has times of its own, which must be the same. */
+static ss_status
+leave_one_x(struct table *t, ss_error *err)
+{
+    size_t other;
+    ss_status st = find_other_times(t, &other, err);
+    if (st == SS_OK && other < t->n_columns)
+        return ss_fail(err, SS_EDATA, "%s: column %zu: the times of its channel are not those of "
+                       "the first; make a file of each", t->in->name, other + 1);
+    for (size_t i = 2; i < t->n_columns; i += 2)
+        t->column[i].kind = COLUMN_TEXT;
+    return st;
 }
 
 /* The first column may repeat the times that the header gives, or hold the rows' numbers. */
@@ -215,21 +234,19 @@ ss_status
 ss_delimited_check_labview(struct table *t, ss_error *err)
 {
     const struct counted c = t->counted;
+    double from_times, from_numbers;
     if (!(c.increment > 0) || c.numbered || t->column[0].kind != COLUMN_NUMBERS || t->opts->time != NULL
         || t->opts->rate > 0)
         return SS_OK;
-    if (t->labview && t->layout == LAYOUT_MULTI)
-        for (size_t i = 2; i < t->n_columns; i += 2) {
-            if (!equal_columns(t, 0, i))
-                return ss_fail(err, SS_EDATA, "%s: column %zu: the times of its channel are not those of "
-                               "the first; make a file of each", t->in->name, i + 1);
-            t->column[i].kind = COLUMN_TEXT;
-        }
-    if (t->first_x == 0 || (t->labview && t->layout == LAYOUT_NO))
-        return SS_OK;
-    if (farthest(t, c.increment) <= fmax(MOST_APART * c.increment, MOST_ROUNDING)) {
-        t->counted.origin = t->value[0];
-    } else if (farthest(t, 1) > 1e-6) {         /* nor are they numbered */
+    ss_status st = t->labview && t->layout == LAYOUT_MULTI ? leave_one_x(t, err) : SS_OK;
+    if (st != SS_OK || t->first_x == 0 || (t->labview && t->layout == LAYOUT_NO))
+        return st;
+    if ((st = find_farthest(t, c.increment, &from_times, err)) != SS_OK
+        || (st = find_farthest(t, 1, &from_numbers, err)) != SS_OK)
+        return st;
+    if (from_times <= fmax(MOST_APART * c.increment, MOST_ROUNDING)) {
+        t->counted.origin = t->first[0];
+    } else if (from_numbers > 1e-6) {           /* nor are they numbered */
         t->counted = (struct counted){ 0, 0, 0 };
         return take_first(t, err);
     }

@@ -139,6 +139,7 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
         return SS_OK;
     char *end = newline != NULL ? newline : in->buffer + in->hi;
     *line = in->buffer + in->lo;
+    in->begun = in->lo;
     in->lo = (size_t)(end - in->buffer) + (newline != NULL);
     while (end > *line && end[-1] == '\r')
         end--;
@@ -154,7 +155,7 @@ ss_input_place(const struct input *in)
     struct stat st;
     int fd = fileno(in->file);
     off_t end = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) ? lseek(fd, 0, SEEK_CUR) : -1;
-    return end >= 0 ? end - (off_t)(in->hi - in->lo) : -1;
+    return end >= 0 ? end - (off_t)(in->hi - in->begun) : -1;
 }
 
 ss_status

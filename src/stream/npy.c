@@ -245,13 +245,12 @@ static ss_status
 fill_table(struct table *t, const struct npy *a, const double *value, ss_error *err)
 {
     char number[32];
+    double *row;
     ss_status st = SS_OK;
     t->n_columns = a->columns;
     t->named = a->named;
     t->column = calloc(a->columns, sizeof *t->column);
-    t->value = malloc(a->rows * a->columns * sizeof *t->value);
-    t->line = malloc(a->rows * sizeof *t->line);
-    if (t->column == NULL || t->value == NULL || t->line == NULL)
+    if (t->column == NULL)
         return ss_delimited_no_memory(t, err);
     for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
         snprintf(number, sizeof number, "ch%zu", c + 1);
@@ -260,30 +259,34 @@ fill_table(struct table *t, const struct npy *a, const double *value, ss_error *
     }
     if (st != SS_OK)
         return ss_delimited_no_memory(t, err);
-    for (size_t i = 0; i < a->rows; i++)
-        for (size_t c = 0; c < a->columns; c++) {
+    ss_delimited_begin_rows(t, -1, 1);
+    for (size_t i = 0; st == SS_OK && i < a->rows; i++) {
+        t->in->line = i + 1;
+        st = ss_delimited_new_row(t, &row, err);
+        for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
             double x = value[a->fortran ? c * a->rows + i : i * a->columns + c];
             if (!isfinite(x) && t->opts->gaps == SS_GAPS_REFUSE)
                 return ss_fail(err, SS_EGAPS, "%s: row %zu, column %s: not a finite number", t->in->name, i + 1,
                                t->names->column[c].name);
-            t->value[i * a->columns + c] = isfinite(x) ? x : NAN;
-            t->line[i] = i + 1;
+            row[c] = isfinite(x) ? x : NAN;
         }
-    t->n_rows = a->rows;
-    return SS_OK;
+        if (st == SS_OK)
+            st = ss_delimited_add_row(t, err);
+    }
+    return st;
 }
 
 static ss_status
 open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
     struct input *in = &reader->in;
-    struct table t = { .in = in, .opts = opts, .time = NONE, .names = ss_header_new(0, 0) };
+    struct table *t = ss_delimited_new(reader, opts);
     struct npy a = { .field = NULL };
     char *text;
     double *value = NULL;
+    if (t == NULL)
+        return ss_fail_memory(err, in->name);
     ss_status st = read_header(in, &text, err);
-    if (st == SS_OK && t.names == NULL)
-        st = ss_delimited_no_memory(&t, err);
     if (st == SS_OK && (!read_dictionary(&a, text) || !arrange(&a)))
         st = a.no_memory ? ss_fail_memory(err, in->name)
             : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "
@@ -292,11 +295,10 @@ open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st == SS_OK)
         st = read_records(in, &a, &value, err);
     if (st == SS_OK)
-        st = fill_table(&t, &a, value, err);
+        st = fill_table(t, &a, value, err);
     free(value);
     if (st == SS_OK)
-        st = ss_delimited_finish(&t, reader, err);
-    ss_delimited_free(&t);
+        st = ss_delimited_finish(t, reader, err);
     free(a.field);
     free(text);
     return st;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/gaps.h"
 #include "stream/calibration.h"
 #include "stream/clock.h"
 #include "stream/delimited.h"
@@ -70,7 +71,7 @@ ss_reader_close(ss_reader *reader)
     ss_input_close(&reader->in);
     ss_header_free(reader->head);
     ss_delimited_free(reader->table);
-    free(reader->table);
+    ss_gaps_free(reader->gaps);
     free(reader->values);
     free(reader->factor);
 }
@@ -130,6 +131,8 @@ ss_reader_waits(const ss_reader *reader)
 {
     if (reader == NULL)
         return 0;
+    if (reader->waits != NULL)
+        return reader->waits(reader);
     return reader->values == NULL && ss_input_waits(&reader->in);
 }
 

@@ -30,12 +30,16 @@ struct ss_reader {
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
     uint64_t end;               /* frames: their end in the file, unless that is unknown */
     int is_chunk;               /* frames: behind them, another chunk of a WAV file is no error */
-    double *values;             /* delimited text, HDF5: rows, one after the other: all, or a piece */
+    double *values;             /* HDF5: rows, one after the other: a piece */
     size_t n_rows, next;        /* next: of these, to be given */
     uint64_t length;            /* rows of the source; UINT64_MAX: not known before its end */
     void *source;               /* what the reader has opened itself */
     void (*close)(ss_reader *reader);   /* closes that, or NULL */
-    struct table *table;        /* delimited text that is read piece by piece, or NULL */
+    struct table *table;        /* of delimited text, or NULL */
+    ss_status (*rewind)(ss_reader *reader, ss_error *err);      /* back to its first row; NULL: it cannot */
+    struct gap_filler *gaps;    /* or NULL */
+    read_rows *with_gaps;       /* gives NaN where they are to be filled */
+    int (*waits)(const ss_reader *reader);      /* for a source of its own; NULL: it reads `in` */
 };
 
 /* Begin to read a file of this kind, in the format that its first bytes show; to be closed even
@@ -46,6 +50,9 @@ void ss_reader_close(ss_reader *reader);
 /* The last step of opening: apply the options that hold for every format; needs the header, length
  * and in.name. */
 ss_status ss_reader_adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err);
+
+/* Fill the gaps of a reader whose rows have NaN there, and which can go back: all rows are read first. */
+ss_status ss_reader_fill_gaps(ss_reader *reader, ss_gaps how, ss_error *err);
 
 /* Give at most max rows of reader->values; *n becomes their number. */
 void ss_reader_give(ss_reader *reader, double *rows, size_t max, size_t *n);

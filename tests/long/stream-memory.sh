@@ -48,6 +48,25 @@ for file in long.csv comma.csv long.h5 long.h5:/signal/a; do
     done
 done
 
+# So are delimited text through a pipe, with gaps and at another rate, and one of several tables, and HDF5 with
+# gaps; numbers that are read again are in a file.
+awk -F , 'NR % 1000 != 7' long.csv > gaps.csv
+{ cat long.csv; printf 'Step 2\nt,b\n0,1\n1,2\n'; } > tables.csv
+for command in 'ss-cat --format au -' 'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au' \
+        'ss-cat --format au --gaps=interpolate gaps.csv' 'ss-cat --format au --resample 9000 gaps.csv' \
+        'ss-cat --format au --gaps=split --resample 12000 gaps.csv' 'ss-cat --format au --table 1 tables.csv' \
+        'ss-cat --format au --gaps=split long.h5' 'ss-noise --rms 1 --format au --resample 9000 long.h5'; do
+    mkfifo in
+    cat long.csv > in &
+    $command < in > /dev/null &
+    tool=$!
+    most=$(high_water $tool)
+    wait $tool
+    rm in
+    [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command: $most KiB"
+done
+rm gaps.csv tables.csv
+
 # A picture over time, of files and through a pipe.
 for file in long.csv long.h5; do
     ss-plot -o long.gp $file &

@@ -1,0 +1,363 @@
+/* delimited_rows.c -- the rows of a text table, which are read several times.
+ *
+ * Only all stamps together show the rate, and all cells the gaps.  A table of more than a piece is therefore
+ * read again: from its text where that is a file, else from a file without a name, where the numbers
+ * are. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "base/number.h"
+#include "stream/delimited.h"
+#include "stream/stamp.h"
+
+enum { PIECE = 1 << 18 };               /* numbers in memory, or one row */
+
+/* --- lines --------------------------------------------------------------------------------- */
+
+char
+ss_delimited_first_of(const char *line)
+{
+    while (*line == ' ' || *line == '\t')
+        line++;
+    return *line;
+}
+
+ss_status
+ss_delimited_line(struct table *t, char **line, int *comment, ss_error *err)
+{
+    size_t length;
+    do {
+        ss_status st = ss_input_line(t->in, line, &length, err);
+        if (st != SS_OK || *line == NULL)
+            return st;
+        if (strlen(*line) != length)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters",
+                           t->in->name, t->in->line);
+        if (strchr(*line, '\r') != NULL)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
+                           "makes them)", t->in->name, t->in->line);
+    } while (ss_delimited_first_of(*line) == '\0');
+    *comment = **line == '#';
+    return SS_OK;
+}
+
+/* --- cells of a row ------------------------------------------------------------------------ */
+
+/* Numbers of one file have one decimal mark: 1,234 beside 0.5 may be either of two numbers. */
+static ss_status
+check_mark(struct table *t, size_t column, ss_error *err)
+{
+    const char *cell = t->cell[column];
+    char mark = cell[strcspn(cell, t->separator == ',' ? "." : ".,")];
+    if (t->mark == '\0')
+        t->mark = mark;
+    if (mark == '\0' || mark == t->mark)
+        return SS_OK;
+    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it "
+                   "have a %s", t->in->name, t->in->line, t->names->column[column].name, cell,
+                   mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
+}
+
+/* The seconds of a stamp: of the day without a date, and going on at midnight; else from the midnight
+ * before the first row. */
+static double
+read_stamp(struct table_column *c, const char *cell)
+{
+    const time_stamp s = ss_stamp_read(cell);
+    if (s.parts != c->parts)
+        return NAN;
+    if (c->parts & STAMP_DATE) {
+        if (isnan(c->day))
+            c->day = (double)s.day;
+        return 86400 * ((double)s.day - c->day) + s.seconds;
+    }
+    double days = isnan(c->last) ? 0 : floor((c->last - s.seconds) / 86400 + 0.5);
+    return c->last = s.seconds + 86400 * days;  /* the nearest to the row before */
+}
+
+/* The value of one cell of the line that was split. */
+static ss_status
+read_cell(struct table *t, size_t i, double *value, ss_error *err)
+{
+    struct table_column *c = &t->column[i];
+    char *cell = t->cell[i];
+    *value = 0;
+    if (c->kind == COLUMN_TEXT)
+        return SS_OK;
+    enum cell_kind kind = ss_cell_read(cell, t->separator, value);
+    int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
+    if (missing && t->opts->gaps != SS_GAPS_REFUSE) {
+        *value = NAN;
+        return SS_OK;
+    }
+    if (c->kind == COLUMN_STAMPS && !isnan(*value = read_stamp(c, cell)))
+        return SS_OK;
+    if (c->kind == COLUMN_NUMBERS && kind == CELL_NUMBER)
+        return check_mark(t, i, err);
+    const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
+        ? "finite number" : "number";
+    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s",
+                   t->in->name, t->in->line, t->names->column[i].name, cell, what);
+}
+
+/* Read a row of nothing but plain numbers, as most are; 0: it must be looked at cell by cell. */
+static int
+read_plain(const struct table *t, char *p, double *row)
+{
+    const char point = t->separator == ',' || t->mark == '\0' ? '.' : t->mark;
+    char *end;
+    if (t->separator != ',' && t->mark == '\0' && strpbrk(p, ".,") != NULL)
+        return 0;
+    for (size_t i = 0; i < t->n_columns; i++, p = end + 1) {
+        while (*p == ' ')
+            p++;
+        const char *digit = p + (*p == '-');
+        if (t->column[i].kind != COLUMN_NUMBERS || *digit < '0' || *digit > '9')
+            return 0;
+        row[i] = ss_number_parse_point(p, point, &end);
+        if (*end != (i + 1 < t->n_columns ? t->separator : '\0') || !isfinite(row[i]))
+            return 0;
+    }
+    return 1;
+}
+
+static ss_status
+parse_row(struct table *t, char *text, double *row, ss_error *err)
+{
+    if (read_plain(t, text, row))
+        return SS_OK;
+    size_t n = ss_delimited_split(t, text, t->separator);
+    if (n == NONE)
+        return ss_delimited_no_memory(t, err);
+    if (n != t->n_columns && !(n == t->n_columns + 1 && (t->comments || t->labview)))
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", t->in->name,
+                       t->in->line, t->n_columns, n);
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < t->n_columns; i++)
+        st = read_cell(t, i, &row[i], err);
+    return st;
+}
+
+/* --- rows that are put away ---------------------------------------------------------------- */
+
+static ss_status
+fail_file(const struct table *t, ss_error *err)
+{
+    char name[300];
+    snprintf(name, sizeof name, "%.200s: a temporary file for its rows", t->in->name);
+    return ss_fail_errno(err, name, errno);
+}
+
+/* A file that nobody else sees and that ends with us. */
+static FILE *
+open_nameless(const char *first)
+{
+    const char *folder[] = { first, "/var/tmp", "/tmp" };
+    char name[512];
+    for (size_t i = 0; i < sizeof folder / sizeof *folder; i++) {
+        int fits = folder[i] != NULL && folder[i][0] != '\0'
+            && snprintf(name, sizeof name, "%s/stickslip.XXXXXX", folder[i]) < (int)sizeof name;
+        int fd = fits ? mkstemp(name) : -1;
+        if (fd < 0)
+            continue;
+        unlink(name);
+        return fdopen(fd, "w+");
+    }
+    return NULL;
+}
+
+/* Of the rows in the block: shows whether they are the same when they are read again. */
+static uint64_t
+sum_of(const struct table_rows *r)
+{
+    uint64_t sum = 0, bits;
+    for (size_t i = 0; i < r->held * r->width; i++) {
+        memcpy(&bits, &r->block[i], sizeof bits);
+        sum = (sum ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+        sum ^= sum >> 32;
+    }
+    return sum;
+}
+
+/* Empty the block. */
+static ss_status
+put_away(struct table *t, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    if (r->place >= 0) {
+        uint64_t *more = ss_list_room(r->sum, &r->sums_room, r->n_sums, sizeof *more);
+        if (more == NULL)
+            return ss_delimited_no_memory(t, err);
+        r->sum = more;
+        more[r->n_sums++] = sum_of(r);
+    } else {
+        if (r->file == NULL && (r->file = open_nameless(t->opts->folder)) == NULL)
+            return fail_file(t, err);
+        if (fwrite(r->block, r->width * sizeof *r->block, r->held, r->file) != r->held)
+            return fail_file(t, err);
+    }
+    r->is_away = 1;
+    r->held = 0;
+    return SS_OK;
+}
+
+static size_t
+rows_in_piece(const struct table_rows *r)
+{
+    return r->width < PIECE ? PIECE / r->width : 1;
+}
+
+void
+ss_delimited_begin_rows(struct table *t, off_t place, unsigned long line)
+{
+    struct table_rows *r = &t->rows;
+    int again = t->opts->gaps == SS_GAPS_REFUSE && !(t->opts->resample > 0);    /* else too often for text */
+    r->width = t->n_columns + 1;
+    r->place = again ? place : -1;
+    r->line = line;
+    r->n = r->held = r->n_sums = 0;
+    r->is_away = 0;
+    if (r->file != NULL)
+        rewind(r->file);
+}
+
+ss_status
+ss_delimited_new_row(struct table *t, double **row, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    ss_status st = r->held == rows_in_piece(r) ? put_away(t, err) : SS_OK;
+    if (st != SS_OK)
+        return st;
+    double *more = ss_list_grow(r->block, &r->room, (r->held + 1) * r->width, sizeof *more);
+    if (more == NULL)
+        return ss_delimited_no_memory(t, err);
+    r->block = more;
+    *row = more + r->held * r->width;
+    (*row)[t->n_columns] = (double)t->in->line;
+    return SS_OK;
+}
+
+ss_status
+ss_delimited_add_row(struct table *t, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    if (r->n == 0) {
+        free(t->first);
+        t->first = malloc(r->width * sizeof *t->first);
+        if (t->first == NULL)
+            return ss_delimited_no_memory(t, err);
+        memcpy(t->first, r->block, r->width * sizeof *t->first);
+    }
+    r->held++;
+    r->n++;
+    return SS_OK;
+}
+
+ss_status
+ss_delimited_read_row(struct table *t, char *text, const double **row, ss_error *err)
+{
+    double *new_row;
+    ss_status st = ss_delimited_new_row(t, &new_row, err);
+    if (st == SS_OK)
+        st = parse_row(t, text, new_row, err);
+    *row = new_row;
+    return st == SS_OK ? ss_delimited_add_row(t, err) : st;
+}
+
+ss_status
+ss_delimited_end_rows(struct table *t, ss_error *err)
+{
+    ss_status st = t->rows.is_away ? put_away(t, err) : SS_OK;
+    if (st == SS_OK && t->rows.file != NULL && fflush(t->rows.file) != 0)
+        return fail_file(t, err);
+    return st;
+}
+
+/* --- rows that are read again -------------------------------------------------------------- */
+
+/* Read n rows of text again.  Rows that a recorder has appended since are not read. */
+static ss_status
+parse_again(struct table *t, size_t n, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    char *line;
+    int comment;
+    while (r->held < n) {
+        ss_status st = ss_delimited_line(t, &line, &comment, err);
+        if (st == SS_OK && line == NULL)
+            return ss_fail(err, SS_EDATA, "%s:%lu: the file has become shorter while it was read", t->in->name,
+                           t->in->line);
+        double *row = r->block + r->held * r->width;
+        row[t->n_columns] = (double)t->in->line;
+        if (st == SS_OK && !comment && (st = parse_row(t, line, row, err)) == SS_OK)
+            r->held++;
+        if (st != SS_OK)
+            return st;
+    }
+    if (sum_of(r) != r->sum[r->next_sum++])
+        return ss_fail(err, SS_EDATA, "%s:%lu: the rows up to here have changed while the file was read",
+                       t->in->name, t->in->line);
+    return SS_OK;
+}
+
+/* The next piece into the block. */
+static ss_status
+fetch(struct table *t, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    uint64_t left = r->n - r->given, piece = rows_in_piece(r);
+    size_t n = (size_t)(left < piece ? left : piece);
+    r->held = r->at = 0;
+    if (r->place >= 0)
+        return parse_again(t, n, err);
+    r->held = n;
+    return fread(r->block, r->width * sizeof *r->block, n, r->file) == n ? SS_OK : fail_file(t, err);
+}
+
+ss_status
+ss_delimited_rewind(struct table *t, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    r->at = 0;
+    r->given = 0;
+    if (!r->is_away)
+        return SS_OK;
+    r->held = r->next_sum = 0;
+    if (r->place < 0)
+        return fseek(r->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(t, err);
+    t->mark = '\0';
+    for (size_t i = 0; i < t->n_columns; i++)
+        t->column[i].last = NAN;
+    return ss_input_return(t->in, r->place, r->line - 1, err);
+}
+
+ss_status
+ss_delimited_next(struct table *t, const double **row, ss_error *err)
+{
+    struct table_rows *r = &t->rows;
+    do {
+        *row = NULL;
+        if (r->given == r->n)
+            return SS_OK;
+        ss_status st = r->at == r->held ? fetch(t, err) : SS_OK;
+        if (st != SS_OK)
+            return st;
+        *row = r->block + r->at++ * r->width;
+        r->given++;
+    } while (t->time.column != NONE && isnan((*row)[t->time.column]));
+    return SS_OK;
+}
+
+void
+ss_delimited_free_rows(struct table *t)
+{
+    if (t->rows.file != NULL)
+        fclose(t->rows.file);
+    free(t->rows.block);
+    free(t->rows.sum);
+    free(t->first);
+}
