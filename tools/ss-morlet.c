@@ -376,8 +376,8 @@ close_flow(flow *f, const char *path)
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
               ss_stream_samples(f->stream), scales, ss_stream_scale(f->stream, 0)->f,
               ss_stream_scale(f->stream, scales - 1)->f);
-    tool_note("each at most %zu to %zu samples behind b", ss_stream_window(f->stream, scales - 1),
-              ss_stream_window(f->stream, 0));
+    tool_note("each at most %zu to %zu samples behind b", ss_stream_window(f->stream, scales - 1) - 1,
+              ss_stream_window(f->stream, 0) - 1);
     ss_stream_free(f->stream);
 }
 

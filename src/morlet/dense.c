@@ -77,6 +77,12 @@ ss_dense_new(const kaiser *ker, size_t phases)
     return d;
 }
 
+size_t
+ss_dense_phases(const weights *d)
+{
+    return d->phases;
+}
+
 void
 ss_dense_free(weights *d)
 {

@@ -10,6 +10,7 @@ typedef struct weights weights;
 
 /* NULL: no memory. */
 weights *ss_dense_new(const kaiser *ker, size_t phases);
+size_t ss_dense_phases(const weights *d);
 void ss_dense_free(weights *d);                       /* NULL is allowed */
 
 enum {

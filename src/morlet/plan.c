@@ -36,8 +36,6 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
     st = fill_plan(plan, err);
     if (st == SS_OK)
         st = ss_blocks_new(plan);
-    if (st == SS_OK)
-        st = ss_fft_new(plan);
     if (st != SS_OK) {
         ss_morlet_free(plan);
         return st;
@@ -69,8 +67,7 @@ ss_morlet_engine(const ss_morlet *plan, size_t i)
 {
     if (plan == NULL || i >= plan->n_scales)
         return SS_ENGINE_AUTO;
-    return ss_blocks_covers(plan->blocks, i) || ss_fft_covers(plan->fft, i) ? SS_ENGINE_FFT
-        : SS_ENGINE_QUADRATURE;
+    return ss_blocks_covers(plan->blocks, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
 }
 
 void
@@ -79,7 +76,6 @@ ss_morlet_free(ss_morlet *plan)
     if (plan == NULL)
         return;
     ss_blocks_free(plan->blocks);
-    ss_fft_free(plan->fft);
     free(plan->scale);
     free(plan);
 }
@@ -89,25 +85,14 @@ ss_morlet_free(ss_morlet *plan)
 ss_status
 ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out)
 {
-    ss_status st = SS_OK;
-    if (plan->blocks != NULL)
-        st = ss_blocks_forward(plan->blocks, rec, (size_t)plan->opts.threads, &out->blocks);
-    return st == SS_OK && plan->fft != NULL ? ss_fft_forward(plan->fft, rec, out) : st;
-}
-
-void
-ss_morlet_spectra_free(spectra *s)
-{
-    ss_block_spectra_free(&s->blocks);
-    ss_spectra_free(s);
+    return plan->blocks != NULL
+        ? ss_blocks_forward(plan->blocks, rec, (size_t)plan->opts.threads, out) : SS_OK;
 }
 
 size_t
 ss_morlet_room(const ss_morlet *plan)
 {
-    size_t of_fft = plan->fft != NULL ? ss_fft_room(plan->fft) : 0;
-    size_t of_blocks = plan->blocks != NULL ? ss_blocks_room(plan->blocks) : 0;
-    return of_fft > of_blocks ? of_fft : of_blocks;
+    return plan->blocks != NULL ? ss_blocks_room(plan->blocks) : 0;
 }
 
 ss_status
@@ -128,9 +113,7 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
     int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
     factor = fits ? factor : 1;
     if (s != NULL && ss_blocks_covers(plan->blocks, i))
-        ss_blocks_scale(plan->blocks, i, &s->blocks, scratch, part, factor, w);
-    else if (s != NULL && ss_fft_covers(plan->fft, i))
-        ss_fft_scale(plan, i, rec, s, scratch, part, factor, most, w);
+        ss_blocks_scale(plan->blocks, i, s, scratch, part, factor, w);
     else {
         wavelet *own = wave == NULL ? ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)
             : NULL;

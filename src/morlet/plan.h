@@ -24,8 +24,7 @@ struct ss_morlet {
     size_t total;           /* coefficients */
     int window;             /* 1: for windows of a stream, of whose coefficients only those are
                                asked for that lie REACH a and a unit within its ends */
-    struct blocks *blocks;  /* NULL: no scale goes that way; the others: */
-    struct fft *fft;        /* NULL: all by quadrature */
+    struct blocks *blocks;  /* NULL: all by quadrature */
 };
 
 /* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1); or a
@@ -99,7 +98,7 @@ void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
 
 /* Coefficients of a scale, factor times those in units of a^1/2 and of the record.  *most is the
  * largest |W| in these units of those computed before, which the accuracy counts by, too, and is
- * raised.  Then about what n of them cost [s], making the wavelet apart. */
+ * raised.  Then about what n of them cost [s], without making the wavelet. */
 void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                          wavelet *wave, span part, double factor, double *most, double *w);
 double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n);
@@ -107,47 +106,22 @@ double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n
  * samples x. */
 void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
                            const double *w, double factor, double *x);
-double ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale);
 
 /* The same at n translations k, by the definition, as exactly as double precision allows, for
  * factor 1. */
 ss_status ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                                const size_t *k, size_t n, double *w);
 
-/* Choose the scales that are transformed by FFT, all that can be or those where it is cheaper, and
- * prepare for them: plan->fft, NULL if there are none. */
-ss_status ss_fft_new(ss_morlet *plan);
-void ss_fft_free(struct fft *fft);                     /* NULL is allowed */
-int ss_fft_covers(const struct fft *fft, size_t i);     /* scale i */
-
-/* Of a record's windows from the first on, level by level. */
-typedef struct block_spectra {
+/* Of a record's windows from the first on, level by level; threads share them. */
+typedef struct spectra {
     double *level[BLOCK_LEVELS];
     size_t first;
-} block_spectra;
-
-/* The record's spectra, which threads share, and the same for scale i. */
-typedef struct spectra {
-    block_spectra blocks;
-    double *level[2];
-    double *size[2];        /* sums of their sizes, in steps; NULL: not needed */
 } spectra;
 
-ss_status ss_fft_forward(const struct fft *fft, const record *rec, spectra *out);
-void ss_spectra_free(spectra *s);
-void ss_fft_scale(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                  double *scratch, span part, double factor, double *most, double *w);
-size_t ss_fft_room(const struct fft *fft);             /* doubles of scratch for one thread */
 double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
 void ss_fft_scratch_free(double *scratch);              /* NULL is allowed */
 
-/* Of a plan for windows: what one costs [s], the samples of which every window must begin at a
- * multiple, and those by which the first translation asked for must lie behind a multiple. */
-double ss_fft_cost(const struct fft *fft);
-size_t ss_fft_unit(const ss_morlet *plan);
-size_t ss_fft_places(const struct fft *fft, size_t i);
-
-/* The spectra of a record for all engines of a plan; to be freed, forward failed or not.
+/* The spectra of a record for a plan; to be freed, forward failed or not.
  * Then what one thread needs beside them, in doubles: NULL if nothing, else ss_fft_scratch_free's. */
 ss_status ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out);
 void ss_morlet_spectra_free(spectra *s);

@@ -29,7 +29,6 @@
 /* [s], measured by tests/bench/bench_morlet: a coefficient, and a tap of it. */
 #define COST_PLACE 60e-9
 #define COST_TAP 0.8e-9
-#define COST_TABLE 50e-9        /* a tap of the wavelet, when it is made */
 
 enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
@@ -349,12 +348,6 @@ double
 ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n)
 {
     return (double)n * (COST_PLACE + COST_TAP * (2 * taps_tried(plan, scale) - 1));
-}
-
-double
-ss_wavelet_cost(const ss_morlet *plan, const ss_scale *scale)
-{
-    return COST_TABLE * taps_tried(plan, scale);
 }
 
 ss_status

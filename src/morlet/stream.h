@@ -17,19 +17,16 @@ typedef struct scale_state {
     ptrdiff_t due;              /* the samples that it needs, from the first on */
     size_t count;               /* in the record; SIZE_MAX until that has ended */
     ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
-    span part;                  /* computed now; those from skip on go to the sink */
-    size_t skip;
+    span part;                  /* computed now */
     double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
     int exponent;
     wavelet *wave;              /* NULL: made when needed */
-    double place, table;        /* cost by the definition: a coefficient, the wavelet [s] */
 } scale_state;
 
 /* Scales that share their windows. */
 typedef struct group {
     ss_morlet *plan;            /* its n is the length of a window */
     size_t first;               /* its scales are first ... first + plan->n_scales - 1 */
-    ptrdiff_t unit;             /* a window begins at a multiple of this */
 } group;
 
 /* The work of one thread: scales first ... end - 1 of a window. */
@@ -72,9 +69,6 @@ void ss_stream_continue(ss_stream *s, size_t i, size_t next);
 /* The next translations of scale i that need no sample from limit on. */
 size_t ss_stream_ready(const ss_stream *s, size_t i, ptrdiff_t limit);
 
-/* Samples that the next translation of a group's scale may lie behind the place where its computation
- * begins. */
-ptrdiff_t ss_group_places(const group *g, size_t i);
 /* The start of a group's next window; PTRDIFF_MAX if none is left. */
 ptrdiff_t ss_group_start(const ss_stream *s, const group *g);
 /* All coefficients of a group's window at start to the sink, of those that have arrived. */

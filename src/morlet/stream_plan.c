@@ -1,9 +1,9 @@
 /* stream_plan.c -- choose the windows of a stream, and allocate what it needs, before its first
  * sample.
  *
- * The longest scales of a stepped grid are computed in blocks, as those of a record are
- * (fft/windows.c).  Of the others, scales of similar length form a group, which has a plan for
- * windows of a fixed length, at least twice the length of its longest wavelet. */
+ * The longest scales, as a rule all, are computed in blocks, as those of a record are (fft/windows.c).
+ * Others are computed by the definition: scales of similar length form a group, which has windows of a
+ * fixed length, at least twice the length of its longest wavelet. */
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -42,7 +42,7 @@ plan_grid(ss_stream *s, ss_error *err)
 static ss_status
 new_group(const ss_stream *s, group *g, size_t first, size_t n_scales, size_t n)
 {
-    *g = (group){ .first = first, .unit = 1, .plan = calloc(1, sizeof *g->plan) };
+    *g = (group){ .first = first, .plan = calloc(1, sizeof *g->plan) };
     if (g->plan == NULL)
         return SS_ENOMEM;
     *g->plan = (ss_morlet){ .opts = s->opts, .n = n, .rate = s->rate, .window = 1,
@@ -93,18 +93,7 @@ plan_group(const ss_stream *s, group *g, size_t first)
         n = exp2(ceil(log2(fmax(n, BASE))));
     if (!(n < 0x1p58))
         return SS_ENOMEM;
-    ss_status st = new_group(s, g, first, scales_together(s, first), (size_t)n);
-    if (st != SS_OK)
-        return st;
-    for (size_t i = 0; i < g->plan->n_scales; i++) {
-        ss_scale *sc = &g->plan->scale[i];
-        double hop = (double)g->plan->n - 2 * reach, step = sc->b_num / sc->b_den * s->rate;
-        sc->n = (size_t)fmin(ceil(hop / step), 0x1p50);
-    }
-    st = ss_fft_new(g->plan);
-    if (st == SS_OK)
-        g->unit = (ptrdiff_t)ss_fft_unit(g->plan);
-    return st;
+    return new_group(s, g, first, scales_together(s, first), (size_t)n);
 }
 
 static ss_status
@@ -133,8 +122,6 @@ plan_sums(ss_stream *s)
         for (size_t k = plan->n_scales; k-- > 0;) {
             scale_state *r = &s->state[s->group[i].first + k];
             const ss_scale *sc = &plan->scale[k];
-            r->place = ss_quadrature_cost(plan, sc, 1);
-            r->table = ss_wavelet_cost(plan, sc);
             bytes += ss_wavelet_bytes(&s->opts, sc->a, s->rate, plan->n);
             if (bytes > TABLES)
                 continue;
@@ -166,27 +153,18 @@ make_room_for_samples(ss_stream *s)
 static size_t
 worker_room(const ss_stream *s)
 {
-    size_t places = 1, room = 0;
-    for (size_t i = 0; i < s->n_groups; i++)
-        for (size_t k = 0; k < s->group[i].plan->n_scales; k++) {
-            size_t n = (size_t)ss_group_places(&s->group[i], s->group[i].first + k);
-            places = n > places ? n : places;
-        }
+    size_t room = s->n_groups > 0 ? GIVEN : 1;
     for (size_t i = 0; i < s->blocks.plan->n_scales; i++) {
         size_t n = ss_blocks_most(s->blocks.plan->blocks, i);
         room = n > room ? n : room;
     }
-    return room > GIVEN + places ? room : GIVEN + places;
+    return room < GIVEN ? room : GIVEN;
 }
 
 static ss_status
 make_workers(ss_stream *s)
 {
     size_t scratch = ss_morlet_room(s->blocks.plan);
-    for (size_t i = 0; i < s->n_groups; i++) {
-        size_t n = ss_morlet_room(s->group[i].plan);
-        scratch = n > scratch ? n : scratch;
-    }
     s->worker_room = worker_room(s);
     s->worker = calloc((size_t)s->opts.threads, sizeof *s->worker);
     if (s->worker == NULL)

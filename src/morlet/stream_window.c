@@ -1,12 +1,8 @@
 /* stream_window.c -- compute one window of a stream and send its coefficients to the sink.
  *
- * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to
- * the error of its engine, nothing compared with the promise.  The engines hold TOL against the
- * largest |W| of a scale so far, which is at most the record's.
- *
- * A full window is computed by the engine that its plan found cheapest.  A window that is not
- * full, because the signal has ended or because complete coefficients are wanted at once, is
- * computed by the definition where that is cheaper for its few coefficients. */
+ * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to the
+ * error of its coefficients, nothing compared with the promise.  The definition holds TOL against the
+ * largest |W| of a scale so far, which is at most the record's. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -25,7 +21,7 @@ typedef struct window {
     size_t workers, each;       /* each computes so many scales at a time */
     ptrdiff_t limit;            /* coefficients are complete that need no sample from here on */
     record rec;
-    const spectra *spectra;     /* NULL: by the definition */
+    const spectra *spectra;     /* NULL: of a group, by the definition */
     ptrdiff_t start;            /* of a group */
     size_t number;              /* of a window of blocks */
 } window;
@@ -60,19 +56,6 @@ ss_stream_ready(const ss_stream *s, size_t i, ptrdiff_t limit)
 }
 
 ptrdiff_t
-ss_group_places(const group *g, size_t i)
-{
-    return g->plan->fft != NULL ? (ptrdiff_t)ss_fft_places(g->plan->fft, i - g->first) : 1;
-}
-
-static ptrdiff_t
-round_down(ptrdiff_t x, ptrdiff_t unit)
-{
-    ptrdiff_t rest = x % unit;
-    return x - (rest < 0 ? rest + unit : rest);
-}
-
-ptrdiff_t
 ss_group_start(const ss_stream *s, const group *g)
 {
     ptrdiff_t start = PTRDIFF_MAX;
@@ -80,10 +63,10 @@ ss_group_start(const ss_stream *s, const group *g)
         const scale_state *r = &s->state[i];
         if (r->next >= r->count)
             continue;
-        ptrdiff_t from = r->due - 2 * r->reach - ss_group_places(g, i);
+        ptrdiff_t from = r->due - 2 * r->reach - 1;
         start = from < start ? from : start;
     }
-    return start < PTRDIFF_MAX ? round_down(start, g->unit) : start;
+    return start;
 }
 
 /* The next translations of scale i that a window of blocks gives. */
@@ -108,11 +91,7 @@ choose_part(const window *win, size_t i)
     scale_state *r = &win->stream->state[i];
     int blocks = win->group == &win->stream->blocks;
     size_t n = blocks ? next_of_blocks(win, i) : ss_stream_ready(win->stream, i, win->limit);
-    r->skip = 0;
-    if (n > 0 && !blocks && win->spectra != NULL)
-        r->skip = (size_t)((ptrdiff_t)r->next - win->start) % (size_t)ss_group_places(win->group, i);
-    n = blocks || n < GIVEN ? n : GIVEN;
-    r->part = (span){ r->next - r->skip, n + r->skip };
+    r->part = (span){ r->next, n < GIVEN ? n : GIVEN };
     return r->part.n;
 }
 
@@ -150,11 +129,11 @@ send_scales(ss_stream *s, const stream_worker *wk, ss_error *err)
         *err = wk->error;
     for (size_t i = wk->first; st == SS_OK && i < wk->end; i++) {
         const scale_state *r = &s->state[i];
-        size_t first = r->next, n = r->part.n - r->skip;
+        size_t first = r->next, n = r->part.n;
         if (n == 0)
             continue;
         ss_stream_continue(s, i, first + n);
-        if (s->sink(&s->scale[i], first, n, w + 2 * r->skip, s->samples, s->user))
+        if (s->sink(&s->scale[i], first, n, w, s->samples, s->user))
             st = SS_STOP;
         w += 2 * r->part.n;
     }
@@ -218,24 +197,6 @@ record_of(const window *win)
                      .exponent = s->exponent, .origin = win->start };
 }
 
-/* Is the definition cheaper for the coefficients of a window? */
-static int
-cheaper_by_sum(const ss_stream *s, const group *g, ptrdiff_t limit)
-{
-    double sum = 0;
-    if (g->plan->fft == NULL)
-        return 1;
-    if (s->opts.engine == SS_ENGINE_FFT)
-        return 0;
-    for (size_t i = 0; i < g->plan->n_scales; i++) {
-        const scale_state *r = &s->state[g->first + i];
-        size_t n = ss_fft_covers(g->plan->fft, i) ? ss_stream_ready(s, g->first + i, limit) : 0;
-        if (n > 0)
-            sum += (double)n * r->place + (r->wave == NULL ? r->table : 0);
-    }
-    return sum < ss_fft_cost(g->plan->fft);
-}
-
 ss_status
 ss_group_transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
 {
@@ -244,17 +205,8 @@ ss_group_transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
                    .end = g->first + g->plan->n_scales, .each = 1,
                    .workers = (size_t)s->opts.threads,
                    .limit = s->ended || limit < samples ? limit : samples };
-    spectra made = { .size = { NULL } };
-    ss_status st = SS_OK;
     win.rec = record_of(&win);
-    if (!cheaper_by_sum(s, g, win.limit)) {
-        win.spectra = &made;
-        st = ss_fft_forward(g->plan->fft, &win.rec, &made);
-    }
-    if (st == SS_OK)
-        st = compute_window(s, &win, err);
-    ss_spectra_free(&made);
-    return st;
+    return compute_window(s, &win, err);
 }
 
 /* --- windows of blocks ------------------------------------------------------------------------ */
@@ -275,6 +227,7 @@ divide_scales(window *win)
     win->workers = win->each = 1;
     for (size_t i = win->first; i < win->end; i++) {
         size_t n = next_of_blocks(win, i);
+        n = n < GIVEN ? n : GIVEN;
         most = n > most ? n : most;
         all += n;
     }
@@ -293,8 +246,8 @@ transform_blocks(size_t level, size_t number, double *spectrum, void *user)
     ss_stream *s = asked->stream;
     const struct blocks *b = s->blocks.plan->blocks;
     size_t n_scales = s->blocks.plan->n_scales;
-    spectra made = { .blocks.first = number };
-    made.blocks.level[level] = spectrum;
+    spectra made = { .first = number };
+    made.level[level] = spectrum;
     window win = { .stream = s, .group = &s->blocks, .number = number, .limit = asked->limit,
                    .rec.exponent = s->exponent, .spectra = &made };
     while (win.first < n_scales && ss_blocks_level(b, win.first) > level)

@@ -45,8 +45,10 @@
 #define BAND 1.99
 #define FILTER_CUT 8.3
 #define COST_POINT 4e-9         /* of an FFT, and what goes with it [s] */
-#define COST_BETWEEN 8e-9       /* a translation between points [s] */
 #define IMAGES 5e-17            /* of their interpolation */
+
+/* Of a translation of each kind [s]. */
+static const double COST_OF[] = { 0, 8e-9, 1.3e-9 };
 
 enum {
     LEAST_SAMPLES = 4,          /* of a level */
@@ -112,7 +114,8 @@ same_weights(const struct blocks *b, const ss_morlet *plan, size_t i)
     if (j >= b->n_scales || b->scale[j].level < 0)
         return NULL;
     int l = b->scale[i].level, of = b->scale[j].level;
-    int same = b->stage[l].length == b->stage[of].length && b->scale[i].between == b->scale[j].between
+    int same = b->stage[l].length == b->stage[of].length
+        && b->scale[i].kind == b->scale[j].kind && b->scale[i].points == b->scale[j].points
         && ldexp(plan->scale[i].a, -l) == ldexp(plan->scale[j].a, -of);
     return same ? &b->scale[j] : NULL;
 }
@@ -126,7 +129,7 @@ make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, const 
                          (double)length);
     double second = wavelet_second(opts);
     r->lo = b.lo;
-    r->mid = r->between ? b.mid : 0;
+    r->mid = r->kind != AT_POINTS ? b.mid : 0;
     r->terms = (size_t)(b.hi - b.lo) + 1;
     r->owner = 1;
     r->weight = malloc(r->terms * sizeof *r->weight);
@@ -138,7 +141,7 @@ make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, const 
         double g = exp(-v * v / 2) - (second > 0 ? second * exp(-u * u / 2) : 0);
         double nu = (k - (double)r->mid) / (double)r->points;
         r->weight[i] = g * (PI_M14 * sqrt(2 * M_PI) / (double)length);
-        if (r->between)
+        if (r->kind != AT_POINTS)
             r->weight[i] /= ss_kaiser_response(kernel->taps, kernel->beta, nu);
     }
     return SS_OK;
@@ -163,8 +166,8 @@ points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, c
     const ss_morlet_opts *opts = &plan->opts;
     band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
                           (double)st->length);
-    size_t points = 4 * PLACES_MARGIN;
-    while (edge_of(&of, points) > b->kernel->edge)
+    size_t points = 4 * PLACES_MARGIN, least = opts->dense ? circle_of(st, l) / DENSE_PHASES_MAX : 0;
+    while (points < least || edge_of(&of, points) > b->kernel->edge)
         points *= 2;
     return points <= LONGEST ? points : 0;
 }
@@ -178,7 +181,7 @@ gain_of(const struct blocks *b, const ss_morlet *plan, size_t i)
     size_t n = plan->window ? ss_blocks_most(b, i) : plan->scale[i].n;
     double points = (double)r->points * (plan->window ? 1 : (double)windows_for(st, st->n));
     return ss_quadrature_cost(plan, &plan->scale[i], n) - COST_POINT * points
-        - (r->between ? COST_BETWEEN * (double)n : 0);
+        - COST_OF[r->kind] * (double)n;
 }
 
 /* The spectra of the levels in use. */
@@ -202,10 +205,12 @@ choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
         return;
     const stage *st = &b->stage[r->level];
     r->points = points_of(st, scale, r->level, plan->rate);
-    r->between = r->points == 0;
-    if (r->between)
-        r->points = points_between(b, plan, st, scale, r->level);
     r->hop = r->points - r->points / (st->length / st->overlap);
+    r->kind = plan->opts.dense && r->level > 0 ? EACH : r->points == 0 ? BETWEEN : AT_POINTS;
+    if (r->kind != AT_POINTS)
+        r->points = points_between(b, plan, st, scale, r->level);
+    if (r->kind == EACH)
+        r->hop = st->hop << r->level;
 }
 
 /* Choose the scales that can be computed here: of a stream the longest; with AUTO those for which it
@@ -219,7 +224,7 @@ choose_rows(struct blocks *b, const ss_morlet *plan)
         block_scale *r = &b->scale[i];
         choose_points(b, plan, i);
         double less = r->points > 0 ? gain_of(b, plan, i) : 0;
-        int dear = automatic && less < 0 && (r->between || !plan->window);
+        int dear = automatic && less < 0 && (r->kind == BETWEEN || !plan->window);
         others |= r->points == 0 || dear;
         if (r->points == 0 || dear || (plan->window && others)) {
             r->level = -1;
@@ -275,6 +280,26 @@ all_weights(struct blocks *b, const ss_morlet *plan)
     return st;
 }
 
+/* The kernel's tables for a scale. */
+static ss_status
+places_of(struct blocks *b, block_scale *r)
+{
+    if (r->level < 0 || r->kind == AT_POINTS)
+        return SS_OK;
+    if (!b->kernel->prepared)
+        ss_kaiser_prepare(b->kernel);
+    if (r->kind == BETWEEN)
+        return SS_OK;
+    size_t phases = circle_of(&b->stage[r->level], r->level) / r->points, i = 0;
+    while (i < b->n_places && ss_dense_phases(b->places[i]) != phases)
+        i++;
+    if (i == b->n_places && (b->places[b->n_places++] = ss_dense_new(b->kernel, phases)) == NULL)
+        return SS_ENOMEM;
+    r->places = b->places[i];
+    b->most = r->hop > b->most ? r->hop : b->most;
+    return SS_OK;
+}
+
 static ss_status
 make_filter(stage *st)
 {
@@ -313,7 +338,7 @@ inverse_of(const struct blocks *b, size_t i, double *v, unsigned how)
         if (b->scale[j].level >= 0 && b->scale[j].points == r->points)
             return b->scale[j].inverse;
     return fftw_plan_dft_1d((int)r->points, (fftw_complex *)v,
-                            (fftw_complex *)(v + 2 * b->longest + 2 * PLACES_MARGIN), FFTW_BACKWARD,
+                            (fftw_complex *)(v + 2 * (b->longest + DENSE_MARGIN)), FFTW_BACKWARD,
                             how);
 }
 
@@ -353,7 +378,7 @@ make_plans(struct blocks *b, ss_planner planner)
 size_t
 ss_blocks_room(const struct blocks *b)
 {
-    return 4 * b->longest + 2 * PLACES_MARGIN;
+    return 4 * (b->longest + DENSE_MARGIN) + ss_dense_room(b->most) + 2 * DENSE_PHASES_MAX;
 }
 
 ss_status
@@ -361,7 +386,7 @@ ss_blocks_new(ss_morlet *plan)
 {
     double margin = ceil(REACH / ((M_PI / 2 - BAND / 2) / FILTER_CUT));
     double reach = fmax(REACH * 2 * least_scale(&plan->opts) + 2, margin);
-    if (plan->opts.engine == SS_ENGINE_QUADRATURE || plan->opts.dense
+    if (plan->opts.engine == SS_ENGINE_QUADRATURE
         || 16 * reach > LONGEST_WINDOW || plan->n > INT_MAX / 2)
         return SS_OK;
     struct blocks *b = plan->blocks = calloc(1, sizeof *b);
@@ -382,10 +407,9 @@ ss_blocks_new(ss_morlet *plan)
         plan->blocks = NULL;
         return SS_OK;
     }
-    for (size_t i = 0; i < b->n_scales && !b->kernel->prepared; i++)
-        if (b->scale[i].level >= 0 && b->scale[i].between)
-            ss_kaiser_prepare(b->kernel);
     ss_status st = all_weights(b, plan);
+    for (size_t i = 0; st == SS_OK && i < b->n_scales; i++)
+        st = places_of(b, &b->scale[i]);
     for (size_t l = 0; st == SS_OK && l + 1 < b->levels; l++)
         st = make_filter(&b->stage[l]);
     return st == SS_OK ? make_plans(b, plan->opts.planner) : st;
@@ -419,6 +443,8 @@ ss_blocks_free(struct blocks *b)
             free(b->scale[i].weight);
     for (size_t l = 0; l < b->levels; l++)
         free(b->stage[l].filter);
+    for (size_t i = 0; i < b->n_places; i++)
+        ss_dense_free(b->places[i]);
     free(b->kernel);
     free(b->scale);
     free(b);

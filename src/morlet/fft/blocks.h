@@ -14,13 +14,12 @@ int ss_blocks_covers(const struct blocks *blocks, size_t i);     /* blocks may b
 
 /* The record's spectra, window by window; free it, forward failed or not. */
 ss_status ss_blocks_forward(const struct blocks *blocks, const record *rec, size_t threads,
-                            block_spectra *out);
-void ss_block_spectra_free(block_spectra *s);
+                            spectra *out);
 
 /* Doubles that a thread needs, from fftw_malloc. */
 size_t ss_blocks_room(const struct blocks *blocks);
 /* Part of scale i, factor times what it is in units of a^1/2 and of the record. */
-void ss_blocks_scale(const struct blocks *blocks, size_t i, const block_spectra *s, double *scratch,
+void ss_blocks_scale(const struct blocks *blocks, size_t i, const spectra *s, double *scratch,
                      span part, double factor, double *w);
 
 /* The level of scale i, its translations up to the end of a window, and how many a window holds, at
@@ -28,7 +27,7 @@ void ss_blocks_scale(const struct blocks *blocks, size_t i, const block_spectra 
 size_t ss_blocks_level(const struct blocks *blocks, size_t i);
 size_t ss_blocks_end(const struct blocks *blocks, size_t i, size_t window);
 size_t ss_blocks_most(const struct blocks *blocks, size_t i);
-/* Samples of a stream that come after a translation, at most, before its window is full. */
+/* Less than so many samples of a stream come after a translation before its window is full. */
 double ss_blocks_delay(const struct blocks *blocks, size_t i);
 
 /* The levels of a stream.  A sink gets the spectrum of a window, valid during the call only; what it

@@ -5,6 +5,7 @@
 #include <fftw3.h>
 #include <stddef.h>
 #include "morlet/fft/blocks.h"
+#include "morlet/dense.h"
 #include "morlet/places.h"
 
 enum { LEVELS = BLOCK_LEVELS };
@@ -21,24 +22,36 @@ typedef struct stage {
 /* A scale and the weights of its terms, which scales of other octaves share. */
 typedef struct block_scale {
     int level;                              /* -1: not here */
-    int between;                            /* 1: its translations lie between points */
-    size_t points, hop;                     /* M, and those from a window to the next */
+    enum { AT_POINTS, BETWEEN, EACH } kind; /* EACH: one a sample, at places that repeat */
+    size_t points, hop;                     /* M, and translations from a window to the next if it is
+                                               not BETWEEN */
     ptrdiff_t lo, mid;                      /* the first term, and the one that becomes term 0 */
     size_t terms;
     double *weight;
     int owner;                              /* of weight */
+    const weights *places;                  /* of EACH, one of those below */
     fftw_plan inverse;
 } block_scale;
 
 struct blocks {
-    size_t n_scales, levels, longest;         /* longest: M */
+    size_t n_scales, levels, longest;       /* longest: M */
+    size_t most;                            /* translations of EACH that are written at a time */
     double margin;                          /* samples */
     double rate;                            /* [Hz] */
     const ss_scale *grid;                   /* the plan's scales */
-    kaiser *kernel;                         /* for translations between points; NULL: there are none */
+    kaiser *kernel;                         /* for translations between points */
+    weights *places[2 * LEVELS];            /* of EACH */
+    size_t n_places;
     block_scale *scale;
     stage stage[LEVELS];
 };
+
+/* Samples of the record in a window of level l. */
+static inline size_t
+circle_of(const stage *st, int l)
+{
+    return st->length << l;
+}
 
 /* Windows that hold n samples' coefficients. */
 static inline size_t

@@ -143,8 +143,20 @@ samples_new(samples *s, const stage *st)
     return s->x != NULL ? SS_OK : SS_ENOMEM;
 }
 
+double *
+ss_fft_doubles(size_t n)
+{
+    return fftw_malloc(n * sizeof(double));
+}
+
+void
+ss_fft_scratch_free(double *scratch)
+{
+    fftw_free(scratch);
+}
+
 ss_status
-ss_blocks_forward(const struct blocks *b, const record *rec, size_t threads, block_spectra *out)
+ss_blocks_forward(const struct blocks *b, const record *rec, size_t threads, spectra *out)
 {
     samples now = { rec->x, 0, (ptrdiff_t)rec->n }, next = { 0 };
     size_t room = window_room(b);
@@ -169,7 +181,7 @@ ss_blocks_forward(const struct blocks *b, const record *rec, size_t threads, blo
 }
 
 void
-ss_block_spectra_free(block_spectra *s)
+ss_morlet_spectra_free(spectra *s)
 {
     for (size_t l = 0; l < LEVELS; l++)
         fftw_free(s->level[l]);
@@ -353,8 +365,8 @@ static size_t
 window_of(const struct blocks *b, size_t i, size_t k)
 {
     const block_scale *r = &b->scale[i];
-    double sample = r->between ? ss_scale_spot(&b->grid[i], k, b->rate).c : 0;
-    return 1 + (r->between ? (size_t)(sample / start_of(b, r, 2)) : k / r->hop);
+    double sample = r->kind == BETWEEN ? ss_scale_spot(&b->grid[i], k, b->rate).c : 0;
+    return 1 + (r->kind == BETWEEN ? (size_t)(sample / start_of(b, r, 2)) : k / r->hop);
 }
 
 size_t
@@ -362,7 +374,7 @@ ss_blocks_end(const struct blocks *b, size_t i, size_t window)
 {
     const block_scale *r = &b->scale[i];
     const ss_scale *scale = &b->grid[i];
-    if (!r->between)
+    if (r->kind != BETWEEN)
         return window * r->hop;
     double end = start_of(b, r, window + 1);
     size_t k = (size_t)(end / (b->rate * scale->b_num / scale->b_den));
@@ -377,11 +389,13 @@ size_t
 ss_blocks_most(const struct blocks *b, size_t i)
 {
     const ss_scale *scale = &b->grid[i];
+    const block_scale *r = &b->scale[i];
     double step = b->rate * scale->b_num / scale->b_den;
-    return b->scale[i].between ? (size_t)(start_of(b, &b->scale[i], 2) / step) + 2 : b->scale[i].hop;
+    return r->kind == BETWEEN ? (size_t)(start_of(b, r, 2) / step) + 2 : r->hop;
 }
 
-/* All translations of a window, the first counted one at v[0]. */
+/* All points of a window, the first counted translation at v[0]; before and after them the circle goes
+ * on. */
 static void
 transform_window(const stage *st, const block_scale *r, const double *x, double *c, double *v)
 {
@@ -390,6 +404,10 @@ transform_window(const stage *st, const block_scale *r, const double *x, double 
     memset(c, 0, 2 * r->points * sizeof *c);
     add_terms(x, st->length, r->lo, r->weight, r->terms, c, r->points, at);
     fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
+    if (r->kind != AT_POINTS) {
+        memcpy(v - 2 * DENSE_MARGIN, v + 2 * (r->points - DENSE_MARGIN), 2 * DENSE_MARGIN * sizeof *v);
+        memcpy(v + 2 * r->points, v, 2 * DENSE_MARGIN * sizeof *v);
+    }
 }
 
 /* Translations of a window between its points v, which go around. */
@@ -398,28 +416,49 @@ write_between(const struct blocks *b, size_t i, size_t window, double *v, span p
               double *w)
 {
     const block_scale *r = &b->scale[i];
-    double apart = ldexp((double)b->stage[r->level].length / (double)r->points, r->level);
+    double apart = (double)circle_of(&b->stage[r->level], r->level) / (double)r->points;
     double turns = (double)r->mid / (double)r->points;
     point_series s = { v, start_of(b, r, window), apart, turns };
-    memcpy(v - 2 * PLACES_MARGIN, v + 2 * (r->points - PLACES_MARGIN), 2 * PLACES_MARGIN * sizeof *v);
     ss_places_write(b->kernel, &s, &b->grid[i], b->rate, part, factor, w);
 }
 
+/* n translations of a window from one on.  Places repeat from point to point, so the first of them, in the
+ * middle of a pattern, are written apart. */
+static void
+write_each(const struct blocks *b, const block_scale *r, size_t first, size_t n, double *v,
+           double factor, double *w)
+{
+    size_t circle = circle_of(&b->stage[r->level], r->level), phases = circle / r->points;
+    size_t skip = first % phases, turns = (size_t)r->mid;
+    double *head = v + 2 * (b->longest + DENSE_MARGIN), *spare = head + 2 * DENSE_PHASES_MAX;
+    if (skip > 0) {
+        size_t some = phases - skip < n ? phases - skip : n;
+        ss_dense_write(r->places, v, turns, circle, first - skip, phases, factor, spare, head);
+        memcpy(w, head + 2 * skip, 2 * some * sizeof *w);
+        first += some;
+        n -= some;
+        w += 2 * some;
+    }
+    ss_dense_write(r->places, v, turns, circle, first, n, factor, spare, w);
+}
+
 void
-ss_blocks_scale(const struct blocks *b, size_t i, const block_spectra *s, double *scratch,
+ss_blocks_scale(const struct blocks *b, size_t i, const spectra *s, double *scratch,
                 span part, double factor, double *w)
 {
     const block_scale *r = &b->scale[i];
     const stage *st = &b->stage[r->level];
     size_t last = part.first + part.n, k = part.first;
-    double *v = scratch + 2 * b->longest + 2 * PLACES_MARGIN;
+    double *v = scratch + 2 * (b->longest + DENSE_MARGIN);
     while (k < last) {
         size_t window = window_of(b, i, k), end = ss_blocks_end(b, i, window);
         span now = { k, (end < last ? end : last) - k };
         double *to = w + 2 * (k - part.first);
         transform_window(st, r, s->level[r->level] + (window - s->first) * st->stride, scratch, v);
-        if (r->between)
+        if (r->kind == BETWEEN)
             write_between(b, i, window, v, now, factor, to);
+        else if (r->kind == EACH)
+            write_each(b, r, k % r->hop, now.n, v, factor, to);
         else
             write_points(v + 2 * (k % r->hop), now.n, factor, to);
         k = end;
@@ -435,7 +474,7 @@ ss_blocks_level(const struct blocks *b, size_t i)
 double
 ss_blocks_delay(const struct blocks *b, size_t i)
 {
-    double delay = b->scale[i].between;       /* some lie half a sample before their window */
+    double delay = 1 + (b->scale[i].kind == BETWEEN);   /* which may lie before their window */
     for (int l = 0; l <= b->scale[i].level; l++)
         delay += ldexp((double)(b->stage[l].length - b->stage[l].overlap / 2), l);
     return delay;
