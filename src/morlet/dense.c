@@ -171,10 +171,9 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
 
 /* --- the loop --------------------------------------------------------------------------------- */
 
-/* Groups g <= ... < end of ROWS rows; most[...] become the largest |W|^2 for factor 1 of the first
- * row of each. */
+/* Groups g <= ... < end of ROWS rows. */
 typedef void write_groups(const weights *d, const double *series, size_t g, size_t end,
-                          const carrier *turning, double *w, double most[2 * LANES]);
+                          const carrier *turning, double *w);
 
 #define SWAP_2 { x[1], x[0] }
 #define SWAP_4 { x[1], x[0], x[3], x[2] }
@@ -220,27 +219,19 @@ ss_dense_room(size_t n)
         + 2 * ((n + GROUP_MAX) / (ROOT * ROOT * LANES) + 1) + 2 * GROUP_MAX;
 }
 
-double
+void
 ss_dense_write(const weights *d, const double *series, size_t turns, size_t circle, size_t first,
                size_t n, double factor, double *spare, double *w)
 {
     carrier turning;
     size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
-    double most[2 * LANES], largest = 0;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
     write_groups *write = best_loop();
     ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
     make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, factor, aligned(spare));
-    write(d, series + 2 * point, 0, whole, &turning, w, most);
-    for (size_t l = 0; l < 2 * LANES; l++)
-        largest = fmax(largest, most[l]);
+    write(d, series + 2 * point, 0, whole, &turning, w);
     if (rest > 0) {
-        write(d, series + 2 * point, whole, whole + 1, &turning, last, most);
+        write(d, series + 2 * point, whole, whole + 1, &turning, last);
         memcpy(w + 2 * whole * group, last, 2 * rest * sizeof *w);
     }
-    for (size_t i = 0; i < rest; i++) {
-        double re = last[2 * i] / factor, im = last[2 * i + 1] / factor;
-        largest = fmax(largest, re * re + im * im);
-    }
-    return largest;
 }

@@ -22,9 +22,8 @@ enum {
 size_t ss_dense_room(size_t n);
 
 /* Coefficient c - first < n is factor exp(2 pi i turns c/circle) times the series v at c/phases
- * points; first is a multiple of phases; turns, circle < 2^32.  Returns the largest |W|^2 for factor 1
- * of some of them, none of which is further than 3 points and 3 blocks of 8 from others. */
-double ss_dense_write(const weights *d, const double *v, size_t turns, size_t circle, size_t first,
+ * points; first is a multiple of phases; turns, circle < 2^32. */
+void ss_dense_write(const weights *d, const double *v, size_t turns, size_t circle, size_t first,
                       size_t n, double factor, double *spare, double *w);
 
 #endif

@@ -25,13 +25,11 @@ LOOP_JOIN(LOOP, _turn)(VECTOR x, VECTOR c, VECTOR s)
 
 /* Sums and their output in one function: in several it was 5 % slower (gcc 12). */
 TARGET static void
-LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *turning, double *w,
-     double most[2 * LANES])
+LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *turning, double *w)
 {
     enum { PARTS = 2 * LANES / WIDTH, HELD = 8 / PARTS < ROWS ? 8 / PARTS : ROWS };
     const size_t blocks = d->blocks, points = d->points, *late = d->late;
     const int taps = d->taps;
-    VECTOR largest[PARTS] = { 0 };
     for (; g < end; g++) {
         double e[ROWS][4];
         row_carriers(turning, g, e);
@@ -59,13 +57,6 @@ LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *tur
                     UNROLL
                     for (size_t p = 0; p < PARTS; p++) {
                         VECTOR x = sum[i][p], place[2];
-                        if (first + i == 0) {
-                            VECTOR size = x * x;
-                            size += LOOP_JOIN(LOOP, _swap)(size);
-                            __typeof__(size > x) more = size > largest[p];
-                            largest[p] = (VECTOR)((more & (__typeof__(more))size)
-                                                  | (~more & (__typeof__(more))largest[p]));
-                        }
                         memcpy(&place[0], of_places + p * WIDTH, sizeof place[0]);
                         memcpy(&place[1], of_places + 2 * LANES + p * WIDTH, sizeof place[1]);
                         x = LOOP_JOIN(LOOP, _turn)(x, c, s);
@@ -77,7 +68,6 @@ LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *tur
         }
         w += 2 * ROWS * blocks * LANES;
     }
-    memcpy(most, largest, sizeof largest);
 }
 
 #undef LOOP_JOIN2

@@ -10,8 +10,6 @@
 #include "base/versions.h"
 #include "morlet/kaiser.h"
 
-#define FIT_PART (1 / 16.)      /* of a bound, for the polynomial that undoes the response */
-
 /* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding. */
 static double
 bessel_i0(double y)
@@ -77,12 +75,11 @@ ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
     for (int taps = fewest > 4 ? fewest : 4; taps <= KAISER_TAPS_MAX; taps += 2)
         for (double part = 1; part > 0.3; part -= 0.1) {
             double beta = 0.985 * M_PI * taps * (1 - part * band->edge);
-            if (worst_image(band, taps, beta) > (1 - FIT_PART) * bound)
+            if (worst_image(band, taps, beta) > bound)
                 continue;
             out->taps = taps;
             out->beta = beta;
             out->edge = band->edge;
-            out->bound = bound;
             out->prepared = 0;
             return 1;
         }
@@ -132,59 +129,12 @@ prepare_part(kaiser *ker, int part)
     }
 }
 
-/* The number of nodes of a polynomial for log(response).  As a function of x = 2 (nu/edge)^2 - 1 it is
- * smooth but for logarithms where the response is 0, x = x_m > 1 with z = i pi m: of log(x_m - x) the
- * interpolation errs by less than 4 rho^-n/(n (1 - 1/rho)), rho = x_m + sqrt(x_m^2 - 1) (Trefethen
- * 2013, chapter 8).  Of those beyond the first there are never more than make twice that. */
-static int
-fits_needed(const kaiser *ker)
-{
-    double x = M_PI * ker->taps * ker->edge;
-    double first = 2 * (ker->beta * ker->beta + M_PI * M_PI) / (x * x) - 1;
-    double rho = first + sqrt(first * first - 1), bound = fmax(FIT_PART * ker->bound, 5e-17);
-    int n = 2;
-    while (n < KAISER_FIT && 8 * pow(rho, -n) / (n * (1 - 1 / rho)) > bound)
-        n++;
-    return n;
-}
-
 void
 ss_kaiser_prepare(kaiser *ker)
 {
-    int n = ker->fits = fits_needed(ker);
-    for (int i = 0; i < n; i++) {
-        double s = (1 + node(i, n)) / 2;
-        ker->node[i] = node(i, n);
-        ker->fit[i] = -log(ss_kaiser_response(ker->taps, ker->beta, sqrt(s) * ker->edge));
-    }
-    divided_differences(ker->fit, ker->node, n);
     for (int part = 0; part < KAISER_PARTS; part++)
         prepare_part(ker, part);
     ker->prepared = 1;
-}
-
-VERSIONS static void
-correct(const kaiser *ker, double first, double step, double *restrict y)
-{
-    double x[KAISER_AT_ONCE], c[KAISER_AT_ONCE];
-    step /= ker->edge;
-    for (int i = 0; i < KAISER_AT_ONCE; i++) {
-        double s = (first + i) * step;
-        x[i] = 2 * s * s - 1;
-        c[i] = ker->fit[ker->fits - 1];
-    }
-    for (int m = ker->fits - 2; m >= 0; m--)
-        for (int i = 0; i < KAISER_AT_ONCE; i++)
-            c[i] = ker->fit[m] + (x[i] - ker->node[m]) * c[i];
-    for (int i = 0; i < KAISER_AT_ONCE; i++)
-        y[i] += c[i];
-}
-
-/* A function compiled for several kinds of machine would be visible outside the library. */
-void
-ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y)
-{
-    correct(ker, first, step, y);
 }
 
 VERSIONS static void

@@ -11,24 +11,19 @@ typedef struct kaiser_band {
     double reach, center, second;
 } kaiser_band;
 
-enum { KAISER_TAPS_MAX = 24, KAISER_FIT = 32, KAISER_PARTS = 32, KAISER_NODES = 7,
-    KAISER_AT_ONCE = 64 };
+enum { KAISER_TAPS_MAX = 24, KAISER_PARTS = 32, KAISER_NODES = 7 };
 
 typedef struct kaiser {
     int taps;                   /* even */
-    double beta, edge, bound;
-    int prepared;               /* the fields below are filled in */
-    int fits;                                   /* number of node and fit that are used */
-    double node[KAISER_FIT], fit[KAISER_FIT];   /* of -log(response) over (nu/edge)^2 */
+    double beta, edge;
+    int prepared;               /* the table is filled in */
     _Alignas(64) double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];  /* of a weight, see ss_kaiser_weights */
 } kaiser;
 
 /* The shortest kernel that keeps |error| <= bound where the series has size 1; 0 if none does. */
 int ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
-/* Fill in the fields that correct and weights use. */
+/* Fill in the table that weights use. */
 void ss_kaiser_prepare(kaiser *ker);
-/* y[i] -= log(response) at nu = (first + i) step, i < KAISER_AT_ONCE; nonsense beyond the edge. */
-void ss_kaiser_correct(const kaiser *ker, double first, double step, double *restrict y);
 /* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is taps/2 - 1 - i points
  * before it: the polynomial in y with coefficients table[p][.][i], f KAISER_PARTS = p + (y + 1)/2. */
 void ss_kaiser_weights(const kaiser *ker, double f, double weight[]);

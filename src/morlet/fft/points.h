@@ -5,8 +5,6 @@
 #include <stddef.h>
 #include "base/versions.h"
 
-enum { POINT_LANES = 8 };         /* complex numbers at a time in the loops below */
-
 /* to += g x over n terms, of which term k of the spectrum x of m points, a real signal's, is the first:
  * to term at of length, and on around it. */
 VERSIONS static void
@@ -39,28 +37,12 @@ add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, dou
     }
 }
 
-/* n values of a series times factor into w.  Returns the largest |v|^2. */
-VERSIONS static double
+/* n values of a series times factor into w. */
+VERSIONS static void
 write_points(const double *restrict v, size_t n, double factor, double *restrict w)
 {
-    double most[POINT_LANES] = { 0 };
-    size_t i = 0;
-    for (; i + POINT_LANES <= n; i += POINT_LANES)
-        for (size_t l = 0; l < POINT_LANES; l++) {
-            double re = v[2 * (i + l)], im = v[2 * (i + l) + 1], size = re * re + im * im;
-            most[l] = size > most[l] ? size : most[l];
-            w[2 * (i + l)] = re * factor;
-            w[2 * (i + l) + 1] = im * factor;
-        }
-    for (; i < n; i++) {
-        double re = v[2 * i], im = v[2 * i + 1], size = re * re + im * im;
-        most[0] = size > most[0] ? size : most[0];
-        w[2 * i] = re * factor;
-        w[2 * i + 1] = im * factor;
-    }
-    for (size_t l = 1; l < POINT_LANES; l++)
-        most[0] = most[l] > most[0] ? most[l] : most[0];
-    return most[0];
+    for (size_t i = 0; i < 2 * n; i++)
+        w[i] = v[i] * factor;
 }
 
 #endif
