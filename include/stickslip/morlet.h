@@ -37,7 +37,7 @@ typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
     SS_ENGINE_QUADRATURE,       /* the sum of the definition, truncated as far as accuracy allows */
     SS_ENGINE_FFT               /* spectra, by FFTW; but the sum for forced scales that are narrower
-                                   than two samples or longer than some ten records */
+                                   than two samples or longer than two records */
 } ss_engine;
 
 /* The effort that FFTW makes to find a fast FFT.  A measured FFT is up to twice as fast.  But
@@ -155,8 +155,8 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 
 /* --- streams --------------------------------------------------------------------------------
  *
- * The transform of a signal whose length is not known.  Its memory is bounded by the longest
- * scale, on a stepped grid by the logarithm of the longest scale.  A coefficient is complete when
+ * The transform of a signal whose length is not known.  Its memory is bounded by the logarithm of the
+ * longest scale, by quadrature by that scale.  A coefficient is complete when
  * the samples up to 8.5 a after b have arrived: any later sample changes it by less than the
  * rounding that accuracy allows.  So the accuracy is that of a whole record, even if it refers to
  * the largest |W| of the scale so far.
