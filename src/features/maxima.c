@@ -1,586 +1,95 @@
 /* maxima.c -- local maxima of |W| and how far they stand out.
  *
- * Each row falls into hills, from valley to valley.  A hill leads to the highest neighbour of its top
- * in the rows beside, and so to another hill, if that is higher, and so on up to a peak: all the hills
- * that lead to a peak are its basin.  Ways only rise, whichever they are, so the basins of two peaks
- * join at the highest point of their border, and the borders alone say what flooding the whole map
- * from above would: they are taken from the highest down, and where two pools meet, the one with
- * the lower peak ends.  That border is the highest saddle between this peak and any higher one: the
- * prominence is the fall from peak to saddle.
- *
- * The map is passed over strip by strip in time, so that only a strip of it is in memory, and of each
- * row the last HALO points of the strip before, as hills of one point whose peaks are known.  A top
- * that is higher only than what its strip shows is a peak as well; its border with the next strip is
- * as high as it is, so that its prominence is 0.
+ * The prominence of a peak is its fall to the highest saddle between it and any higher peak.  From all
+ * points of a basin (basins.c) a way rises to its peak, so two basins join at the highest point of
+ * their border, and the borders alone say what flooding the whole map from above would say.  They are
+ * sorted from the highest down.  Where a border joins two pools of basins, the pool with the lower
+ * peak ends: the border is the saddle of that peak.
  *
  * A peak on the border of the map (its first or last scale, or beside the cone of influence) is
  * where the map was cut, not a maximum; it is not reported, but it is higher ground for others.  So
  * are places within the reach of gaps: a map cut there would fall apart into islands. */
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/list.h"
-#include "base/versions.h"
-#include "features/levels.h"
+#include "features/basins.h"
 #include "features/maxima.h"
 #include "morlet/plan.h"
 
-#define DRY SIZE_MAX            /* a way that leads nowhere: no hill */
-#define PEAK (SIZE_MAX / 2 + 1) /* a way's end: plus the number of the peak */
-
-typedef struct peak {
-    size_t row, k;              /* its coefficient */
-    double level;               /* |W| > 0 */
-    double saddle;              /* the level where its pool ended, 0 if it did not */
-    size_t pool;                /* towards its pool's highest peak, which is its own */
-} peak;
-
-typedef struct border {         /* between the basins of two peaks */
-    uint64_t key;               /* |W| > 0, as its bits, which are ordered as the numbers are */
-    size_t p, q;                /* p < q; q = 0: none */
-} border;
-
-enum {
-    RECENT = 1 << 12,           /* borders that are kept at hand while they may be met higher up */
-    HALO = 3,                   /* neighbours of a point in a row beside it are within so many */
-    STRIP = 1 << 21             /* points of a strip, about */
-};
-
-/* Points of a row from the end of the hill before on. */
-typedef struct hill {
-    size_t top, end;
-    size_t way;                 /* to another hill, or to a peak; or DRY */
-} hill;
-
-/* A row in a strip: points lo ... end - 1, of which those before from are of the strip before. */
-typedef struct line {
-    size_t lo, from, end;
-    size_t at;                  /* of point lo among the strip's points */
-    size_t hill, hill_end;      /* its hills */
-    size_t before[HALO];        /* the peaks of the points before from, from the last on; or DRY */
-} line;
-
-typedef struct map {
-    const map_source *source;
-    const ss_coefficients *grid;
-    size_t first, last;         /* rows looked at */
-    double floor;               /* lower levels are not looked at; 0: all are */
-    double outside, all;        /* the largest levels so far: outside the cone of influence, and of all */
-    line *line;                 /* of row first and on */
-    size_t room;                /* points */
-    double *level;              /* of a strip's points; 0: dry */
-    size_t n_hills, hill_room;
-    hill *hill;                 /* of a strip, row by row */
-    size_t n_peaks, peak_room;
-    peak *peak;
-    size_t n_borders, border_room;
-    border *border;
-    border recent[RECENT];
-    int failed;                 /* 1: no memory for hills, peaks or borders */
-} map;
-
-static void
-map_free(map *m)
-{
-    if (m == NULL)
-        return;
-    free(m->line);
-    free(m->level);
-    free(m->hill);
-    free(m->peak);
-    free(m->border);
-    free(m);
-}
-
-/* --- strips ---------------------------------------------------------------------------------- */
-
-static const ss_scale *
-scale_of(const map *m, size_t row)
-{
-    return &m->grid->scale[row];
-}
-
-/* Move all rows on to their points up to time t; returns the number of points. */
-static size_t
-next_strip(map *m, double t)
-{
-    size_t n = 0;
-    for (size_t row = m->first; row <= m->last; row++) {
-        line *l = &m->line[row - m->first];
-        const ss_scale *scale = scale_of(m, row);
-        size_t count = t < INFINITY ? ss_scale_count(scale, t) : scale->n;
-        l->from = l->end;
-        l->end = count > l->from ? count < scale->n ? count : scale->n : l->from;
-        l->lo = l->from > HALO ? l->from - HALO : 0;
-        l->at = n;
-        n += l->end - l->lo;
-    }
-    return n;
-}
-
-static ss_status
-make_room(map *m, size_t n)
-{
-    if (n <= m->room)
-        return SS_OK;
-    free(m->level);
-    m->level = malloc(n * sizeof *m->level);
-    m->room = m->level != NULL ? n : 0;
-    return m->room > 0 ? SS_OK : SS_ENOMEM;
-}
-
-/* The largest of n levels. */
-VERSIONS static double
-largest_of(const double *level, size_t n)
-{
-    enum { LANES = 8 };
-    double top[LANES] = { 0 };
-    size_t k = 0;
-    for (; k + LANES <= n; k += LANES)
-        for (size_t i = 0; i < LANES; i++)
-            top[i] = level[k + i] > top[i] ? level[k + i] : top[i];
-    for (; k < n; k++)
-        top[0] = level[k] > top[0] ? level[k] : top[0];
-    for (size_t i = 1; i < LANES; i++)
-        top[0] = top[i] > top[0] ? top[i] : top[0];
-    return top[0];
-}
-
-VERSIONS static void
-dry_below(double *level, size_t n, double floor)
-{
-    for (size_t k = 0; k < n; k++)
-        level[k] = level[k] > floor ? level[k] : 0;
-}
-
-/* Note the largest levels of a row; then set those that are dry, or in the cone of influence, to 0. */
-static void
-dry_out(map *m, size_t row)
-{
-    const line *l = &m->line[row - m->first];
-    const ss_scale *scale = scale_of(m, row);
-    double *level = m->level + l->at, rate = m->grid->head->rate;
-    size_t n = l->end - l->lo, from = 0, to = n;
-    double top = largest_of(level, n);
-    for (size_t k = 0; k < n && top > m->outside; k++)
-        if (level[k] > m->outside && !ss_coefficients_edge(m->grid, row, l->lo + k))
-            m->outside = level[k];
-    m->all = fmax(m->all, top);
-    dry_below(level, n, m->floor);
-    while (from < to && ss_scale_edge(scale, l->lo + from, m->grid->n, rate))
-        level[from++] = 0;
-    while (to > from && ss_scale_edge(scale, l->lo + to - 1, m->grid->n, rate))
-        level[--to] = 0;
-}
-
-static ss_status
-fill(map *m)
-{
-    size_t rows = m->last - m->first + 1;
-    level_part *part = malloc(rows * sizeof *part);
-    if (part == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < rows; i++) {
-        const line *l = &m->line[i];
-        part[i] = (level_part){ m->first + i, l->lo, l->end - l->lo, m->level + l->at };
-    }
-    ss_status st = ss_levels_fill(m->source, part, rows);
-    for (size_t row = m->first; st == SS_OK && row <= m->last; row++)
-        dry_out(m, row);
-    free(part);
-    return st;
-}
-
-/* --- neighbours ------------------------------------------------------------------------------ */
-
-/* The point of a row nearest in time to point i of another, the first and the last beyond: its
- * steps over theirs are ratio. */
-static inline size_t
-nearest(size_t i, double ratio, const ss_scale *in)
-{
-    double at = (double)(ptrdiff_t)i * ratio + 0.5;
-    return at < (double)(ptrdiff_t)in->n ? (size_t)(ptrdiff_t)at : in->n - 1;
-}
-
-static double
-ratio_of(const ss_scale *from, const ss_scale *to)
-{
-    return from->b_num / from->b_den / (to->b_num / to->b_den);
-}
-
-/* Two rows one beside the other: a point of the finer one has a neighbour in the coarser one, the
- * nearest. */
-typedef struct pair {
-    const line *fine, *coarse;
-    const ss_scale *to;         /* of the coarse one */
-    double ratio, back;         /* of their steps, fine to coarse <= 1, and coarse to fine */
-} pair;
-
-static pair
-pair_of(const map *m, size_t row)
-{
-    const line *here = &m->line[row - m->first], *next = here + 1;
-    const ss_scale *of = scale_of(m, row), *to = scale_of(m, row + 1);
-    double ratio = ratio_of(of, to), back = ratio_of(to, of);
-    return ratio <= 1 ? (pair){ here, next, to, ratio, back } : (pair){ next, here, of, back, ratio };
-}
-
-/* The first point of the fine row, from i on, whose neighbour is not before j. */
-static size_t
-first_beside(const pair *p, size_t i, size_t j)
-{
-    double at = ((double)(ptrdiff_t)j - 0.5) * p->back - 1;
-    if (at > (double)(ptrdiff_t)i)
-        i = at < (double)(ptrdiff_t)p->fine->end ? (size_t)(ptrdiff_t)at : p->fine->end;
-    while (i < p->fine->end && nearest(i, p->ratio, p->to) < j)
-        i++;
-    return i;
-}
-
-/* --- hills and peaks ------------------------------------------------------------------------- */
-
-static void
-add_hill(map *m, size_t top, size_t end, size_t way)
-{
-    hill *list = ss_list_room(m->hill, &m->hill_room, m->n_hills, sizeof *list);
-    if (list == NULL) {
-        m->failed = 1;
-        return;
-    }
-    m->hill = list;
-    m->hill[m->n_hills++] = (hill){ top, end, way };
-}
-
-/* The hills of a row: a top is the first of equals. */
-static void
-find_hills(map *m, size_t row)
-{
-    line *l = &m->line[row - m->first];
-    const double *level = m->level + l->at;
-    size_t n = l->end - l->lo, k = l->from - l->lo;
-    l->hill = m->n_hills;
-    for (size_t i = l->lo; i < l->from; i++)
-        add_hill(m, i, i + 1, l->before[l->from - 1 - i]);
-    while (k < n) {
-        size_t top = k;
-        while (top + 1 < n && level[top + 1] > level[top])
-            top++;
-        for (k = top + 1; k < n && level[k] <= level[k - 1];)
-            k++;
-        add_hill(m, l->lo + top, l->lo + k, level[top] > 0 ? m->n_hills : DRY);
-    }
-    l->hill_end = m->n_hills;
-}
-
-/* Of equals, the one in the first row is the higher, and in it the first. */
-static inline int
-is_higher(const double *level, size_t p, size_t q)
-{
-    return level[p] > level[q] || (level[p] == level[q] && p < q);
-}
-
-/* From a row to one beside it. */
-typedef struct side {
-    pair pair;
-    const line *to;
-    size_t hill;                /* the first that may hold the next point */
-} side;
-
-/* Let a hill lead to the highest neighbour of its top in the row beside, if that is higher than all seen
- * before. */
-static void
-lead_beside(map *m, hill *h, size_t *highest, side *s)
-{
-    const pair *p = &s->pair;
-    const line *to = s->to;
-    int is_coarse = to == p->coarse;
-    size_t j = is_coarse ? nearest(h->top, p->ratio, p->to) : first_beside(p, to->lo, h->top);
-    for (size_t first = j; j < to->end; j++) {
-        if (is_coarse ? j > first : nearest(j, p->ratio, p->to) != h->top)
-            return;
-        if (j < to->lo || !is_higher(m->level, to->at + (j - to->lo), *highest))
-            continue;
-        while (m->hill[s->hill].end <= j)
-            s->hill++;
-        h->way = s->hill;
-        *highest = to->at + (j - to->lo);
-    }
-}
-
-/* The ways of the hills of a row that have none yet. */
-static void
-find_ways(map *m, size_t row)
-{
-    const line *l = &m->line[row - m->first];
-    side beside[2];
-    int n = 0;
-    if (row > m->first)
-        beside[n++] = (side){ pair_of(m, row - 1), l - 1, l[-1].hill };
-    if (row < m->last)
-        beside[n++] = (side){ pair_of(m, row), l + 1, l[1].hill };
-    for (size_t i = l->hill; i < l->hill_end; i++) {
-        hill *h = &m->hill[i];
-        size_t highest = l->at + (h->top - l->lo);
-        if (h->way != i)
-            continue;
-        for (int k = 0; k < n; k++)
-            lead_beside(m, h, &highest, &beside[k]);
-    }
-}
-
-/* The way to a new peak. */
-static size_t
-new_peak(map *m, size_t row, size_t k, double level)
-{
-    peak *list = ss_list_room(m->peak, &m->peak_room, m->n_peaks, sizeof *list);
-    if (list == NULL) {
-        m->failed = 1;
-        return DRY;
-    }
-    m->peak = list;
-    m->peak[m->n_peaks] = (peak){ row, k, level, 0, m->n_peaks };
-    return PEAK + m->n_peaks++;
-}
-
-/* Hills that lead to no other end in a peak. */
-static void
-find_peaks(map *m, size_t row)
-{
-    const line *l = &m->line[row - m->first];
-    for (size_t i = l->hill; i < l->hill_end; i++) {
-        hill *h = &m->hill[i];
-        if (h->way == i)
-            h->way = new_peak(m, row, h->top, m->level[l->at + (h->top - l->lo)]);
-    }
-}
-
-/* Let the way of a hill, and those of all hills on it, lead to the peak at once. */
-static void
-shorten(map *m, size_t i)
-{
-    size_t end = m->hill[i].way;
-    while (end < PEAK)
-        end = m->hill[end].way;
-    while (m->hill[i].way < PEAK) {
-        size_t next = m->hill[i].way;
-        m->hill[i].way = end;
-        i = next;
-    }
-}
-
-/* Keep the peaks of a row's last points for the next strip. */
-static void
-keep_ends(map *m, size_t row)
-{
-    line *l = &m->line[row - m->first];
-    size_t i = l->hill_end;
-    for (size_t k = 0; k < HALO && l->end - k > l->lo; k++) {
-        while (i > l->hill && (i == l->hill_end || m->hill[i - 1].end >= l->end - k))
-            i--;
-        l->before[k] = m->hill[i].way;
-    }
-}
-
-static void
-climb(map *m)
-{
-    m->n_hills = 0;
-    for (size_t row = m->first; row <= m->last; row++)
-        find_hills(m, row);
-    for (size_t row = m->first; row <= m->last && !m->failed; row++)
-        find_ways(m, row);
-    for (size_t row = m->first; row <= m->last && !m->failed; row++)
-        find_peaks(m, row);
-    for (size_t i = 0; i < m->n_hills && !m->failed; i++)
-        shorten(m, i);
-    for (size_t row = m->first; row <= m->last && !m->failed; row++)
-        keep_ends(m, row);
-}
-
-/* --- borders ------------------------------------------------------------------------------- */
-
-static void
-keep_border(map *m, border b)
-{
-    border *list = ss_list_room(m->border, &m->border_room, m->n_borders, sizeof *list);
-    if (list == NULL) {
-        m->failed = 1;
-        return;
-    }
-    m->border = list;
-    m->border[m->n_borders++] = b;
-}
-
-/* Between two hills that lead to different peaks. */
-static void
-add_border(map *m, size_t p, size_t q, double level)
-{
-    border found = { 0, (p < q ? p : q) - PEAK, (p < q ? q : p) - PEAK };
-    border *slot = &m->recent[(found.p * 31 + found.q) % RECENT];
-    memcpy(&found.key, &level, sizeof level);
-    if (slot->p == found.p && slot->q == found.q) {
-        slot->key = slot->key > found.key ? slot->key : found.key;
-        return;
-    }
-    if (slot->q > 0)
-        keep_border(m, *slot);
-    *slot = found;
-}
-
-static int
-is_border(size_t p, size_t q)
-{
-    return p != q && p != DRY && q != DRY;
-}
-
-/* Between the hills of a row. */
-static void
-find_borders_along(map *m, const line *l)
-{
-    const double *level = m->level + l->at;
-    for (size_t i = l->hill; i + 1 < l->hill_end; i++) {
-        size_t k = m->hill[i].end - l->lo, p = m->hill[i].way, q = m->hill[i + 1].way;
-        double low = fmin(level[k - 1], level[k]);
-        if (is_border(p, q) && low > 0)
-            add_border(m, p, q, low);
-    }
-}
-
-/* The highest of the lower ones of points i to end - 1 of the fine row and their neighbours. */
-static double
-highest_between(const map *m, const pair *p, size_t i, size_t end)
-{
-    const double *fine = m->level + p->fine->at, *coarse = m->level + p->coarse->at;
-    double most = 0;
-    for (; i < end; i++) {
-        double a = fine[i - p->fine->lo], b = coarse[nearest(i, p->ratio, p->to) - p->coarse->lo];
-        double low = a < b ? a : b;
-        most = low > most ? low : most;
-    }
-    return most;
-}
-
-/* Between the hills of two rows. */
-static void
-find_borders_across(map *m, const pair *p)
-{
-    const line *fine = p->fine, *coarse = p->coarse;
-    size_t a = fine->hill, b = coarse->hill, i = first_beside(p, fine->lo, coarse->lo);
-    while (i < fine->end) {
-        size_t j = nearest(i, p->ratio, p->to);
-        if (j >= coarse->end)
-            return;
-        while (m->hill[a].end <= i)
-            a++;
-        while (m->hill[b].end <= j)
-            b++;
-        size_t end = first_beside(p, i, m->hill[b].end), from = i;
-        i = end < m->hill[a].end ? end : m->hill[a].end;
-        if (!is_border(m->hill[a].way, m->hill[b].way))
-            continue;
-        double level = highest_between(m, p, from, i);
-        if (level > 0)
-            add_border(m, m->hill[a].way, m->hill[b].way, level);
-    }
-}
-
-static void
-find_borders(map *m)
-{
-    for (size_t row = m->first; row <= m->last; row++)
-        find_borders_along(m, &m->line[row - m->first]);
-    for (size_t row = m->first; row < m->last; row++) {
-        pair p = pair_of(m, row);
-        find_borders_across(m, &p);
-    }
-}
-
-/* Pass over the map in strips of about STRIP points. */
-static ss_status
-survey(map *m)
-{
-    double total = 0, length = (double)m->grid->n / m->grid->head->rate;
-    for (size_t row = m->first; row <= m->last; row++)
-        total += (double)scale_of(m, row)->n;
-    size_t strips = (size_t)(total / STRIP) + 1;
-    ss_status st = SS_OK;
-    for (size_t i = 1; st == SS_OK && i <= strips; i++) {
-        size_t n = next_strip(m, i < strips ? length * (double)i / (double)strips : INFINITY);
-        if ((st = make_room(m, n)) != SS_OK || (st = fill(m)) != SS_OK)
-            continue;
-        climb(m);
-        if (!m->failed)
-            find_borders(m);
-        st = m->failed ? SS_ENOMEM : ss_levels_progress(m->source, (double)i / (double)strips);
-    }
-    for (size_t i = 0; i < RECENT; i++)
-        if (m->recent[i].q > 0)
-            keep_border(m, m->recent[i]);
-    return m->failed ? SS_ENOMEM : st;
-}
-
 /* Highest first, by counting digits from the lowest to the highest. */
 static ss_status
-sort_borders(map *m)
+sort_borders(basins *b)
 {
     enum { BITS = 11, DIGITS = 1 << BITS };
     static const uint64_t mask = DIGITS - 1;
-    border *from = m->border, *to = malloc((m->n_borders + 1) * sizeof *to);
+    border *from = b->border, *to = malloc((b->n_borders + 1) * sizeof *to);
     if (to == NULL)
         return SS_ENOMEM;
     for (int shift = 0; shift < 64; shift += BITS) {
         size_t place[DIGITS] = { 0 }, sum = 0;
-        for (size_t i = 0; i < m->n_borders; i++)
+        for (size_t i = 0; i < b->n_borders; i++)
             place[from[i].key >> shift & mask]++;
         for (size_t d = DIGITS; d-- > 0;) {
             size_t count = place[d];
             place[d] = sum;
             sum += count;
         }
-        for (size_t i = 0; i < m->n_borders; i++)
+        for (size_t i = 0; i < b->n_borders; i++)
             to[place[from[i].key >> shift & mask]++] = from[i];
         border *swap = from;
         from = to;
         to = swap;
     }
-    m->border = from;
+    b->border = from;
     free(to);
     return SS_OK;
 }
 
 /* --- pools --------------------------------------------------------------------------------- */
 
-/* The highest peak of a peak's pool; the way there is halved for the next one who asks. */
+/* The number of the highest peak in the pool of peak p.  pool[p] leads there; the way is halved for
+ * the next call. */
 static size_t
-highest_of(map *m, size_t p)
+highest_of(size_t *pool, size_t p)
 {
-    while (m->peak[p].pool != p)
-        p = m->peak[p].pool = m->peak[m->peak[p].pool].pool;
+    while (pool[p] != p)
+        p = pool[p] = pool[pool[p]];
     return p;
 }
 
-static void
-flood(map *m)
+/* Find the saddle of each peak, where its pool ends; 0 if it does not end. */
+static ss_status
+find_saddles(double *saddle, const basins *b)
 {
-    for (size_t i = 0; i < m->n_borders; i++) {
-        size_t p = highest_of(m, m->border[i].p), q = highest_of(m, m->border[i].q);
+    size_t *pool = malloc((b->n_peaks + 1) * sizeof *pool);
+    if (pool == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < b->n_peaks; i++) {
+        pool[i] = i;
+        saddle[i] = 0;
+    }
+    for (size_t i = 0; i < b->n_borders; i++) {
+        size_t p = highest_of(pool, b->border[i].p), q = highest_of(pool, b->border[i].q);
         if (p == q)
             continue;
-        double a = m->peak[p].level, b = m->peak[q].level;
-        size_t high = a > b || (a == b && p < q) ? p : q, low = high == p ? q : p;
-        m->peak[low].pool = high;
-        memcpy(&m->peak[low].saddle, &m->border[i].key, sizeof(double));
+        double level = b->peak[p].level, other = b->peak[q].level;
+        size_t high = level > other || (level == other && p < q) ? p : q, low = high == p ? q : p;
+        pool[low] = high;
+        memcpy(&saddle[low], &b->border[i].key, sizeof *saddle);
     }
+    free(pool);
+    return SS_OK;
 }
 
+/* --- maxima -------------------------------------------------------------------------------- */
+
 static int
-on_border(const map *m, size_t row, size_t k)
+on_border(const basins *b, size_t row, size_t k)
 {
-    if (m->first < m->last && (row == m->first || row == m->last))
+    if (b->first < b->last && (row == b->first || row == b->last))
         return 1;
-    return k == 0 || k + 1 == scale_of(m, row)->n || ss_coefficients_edge(m->grid, row, k)
-        || ss_coefficients_edge(m->grid, row, k - 1) || ss_coefficients_edge(m->grid, row, k + 1);
+    return k == 0 || k + 1 == b->grid->scale[row].n || ss_coefficients_edge(b->grid, row, k)
+        || ss_coefficients_edge(b->grid, row, k - 1) || ss_coefficients_edge(b->grid, row, k + 1);
 }
 
 static int
@@ -591,76 +100,77 @@ earlier_first(const void *a, const void *b)
         : (p->level < q->level) - (p->level > q->level);
 }
 
-/* The map's peaks in dB re top, of at least min_prominence and not more than range below the
- * highest of them, in time order. */
-static ss_status
-report(ss_maximum **out, size_t *n, const map *m, double top, double range, double min_prominence)
+/* Write the maxima of at least min_prominence to out, which has room for all peaks; levels are in dB
+ * re top.  Returns their number. */
+static size_t
+list_maxima(ss_maximum *out, const basins *b, const double *saddle, double top, double min_prominence)
 {
-    ss_maximum *found = malloc((m->n_peaks + 1) * sizeof *found), *fitting;
-    size_t count = 0, kept = 0;
-    double highest = 0, highest_found = -INFINITY;
-    if (found == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < m->n_peaks; i++)
-        highest = fmax(highest, m->peak[i].level);
-    for (size_t i = 0; i < m->n_peaks; i++) {
-        const peak *p = &m->peak[i];
-        const ss_scale *scale = scale_of(m, p->row);
+    size_t n = 0;
+    double highest = 0;
+    for (size_t i = 0; i < b->n_peaks; i++)
+        highest = fmax(highest, b->peak[i].level);
+    for (size_t i = 0; i < b->n_peaks; i++) {
+        const peak *p = &b->peak[i];
+        const ss_scale *scale = &b->grid->scale[p->row];
         /* only the highest has no saddle */
-        double below = p->saddle > 0 || p->level == highest ? p->saddle : m->floor;
+        double below = saddle[i] > 0 || p->level == highest ? saddle[i] : b->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
-        double level = 20 * log10(p->level / top);
-        if (!(fall > 0 && fall >= min_prominence) || on_border(m, p->row, p->k))
-            continue;
-        found[count++] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f, level, fall };
-        highest_found = fmax(highest_found, level);
+        if (fall > 0 && fall >= min_prominence && !on_border(b, p->row, p->k))
+            out[n++] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f,
+                                     20 * log10(p->level / top), fall };
     }
-    for (size_t i = 0; i < count; i++)
-        if (found[i].level >= highest_found - range)
-            found[kept++] = found[i];
-    qsort(found, kept, sizeof *found, earlier_first);
-    fitting = realloc(found, (kept + 1) * sizeof *found);
-    if (fitting == NULL) {
-        free(found);
-        return SS_ENOMEM;
-    }
-    *out = fitting;
-    *n = kept;
-    return SS_OK;
+    return n;
 }
 
-/* --- all of it ----------------------------------------------------------------------------- */
-
-/* A map with its pools as they are when all is flooded. */
-static ss_status
-map_new(map **out, const map_source *source, size_t first, size_t last, double floor)
+/* Keep those of n maxima that are not more than range below the highest of them, in time order.
+ * Returns their number. */
+static size_t
+keep_highest(ss_maximum *list, size_t n, double range)
 {
-    map *m = *out = calloc(1, sizeof *m);
-    if (m == NULL || (m->line = calloc(last - first + 1, sizeof *m->line)) == NULL)
-        return SS_ENOMEM;
-    m->source = source;
-    m->grid = source->grid;
-    m->first = first;
-    m->last = last;
-    m->floor = floor;
-    m->outside = -1;
-    ss_status st = survey(m);
-    if (st == SS_OK && (st = sort_borders(m)) == SS_OK)
-        flood(m);
-    return st;
+    size_t kept = 0;
+    double highest = -INFINITY;
+    for (size_t i = 0; i < n; i++)
+        highest = fmax(highest, list[i].level);
+    for (size_t i = 0; i < n; i++)
+        if (list[i].level >= highest - range)
+            list[kept++] = list[i];
+    qsort(list, kept, sizeof *list, earlier_first);
+    return kept;
+}
+
+/* The maxima of these basins, in dB re top, in time order. */
+static ss_status
+report(ss_maximum **out, size_t *n, basins *b, double top, double range, double min_prominence)
+{
+    size_t count = 0;
+    ss_maximum *list = malloc((b->n_peaks + 1) * sizeof *list), *fitting = NULL;
+    double *saddle = malloc((b->n_peaks + 1) * sizeof *saddle);
+    ss_status st = list != NULL && saddle != NULL ? sort_borders(b) : SS_ENOMEM;
+    if (st == SS_OK && (st = find_saddles(saddle, b)) == SS_OK) {
+        count = keep_highest(list, list_maxima(list, b, saddle, top, min_prominence), range);
+        fitting = realloc(list, (count + 1) * sizeof *list);
+    }
+    free(saddle);
+    if (fitting == NULL) {
+        free(list);
+        return st != SS_OK ? st : SS_ENOMEM;
+    }
+    *out = fitting;
+    *n = count;
+    return SS_OK;
 }
 
 ss_status
 ss_maxima_above(ss_maximum **out, size_t *n, const map_source *source, double min_prominence,
                 double floor, double *top)
 {
-    map *m;
-    ss_status st = map_new(&m, source, 0, source->grid->n_scales - 1, floor);
+    basins b;
+    ss_status st = ss_basins_find(&b, source, 0, source->grid->n_scales - 1, floor);
     if (st == SS_OK) {
-        *top = m->outside >= 0 ? m->outside : m->all;
-        st = report(out, n, m, *top, INFINITY, min_prominence);
+        *top = b.top;
+        st = report(out, n, &b, b.top, INFINITY, min_prominence);
     }
-    map_free(m);
+    ss_basins_free(&b);
     return st;
 }
 
@@ -668,11 +178,11 @@ ss_status
 ss_maxima_of_row(ss_maximum **out, size_t *n, const map_source *source, size_t row, double top,
                  double range, double min_prominence)
 {
-    map *m;
-    ss_status st = map_new(&m, source, row, row, 0);
+    basins b;
+    ss_status st = ss_basins_find(&b, source, row, row, 0);
     if (st == SS_OK)
-        st = report(out, n, m, top, range, min_prominence);
-    map_free(m);
+        st = report(out, n, &b, top, range, min_prominence);
+    ss_basins_free(&b);
     return st;
 }
 

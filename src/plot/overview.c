@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/largest.h"
 #include "base/versions.h"
 #include "morlet/wavelet.h"
 #include "plot/extremes.h"
@@ -26,25 +27,6 @@ struct ss_overview {
 };
 
 /* --- levels -------------------------------------------------------------------------------- */
-
-/* The largest of at least one value >= 0; lanes let the machine compare several at a time. */
-static inline double
-largest_of(const double *x, size_t n)
-{
-    enum { LANES = 8 };
-    double lane[LANES] = { 0 }, most = x[0];
-    size_t k = 1;
-    if (n > LANES) {
-        for (; k + LANES <= n; k += LANES)
-            for (size_t j = 0; j < LANES; j++)
-                lane[j] = x[k + j] > lane[j] ? x[k + j] : lane[j];
-        for (size_t j = 0; j < LANES; j++)
-            most = lane[j] > most ? lane[j] : most;
-    }
-    for (; k < n; k++)
-        most = x[k] > most ? x[k] : most;
-    return most;
-}
 
 /* Add n levels, or their squares, to a row of levels.  Returns the largest level. */
 VERSIONS static double
