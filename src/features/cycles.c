@@ -1,34 +1,36 @@
 /* cycles.c -- whether a signal repeats itself from cycle to cycle, and how regularly.
  *
- * The autocorrelation of the whole record (period.c) proposes a period; it has no honest error, as
- * it does not see the single cycles, and it also has peaks where nothing repeats.  So each cycle
- * is compared with the next: the lag at which their difference is least (de Cheveigne and Kawahara
- * 2002) is the period of that cycle.  Unlike the peak of a correlation it has no bias from the
- * length of the window, and is exact where the signal is periodic.  The median of the cycles'
- * frequencies is the answer, so that ramps at the ends of a record do not move it.
+ * The autocorrelation of the whole record (period.c) proposes a period.  Its error is not known, since
+ * it does not see single cycles, and it has peaks also where nothing repeats.  So each cycle is
+ * compared with the next: the lag at which they differ least is the period of the cycle (de Cheveigne
+ * and Kawahara 2002).  This lag is exact where the signal is periodic, and the length of the window
+ * does not bias it, as it biases the peak of a correlation.  The result is the median of the cycles'
+ * frequencies, which ramps at the ends of a record do not move.
  *
- * Its standard error is a sum in quadrature of five:
- * - the scatter of the cycles, by its median where they are many, over the root of the number of
- *   independent ones: neighbours that are correlated by rho count (1 - rho) / (1 + rho); Student's
- *   factor is applied where they are few;
- * - the drift of the waveform: a change from cycle to cycle that doubles over two cycles is no noise.
- *   It may shift the lag of every cycle alike, by its rms over the rms of the derivative;
- * - what the median of the lags differs by from their mean, as lags from jump to jump are whole samples;
- * - by how much half the lag over two cycles differs from that over one: a steady hum pulls every lag
+ * Its standard error is the root of the sum of the squares of five errors:
+ * - the scatter of the cycles over the root of the number of independent ones.  The scatter is the
+ *   median deviation where there are many cycles; Student's factor is applied where there are few.
+ *   Neighbours that are correlated by rho count as (1 - rho) / (1 + rho);
+ * - the drift of the waveform.  A change from cycle to cycle that doubles over two cycles is not noise
+ *   and may shift the lags of all cycles alike, by its rms over the rms of the derivative;
+ * - the difference of the median of the lags from their mean: lags from jump to jump are whole samples;
+ * - the difference of half the lag over two cycles from the lag over one: a steady hum pulls every lag
  *   towards a multiple of its own period;
  * - the error of the interpolation between samples, from the vertices of two parabolas.
  *
  * A signal does not repeat itself
- * - if the median cycle explains less of the variance of the next than asked for;
- * - if a quarter of the cycles have no best lag within WIDTH of the period, or are not like the next
- *   one at it, as where something rings, but anew behind every slip;
- * - if the energy of the cycles has an effective number (sum E)^2 / sum E^2 of less than LASTING of
- *   them, or decays or grows exponentially, by more than FADE and e in QUICK cycles: it rings once;
- * - if the energies of the cycles themselves repeat: it is modulated, and the cycle is not what
- *   repeats; or their means do: then a hum or a ringing passes for it.
+ * - if the median cycle explains less of the variance of the next than is asked for;
+ * - if more than BROKEN of the cycles have no best lag within WIDTH of the period, or are not like the
+ *   next cycle at that lag.  Such is a signal that rings anew behind each slip;
+ * - if it rings once: the effective number of cycles, (sum E)^2 / sum E^2 of their energies E, is less
+ *   than LASTING of them, or the energy decays or grows exponentially, by more than FADE in all and
+ *   by more than e in QUICK cycles;
+ * - if the energies of the cycles repeat: the signal is modulated, and more than a cycle repeats; or if
+ *   their means repeat: the cycle is that of a hum or a ringing.
  *
- * The peak of the autocorrelation may be that of several cycles, where jumps lie between samples: a part
- * is taken that repeats as well as the whole does when it is shifted by a sample. */
+ * Where jumps lie between samples, the peak of the autocorrelation may be at the length of several
+ * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as
+ * it does after the whole when it is shifted by a sample. */
 #include "features/cycles.h"
 
 #include <gsl/gsl_cdf.h>

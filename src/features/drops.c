@@ -1,19 +1,19 @@
-/* drops.c -- how often and how far a force drops: a sawtooth of stick and slip, read by height.
+/* drops.c -- how often and how far a force drops, for a sawtooth of stick and slip.
  *
- * Turning points are those that the signal leaves by DROPS_RELOAD of the height asked for; falls
- * between them that are higher than it are drops, so that no slow drift adds up to one.  They are
- * read behind a running median, which takes single wrong samples away and leaves edges as they
- * are.  Its width follows from the noise: extremes of what it leaves (3 standard deviations at
- * either end) may change a height by ERROR of the one asked for; but it is no wider than half a
- * fall, so that it does not flatten the turning points.
+ * A turning point is an extreme that the signal leaves by DROPS_RELOAD of the height that is asked for.
+ * A drop is a fall from one turning point to the next that is higher than this height, so that no slow
+ * drift adds up to a drop.  The signal is first smoothed by a running median, which removes single
+ * wrong samples and keeps edges.  The noise sets its width: extremes of the noise that it leaves, 3
+ * standard deviations at either end, may change a height by ERROR of that asked for.  It is no wider
+ * than half a fall, so that it does not flatten the turning points.
  *
- * The height need not be asked for where falls have one.  Falls above h, between turning points left
- * by h, have a median M(h).  A signal without a scale of its own has M = c h at all h: c is 1.7 for a
- * random walk (falls beyond h are exponential with mean h) and less for white noise.  A sawtooth has
- * falls of some size and none between that and the noise, so M / h rises as h is lowered.  The first
- * h, from the largest on, with M = TYPICAL h is the height: exponentially distributed falls lose
- * ln 2 / 3 of their mean there, a quarter of a median.  It must be above what noise makes behind the
- * median of NARROWEST samples, 3 standard deviations at either end; else there is none. */
+ * If no height is asked for, it is found where the falls have a typical height.  The falls above h,
+ * between turning points for h, have a median M(h).  A signal without a scale of its own has M = c h at
+ * all h: c is 1.7 for a random walk (falls beyond h are exponential with mean h) and less for white
+ * noise.  A sawtooth has falls of some size, and none between that size and the noise, so M / h rises
+ * as h is lowered.  The height is the largest h with M = TYPICAL h: exponentially distributed falls
+ * lose ln 2 / 3 of their mean there, a quarter of a median.  It must be above the noise that the median
+ * of NARROWEST samples leaves, 3 standard deviations at either end; otherwise there is none. */
 #include "features/drops.h"
 
 #include <gsl/gsl_statistics_double.h>

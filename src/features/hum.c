@@ -1,15 +1,16 @@
 /* hum.c -- steady lines in a signal that are no part of what repeats in it.
  *
- * Under a Hann window of m whole periods, what repeats has all its power in the bins m k - 1, m k and
- * m k + 1: the others are free for what does not repeat.  A line fills the four bins about it. Where
- * cycles differ by chance the powers in the free bins are exponential: of N the largest is more than
- * ten times the next with a chance below N^-9. So up to three lines are taken for hum which stand so
- * far above all else that is free; more of them, as those of a signal that repeats after two periods
- * or is forced twice, are left alone.
+ * Under a Hann window of m whole periods, a periodic signal has all its power in the bins m k - 1, m k
+ * and m k + 1.  The other bins are free for lines that do not repeat with it.  A line fills the four
+ * bins about it.  Where cycles differ by chance, the powers in the free bins are exponential, and the
+ * largest of N is more than ten times the next with a chance below N^-9.  So lines that stand this far
+ * above all other free bins are hum, if there are no more than three.  More lines are left alone: they
+ * may be those of a signal that repeats after two periods or is forced twice.
  *
- * The band about the frequency is shifted to zero and thinned first, so that a bin costs little.  The
- * period must be known to a small part of an oscillation over all m periods: it is sought where the
- * strongest harmonics have most power.  Long records are treated in parts, as a hum may drift. */
+ * The band about the frequency is first shifted to zero and thinned, so that a bin costs little.  The
+ * error of the period, over all m periods, must be a small part of an oscillation; so the period is
+ * sought as the one that gives the strongest harmonics most power.  Long records are treated in
+ * parts, because a hum may drift. */
 #include "features/hum.h"
 
 #include <gsl/gsl_min.h>

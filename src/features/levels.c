@@ -1,4 +1,4 @@
-/* levels.c -- |W| of a map, part by part. */
+/* levels.c -- see levels.h. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>

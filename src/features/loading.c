@@ -1,15 +1,15 @@
 /* loading.c -- how each stick loads a force, and how each slip lets it fall.
  *
- * While the slider sticks, the drive loads the force along a line.  The line is fitted to the
- * middle half of the rise from one fall to the next.  The stick is as much of the rise as stays
- * within NEAR of the line's standard deviations and is not in the slips that are fitted to the
- * falls (slip.c), with the median slope of these lines.  Then the line is fitted to the whole
- * stick.  A fall that is no slip of a pulled slider has no drop, duration and friction, and a stick
- * beside it has no length.  Samples of a measured force are not independent, so the standard error
- * of the slope counts fewer of them, see colour.c.
+ * While the slider sticks, the drive loads the force along a line.  A first line is fitted to the
+ * middle half of the rise from one fall to the next.  The median slope of these lines is used to fit
+ * slips to the falls (slip.c).  The stick is the part of the rise that is in no slip and within NEAR
+ * standard deviations of the line.  The line is then fitted to the whole stick.  A fall that the fit
+ * of a slip does not explain has no drop, duration and friction, and a stick beside it has no length.
+ * Samples of a measured force are not independent, so the standard error of the slope counts fewer of
+ * them (colour.c).
  *
- * A slope of a force over time is the stiffness that loads it, times the speed of the drive.  Where
- * there is a column of displacement, the slope against it is a stiffness by itself. */
+ * The slope of the force over time is the stiffness times the speed of the drive.  Where there is a
+ * column of displacement, the slope against it is the stiffness itself. */
 #include "features/loading.h"
 
 #include <gsl/gsl_statistics_double.h>

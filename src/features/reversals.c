@@ -1,13 +1,14 @@
 /* reversals.c -- see reversals.h.
  *
- * From a break-away to the next reversal the force stays at a level, the median.  Friction is half of the
- * step from one level to the next, so that a constant beside the force does not count.  A force that is
- * there for less than half of the time, as that of a spring or of a viscous damper, shows none: a sine is
- * above 0.95 of its median beyond half of it for 0.4 of the time.
+ * From a break-away to the next reversal the force stays at a level, which is read as the median.
+ * Friction is half of the step from one level to the next, so that a constant in the force does not
+ * count.  If the force is at its level for less than half of the time, as the force of a spring or of
+ * a viscous damper is, there is no friction.  A sine is at its level for 0.4 of the time: the level is
+ * the median of the part beyond half of it, and at the level means above 0.95 of it.
  *
- * From level to level the force goes while friction holds.  The stiffness is the secant from where a
- * small part of the step is done to where that part is left, as levels are noisy and break-aways ring.
- * What gives way only for some of it, as backlash does, is in it. */
+ * The force goes from level to level while friction holds.  The stiffness is the secant of this step
+ * without a small part at either end, because levels are noisy and break-aways ring.  It includes what
+ * gives way only in a part of the step, as backlash does. */
 #include "features/reversals.h"
 
 #include <gsl/gsl_statistics_double.h>

@@ -1,12 +1,12 @@
 /* ringdown.c -- one damped oscillation shared by many short windows of a signal.
  *
- * While the contact sticks, the signal is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) + C + D t: the
- * line stands for the slow response to the base. w and s belong to the contact and are the same in
- * every stick; A to D are not. varpro.c fits that to windows.
+ * While the contact sticks, the signal is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) + C + D t.  The
+ * line C + D t stands for the slow response to the base.  The contact sets w and s, which are the same
+ * in every stick; A to D differ.  varpro.c fits this to windows.
  *
- * Where a stick begins and ends is not known: sticks.c finds that.  Micro-slips too weak to show in one
- * window are looked for in all together, at the same distance from their starts (slips.c).  errors.c
- * says how well w and s are known. */
+ * It is not known where a stick begins and ends; sticks.c finds that.  Some micro-slips are too weak to
+ * show in one window; slips.c looks for them in all windows together, at the same distance from their
+ * starts.  errors.c finds the errors of w and s. */
 #include "features/ringdown.h"
 
 #include <gsl/gsl_cdf.h>

@@ -1,4 +1,4 @@
-/* ringing.c -- find transitions by their oscillation, or the oscillation after known transitions. */
+/* ringing.c -- find transitions by their oscillation, and the oscillation behind known transitions. */
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,16 +1,17 @@
 /* slip.c -- the slip of a pulled slider, seen in the force of its spring.
  *
- * A slider of mass m on a spring of stiffness k whose end moves at U, held by friction up to f_s and
- * braked by f_k when it slips, turns the loading s' = k U of the spring into
+ * A slider of mass m is held by friction up to f_s and braked by f_k while it slips.  A spring of
+ * stiffness k, whose end moves at U, pulls it.  The force s of the spring rises at s' = k U in the
+ * stick.  In the slip, at time u after its onset, it is
  *
- *     s = f_k + D cos(w u) + (k U / w) sin(w u),    D = f_s - f_k, w = sqrt(k/m), q = D w / (k U),
+ *     s = f_k + D cos(w u) + (k U / w) sin(w u),    D = f_s - f_k, w = sqrt(k/m), q = D w / (k U).
  *
- * u after the onset, until s' is k U again, at u = 2 (pi - atan q) / w, where s = f_k - D.  This
- * and the loadings on either side are fitted to the samples by least squares: onset, f_s, f_k and
- * w.  The maximum of the samples is above f_s by noise and by the momentum of the drive, and what
- * follows a line to within the noise goes on into the slip; the fit has neither error.
+ * The slip ends when s' is k U again, at u = 2 (pi - atan q) / w, where s = f_k - D.  The slip and the
+ * loadings on either side of it are fitted to the samples by least squares.  The fit varies the onset,
+ * f_s, f_k and w.  Simpler readings err: noise and the momentum of the drive raise the largest sample
+ * above f_s, and a line that is followed to within the noise goes on into the slip.
  *
- * What it leaves of measured slips is not white, so errors count fewer samples, see colour.c. */
+ * The residual of a measured slip is not white, so errors count fewer samples (colour.c). */
 #include "features/slip.h"
 
 #include <gsl/gsl_errno.h>

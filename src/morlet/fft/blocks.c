@@ -1,38 +1,42 @@
 /* blocks.c -- coefficients of a stepped grid by short FFTs, octave by octave.
  *
- * Level l has one sample for 2^l of the record.  A scale is computed on the level on which it is A to
- * 2 A samples long, shorter ones on level 0; A = (omega_c + CUT)/BAND, so that its band ends below
- * BAND < 2 radians a sample.  A level is cut into windows of L samples, a power of two, each with its
- * spectrum X.  By Poisson's sum, on the circle of a window, in units of a^1/2,
+ * Level l of the record has one sample for 2^l of the record.  A scale is computed on the level on
+ * which it is A to 2 A samples long; shorter scales are computed on level 0.  A = (omega_c + CUT)/BAND,
+ * so that the band of a scale ends below BAND < 2 radians a sample.  A level is cut into windows of L
+ * samples, a power of two.  X is the spectrum of a window.  By Poisson's sum, on the circle of a
+ * window, in units of a^1/2,
  *     W(c) = C/L sum_k X_k exp(-v_k^2/2) exp(2 pi i k c/L),   v_k = 2 pi k a/L - omega_c,
- * for any place c in samples, C = pi^-1/4 sqrt(2 pi).  The grid's step is 2^p/m samples (grid.c) and
- * 2^p divides L, so the terms folded modulo M = L m/2^p and one inverse FFT of M points give W at
- * all translations of the window, with nothing to interpolate.  The ends of a window, which the
- * wavelets there reach beyond, belong to its neighbours: windows begin every hop = L - overlap
- * samples, overlap >= 2 REACH 2 A.  2^p divides overlap too, being at most m B_0 2 A <= 17 (2 A), so
- * that every window begins at a translation.  All FFTs stay in the cache.
+ * for any place c in samples, with C = pi^-1/4 sqrt(2 pi).
  *
- * Other translations lie between points: the terms, moved to frequency 0, are divided by the response of
- * a kernel, M is the least power of two that this needs, and places.c finds W between the M points.
+ * The grid's step is 2^p/m samples (grid.c), and 2^p divides L.  So the terms are folded modulo
+ * M = L m/2^p, and one inverse FFT of M points gives W at all translations of the window without
+ * interpolation.  Wavelets near the ends of a window reach beyond it, so the ends belong to its
+ * neighbours: windows begin every hop = L - overlap samples, overlap >= 2 REACH 2 A.  2^p divides
+ * overlap too, since it is at most m B_0 2 A <= 17 (2 A), so every window begins at a translation.
+ * All FFTs stay in the cache.
  *
- * The next level is the same spectrum times F(w) = erfc((w - pi/2)/(sqrt(2) s))/2, folded to L/2
- * terms, and an inverse FFT; s = (pi/2 - BAND/2)/FILTER_CUT, and F(w) + F(pi - w) = 1.
+ * Translations of other grids lie between these points.  For them the terms are moved to frequency 0
+ * and divided by the response of a kernel, M is the least power of two that the kernel needs, and
+ * places.c finds W between the M points.
  *
- * Error, in units of a^1/2 max|x|, of which every accuracy allows 16 eps:
+ * The next level has the same spectrum times F(w) = erfc((w - pi/2)/(sqrt(2) s))/2, folded to L/2
+ * terms, through an inverse FFT; s = (pi/2 - BAND/2)/FILTER_CUT, and F(w) + F(pi - w) = 1.
+ *
+ * The errors are, in units of a^1/2 max|x|, of which every accuracy allows 16 eps:
  *   - the cut of the series at |v| > CUT: at most 2.4 exp(-CUT^2/2) (1 + log(1 + L/(2 CUT a))), a in
  *     samples (fft/plan.c), below 3 eps for L/a = 1000, for a step in the signal at the worst phase;
  *   - images, between points: twice IMAGES in place of the exponential, below 5 eps for L/a = 1000;
- *   - what reaches around the circle: tail(REACH) of quadrature.c, below 1e-16;
- *   - the filter: below w = BAND/2, 1 - F and F(pi - w), by which terms that fold there are
- *     multiplied, are at most erfc(FILTER_CUT/sqrt 2)/2 = 5e-17; its response in time,
- *     sin(pi n/2)/(pi n) exp(-(s n)^2/2), is cut at s n = REACH, where it is 2e-16/(pi n);
- *   - beyond the record's ends a level has REACH/s samples more, the reach of the filter: half of
- *     that is what the level before it had itself, and half of it what its filter adds;
+ *   - wavelets that reach around the circle: tail(REACH) of quadrature.c, below 1e-16;
+ *   - the filter: below w = BAND/2, 1 - F is at most erfc(FILTER_CUT/sqrt 2)/2 = 5e-17, and so is
+ *     F(pi - w), which multiplies the terms that fold there.  Its response in time,
+ *     sin(pi n/2)/(pi n) exp(-(s n)^2/2), is cut at s n = REACH, where it is 2e-16/(pi n).  A level has
+ *     REACH/s samples more than the record at either end, the reach of the filter: half of them are
+ *     those that the level before had, and its filter adds the other half;
  *   - rounding: the FFT of a window, its filter and the inverse make noise in the next level's
- *     samples of rms some eps sqrt(log2 L) rms(x); a wavelet of a samples averages it to 1/sqrt(a) of
- *     that, a >= A >= 5, and each filter halves the power of what the levels before have made.
- * tests/test_morlet.c finds at most 1 eps.  So one way serves every accuracy, and nothing needs to be
- * looked at afterwards. */
+ *     samples of rms some eps sqrt(log2 L) rms(x).  A wavelet of a samples averages it to 1/sqrt(a) of
+ *     that, a >= A >= 5, and each filter halves the power of the noise of the levels before.
+ * tests/test_morlet.c finds at most 1 eps.  So one method serves every accuracy, and no result needs to
+ * be checked afterwards. */
 #include <fftw3.h>
 #include <limits.h>
 #include <math.h>
