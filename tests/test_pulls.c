@@ -320,7 +320,8 @@ slips_of_a_clipped_pull_are_not_known(void **state)
         if (clips == 0)
             assert_true(f->slips.value > 20);
         else
-            assert_true(isnan(f->slips.value) && f->why_slips != NULL && f->loading == NULL);
+            assert_true(isnan(f->slips.value) && isnan(f->slips.error) && f->why_slips != NULL
+                        && f->loading == NULL);
         ss_features_free(f);
         ss_signal_free(t.signal);
     }

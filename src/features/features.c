@@ -240,7 +240,7 @@ find_slip_rate(search *s)
 {
     ss_features *out = s->out;
     if (out->why_slips != NULL) {
-        out->slips.value = NAN;
+        out->slips = unknown;
         return;
     }
     out->slips.value = (double)out->n;

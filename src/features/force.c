@@ -88,31 +88,6 @@ compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
     return (signs > 3 * sqrt(all)) - (signs < -3 * sqrt(all));
 }
 
-/* Falls of x above the height.  A force that falls slower than it rises is upside down: its sign is that of
- * an offset. */
-static ss_status
-find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
-{
-    ss_drop *drop = NULL;
-    size_t n = 0;
-    double *y = malloc((s->n + 1) * sizeof *y);
-    ss_status st = y == NULL ? SS_ENOMEM : ss_drops_find(&drop, &n, x, s->n, s->rate,
-                                 &(ss_drop_opts){ height, reload, s->gap, s->n_gaps }, NULL);
-    if (st == SS_OK)
-        st = ss_drops_without_glitches(y, x, s->n, drop, n);
-    int quicker = st != SS_OK ? 0 : s->opts->drop > 0 ? 1 : compare_falls(y, s->rate, drop, n);
-    *decided = st == SS_OK && (named || quicker > 0);
-    if (*decided && quicker < 0 && !s->has_offset)
-        s->has_offset = 1;
-    else if (*decided && quicker <= 0)
-        s->out->why_slips = "the force falls no quicker than it rises";
-    else if (*decided && (st = set_falls(s, drop, n)) == SS_OK)
-        st = ss_loading_find(s, x, drop, n);
-    free(y);
-    free(drop);
-    return st;
-}
-
 /* Does x stand still at its largest or its least value, time and again?  Then falls from above the one or to
  * below the other are not seen. */
 static int
@@ -129,6 +104,33 @@ is_clipped(const double *x, size_t n)
         lows += low == CLIPPED;
     }
     return highs >= FEW || lows >= FEW;
+}
+
+/* Falls of x above the height.  A force that falls slower than it rises is upside down: its sign is that of
+ * an offset. */
+static ss_status
+find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
+{
+    ss_drop *drop = NULL;
+    size_t n = 0;
+    double *y = malloc((s->n + 1) * sizeof *y);
+    ss_status st = y == NULL ? SS_ENOMEM : ss_drops_find(&drop, &n, x, s->n, s->rate,
+                                 &(ss_drop_opts){ height, reload, s->gap, s->n_gaps }, NULL);
+    if (st == SS_OK)
+        st = ss_drops_without_glitches(y, x, s->n, drop, n);
+    int quicker = st != SS_OK ? 0 : s->opts->drop > 0 ? 1 : compare_falls(y, s->rate, drop, n);
+    *decided = st == SS_OK && (named || quicker > 0);
+    if (*decided && quicker < 0 && !s->has_offset)
+        s->has_offset = 1;
+    else if (*decided && s->opts->drop == 0 && is_clipped(x, s->n))
+        s->out->why_slips = "the force is clipped: it stands still at its largest or least value";
+    else if (*decided && quicker <= 0)
+        s->out->why_slips = "the force falls no quicker than it rises";
+    else if (*decided && (st = set_falls(s, drop, n)) == SS_OK)
+        st = ss_loading_find(s, x, drop, n);
+    free(y);
+    free(drop);
+    return st;
 }
 
 /* Falls of x, which is the signal or its negative, of the height that they have; of -x, if x is upside
@@ -151,12 +153,6 @@ find_typical_falls(search *s, double *x, int *decided)
         for (size_t i = 0; i < s->n; i++)
             x[i] = -x[i];
         return find_typical_falls(s, x, decided);
-    }
-    if (*decided && is_clipped(x, s->n)) {
-        free(s->out->loading);
-        s->out->loading = NULL;
-        s->out->n = 0;
-        s->out->why_slips = "the force is clipped: it stands still at its largest or least value";
     }
     if (st == SS_OK && *decided)
         s->out->slips.error = 0.5 * fabs((double)typical.more - (double)typical.less);
