@@ -268,7 +268,8 @@ tool_output(const char *path)
         tool_die("%s: %s", path, strerror(errno));
     if (n_out == before)
         out[n_out++] = (output){ .name = path, .fd = -1 };
-    return out[n_out - 1].file = file;
+    out[n_out - 1].file = file;
+    return file;
 }
 
 FILE *

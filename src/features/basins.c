@@ -238,7 +238,7 @@ find_hills(map *m, size_t row)
 static inline int
 is_higher(const double *level, size_t p, size_t q)
 {
-    return level[p] > level[q] || (level[p] == level[q] && p < q);
+    return level[p] > level[q] || (p < q && level[p] == level[q]);
 }
 
 /* From a row to one beside it. */

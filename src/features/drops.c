@@ -197,9 +197,10 @@ ss_drops_typical(const double *x, size_t n, ss_typical *out)
     *out = (ss_typical){ .height = 0 };
     if (n < NARROWEST)
         return SS_OK;
-    double *y = malloc((2 * n + NARROWEST) * sizeof *y), *fall = y + n, low, high, median;
+    double *y = malloc((2 * n + NARROWEST) * sizeof *y), low, high, median;
     if (y == NULL)
         return SS_ENOMEM;
+    double *fall = y + n;
     double noise = noise_rms(x, n, fall);
     running_median(y, x, n, NARROWEST / 2, fall);
     low = high = y[0];

@@ -19,9 +19,10 @@ ss_fold_spikes(const search *s, ss_spikes **out, double *period)
         return SS_OK;
     size_t n = (size_t)(samples * CYCLES);
     size_t over = (size_t)(((double)s->n - 1 - (double)n) / samples);
-    double *mean = calloc(2 * n, sizeof *mean), *used = mean + n;
+    double *mean = calloc(2 * n, sizeof *mean);
     if (mean == NULL)
         return SS_ENOMEM;
+    double *used = mean + n;
     for (size_t k = 0; k < over; k++) {
         size_t first = (size_t)((double)k * samples + 0.5);
         for (size_t i = 0; i < n; i++) {

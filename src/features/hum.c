@@ -101,9 +101,10 @@ sums_at(const zoomed *zoom, double w, double by, size_t n, double complex *to)
 {
     double from = (w - zoom->center) * zoom->step, half = 0.5 * by * zoom->step;
     size_t size = power_of_two((double)(zoom->n + n));
-    double complex *a = calloc(2 * size, sizeof *a), *chirp = a + size;
+    double complex *a = calloc(2 * size, sizeof *a);
     if (a == NULL)
         return SS_ENOMEM;
+    double complex *chirp = a + size;
     for (size_t i = 0; i < zoom->n || i < n; i++) {
         double t = (double)i;
         double complex c = cexp(I * half * t * t);

@@ -247,7 +247,7 @@ write_data(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_
     }
     if (map->n_curve > 0)
         write_curve(out, map, g);
-    return line > 0 ? ss_map_write_lines(out, g, d->column[line].value, err) : SS_OK;
+    return line == 0 ? SS_OK : ss_map_write_lines(out, g, d->column[line].value, err);
 }
 
 static void

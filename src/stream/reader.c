@@ -109,7 +109,7 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
 {
     if (reader == NULL || rows == NULL || n == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st;
+    ss_status st = SS_OK;
     size_t columns = reader->head->n_columns;
     do {                                        /* rows before the first are left out */
         uint64_t end = reader->passed < reader->first ? reader->first : reader->end_row;

@@ -47,8 +47,9 @@ for encoding in 2 3 4 5 6; do
 done
 
 # What a header says of a length need not be so.
-for length in '\0\0\0\0' '\0\0\0\002' '\177\377\377\377'; do
-    printf '.snd\0\0\0\030%b\0\0\0\003\0\0\003\350\0\0\0\001abcdefgh' "$length" > "au/length$(printf %s "$length" | tr -d '\\')"
+for length in '000 000 000 000' '000 000 000 002' '177 377 377 377'; do
+    # shellcheck disable=SC2086  # four bytes
+    printf '.snd\0\0\0\030%b\0\0\0\003\0\0\003\350\0\0\0\001abcdefgh' "$(printf '\\0%s' $length)" > "au/length${length##* }"
 done
 printf 'RIFF\044\0\0\0WAVEfmt \020\0\0\0\001\0\001\0\100\037\0\0\0\0\0\0\002\0\020\0data\0\0\0\0\0\0\001\002' > au/wav-length0
 printf 'RIFF\0\0\0\0WAVEfmt \020\0\0\0\001\0\002\0\100\037\0\0\0\0\0\0\010\0\030\0data\010\0\0\0abcdefgh' > au/wav-wide
@@ -62,7 +63,7 @@ for layout in No One Multi; do
     case $layout in No) row='\t1\t2' ;; One) row='0\t1\t2' ;; *) row='0\t1\t0\t2' ;; esac
     {
         printf 'LabVIEW Measurement\t\nX_Columns\t%s\n***End_of_Header***\t\n' $layout
-        for segment in 1 2; do
+        for _ in 1 2; do
             printf 'Channels\t2\nY_Unit_Label\tN\tm\nX_Dimension\tTime\tTime\nX0\t0\t0\nDelta_X\t0,5\t0,5\n'
             printf '***End_of_Header***\nX_Value\ta\tb\tComment\n%b\tnow\n\n' "$row"
         done

@@ -335,7 +335,7 @@ ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
     const struct blocks *b = now->b;
     cascade *c = copy_of(now);
     ss_status st = c != NULL ? SS_OK : SS_ENOMEM;
-    size_t windows[LEVELS];
+    size_t windows[LEVELS] = { 0 };
     for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
         const stage *s = &b->stage[l];
         windows[l] = 1 + windows_for(s, n + 2 * s->margin);

@@ -409,8 +409,8 @@ whiteness(const matching *w, const double *left)
 static void
 find_covariance(const matching *w, const normal *e, match *m)
 {
-    double inverse[NORMAL_MOST][NORMAL_MOST], unit[UNKNOWNS];
-    size_t name[UNKNOWNS];
+    double inverse[NORMAL_MOST][NORMAL_MOST], unit[UNKNOWNS] = { 0 };
+    size_t name[UNKNOWNS] = { 0 };
     ss_normal_invert(e, inverse);
     for (size_t k = 0; k < e->n; k++) {
         name[k] = k < w->n_moved ? w->moved[k] : MATCH_SIZE + k - w->n_moved;
@@ -522,7 +522,7 @@ prepare(matching *w)
 {
     size_t n = w->r->n;
     for (size_t j = 0; j < MOVED; j++)
-        if (j < w->c->n ? w->c->hi[j] > w->c->lo[j] : j >= CANDIDATE_KEYS)
+        if (j >= CANDIDATE_KEYS || (j < w->c->n && w->c->hi[j] > w->c->lo[j]))
             w->moved[w->n_moved++] = j;
     double *room = malloc((n + 1) * (w->n_moved + 5) * sizeof *room);
     if (room == NULL)

@@ -324,7 +324,7 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     const char *other = w->signal->head->column[column].name;
     candidate c = named->candidate;
     const char *model = ss_model_name(c.scene.model);
-    match m;
+    match m = { .power = 0 };
     double errors;
     c.pick = quantity;
     record.x = w->signal->values + column * w->signal->n;
