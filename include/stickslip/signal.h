@@ -121,9 +121,8 @@ typedef struct ss_reader ss_reader;
  * a pipe before.  Messages call the file by name.  opts may be NULL.
  *
  * Text and AU streams are read as they arrive, in constant memory.  Delimited text is first read
- * to its end, to check its clock, and then a second time.  Its memory grows with its gaps only.  The
- * second reading is of the file, or, if the text comes through a pipe or may have gaps or uneven
- * stamps, of its numbers in a temporary file, 8 bytes each.
+ * to its end, to check its clock.  If it has more than 2^18 numbers, they are kept in a temporary
+ * file, 8 bytes for each number and each row.  Its memory grows with its gaps only.
  */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);

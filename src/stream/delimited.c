@@ -29,7 +29,7 @@ keep_line(struct table *t, const char *line, int comment, ss_error *err)
     t->head = more != NULL ? more : t->head;
     if (copy == NULL)
         return ss_delimited_no_memory(t, err);
-    more[t->n_head++] = (struct table_line){ copy, t->in->line, ss_input_place(t->in), comment };
+    more[t->n_head++] = (struct table_line){ copy, t->in->line, comment };
     return SS_OK;
 }
 
@@ -121,9 +121,9 @@ warn_of_text(const struct table *t, const char *row)
                               t->in->name, t->in->line, i + 1, t->names->column[i].name);
 }
 
-/* Begin a table with this row, at this place of the file, below the lines that were kept. */
+/* Begin a table with this row, below the lines that were kept. */
 static ss_status
-begin_table(struct table *t, const char *row, off_t place, ss_error *err)
+begin_table(struct table *t, const char *row, ss_error *err)
 {
     if (t->n_columns > MAX_COLUMNS)
         return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
@@ -135,7 +135,7 @@ begin_table(struct table *t, const char *row, off_t place, ss_error *err)
         st = ss_delimited_read_labview(t, err);
     if (st == SS_OK) {
         warn_of_text(t, first);
-        ss_delimited_begin_rows(t, place, t->in->line);
+        ss_delimited_begin_rows(t);
         st = append_row(t, first, err);
     }
     free(first);
@@ -150,7 +150,7 @@ begin_kept(struct table *t, size_t first, ss_error *err)
     unsigned long line = t->in->line;
     t->n_head = first;                          /* for the names */
     t->in->line = t->head[first].number;
-    ss_status st = begin_table(t, t->head[first].text, t->head[first].place, err);
+    ss_status st = begin_table(t, t->head[first].text, err);
     for (size_t i = first + 1; st == SS_OK && i < n; i++) {
         t->in->line = t->head[i].number;
         st = t->head[i].comment ? SS_OK : append_row(t, t->head[i].text, err);
@@ -172,7 +172,7 @@ begin_first(struct table *t, const char *row, ss_error *err)
     if (row != NULL && ss_delimited_ends_mixed(t, &mixed) != SS_OK)
         return ss_delimited_no_memory(t, err);
     if (!mixed)
-        return begin_table(t, row, ss_input_place(t->in), err);
+        return begin_table(t, row, err);
     ss_status st = row != NULL ? keep_line(t, row, 0, err) : SS_OK;
     if (st != SS_OK)
         return st;
@@ -298,7 +298,7 @@ read_table(struct table *t, ss_error *err)
         list_table(t, number, list, sizeof list);
         st = clear_table(t, err);
         if (st == SS_OK)
-            st = begin_table(t, row, ss_input_place(t->in), err);
+            st = begin_table(t, row, err);
     }
     if (st != SS_OK || number == wanted || (number == 1 && wanted == 0))
         return st;

@@ -44,7 +44,6 @@ struct time_column {
 struct table_line {             /* above the data, to be freed */
     char *text;
     unsigned long number;
-    off_t place;                /* in the file; -1: it is none */
     int comment;
 };
 
@@ -57,11 +56,7 @@ struct table_rows {
     size_t room, held, at;      /* numbers; rows in it; of these, the one that is given next */
     uint64_t given;             /* rows */
     int is_away;                /* are rows not in the block? */
-    off_t place;                /* of the first row in text that can be read again, or -1 */
-    unsigned long line;         /* its line */
-    uint64_t *sum;              /* of each piece of such text */
-    size_t n_sums, sums_room, next_sum;
-    FILE *file;                 /* of the rows of other text */
+    FILE *file;                 /* of these, or NULL */
 };
 
 struct table {
@@ -116,8 +111,8 @@ void ss_delimited_free(struct table *t);        /* NULL is allowed */
 char ss_delimited_first_of(const char *line);
 /* The next line that is not empty; comment is set if it is one.  NULL at the end. */
 ss_status ss_delimited_line(struct table *t, char **line, int *comment, ss_error *err);
-/* Begin with none, the first to be in this line, at this place of a file that can be read again, or -1. */
-void ss_delimited_begin_rows(struct table *t, off_t place, unsigned long line);
+/* Begin with none. */
+void ss_delimited_begin_rows(struct table *t);
 /* Read a line, which is cut up, as a row. */
 ss_status ss_delimited_read_row(struct table *t, char *text, const double **row, ss_error *err);
 /* Or room for the values of one more row, and, when they are there, add it. */

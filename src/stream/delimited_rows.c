@@ -1,8 +1,7 @@
 /* delimited_rows.c -- the rows of a text table, which are read several times.
  *
  * Only all stamps together show the rate, and all cells the gaps.  A table of more than a piece is therefore
- * read again: from its text where that is a file, else from a file without a name, where the numbers
- * are. */
+ * put away in a file without a name, and read again from there. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -165,22 +164,12 @@ open_nameless(const char *first)
         if (fd < 0)
             continue;
         unlink(name);
-        return fdopen(fd, "w+");
+        FILE *file = fdopen(fd, "w+");
+        if (file == NULL)
+            close(fd);
+        return file;
     }
     return NULL;
-}
-
-/* Of the rows in the block: shows whether they are the same when they are read again. */
-static uint64_t
-sum_of(const struct table_rows *r)
-{
-    uint64_t sum = 0, bits;
-    for (size_t i = 0; i < r->held * r->width; i++) {
-        memcpy(&bits, &r->block[i], sizeof bits);
-        sum = (sum ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
-        sum ^= sum >> 32;
-    }
-    return sum;
 }
 
 /* Empty the block. */
@@ -188,18 +177,10 @@ static ss_status
 put_away(struct table *t, ss_error *err)
 {
     struct table_rows *r = &t->rows;
-    if (r->place >= 0) {
-        uint64_t *more = ss_list_room(r->sum, &r->sums_room, r->n_sums, sizeof *more);
-        if (more == NULL)
-            return ss_delimited_no_memory(t, err);
-        r->sum = more;
-        more[r->n_sums++] = sum_of(r);
-    } else {
-        if (r->file == NULL && (r->file = open_nameless(t->opts->folder)) == NULL)
-            return fail_file(t, err);
-        if (fwrite(r->block, r->width * sizeof *r->block, r->held, r->file) != r->held)
-            return fail_file(t, err);
-    }
+    if (r->file == NULL && (r->file = open_nameless(t->opts->folder)) == NULL)
+        return fail_file(t, err);
+    if (fwrite(r->block, r->width * sizeof *r->block, r->held, r->file) != r->held)
+        return fail_file(t, err);
     r->is_away = 1;
     r->held = 0;
     return SS_OK;
@@ -212,14 +193,11 @@ rows_in_piece(const struct table_rows *r)
 }
 
 void
-ss_delimited_begin_rows(struct table *t, off_t place, unsigned long line)
+ss_delimited_begin_rows(struct table *t)
 {
     struct table_rows *r = &t->rows;
-    int again = t->opts->gaps == SS_GAPS_REFUSE && !(t->opts->resample > 0);    /* else too often for text */
     r->width = t->n_columns + 1;
-    r->place = again ? place : -1;
-    r->line = line;
-    r->n = r->held = r->n_sums = 0;
+    r->n = r->held = 0;
     r->is_away = 0;
     if (r->file != NULL)
         rewind(r->file);
@@ -272,37 +250,12 @@ ss_status
 ss_delimited_end_rows(struct table *t, ss_error *err)
 {
     ss_status st = t->rows.is_away ? put_away(t, err) : SS_OK;
-    if (st == SS_OK && t->rows.file != NULL && fflush(t->rows.file) != 0)
+    if (st == SS_OK && t->rows.is_away && fflush(t->rows.file) != 0)
         return fail_file(t, err);
     return st;
 }
 
 /* --- rows that are read again -------------------------------------------------------------- */
-
-/* Read n rows of text again.  Rows that a recorder has appended since are not read. */
-static ss_status
-parse_again(struct table *t, size_t n, ss_error *err)
-{
-    struct table_rows *r = &t->rows;
-    char *line;
-    int comment;
-    while (r->held < n) {
-        ss_status st = ss_delimited_line(t, &line, &comment, err);
-        if (st == SS_OK && line == NULL)
-            return ss_fail(err, SS_EDATA, "%s:%lu: the file has become shorter while it was read", t->in->name,
-                           t->in->line);
-        double *row = r->block + r->held * r->width;
-        row[t->n_columns] = (double)t->in->line;
-        if (st == SS_OK && !comment && (st = parse_row(t, line, row, err)) == SS_OK)
-            r->held++;
-        if (st != SS_OK)
-            return st;
-    }
-    if (sum_of(r) != r->sum[r->next_sum++])
-        return ss_fail(err, SS_EDATA, "%s:%lu: the rows up to here have changed while the file was read",
-                       t->in->name, t->in->line);
-    return SS_OK;
-}
 
 /* The next piece into the block. */
 static ss_status
@@ -312,8 +265,6 @@ fetch(struct table *t, ss_error *err)
     uint64_t left = r->n - r->given, piece = rows_in_piece(r);
     size_t n = (size_t)(left < piece ? left : piece);
     r->held = r->at = 0;
-    if (r->place >= 0)
-        return parse_again(t, n, err);
     r->held = n;
     return fread(r->block, r->width * sizeof *r->block, n, r->file) == n ? SS_OK : fail_file(t, err);
 }
@@ -326,13 +277,8 @@ ss_delimited_rewind(struct table *t, ss_error *err)
     r->given = 0;
     if (!r->is_away)
         return SS_OK;
-    r->held = r->next_sum = 0;
-    if (r->place < 0)
-        return fseek(r->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(t, err);
-    t->mark = '\0';
-    for (size_t i = 0; i < t->n_columns; i++)
-        t->column[i].last = NAN;
-    return ss_input_return(t->in, r->place, r->line - 1, err);
+    r->held = 0;
+    return fseek(r->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(t, err);
 }
 
 ss_status
@@ -358,6 +304,5 @@ ss_delimited_free_rows(struct table *t)
     if (t->rows.file != NULL)
         fclose(t->rows.file);
     free(t->rows.block);
-    free(t->rows.sum);
     free(t->first);
 }

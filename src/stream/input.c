@@ -7,7 +7,6 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <stickslip/number.h>
 #include "base/error.h"
@@ -139,33 +138,12 @@ ss_input_line(struct input *in, char **line, size_t *length, ss_error *err)
         return SS_OK;
     char *end = newline != NULL ? newline : in->buffer + in->hi;
     *line = in->buffer + in->lo;
-    in->begun = in->lo;
     in->lo = (size_t)(end - in->buffer) + (newline != NULL);
     while (end > *line && end[-1] == '\r')
         end--;
     *end = '\0';
     *length = (size_t)(end - *line);
     in->line++;
-    return SS_OK;
-}
-
-off_t
-ss_input_place(const struct input *in)
-{
-    struct stat st;
-    int fd = fileno(in->file);
-    off_t end = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) ? lseek(fd, 0, SEEK_CUR) : -1;
-    return end >= 0 ? end - (off_t)(in->hi - in->begun) : -1;
-}
-
-ss_status
-ss_input_return(struct input *in, off_t place, unsigned long line, ss_error *err)
-{
-    if (lseek(fileno(in->file), place, SEEK_SET) != place)
-        return ss_fail_errno(err, in->name, errno);
-    in->lo = in->hi = in->scanned = 0;
-    in->ended = 0;
-    in->line = line;
     return SS_OK;
 }
 

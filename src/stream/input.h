@@ -19,7 +19,6 @@ struct input {
     char *buffer;
     size_t capacity, lo, hi;    /* unread bytes: buffer[lo ... hi) */
     size_t scanned;             /* there is no newline before this byte */
-    size_t begun;               /* where the line read last begins */
     int ended;
     unsigned long line;         /* the number of the line read last, from 1 */
 };
@@ -40,10 +39,6 @@ ss_status ss_input_row(struct input *in, char **line, ss_error *err);
  * SS_EDATA, with the line: `expected` is not there. */
 ss_status ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
                           ss_error *err);
-/* The place in a regular file of the line read last, until more is read; or -1: it cannot be read again. */
-off_t ss_input_place(const struct input *in);
-/* Go back to such a place, behind so many lines. */
-ss_status ss_input_return(struct input *in, off_t place, unsigned long line, ss_error *err);
 int ss_input_has_line(struct input *in);           /* 1: a whole line is in the buffer */
 int ss_input_waits(const struct input *in);        /* 1: reading more bytes would block */
 

@@ -259,7 +259,7 @@ fill_table(struct table *t, const struct npy *a, const double *value, ss_error *
     }
     if (st != SS_OK)
         return ss_delimited_no_memory(t, err);
-    ss_delimited_begin_rows(t, -1, 1);
+    ss_delimited_begin_rows(t);
     for (size_t i = 0; st == SS_OK && i < a->rows; i++) {
         t->in->line = i + 1;
         st = ss_delimited_new_row(t, &row, err);
