@@ -51,7 +51,8 @@ find_places(const point_series *s, double b_num, double b_den, double rate, doub
 }
 
 /* Each of four weights twice, for re and im. */
-#define TWICE(w, i) (lanes){ w[i], w[i], w[i + 1], w[i + 1], w[i + 2], w[i + 2], w[i + 3], w[i + 3] }
+#define TWO(w, i) (w)[i], (w)[i]
+#define TWICE(w, i) (lanes){ TWO(w, i), TWO(w, (i) + 1), TWO(w, (i) + 2), TWO(w, (i) + 3) }
 
 INLINE void
 add_taps(const kaiser *ker, const double *v, const places *at, size_t n, double (*sum)[2])

@@ -142,7 +142,7 @@ ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
     return st == SS_OK ? st : ss_fail_memory(err, name);
 }
 
-void
+int
 ss_gaps_fill(gap_filler *g, double *rows, size_t n)
 {
     for (size_t i = 0; i < n; i++, g->row++)
@@ -153,11 +153,14 @@ ss_gaps_fill(gap_filler *g, double *rows, size_t n)
                 *x = 0;
             if (!isnan(*x))
                 continue;
-            while (r->run[r->next].end <= g->row)
+            while (r->next < r->n && r->run[r->next].end <= g->row)
                 r->next++;
+            if (r->next == r->n || r->run[r->next].first > g->row)
+                return 0;
             const struct run *run = &r->run[r->next];
             *x = between(run->left, run->right, g->row, run->first, run->end);
         }
+    return 1;
 }
 
 void

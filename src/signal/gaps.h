@@ -12,7 +12,8 @@ typedef struct gap_filler gap_filler;
 gap_filler *ss_gaps_new(size_t n_columns, ss_gaps how);
 int ss_gaps_add(gap_filler *g, const double *rows, size_t n);
 ss_status ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err);
-void ss_gaps_fill(gap_filler *g, double *rows, size_t n);
+/* 0: a value is missing that was there when the rows were added. */
+int ss_gaps_fill(gap_filler *g, double *rows, size_t n);
 void ss_gaps_free(gap_filler *g);               /* NULL is allowed */
 
 /* The gaps of a record of so many rows, which head notes, in seconds from its first sample.  Each

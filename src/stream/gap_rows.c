@@ -8,7 +8,8 @@ static ss_status
 filled_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
     ss_status st = reader->with_gaps(reader, rows, max, n, err);
-    ss_gaps_fill(reader->gaps, rows, *n);
+    if (!ss_gaps_fill(reader->gaps, rows, *n))
+        return ss_fail(err, SS_EDATA, "%s: the rows have changed while they were read", reader->in.name);
     return st;
 }
 
