@@ -329,7 +329,6 @@ rewind_samples(ss_reader *reader, ss_error *err)
     return ss_delimited_begin_samples(reader->table, err);
 }
 
-/* Errors of rows were found at the start, unless the file changes. */
 static ss_status
 give_samples(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
 {
@@ -339,7 +338,6 @@ give_samples(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *e
 ss_status
 ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
 {
-    static const ss_read_opts none;             /* for rows that are read again */
     ss_gaps gaps = t->opts->gaps;
     ss_status st = ss_delimited_end_rows(t, err);
     if (st == SS_OK)
@@ -352,7 +350,7 @@ ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
         st = ss_fail(err, SS_EDATA, "%s: no column but time", t->in->name);
     if (st == SS_OK)
         st = ss_delimited_begin_samples(t, err);
-    t->opts = &none;
+    t->opts = NULL;                             /* the caller's may be gone when samples are given */
     reader->rows = give_samples;
     reader->rewind = rewind_samples;
     return st == SS_OK && gaps != SS_GAPS_REFUSE ? ss_reader_fill_gaps(reader, gaps, err) : st;
