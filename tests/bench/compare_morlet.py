@@ -33,12 +33,12 @@ SECONDS, ROUNDS = 6, 40         # of a library in a work; turns
 class Opts(ctypes.Structure):
     """ss_morlet_opts"""
     _fields_ = [("center", ctypes.c_double), ("voices", ctypes.c_int), ("step", ctypes.c_double),
-                ("dense", ctypes.c_int), ("fmin", ctypes.c_double), ("fmax", ctypes.c_double),
-                ("octaves", ctypes.c_int), ("m0", ctypes.c_double), ("m1", ctypes.c_double),
-                ("engine", ctypes.c_int), ("accuracy", ctypes.c_double), ("norm", ctypes.c_int),
-                ("admissible", ctypes.c_int), ("detrend", ctypes.c_int), ("force", ctypes.c_int),
-                ("threads", ctypes.c_int), ("planner", ctypes.c_int),
-                ("progress", ctypes.c_void_p), ("user", ctypes.c_void_p)]
+                ("exact", ctypes.c_int), ("dense", ctypes.c_int), ("fmin", ctypes.c_double),
+                ("fmax", ctypes.c_double), ("octaves", ctypes.c_int), ("m0", ctypes.c_double),
+                ("m1", ctypes.c_double), ("engine", ctypes.c_int), ("accuracy", ctypes.c_double),
+                ("rounded", ctypes.c_int), ("norm", ctypes.c_int), ("admissible", ctypes.c_int),
+                ("detrend", ctypes.c_int), ("force", ctypes.c_int), ("threads", ctypes.c_int),
+                ("planner", ctypes.c_int), ("progress", ctypes.c_void_p), ("user", ctypes.c_void_p)]
 
 
 def one_fft(x):
@@ -91,6 +91,8 @@ def ours(library, accuracy, w, planner=0):
     def prepare(x, scales, voices, dense):
         lib = ctypes.CDLL(library)
         opts = Opts.in_dll(lib, "ss_morlet_defaults")
+        if (opts.center, opts.voices, opts.step, opts.accuracy, opts.threads) != (6, 16, .25, 1e-6, 1):
+            sys.exit("ss_morlet_opts has other fields than this file says")
         mine = Opts.from_buffer_copy(opts)
         mine.voices, mine.step, mine.dense, mine.accuracy = voices, 1, dense, accuracy
         mine.octaves, mine.m0, mine.m1 = 1, math.log2(scales[0]), math.log2(scales[-1])
