@@ -170,7 +170,7 @@ points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, c
     const ss_morlet_opts *opts = &plan->opts;
     band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
                           (double)st->length);
-    size_t points = 4 * PLACES_MARGIN, least = opts->dense ? circle_of(st, l) / DENSE_PHASES_MAX : 0;
+    size_t points = 4 * PLACES_MARGIN, least = opts->dense ? st->circle / DENSE_PHASES_MAX : 0;
     while (points < least || edge_of(&of, points) > b->kernel->edge)
         points *= 2;
     return points <= LONGEST ? points : 0;
@@ -258,6 +258,7 @@ choose_stages(struct blocks *b, const ss_morlet *plan)
             choose_windows(st, n, reach, (size_t)b->margin);
         st->windows = 1 + windows_for(st, n + 2 * st->margin);
         st->stride = st->length + ALIGN;
+        st->circle = st->length << l;
         n = n / 2 + 1;
     }
 }
@@ -294,7 +295,7 @@ places_of(struct blocks *b, block_scale *r)
         ss_kaiser_prepare(b->kernel);
     if (r->kind == BETWEEN)
         return SS_OK;
-    size_t phases = circle_of(&b->stage[r->level], r->level) / r->points, i = 0;
+    size_t phases = b->stage[r->level].circle / r->points, i = 0;
     while (i < b->n_places && ss_dense_phases(b->places[i]) != phases)
         i++;
     if (i == b->n_places && (b->places[b->n_places++] = ss_dense_new(b->kernel, phases)) == NULL)

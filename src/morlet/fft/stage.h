@@ -13,6 +13,7 @@ enum { LEVELS = BLOCK_LEVELS };
 /* A level of n samples, margin more on either side. */
 typedef struct stage {
     size_t n, length, overlap, hop, windows;        /* window i begins at sample (i - 1) hop */
+    size_t circle;                          /* samples of the record in a window */
     size_t margin, stride;                  /* doubles from a spectrum to the next */
     int used;                               /* by a scale: spectra are kept */
     double *filter;                         /* F_k / L, k <= L/4, then F_(L/2-k) / L; NULL: the last */
@@ -45,13 +46,6 @@ struct blocks {
     block_scale *scale;
     stage stage[LEVELS];
 };
-
-/* Samples of the record in a window of level l. */
-static inline size_t
-circle_of(const stage *st, int l)
-{
-    return st->length << l;
-}
 
 /* Windows that hold n samples' coefficients. */
 static inline size_t

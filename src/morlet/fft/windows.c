@@ -416,7 +416,7 @@ write_between(const struct blocks *b, size_t i, size_t window, double *v, span p
               double *w)
 {
     const block_scale *r = &b->scale[i];
-    double apart = (double)circle_of(&b->stage[r->level], r->level) / (double)r->points;
+    double apart = (double)b->stage[r->level].circle / (double)r->points;
     double turns = (double)r->mid / (double)r->points;
     point_series s = { v, start_of(b, r, window), apart, turns };
     ss_places_write(b->kernel, &s, &b->grid[i], b->rate, part, factor, w);
@@ -428,7 +428,7 @@ static void
 write_each(const struct blocks *b, const block_scale *r, size_t first, size_t n, double *v,
            double factor, double *w)
 {
-    size_t circle = circle_of(&b->stage[r->level], r->level), phases = circle / r->points;
+    size_t circle = b->stage[r->level].circle, phases = circle / r->points;
     size_t skip = first % phases, turns = (size_t)r->mid;
     double *head = v + 2 * (b->longest + DENSE_MARGIN), *spare = head + 2 * DENSE_PHASES_MAX;
     if (skip > 0) {
