@@ -4,7 +4,7 @@ ss-trade c.tsv | awk -F '\t' '/^# (signal|reference|columns)/ { print; next } /^
     { n[$1]++; if ($3 > $2 || $6 != "measured") print } END { print n["quadrature"], n["fft"], n["auto"] }'
 ss-trade --budget 1e-6 - < c.tsv | grep -c estimated
 ss-signal chirp --duration 0.2 --frequency 20 --to 200 --format au |
-    ss-trade --dense --target 1e-6 - | sed 's/[a-z]* --accuracy [0-9e-]*$/NAME --accuracy TOL/'
+    ss-trade --dense --target 1e-6 - | sed 's/[a-z]* --accuracy [0-9.e-]*$/NAME --accuracy TOL/'
 printf '\n# a comment\n' | cat - "$SRC/data/scenes/coulomb.scene" | ss-trade -b 0.01 --target 1e-3 - \
     | sed -E 's/^--method (exact|taylor --tol [0-9.e-]+)$/--method exact or taylor/'
 if command -v gnuplot > /dev/null; then
