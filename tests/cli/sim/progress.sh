@@ -7,17 +7,24 @@ script -qec 'timeout -s INT 5 ss-sim --set duration=1e6 coulomb > /dev/null' /de
 tr '\r' '\n' < log | grep -q 'ss-sim:  *[0-9]* %, [0-9]* s left' || echo "no progress"
 script -qec 'timeout -s INT 3 ss-sim -q --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
 grep '%' log || true
-# So do transforms and what looks at them.
+# So do transforms and what looks at them, here stopped again and again, so that a second passes on every machine.
+cat > slowly <<'END'
+"$@" &
+while kill -STOP $! 2> /dev/null; do
+    sleep 0.5
+    kill -CONT $! 2> /dev/null && sleep 0.1
+done
+END
+ss-signal noise --rate 20000 --duration 4 -o short.au
 ss-signal noise --rate 20000 --duration 20 -o long.au
-ss-signal noise --rate 20000 --duration 80 -o noise.au
-slow='--method quadrature --accuracy 1e-13 --step 4 --voices 128 --center 200 --fmax 3000'
-ss-signal sine --amplitude 0 --rate 20000 --duration 20 |
+slow='--method quadrature --accuracy 1e-13 --step 4 --voices 32 --center 200 --fmax 3000'
+ss-signal sine --amplitude 0 --rate 20000 --duration 3 |
     ss-morlet --dense --voices 16 --fmin 20 -o dense.h5
-ss-sim --set duration=30 compliant-light | ss-cat --column a -o run.au
-ss-sim --set duration=1500 compliant-light | ss-cat --column a -o longer.au
-for command in "ss-morlet $slow long.au -o w.au" 'ss-features noise.au -o f.tsv' \
+ss-sim --set duration=10 compliant-light | ss-cat --column a -o run.au
+ss-sim --set duration=60 compliant-light | ss-cat --column a -o longer.au
+for command in "ss-morlet $slow short.au -o w.au" 'ss-features long.au -o f.tsv' \
         'ss-contour dense.h5 -o c.gp' \
         'ss-rank longer.au -o r.tsv' 'ss-rank --fit run.au -o f.scene'; do
-    script -qec "$command" /dev/null < /dev/null > log || true
+    script -qec "sh slowly $command" /dev/null < /dev/null > log || true
     tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
 done
