@@ -28,7 +28,7 @@ follow() {      # FORM SAMPLES: samples that the tool gets by hand
         # shellcheck disable=SC2046  # two numbers
         set -- "$1" "$2" $(due $i)
         tries=0
-        while now=$(rows "$1"); [ "$now" -lt "$3" ] && [ $tries -lt 200 ]; do
+        while now=$(rows "$1"); [ "$now" -lt "$3" ] && [ $tries -lt 1000 ]; do
             sleep 0.02
             tries=$((tries + 1))
         done
