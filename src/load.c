@@ -85,7 +85,7 @@ crc_further(unsigned long crc, unsigned long byte)
     return crc;
 }
 
-/* Of the file, or of that before ":/". */
+/* Write the checksum of a file to text; a path may go on behind the file's name with ":/" and a place. */
 static ss_status
 sum_file(char text[48], const char *path, ss_error *err)
 {
@@ -111,7 +111,7 @@ sum_file(char text[48], const char *path, ss_error *err)
     return why == 0 ? SS_OK : ss_fail_errno(err, path, why);
 }
 
-/* -1 if there is none. */
+/* The column of the base in a file with this header, or -1. */
 static int
 base_column(const ss_header *head, const char *name)
 {

@@ -64,7 +64,7 @@ is_scene(const char *p, const char *end)
     return p < end && *p == '=';
 }
 
-/* No line of a scene has a separator of columns before its "=" or comment. */
+/* A table has a separator of columns in its first line; a scene has none before its "=" or comment. */
 static int
 is_table(const char *p, const char *end)
 {

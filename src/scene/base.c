@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So near to its end, an interval is over: in units of it. */
+/* A time this near to the end of an interval belongs to the next one, in units of the interval. */
 #define SAME_KNOT 1e-9
 
-/* The spline's second derivative at each knot. */
+/* Compute the spline's second derivative at each knot; 0: no memory. */
 static int
 bend_spline(ss_base *b)
 {

@@ -79,10 +79,10 @@ start_free(state *m)
     return 1;
 }
 
-/* The distance at which a contact touches its limit: ten times the absolute tolerance of x, which is
- * the error of an integrator in the course of a stick; in units of the limit at least 1e-10, and at
- * most 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4 for one of 0.1 ms in the
- * light scene). */
+/* A contact that goes no further than this beyond its limit only touches it.  The distance is ten times
+ * the absolute tolerance of x, which is the error of an integrator in the course of a stick.  In units of
+ * the limit it is at least 1e-10 and at most 1e-6, a hundredth of the excursion of the shortest
+ * micro-slips (2e-4 for one of 0.1 ms in the light scene). */
 #define GRAZE_TOL 10
 #define GRAZE_LEAST 1e-10
 #define GRAZE_MOST 1e-6
@@ -103,7 +103,7 @@ start(state *m)
     return 1;
 }
 
-/* The damper's part of the force that ends a microstick, over the spring's. */
+/* The ratio of damper to spring in the force that ends a microstick [s]. */
 static double
 damper_ratio(const state *m)
 {
@@ -123,7 +123,7 @@ guard(const state *m, const double q[], const double dqdt[], double *slope)
     return limit + m->slack - fabs(force);
 }
 
-/* The distance beyond its limit at which a contact would turn back, at the present v'. */
+/* The distance beyond its limit at which a contact will turn back if v' stays as it is. */
 static double
 excess(const state *m)
 {
@@ -135,10 +135,10 @@ excess(const state *m)
     return fabs(m->q[0]) - deflection_limit(m) + rest;
 }
 
-/* Does a contact at its limit only touch it, at most m->slack and m->graze beyond it?  An
- * undamped contact returns exactly to its limit each period, and rounding would decide whether it is
- * released then.  The excess is subtracted as a distance; stopping the contact at the limit would
- * turn an error of d into one of sqrt(d). */
+/* Returns 1 if a contact at its limit only touches it: if it goes at most m->slack + m->graze beyond.
+ * An undamped contact returns exactly to its limit each period, and rounding would decide whether it is
+ * released then.  The excess is subtracted as a distance; stopping the contact at the limit
+ * would turn an error of d into one of sqrt(d). */
 static int
 only_touches(state *m)
 {
@@ -149,7 +149,7 @@ only_touches(state *m)
     if (!(beyond <= m->slack + m->graze))
         return 0;
     m->q[0] -= sign(m->q[0]) * beyond;
-    m->slack = m->graze;                /* it passes its peak without another test */
+    m->slack = m->graze;                /* so that its peak needs no second test */
     m->touches++;
     return 1;
 }
@@ -215,7 +215,7 @@ free_differences(const state *m, int is_free[D_MOST])
     is_free[D_Q] = is_free[D_V] = 1;
 }
 
-/* The end of a microstick, where |y + ratio v| reaches its limit. */
+/* The derivatives across the end of a microstick, where |y + ratio v| reaches its limit. */
 static void
 cross_release(const state *m, const double q[], const double before[], const double after[],
               double d[D_MOST][D_MOST])

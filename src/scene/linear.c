@@ -21,7 +21,7 @@ ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, dou
     dfdt[1] = base_force_rate(m, u) / mass;
 }
 
-/* Of the base's force, besides its swing. */
+/* The derivatives of the base's force, without those of its swing. */
 static void
 rest_rates(const state *m, double u, double rate[ORDERS - 1])
 {
@@ -31,7 +31,7 @@ rest_rates(const state *m, double u, double rate[ORDERS - 1])
     rate[2] = 6 * k * m->z[3];
 }
 
-/* By differentiating the equation of motion. */
+/* Each derivative follows from the equation of motion, differentiated once more. */
 void
 ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
                       double higher[][MAX_DIM])
@@ -66,7 +66,7 @@ ss_linear_series(const state *m, const double step[], int order, double c[][SERI
     }
 }
 
-/* The larger root of m s^2 + c s + k = 0 in modulus, or Omega. */
+/* The larger |root| of m s^2 + c s + k = 0, or Omega if that is larger still. */
 double
 ss_linear_fastest(const state *m, const char **what)
 {

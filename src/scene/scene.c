@@ -82,7 +82,7 @@ range_text(const scene_key *k)
     return k->range == POSITIVE ? "> 0" : k->range == NOT_NEGATIVE ? ">= 0" : "finite";
 }
 
-/* The origin of a key, for messages: a line of the file, or a setting. */
+/* The origin of a key, which messages name: a line of the file, or a setting. */
 struct key_origin {
     const char *name;           /* of the file */
     long line;                  /* 0: not given, > 0: line of the file, < 0: setting */
@@ -101,7 +101,7 @@ fail_at(struct key_origin at, ss_error *err, const char *format, ...)
     return ss_fail(err, SS_EDATA, "%s:%ld: %s", at.name, at.line, text);
 }
 
-/* A scene may be a stranger's: its files lie beside it or below. */
+/* A scene may come from a stranger, so it may name only files in its own folder or below. */
 static int
 leaves_folder(const char *path)
 {
@@ -160,7 +160,7 @@ set_value(ss_scene *scene, const scene_key *k, const char *value, struct key_ori
 
 /* --- keys ---------------------------------------------------------------------------------- */
 
-/* Edits (insert, delete, replace) between two words, Levenshtein 1966. */
+/* The number of letters to insert, delete or replace between two words (Levenshtein 1966). */
 static size_t
 distance(const char *a, const char *b)
 {
@@ -186,7 +186,7 @@ distance(const char *a, const char *b)
     return row[n];
 }
 
-/* The key of this name that any model has. */
+/* The key with this name, of whichever model. */
 static const scene_key *
 find_key(const char *name)
 {
@@ -211,7 +211,7 @@ nearest_key(const char *name)
     return best;
 }
 
-/* A name that differs from a key in few letters may be mistyped: then the key is named. */
+/* An unknown name that differs from a key in few letters is probably mistyped: the error names the key. */
 static ss_status
 fail_unknown(const char *name, struct key_origin at, ss_error *err)
 {
@@ -257,7 +257,7 @@ trim(char *text)
     return text;
 }
 
-/* The line of each key so far, by the place of its field in ss_scene. */
+/* The line of each key that has been read, indexed by the offset of its field in ss_scene. */
 typedef struct given {
     long line[sizeof(ss_scene) / sizeof(int)];
 } given;
@@ -268,7 +268,7 @@ line_of(given *g, const scene_key *k)
     return &g->line[k->offset / sizeof(int)];
 }
 
-/* One "key = value", which is split in place. */
+/* Read one "key = value"; the text is split in place. */
 static ss_status
 read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_error *err)
 {
@@ -282,7 +282,7 @@ read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_err
         return fail_unknown(name, at, err);
     long *seen = line_of(g, k);
     if (at.line < 0 && *seen > 0)
-        *seen = 0;                      /* a setting replaces the file's line */
+        *seen = 0;                      /* a setting may replace a line of the file */
     if (*seen < 0)
         return fail_at(at, err, "repeated key '%s'", name);
     if (*seen > 0)
@@ -291,7 +291,7 @@ read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_err
     return set_value(scene, k, trim(equals + 1), at, err);
 }
 
-/* A key in the scene that belongs to another model. */
+/* SS_EDATA if the scene has a key that belongs only to other models. */
 static ss_status
 check_foreign(const struct model *model, given *g, struct key_origin last, ss_error *err)
 {
@@ -302,7 +302,7 @@ check_foreign(const struct model *model, given *g, struct key_origin last, ss_er
             struct key_origin at = { last.name, *line_of(g, k) };
             if (at.line == 0 || ss_key_of_field(model, k->offset) != NULL)
                 continue;
-            /* a model chosen by a setting makes the file's keys wrong, not the file */
+            /* if a setting chose the model, the setting is at fault, not the file */
             if (*line_of(g, find_key("model")) < 0)
                 at.line = -1;
             return fail_at(at, err, "model %s has no key '%s'", model->name, k->name);
@@ -310,7 +310,7 @@ check_foreign(const struct model *model, given *g, struct key_origin last, ss_er
     return SS_OK;
 }
 
-/* A key that the scene needs and does not have; NULL if none. */
+/* The first key that the scene needs and lacks; NULL if it has all. */
 static const scene_key *
 missing_key(const struct model *model, given *g)
 {
@@ -330,7 +330,7 @@ missing_key(const struct model *model, given *g)
 #define BASES "base_file and base_amplitude exclude each other: the base moves by one of them"
 #define STATIC_IS_LESS "static_friction is less than friction, it must be at least as large"
 
-/* After the last line: every key belongs to the model, and none is missing. */
+/* Called after the last line: check that every key belongs to the model, and that none is missing. */
 static ss_status
 check_keys(const ss_scene *scene, given *g, struct key_origin last, ss_error *err)
 {
@@ -366,7 +366,7 @@ check_keys(const ss_scene *scene, given *g, struct key_origin last, ss_error *er
 
 /* --- reading and writing ------------------------------------------------------------------- */
 
-/* Read one line without its newline and comment; *end is 1 after the last. */
+/* Read one line without its newline and comment; *end becomes 1 after the last line. */
 static ss_status
 read_line(FILE *in, char *line, size_t size, struct key_origin at, int *end, ss_error *err)
 {
@@ -434,7 +434,7 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     const scene_key *k;
     if (model == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
-    ss_scene copy = *scene;         /* the accessors give pointers to change it by */
+    ss_scene copy = *scene;         /* the accessors return pointers that are not const */
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
         if (k->word != NULL && !is_choice(k, *word_of(&copy, k)))
             return ss_fail(err, SS_EINVAL, "%s is no known choice", k->name);

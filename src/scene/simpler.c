@@ -8,7 +8,7 @@ static const vanishing of_every[] = {
 };
 enum { OF_EVERY = sizeof of_every / sizeof *of_every };
 
-/* 0 if the scene has no such number, or it is 0 already. */
+/* Set a number of the scene to 0.  Returns 0 if its model does not have it, or it was 0 already. */
 static int
 vanishes(ss_scene *scene, size_t offset)
 {
@@ -28,8 +28,8 @@ reaches_limit(ss_scene *scene)
     return 1;
 }
 
-/* The name of step i of simplification, which *scene becomes; "" if it has nothing to lose there, NULL
- * after the last step. */
+/* Apply simplification i to *scene, and return its name: "" if it changes nothing in this scene, NULL
+ * after the last. */
 static const char *
 step(ss_scene *scene, size_t i)
 {

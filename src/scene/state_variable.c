@@ -46,7 +46,7 @@ static const ss_scene_range ranges[] = {
     { "gamma/omega_n", "1", 1e-2, 1e8, 0, relaxation },
 };
 
-/* The scaled law of the same rate and goal. */
+/* Replace the law by the scaled one with the same rate and goal. */
 static void
 normalise(ss_scene *s)
 {
@@ -54,7 +54,7 @@ normalise(ss_scene *s)
     s->law = SS_LAW_SCALED;
 }
 
-/* The friction that the law settles to. */
+/* Replace the scene by its limit, the Coulomb friction to which the law settles. */
 static void
 limit(ss_scene *s)
 {
@@ -74,7 +74,7 @@ start(state *m)
     return 0;
 }
 
-/* The steps follow the tolerance; only base and spring cap them. */
+/* Friction does not limit the steps, since the tolerance shortens them; spring, damper and base do. */
 static double
 fastest(const state *m, const char **what)
 {
@@ -86,15 +86,15 @@ fastest(const state *m, const char **what)
 }
 
 /* While v creeps within the front, the friction responds with the roots of s^2 + g s + g b,
- * b = goal alpha / m.  There a step of an explicit method is at most 5.2 / |s| (rk8pd, measured),
- * while bsimp follows the creep in some 100 steps a period of what is slow, each of which costs as
- * much as 40 of rk8pd: equal at |s| = 5.2 x 40 x 100 / (2 pi) times the slow frequency.  Roots that
- * swing far more than they decay hold bsimp up, too: at alpha = 1e9 it costs 1.6 times rk8pd's work
- * for a damping of 0.02, and a hundredth of it for 0.07. */
+ * b = goal alpha / m.  There a step of an explicit method is at most 5.2 / |s| (rk8pd, measured).  The
+ * implicit bsimp follows the creep in some 100 steps a period of the slow motion, and each costs as much
+ * as 40 of rk8pd.  Both cost the same at |s| = 5.2 x 40 x 100 / (2 pi) times the slow frequency.  Roots
+ * that swing far more than they decay slow down bsimp as well: at alpha = 1e9 it takes 1.6 times rk8pd's
+ * work for a damping of 0.02, and a hundredth of it for 0.07. */
 #define STIFF_RATIO 3000
 #define STIFF_DAMPING 0.03
 
-/* The larger |s|; *damping of the roots, over 1 if they do not swing. */
+/* The larger |s|; *damping becomes the damping ratio of the roots, over 1 if they do not swing. */
 static double
 front_rate(const ss_scene *s, double *damping)
 {
@@ -160,7 +160,7 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
  * 2e-18. */
 #define SATURATED 35
 
-/* inner_products of u by u and of R by a in one pass, which takes .9 of the time of two. */
+/* The inner products of u by u and of R by a in one pass, which takes 0.9 of the time of two. */
 static void
 inner_of_both(const double u[], const double R[], const double a[], int n, double *uu, double *Ra)
 {
@@ -180,9 +180,9 @@ inner_of_both(const double u[], const double R[], const double a[], int n, doubl
     *Ra = sum;
 }
 
-/* u = tanh(alpha v) has u' = alpha R v' with R = 1 - u^2, whose first coefficient is written for the
- * sake of its digits where u is almost 1.  The present coefficients have names of their own: each waits
- * for the one before, which then need not come from memory. */
+/* u = tanh(alpha v) has u' = alpha R v' with R = 1 - u^2; the first coefficient of R is computed from e,
+ * because 1 - u^2 would lose its digits where u is almost 1.  The present coefficients have variables of
+ * their own: each depends on the one before, which then need not be loaded from memory. */
 static void
 series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
@@ -216,7 +216,7 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
     }
 }
 
-/* tanh(alpha v) again, as theta' and theta tell it, and its slope 1 - tanh^2. */
+/* The coefficients of tanh(alpha v) follow from those of theta' and theta, its slope is 1 - tanh^2. */
 static void
 slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
 {
@@ -234,8 +234,8 @@ slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], 
         out[n] = -scale * (inner_products(u, u, n) + 2 * u[0] * u[n]);
 }
 
-/* v may change by this part of the way to the poles of tanh, i pi / (2 alpha) from v = 0: where tanh is
- * saturated its series shows nothing of them. */
+/* In a step v may change by this part of its distance from the poles of tanh, which lie i pi / (2 alpha)
+ * from v = 0: where tanh is saturated, its series does not show them. */
 #define WAY_TO_POLE 0.4
 
 static double

@@ -10,7 +10,7 @@ ss_stick_force(const state *m, double drive, double x)
     return drive - m->scene->stiffness * x;
 }
 
-/* Enter stick if friction can hold the mass, else slip where the spring pulls it. */
+/* Enter stick if friction can hold the mass, else slip in the direction of the force. */
 static int
 stop_or_go(state *m, double x)
 {
@@ -30,7 +30,7 @@ ss_stick_start(state *m)
     return 1;
 }
 
-/* The first angle after from that differs from angle by whole turns. */
+/* The first angle after `from` that differs from `angle` by whole turns. */
 static double
 next_turn(double angle, double from)
 {
@@ -39,8 +39,8 @@ next_turn(double angle, double from)
     return from + (ahead <= 0 ? ahead + round : ahead);
 }
 
-/* The time at which the force leaves [-f_s, f_s] without a pull: upwards while the cosine rises,
- * downwards while it falls.  Touching a limit is not leaving it. */
+/* The time at which the force leaves [-f_s, f_s], without a pull: upwards while the cosine rises,
+ * downwards while it falls.  A force that only touches a limit does not leave. */
 static double
 end_of_swing(const state *m, double theta)
 {
@@ -55,8 +55,8 @@ end_of_swing(const state *m, double theta)
     return end;
 }
 
-/* The zero between lo and hi of D cos(angle + omega s) + R s - level, which rises there: by Newton's
- * steps, or halves of the bracket where those leave it. */
+/* The zero in [lo, hi] of D cos(angle + omega s) + R s - level, which rises there: by Newton's steps, and
+ * by bisection where these leave the bracket. */
 static double
 rising_zero(const state *m, double angle, double R, double level, double lo, double hi)
 {
@@ -78,8 +78,8 @@ rising_zero(const state *m, double angle, double R, double level, double lo, dou
 }
 
 /* The time s at which D cos(angle + omega s) + R s, which begins at level or below, exceeds level.  If
- * the pull is slower than the swing, the sum rises and falls, and each peak is higher than the last by
- * the pull's way in a turn: so the number of the first peak above level is computed, not searched. */
+ * the pull is slower than the swing, the sum rises and falls, and each peak is higher than the one before
+ * by what the pull adds in a turn.  So the first peak above level is computed, not searched. */
 static double
 time_to_rise(const state *m, double angle, double R, double level)
 {
@@ -97,8 +97,8 @@ time_to_rise(const state *m, double angle, double R, double level)
     return peak + rising_zero(m, top, R, level - R * peak, -since, 0);
 }
 
-/* The time at which a measured base and the pull carry the force beyond its limit within the
- * interval of the base, else INFINITY.  Between its extrema a cubic is monotonic. */
+/* The time at which a measured base and the pull raise the force above its limit, within the present
+ * interval of the base; else INFINITY.  The force is a cubic there, monotonic between its extrema. */
 static double
 end_in_piece(const state *m, double x, double limit)
 {
@@ -123,9 +123,9 @@ end_in_piece(const state *m, double x, double limit)
     return INFINITY;
 }
 
-/* The end of a stick in closed form, or to rounding.  A stick that begins at its limit, within
- * rounding, with the force on its way out, ends at once; without this the crossing would be in the
- * past, and the stick would last a whole turn. */
+/* The end of a stick is known in closed form, or to rounding.  A stick that begins at its limit, within
+ * rounding, while the force grows, ends at once; without this rule the crossing would lie in the past,
+ * and the stick would last a whole turn. */
 int
 ss_stick_still(const state *m, double *u_end)
 {
@@ -168,7 +168,7 @@ ss_stick_next(state *m, ss_event *e)
     int now = stop_or_go(m, x);
     e->kind = now == 0 ? SS_STICK : SS_REVERSE;
     e->direction = now == 0 ? before : now;
-    return now != before;               /* else v has touched 0 and keeps its sign */
+    return now != before;               /* if equal, v has only touched 0 and keeps its sign */
 }
 
 /* --- neighbouring states ------------------------------------------------------------------- */
@@ -181,8 +181,8 @@ free_differences(const state *m, int is_free[D_MOST])
     is_free[D_V] = m->mode != 0;
 }
 
-/* A stick forgets v and the time at which it began, and it ends later where x is further on: then v is
- * behind by what the drop of the friction has done since. */
+/* In a stick, neighbours lose their difference in v.  A neighbour whose x is further on slips later: it
+ * has been accelerated, by the drop from static to kinetic friction, for a shorter time. */
 static void
 cross(const state *m, int mode, const double q[], const double before[], const double after[],
       double d[D_MOST][D_MOST])

@@ -18,15 +18,15 @@ static const ss_scene_range ranges[] = {
     { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, stribeck_speed },
 };
 
-/* The part of f_s - f_k that is left at v. */
+/* The part of f_s - f_k that remains at v. */
 static double
 part_at(const ss_scene *s, double v)
 {
     return s->stribeck_velocity / (s->stribeck_velocity + fabs(v));
 }
 
-/* The friction in slip.  A step that goes past its end at v = 0 sees the law of |v| in the direction of
- * the mode. */
+/* The friction in slip.  Its direction is that of the mode even where a step goes past v = 0, the end of
+ * the slip. */
 static double
 friction_at(const state *m, double v)
 {
@@ -34,7 +34,7 @@ friction_at(const state *m, double v)
     return m->mode * (s->friction + (static_friction(s) - s->friction) * part_at(s, v));
 }
 
-/* Its rate of change by v. */
+/* The derivative of the friction by v. */
 static double
 slope_at(const state *m, double v)
 {
@@ -43,7 +43,7 @@ slope_at(const state *m, double v)
     return -m->mode * sign(v) * fall * part * part / s->stribeck_velocity;
 }
 
-/* While the friction falls with speed, the tolerance sets the steps. */
+/* The rate at which v grows where the friction falls with speed. */
 static double
 quickest(const ss_scene *s)
 {
@@ -72,7 +72,7 @@ sight(const state *m, const double dqdt[])
                                               - (m->c + slope) * dqdt[1]) / m->scene->mass);
 }
 
-/* p = 1 + |v| / v_s and the fall w = 1 / p, order by order. */
+/* The coefficients of order n of p = 1 + |v| / v_s and of w = 1 / p, the part of f_s - f_k that remains. */
 static void
 next_fall(const state *m, const double c[], int n, double p[], double w[])
 {
@@ -100,7 +100,7 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
     }
 }
 
-/* f has the slope -(f_s - f_k) w^2 / v_s. */
+/* The derivative of f by v is -(f_s - f_k) w^2 / v_s. */
 static void
 slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
 {

@@ -8,8 +8,8 @@
 
 static const char key[] = "gaps";
 
-/* The value in place of number k of a run of missing values, [i, j) of n, between those beside it; the one
- * there is, where i is 0 or j is n. */
+/* The value that replaces number k of the missing values [i, j): it lies on the line between their
+ * neighbours, left and right. */
 static double
 between(double left, double right, size_t k, size_t i, size_t j)
 {
@@ -17,7 +17,7 @@ between(double left, double right, size_t k, size_t i, size_t j)
     return (1 - part) * left + part * right;
 }
 
-/* Replace such a run in x. */
+/* Replace the missing values [i, j) of the n values x.  At an end of x the only neighbour serves as both. */
 static void
 fill_run(double *x, size_t i, size_t j, size_t n)
 {
@@ -28,7 +28,7 @@ fill_run(double *x, size_t i, size_t j, size_t n)
 
 /* --- rows that are read twice -------------------------------------------------------------- */
 
-/* Missing values of one column, [first, end), and those beside them. */
+/* The rows [first, end) of one column have no value; left and right are the values beside them. */
 struct run {
     size_t first, end;
     double left, right;
@@ -37,15 +37,15 @@ struct run {
 struct runs {
     struct run *run;
     size_t n, room, next;
-    int open;                   /* does the last one reach the row that was added last? */
-    size_t there;               /* values that are there */
+    int open;                   /* 1: the value that was added last is missing */
+    size_t there;               /* the number of values that are not missing */
     double last;                /* the last of these */
 };
 
 struct gap_filler {
     ss_gaps how;
-    size_t n_columns, row;      /* row: the next one */
-    struct runs *column, rows;  /* rows: of which a value is missing in any column */
+    size_t n_columns, row;      /* row: the number of the next row */
+    struct runs *column, rows;  /* rows: the rows in which any column lacks its value */
 };
 
 gap_filler *
@@ -90,7 +90,7 @@ int
 ss_gaps_add(gap_filler *g, const double *rows, size_t n)
 {
     for (size_t i = 0; i < n; i++, g->row++) {
-        double zero = 0;                        /* or NaN */
+        double zero = 0;                        /* NaN if any column lacks its value */
         for (size_t c = 0; c < g->n_columns; c++) {
             double x = rows[i * g->n_columns + c];
             if (g->how == SS_GAPS_SPLIT)
@@ -105,7 +105,8 @@ ss_gaps_add(gap_filler *g, const double *rows, size_t n)
     return 1;
 }
 
-/* "from:to from:to ...", to be freed: from the first missing sample to the next one present. */
+/* The gaps as "from:to from:to ...", to be freed.  Each goes from the time of its first missing sample to
+ * that of the next sample with a value. */
 static char *
 spans(const struct runs *r, const ss_header *head)
 {
@@ -223,7 +224,7 @@ ss_gaps_near(const ss_span *gap, size_t n, double t, double margin)
 
 /* --- within a record ----------------------------------------------------------------------- */
 
-#define UNEVEN 1e-6             /* of a sample: the rounding of a time to decimal digits */
+#define UNEVEN 1e-6             /* error of a time that was rounded to decimal digits, in samples */
 
 ss_status
 ss_gaps_of(ss_span **out, size_t *n, const ss_header *head, size_t rows)

@@ -34,7 +34,8 @@ ss_header_free(ss_header *head)
     free(head);
 }
 
-/* Append a column of these strings, which the header then owns, or free them; NULL: no memory. */
+/* Append a column with these strings.  The header owns them from now on; if this fails, they are freed.
+ * NULL for one of them: there was no memory for it. */
 static ss_status
 append_column(ss_header *head, char *name, char *unit)
 {
@@ -79,7 +80,7 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
     copy->has_time = head->has_time;
     if (first > 0)
         copy->start += (double)first / head->rate;
-    int ascending = 1;                          /* then all names differ */
+    int ascending = 1;                          /* names in ascending order all differ */
     for (size_t i = 0; i < n; i++) {
         ss_status st = SS_EINVAL;
         ascending = ascending && (i == 0 || column[i] > column[i - 1]);
@@ -136,8 +137,8 @@ find_name(const ss_header *head, const char *name)
     return -1;
 }
 
-/* The least number from 2 on that no column has after this name and "_"; 0: no memory.  One pass
- * over the columns, as there are files with thousands of the same name. */
+/* The smallest n >= 2 for which no column is called name_n; 0: no memory.  It takes one pass over the
+ * columns, since there are files in which thousands have the same name. */
 static size_t
 free_suffix(const ss_header *head, const char *name)
 {
@@ -160,7 +161,7 @@ free_suffix(const ss_header *head, const char *name)
     return suffix;
 }
 
-/* A name without blanks and slashes that no other column has. */
+/* The name without blanks and slashes; a number is appended if another column already has this name. */
 static char *
 clean_name(const ss_header *head, const char *name)
 {
@@ -213,7 +214,8 @@ lower(char c)
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
 }
 
-/* The only column whose name is this one, cleaned, in any case if fold; else -1. */
+/* The index of the only column whose name without blanks and slashes is the one asked for; -1 if there is
+ * none, or more than one.  If fold is 1, upper and lower case are the same. */
 static int
 find_cleaned(const ss_header *head, const char *asked, int fold)
 {
@@ -262,7 +264,8 @@ ss_header_row(const ss_header *head, double t)
 
 /* --- notes --------------------------------------------------------------------------------- */
 
-/* The index of the note with this key, or n_notes; *value is the text after the colon. */
+/* The index of the note with this key, or n_notes if there is none; *value becomes the text after the
+ * colon. */
 static size_t
 find_note(const ss_header *head, const char *key, size_t length, const char **value)
 {

@@ -53,8 +53,8 @@ ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns,
     return zero == 0 ? SS_OK : SS_ERANGE;
 }
 
-/* Gaussian numbers at the frequencies of a spectrum of m samples in [lo, hi], in GSL's order: real
- * parts from the left, imaginary parts from the right. */
+/* Fill in Gaussian numbers at those frequencies of the spectrum of m samples that lie in [lo, hi].  GSL
+ * stores real parts from the left, imaginary parts from the right. */
 static size_t
 fill_band(ss_noise *noise, double *spectrum, size_t m, double rate, double lo, double hi)
 {
@@ -139,7 +139,8 @@ deviation(const double *x, size_t n, double unit)
     return sqrt(square / (double)n);
 }
 
-/* Squares of numbers outside these overflow, or lose digits to underflow. */
+/* The square of a number below SQUARE_LEAST loses digits to underflow, that of one above SQUARE_MOST
+ * overflows. */
 #define SQUARE_LEAST 1e-145
 #define SQUARE_MOST 1e145
 

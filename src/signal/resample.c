@@ -12,10 +12,10 @@
 #include "base/error.h"
 #include "signal/resample.h"
 
-#define AT_END 1e-6             /* sample periods that a sample may lie beyond the last stamp */
+#define AT_END 1e-6             /* a sample may lie so many periods beyond the last stamp */
 enum {
-    MARGIN = 64,                /* rows; their effect is below the rounding of a double */
-    ROWS = 4096, VALUES = 1 << 19       /* in memory, at most, unless margins take more */
+    MARGIN = 64,                /* rows; the effect of one so far away is below rounding */
+    ROWS = 4096, VALUES = 1 << 19       /* at most so many are in memory, unless margins need more */
 };
 
 struct resampler {
@@ -24,10 +24,10 @@ struct resampler {
     double rate, longest, first;        /* first: the first stamp */
     stamped_row *next;
     void *source;
-    int ended;                  /* are all rows read? */
-    size_t n, room;             /* rows in memory; as many samples at a time */
+    int ended;                  /* 1: all rows have been read */
+    size_t n, room;             /* rows in memory, and their most, which is also the most samples */
     double *stamp, *value;      /* value c of row i is value[i * columns + c] */
-    double *kept_stamp, *kept;  /* of a piece of one column */
+    double *kept_stamp, *kept;  /* one piece, without a gap, of one column */
     double at;                  /* the number of the next sample */
     double *sample;             /* samples that are there, from the given-th on */
     size_t samples, given;
@@ -40,8 +40,8 @@ struct target {
     size_t n, row;
 };
 
-/* Samples between the first and the last of n values; SS_ERANGE: one is not finite, as differences of
- * values and stamps are not. */
+/* Fill in the samples between the first and the last of n values.  SS_ERANGE: one of them is not finite,
+ * since differences of values or of stamps overflow. */
 static ss_status
 fill_piece(const struct target *to, const double *t, const double *value, size_t n)
 {
@@ -63,7 +63,7 @@ fill_piece(const struct target *to, const double *t, const double *value, size_t
     return good ? SS_OK : SS_ERANGE;
 }
 
-/* One column: a spline through each piece without a gap, NaN between. */
+/* Fill in one column: by a spline through each piece without a gap, and NaN between the pieces. */
 static ss_status
 fill_column(const resampler *r, const struct target *to, const double *value)
 {
@@ -84,7 +84,7 @@ fill_column(const resampler *r, const struct target *to, const double *value)
     return st == SS_OK && k > 0 ? fill_piece(to, r->kept_stamp, r->kept, k) : st;
 }
 
-/* Forget the rows that the next sample does not need, and read others in their place. */
+/* Discard the rows that the next sample does not need, and read as many further ones. */
 static ss_status
 read_on(resampler *r, ss_error *err)
 {
@@ -118,7 +118,7 @@ count_ready(const resampler *r)
     return all > r->at ? (size_t)fmin(all - r->at, (double)r->room) : 0;
 }
 
-/* The next samples; none at the end. */
+/* Compute the next samples, r->samples of them; 0: there are no more. */
 static ss_status
 make_samples(resampler *r, ss_error *err)
 {
@@ -223,7 +223,7 @@ next_row(void *source, int *there, double *stamp, double *row, ss_error *err)
     return SS_OK;
 }
 
-/* Into a signal that has room for all samples. */
+/* Fill a signal that has room for all samples. */
 static ss_status
 fill_signal(ss_signal *out, resampler *r, ss_error *err)
 {

@@ -7,9 +7,9 @@
 #include "base/error.h"
 
 #define BANDWIDTH 1.5           /* of a Hann window, in steps of frequency */
-enum { LEAST = 16 };            /* samples */
+enum { LEAST = 16 };            /* the shortest segment, in samples */
 
-/* The length of the segments: a power of 2; 0 if there is none. */
+/* The length of the segments, a power of 2; 0 if n samples cannot have this resolution. */
 static size_t
 length_of(size_t n, double rate, double resolution)
 {
@@ -29,11 +29,11 @@ hann(size_t i, size_t length)
     return s * s;
 }
 
-/* Add the |X|^2 of a segment; part has room for one. */
+/* Add |X|^2 of a segment to the density; part has room for one segment. */
 static void
 add_segment(double *density, const double *x, double *part, size_t length)
 {
-    double mean = x[0];         /* from there on, so that a constant has none but this */
+    double mean = x[0];         /* plus the mean of x - x[0], which is exactly 0 for a constant */
     for (size_t i = 0; i < length; i++)
         mean += (x[i] - x[0]) / (double)length;
     for (size_t i = 0; i < length; i++)
@@ -45,11 +45,11 @@ add_segment(double *density, const double *x, double *part, size_t length)
         density[k] += part[k] * part[k] + part[length - k] * part[length - k];
 }
 
-/* The mean of the segments in units of the density. */
+/* Divide the sum over the segments so that it becomes their mean density. */
 static ss_status
 finish(ss_spectrum *s, size_t length, double rate, ss_error *err)
 {
-    double power = 0;           /* of the window */
+    double power = 0;           /* the window's sum of squares */
     for (size_t i = 0; i < length; i++)
         power += hann(i, length) * hann(i, length);
     for (size_t k = 0; k < s->n; k++) {

@@ -61,7 +61,7 @@ ringdown(const ss_wave_opts *o, struct twofold t)
     return o->amplitude * exp(-s * t.hi) * cosine(multiply(t, single(o->frequency)));
 }
 
-/* The mean frequency since the start, times t. */
+/* The cycles until t: the mean frequency since the start, times t. */
 static struct twofold
 chirp_cycles(const ss_wave_opts *o, struct twofold t)
 {
@@ -76,7 +76,7 @@ static double
 sample(ss_wave wave, const ss_wave_opts *o, size_t i)
 {
     struct twofold t = divide(single((double)i), o->rate), since = add(t, -o->at);
-    int begun = t.hi >= o->at;                  /* as the time is printed */
+    int begun = t.hi >= o->at;                  /* t.hi is the time that is printed */
     switch (wave) {
     case SS_SINE:     return o->amplitude * cosine(multiply(since, single(o->frequency)));
     case SS_IMPULSE:  return (double)i == round(o->at * o->rate) ? o->amplitude : 0;
