@@ -20,15 +20,16 @@
 #include <float.h>
 #include <string.h>
 
-/* A touch of 0 is as good as flat after 25 halvings: the coefficients go to the curve as 4^-n. */
+/* After 25 halvings a curve that touches 0 is flat to rounding: n halvings bring the coefficients
+ * nearer to the curve by 4^-n. */
 enum { HALVINGS = 30 };
 
 #define ROUNDING 0x1p-50
 
-/* The shortest time to an event, in units of the step: time goes on. */
+/* The shortest time to an event, in units of the step: time must go on. */
 #define EVENT_WIDTH 0x1p-50
 
-/* Half of the coefficients, from h^i (9 - i)! / 9! p^(i), which are the differences of their order. */
+/* The half of the coefficients that one end determines: h^i (9 - i)! / 9! p^(i) is their i-th difference. */
 static void
 half_of_coefficients(const double p[], double h, double b[ORDERS + 1])
 {
@@ -52,7 +53,8 @@ ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[])
     g->rounding /= g->degree;
 }
 
-/* c over the binomial coefficients are the differences at the start, which are then added up. */
+/* The coefficients c over the binomial coefficients are the differences at the start; their sums are the
+ * coefficients in Bernstein's form. */
 void
 ss_guard_by_series(step_guard *g, int degree, const double c[])
 {
@@ -69,8 +71,8 @@ ss_guard_by_series(step_guard *g, int degree, const double c[])
     g->rounding += (MOST_DEGREE + 1) / 8. * size;       /* half an ulp is an eighth of 2^-50 */
 }
 
-/* p lies above the line from c_0 to c_0 + c_1 - sum of the other |c_i|, whose end must be more than
- * rounding, here 2^-40 of all: that spares most steps the coefficients. */
+/* p lies above the line from c_0 to c_0 + c_1 - sum of the other |c_i|.  If its end is above rounding,
+ * here 2^-40 of all terms, there is no zero: most steps need no coefficients in Bernstein's form. */
 int
 ss_guard_is_clear(const step_guard *g, int degree, const double c[])
 {
@@ -98,8 +100,9 @@ value(const double b[], int degree, double x, double *slope)
     return c[0] + x * (c[1] - c[0]);
 }
 
-/* The one change to negative in [0, 1]: Newton's steps from where the coefficients change, or halves
- * of the bracket where those leave it.  What is undecided before and after has the sign it must. */
+/* The only change to negative in [0, 1]: by Newton's steps from where the coefficients change sign, and by
+ * bisection where these leave the bracket.  Coefficients within rounding of 0 get the sign that a single
+ * change requires. */
 static double
 only_zero(double b[], int degree, double error)
 {
@@ -141,9 +144,9 @@ halve(const double b[], int degree, double left[], double right[])
     }
 }
 
-/* The result of the signs of the coefficients. */
+/* The result that the signs of the coefficients give. */
 typedef struct signs {
-    int first;                      /* the first that is decided, 0 if none */
+    int first;                      /* the first coefficient beyond rounding of 0; 0 if none */
     int changes;
     int flat;                       /* the guard may touch 0 after its start and before its end */
 } signs;
@@ -204,9 +207,9 @@ first_zero(double b[], int degree, double error, int at_start, int halvings, dou
  *
  * needs:  h > 0; a guard that is not negative at 0 but for rounding
  * gives:  1 and *s_event, to about 4e-15 h; 0 if there is none; -1 if a number is not finite
- * blind:  to what is within rounding of 0: a guard that starts there and rises has just begun, one
- *         that comes there later is *unresolved
- * cost:   the coefficients and their signs; a halving where there are two zeros or almost, some
+ * blind:  to values within rounding of 0: a guard that starts there and rises belongs to a mode that
+ *         has just begun; one that gets there later is *unresolved
+ * cost:   the coefficients and their signs; halvings where there are two zeros or almost two; some
  *         five values of the polynomial an event */
 int
 ss_first_zero(const step_guard *g, double *s_event, int *unresolved)

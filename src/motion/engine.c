@@ -63,8 +63,8 @@ ss_engine_derive(engine *e)
     e->has_start = e->has_end = 1;
 }
 
-/* A guard is its value at the origin and a sum of q and v, whose factors follow from its rates of
- * change. */
+/* A guard is its value at the origin plus of_q q + of_v v; its rate of change for q' = 1 and for v' = 1
+ * is each factor. */
 static void
 find_guard(engine *e)
 {
@@ -76,7 +76,7 @@ find_guard(engine *e)
     e->has_guard = 1;
 }
 
-/* Within the step, but for p; in stick the sum is limited on either side. */
+/* Fill in the guard of a step, but not its polynomial p.  In stick the force has a limit on either side. */
 static void
 guard_of_step(engine *e, step_guard *g)
 {
@@ -92,7 +92,8 @@ guard_of_step(engine *e, step_guard *g)
     g->rounding = a * e->h * (fabs(e->of_v) + fabs(e->of_q) * e->h / 8);    /* of v' */
 }
 
-/* By what the guard and its slope are at the ends, and by steps repeated. */
+/* Find the end of the mode from the guard and its slope at the ends of the step, and by repeating the
+ * step with other lengths. */
 static int
 ends_by_steps(engine *e, double *s_event)
 {
@@ -149,8 +150,8 @@ ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
     return *ends < 0 ? fail_lost(e, err) : SS_OK;
 }
 
-/* A stick so short that without it the mass, as the pull is all that changes its force, would be no
- * further on than the doubt. */
+/* Returns 1 if a pull ends a stick after so short a time s that without the stick the force, growing at
+ * its rate, would have moved the mass by rate s^3 / (6 m), no further than the doubt. */
 static int
 barely_sticks(const motion *m, double s)
 {
@@ -159,7 +160,7 @@ barely_sticks(const motion *m, double s)
         && fabs(base_force_rate(now, now->u)) * s * s * s <= 6 * now->scene->mass * m->doubt;
 }
 
-/* The mode has ended s from now: enter the next one.  1 if that is an event. */
+/* The mode has ended s from now: enter the next one.  Returns 1 if this is an event. */
 int
 ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 {
@@ -182,8 +183,8 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
     return 1;
 }
 
-/* Make a step, unless it leads to a state that is not finite: then a rate of change is not finite
- * either, since each part of the state is in one (and those that a model does not have are 0). */
+/* Make a step.  SS_ERANGE: it leads to a state that is not finite.  Only the rates of change need a test:
+ * each part of the state is in one of them, and the parts that a model does not have are 0. */
 ss_status
 ss_engine_step(engine *e, double h_max, ss_error *err)
 {
@@ -203,7 +204,7 @@ ss_engine_rest(engine *e, double h)
     e->h = h;
 }
 
-/* The step is done with, and no event was in it. */
+/* The step has contained no event: go to its end. */
 void
 ss_engine_accept(engine *e)
 {

@@ -14,8 +14,8 @@
 
 #include <math.h>
 
-/* Width to which a bracket is halved, in units of the step.  At the cap of 1/40 period the state
- * there is rounded to about 1e-16 of its size over the step, so less would be noise. */
+/* The width to which a bracket is halved, in units of the step.  Steps are at most 1/40 period long, and
+ * over one of these the state is rounded to about 1e-16 of its size: a narrower bracket would be noise. */
 #define EVENT_WIDTH 0x1p-50
 
 /* Look for a negative guard in (0, *h), where the slope goes from falling to rising.  Returns 1 if
@@ -74,8 +74,8 @@ close_bracket(guard_fn *guard, void *user, double lo, double hi, guard_value at_
  * needs:  h > 0; at_0.g >= 0 but for rounding; at most one minimum inside
  * gives:  1 and *s_event, the late end of a bracket EVENT_WIDTH of the step wide: the guard has
  *         crossed there, so the next step cannot find the same event again; 0 if there is none
- * blind:  to a guard that starts at 0 and rises: a mode that has just begun is armed, whatever
- *         rounding made of its first slope
+ * blind:  to a guard that starts at 0 and rises: the mode has just begun, even if rounding gave its
+ *         guard a first slope below 0
  * cost:   about 8 guards an event, 150 at most; a few for a minimum that stays above 0 */
 int
 ss_event_find(guard_fn *guard, void *user, double h, guard_value at_0, guard_value at_h,

@@ -24,12 +24,12 @@
 #include <string.h>
 #include "base/error.h"
 
-/* |k - m Omega^2 + i c Omega| below this part of k is treated as resonance: from there on, P costs
- * one digit at most. */
+/* |k - m Omega^2 + i c Omega| below this part of k is treated as resonance.  Above it, P loses at most one
+ * digit to cancellation. */
 #define RESONANCE 0.1
 
-/* Cycles of the base after which the mode is taken up anew from its present state, so that Omega u
- * keeps its digits. */
+/* After so many cycles of the base the mode begins anew from its present state, so that Omega u keeps its
+ * digits. */
 enum { CYCLES = 4 };
 
 /* The longest step in units of those that any method may take. */
@@ -45,9 +45,9 @@ typedef struct exact {
     double p_0, p_1;                /* + p_0 + p_1 u */
     double q, v;                    /* factors of C and S */
     double curvature, third;        /* the guard's second and third derivatives are at most this */
-    double width;                   /* to which the next event is narrowed down at least */
-    int in_samples;                 /* a sample has been taken since q and v were set */
-    turn swing;                     /* exp((-s + i w) u) of the last one */
+    double width;                   /* a bracket of the next event is not narrower [s] */
+    int in_samples;                 /* 1: a sample has been computed since q and v were set */
+    turn swing;                     /* exp((-s + i w) u) of the last sample */
     turn swing_further;             /* the same for one sample interval */
 } exact;
 
@@ -60,8 +60,8 @@ swing_at(const exact *x, double u)
     return (turn){ decay * t.co, decay * t.si };
 }
 
-/* C, S, G and the first two's derivatives follow from these: C' = -(k/m) S, S' = C - 2 s S.  The
- * swing serves where the motion swings, u where it creeps. */
+/* C and S, from which C' = -(k/m) S and S' = C - 2 s S follow, and G.  They are computed from the swing
+ * where the motion swings, and from u where it creeps. */
 static inline void
 free_motion(const exact *x, double u, turn swing, double *C, double *S, double *G)
 {
@@ -75,7 +75,7 @@ free_motion(const exact *x, double u, turn swing, double *C, double *S, double *
     *S = x->w > 0 ? swing.si / x->w : swing.co * u;
     *C = swing.co + x->s * *S;
     double fall = 1 - *C;
-    if (x->s == 0 && swing.co > 0)          /* the same without cancellation */
+    if (x->s == 0 && swing.co > 0)          /* the same formula, without cancellation */
         fall = swing.si * swing.si / (1 + swing.co);
     *G = fall / x->k_m;
 }
@@ -90,7 +90,7 @@ expm1_over(double complex z)
     return (expm1(x) * cos(y) - 2 * half * half + I * (exp(x) * sin(y))) / z;
 }
 
-/* The answer, from rest at u = 0, to D cos(theta + Omega u): q and q'. */
+/* q and q' at u of a motion that starts at rest at u = 0 and is driven by D cos(theta + Omega u). */
 static void
 driven_from_rest(const exact *x, double u, double *q, double *v)
 {
@@ -126,10 +126,10 @@ evaluate_at(const exact *x, double u, double q[], double dqdt[])
     evaluate(x, u, base_turn(&x->base.m->now, u), swing_at(x, u), q, dqdt);
 }
 
-/* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is that of
- * K exp((-s + i w) u); the guard is linear in q and v, up to signs that do not raise a minimum.  So
- * its slope, asked for with the bounds of the (n+1)-th derivatives in place of q' and v', is the
- * bound of its own. */
+/* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is the real part
+ * of K exp((-s + i w) u).  The guard is linear in q and v, up to signs that do not raise a minimum.  So
+ * its slope, computed with the bounds of the (n+1)-th derivatives in place of q' and v', bounds the
+ * (n+1)-th derivative of the guard. */
 static void
 bound_guard(exact *x, double omega0)
 {
@@ -198,7 +198,7 @@ exact_step(engine *e, double h_max, ss_error *err)
     double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);
     (void)err;
     e->steps++;
-    if (h > h_max) {                        /* B h^2 / 8 is g / 2 at most */
+    if (h > h_max) {                        /* then curvature h^2 / 8 is at most g / 2 */
         e->h = h;
         e->rhs++;
         evaluate_at(x, m->u + h, e->q1, e->dq1);
@@ -212,9 +212,9 @@ exact_step(engine *e, double h_max, ss_error *err)
     return SS_OK;
 }
 
-/* A lower bound of the time to the next zero of a guard g with these rates of change.  The Taylor
- * polynomials of order 1 and 2, less the most that the next derivative can take off, lie below the
- * guard; the second leaves out g itself and serves where a mode has just begun. */
+/* A lower bound of the time to the next zero of a guard g with these rates of change.  A Taylor
+ * polynomial of order 1 or 2, less the most that the next derivative can subtract, lies below the guard.
+ * The one of order 2 leaves out g itself: it serves where a mode has just begun. */
 static double
 safe_distance(const exact *x, double g, double slope, double bend)
 {
@@ -224,9 +224,9 @@ safe_distance(const exact *x, double g, double slope, double bend)
     return fmax((slope + root) / B, (bend / 2 + sqrt(bend * bend / 4 + 2 * C * slope)) / C);
 }
 
-/* The next event by going safe distances until they vanish, which near a crossing they do as
- * quadratically as Newton's: about ten evaluations a mode, where steps and a search in the last of
- * them take fifty.  Microstick has a limit on either side; the guard is that of the nearer. */
+/* Find the next event by going safe distances until they vanish.  Near a crossing they shrink
+ * quadratically, as Newton's steps do: a mode takes about ten evaluations, where steps and a search in
+ * the last of them take fifty.  Microstick has a limit on either side; the guard is that of the nearer. */
 static int
 exact_ahead(engine *e, double s_max, double *s_event)
 {
@@ -271,8 +271,8 @@ exact_ahead(engine *e, double s_max, double *s_event)
     return -1;
 }
 
-/* By the displacement after a unit displacement (C), a unit velocity (S) and under a unit of force over
- * mass (G), which have the rates of change -(k/m) S, C - (c/m) S and S. */
+/* The derivatives are the displacements after a unit displacement (C), after a unit velocity (S) and under
+ * a unit of force over mass (G), and their rates of change -(k/m) S, C - (c/m) S and S. */
 static void
 exact_response(engine *e, double s, double d[D_MOST][D_MOST])
 {
@@ -305,7 +305,7 @@ exact_at(engine *e, reading where, double s, turn base, double q[], double dqdt[
     evaluate(x, u, base, swing, q, dqdt);
 }
 
-/* A pull goes 2 pi CYCLES of its own scale of x at most. */
+/* Begin anew after CYCLES cycles, of the base or, under a pull, of the faster of base and spring. */
 static void
 exact_go_on(engine *e)
 {

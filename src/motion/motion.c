@@ -10,8 +10,8 @@ ss_step_cap(const state *m)
     return 2 * M_PI / (STEPS_PER_PERIOD * m->model->fastest(m, NULL));
 }
 
-/* Much shorter than 1/40 of the fastest period and than the friction's own time; a first-order start
- * at 1e-14 needs about 1e-7. */
+/* The shortest step, as a part of the longest and of the friction's own time.  The first step of a method
+ * of order 1 at a tolerance of 1e-14 is about 1e-7 of these. */
 #define STEP_FLOOR 1e-12
 
 double
@@ -20,18 +20,18 @@ ss_step_floor(const state *m)
     double floor = STEP_FLOOR * ss_step_cap(m);
     if (m->model->quickest != NULL)
         floor = fmin(floor, STEP_FLOOR / m->model->quickest(m->scene));
-    return fmax(floor, DBL_MIN);            /* which ends a search for a step whatever the scene */
+    return fmax(floor, DBL_MIN);            /* above 0: a search for a step must end */
 }
 
-/* x is about 1e-4 m and measured by the scene; v by that times the larger of Omega and omega_n; what
- * else the model has by its own. */
+/* The scale of x is the scene's, about 1e-4 m; that of v is this times the larger of Omega and omega_n;
+ * the model gives that of its third number. */
 ss_status
 ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err)
 {
     double memory = 0;
     if (m->model->memory != NULL)
         m->model->memory(m, &memory);
-    scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* nothing moves */
+    scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* 1 where nothing moves */
     scale[1] = scale[0] * fmax(m->omega, own_frequency(m->scene));
     scale[2] = memory > 0 ? memory : 1;
     for (size_t i = 0; i < m->model->dim; i++)
@@ -40,8 +40,8 @@ ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *er
     return SS_OK;
 }
 
-/* Let u count from the instant of the present step, with the phase there, and positions from where the
- * pull is. */
+/* Let u count from the start of the present step, and positions from where the pulled end of the spring
+ * is then; the phase becomes the present one. */
 void
 ss_motion_rebase(motion *m)
 {
@@ -69,7 +69,6 @@ ss_motion_of(const ss_scene *scene, int exact, double tol)
     return m;
 }
 
-/* Enter the first mode; 1 if it starts in slip. */
 int
 ss_motion_start(motion *m)
 {
@@ -92,7 +91,6 @@ ss_motion_fades(const motion *m)
         && fabs(now->q[1]) <= m->doubt * now->model->fastest(now, NULL);
 }
 
-/* The phase of the base at t. */
 turn
 ss_motion_base(const motion *m, instant t)
 {
@@ -105,8 +103,8 @@ ss_motion_x(const motion *m)
     return m->now.x_ref + m->now.q[0] + m->now.scene->base_velocity * m->origin.hi;
 }
 
-/* Chatter: so many events in a row, each within so small a part of the fastest period of the last,
- * are the rounding of one grazing contact and no motion. */
+/* So many events in a row, each so soon after the one before in units of the fastest period, are chatter:
+ * the rounding of one grazing contact, and no motion. */
 enum { CHATTER_EVENTS = 1000 };
 #define CHATTER_PART 1e-6
 

@@ -17,10 +17,10 @@
 #include "base/error.h"
 #include "base/versions.h"
 
-/* The way of the pull, in units of the scale of x, beyond which x - U t would lose digits. */
+/* Beyond this way of the pull, in units of the scale of x, x - U t would lose digits. */
 #define FAR 1e3
 
-/* The state's parts in a curve: as many as fill a vector of the machine. */
+/* A curve has room for as many parts of the state as fill a vector register. */
 enum { LANES = 4 };
 
 typedef struct ode {
@@ -33,9 +33,9 @@ typedef struct ode {
     double curve[2 * ORDERS + 2][LANES];    /* its coefficients in s / h */
     double h_next;
     double tol;
-    double shortest;                        /* of all steps [s] */
-    double unit[MAX_DIM];                   /* in which GSL has the state: y = q / unit */
-    double zero[MAX_DIM];                   /* what stands for a y of 0 */
+    double shortest;                        /* the shortest step allowed [s] */
+    double unit[MAX_DIM];                   /* of the state that GSL sees: y = q / unit */
+    double zero[MAX_DIM];                   /* GSL sees this in place of a y of 0 */
 } ode;
 
 static void
@@ -46,9 +46,9 @@ rates(ode *o, double u, const double q[], double dqdt[])
     m->model->rates(m, base_force(m, u), q, dqdt);
 }
 
-/* To and from GSL's units, which are powers of two: nothing is rounded.  Implicit methods solve
- * equations in which x, v and theta stand side by side; where these are 1e20 apart, as m and rad/s
- * and N can be, the solution is nothing but rounding. */
+/* The units for GSL are powers of two, so converting rounds nothing.  Implicit methods solve equations in
+ * which x, v and theta stand side by side.  In m, m/s and N they can be 1e20 apart, and the solution would
+ * be nothing but rounding. */
 static void
 to_units(const ode *o, const double q[], double y[])
 {
@@ -75,7 +75,7 @@ rates_in_units(ode *o, double force, const double y[], double dydt[])
     return GSL_SUCCESS;
 }
 
-/* By far the most calls are of one of these two: only scenes with a pull pay for it. */
+/* Most of the time of a run goes into these two functions, so that only scenes with a pull pay for it. */
 static int
 rhs(double u, const double y[], double dydt[], void *params)
 {
@@ -125,17 +125,17 @@ all_finite(const double q[], size_t n)
     return 1;
 }
 
-/* GSL's bsimp gives up a step over which a part of the state grows 300-fold, and takes 0 for 1: there
- * this stands for 0, times the scale of x, omega_n times that, and f_k: so all three move x by no more
- * than this much of its scale.  (A v of this much Omega times the scale, where Omega is a thousand
- * times omega_n, moved x by 1e-11.)  They have the sign of the motion, so that a scene and its mirror
- * image move alike.  Since v' is omega_n^2 times the scale of x at most, v grows 300-fold in
- * 300 BSIMP_ZERO / omega_n or more: the first step is over the floor.
- * (Modes without friction of their own start with steps long enough to do without.) */
+/* GSL's bsimp gives up a step over which a part of the state grows 300-fold, and it treats 0 as 1.  So a
+ * part that is 0 is replaced by BSIMP_ZERO times its scale, which is X, omega_n X or f_k: each of them
+ * moves x by no more than BSIMP_ZERO X.  (Omega X as the scale of v moved x by 1e-11 X where Omega was a
+ * thousand times omega_n.)  The numbers have the sign of the motion, so that a scene and its mirror image
+ * move alike.  v' is at most omega_n^2 X, so v grows 300-fold in 300 BSIMP_ZERO / omega_n or more: the
+ * first step is longer than the shortest allowed.  (Models whose friction is not part of the state start
+ * with steps long enough to need no such replacement.) */
 #define BSIMP_ZERO 0x1p-46
 
-/* One step over h from the start of the present one, in GSL's units; dydt or NULL gets the rate of
- * change at its end from methods that know it. */
+/* One step over h from the start of the present one, in the units for GSL.  dydt, unless it is NULL,
+ * becomes the rate of change at its end if the method knows it. */
 static int
 apply(ode *o, gsl_odeiv2_step *step, double h, double y[], double error[], double dydt[])
 {
@@ -177,7 +177,7 @@ ode_step(engine *e, double h_max, ss_error *err)
         }
         if (verdict != GSL_ODEIV_HADJ_DEC) {
             if (h >= o->h_next || h_adjusted > o->h_next)
-                o->h_next = h_adjusted;     /* a step cut short by h_max says nothing */
+                o->h_next = h_adjusted;     /* one cut short by h_max does not show the next length */
             break;
         }
         if (!(h_adjusted >= o->shortest))
@@ -207,9 +207,9 @@ taylor(double h, double d[ORDERS + 1][MAX_DIM], double c[ORDERS + 1][LANES])
             c[k][i] = scale * d[k][i];
 }
 
-/* With x = s / h, the curve is T(x) + x^5 g(x): T the Taylor polynomial at the start, and g, in
- * powers of x - 1, what the one at the end leaves of it, over x^5.  Both are rewritten in powers
- * of x - 1 by Horner's scheme and by the series of x^-5. */
+/* With x = s / h, the curve is T(x) + x^5 g(x).  T is the Taylor polynomial at the start; g is the
+ * difference between the Taylor polynomial at the end and T, divided by x^5, in powers of x - 1.  T is
+ * rewritten in these powers by Horner's scheme, and multiplied by the series of x^-5. */
 static void
 draw_curve(ode *o)
 {
@@ -271,13 +271,13 @@ ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
     m->model->rates(m, base_force_by(m, base, m->u + s), q, dqdt);
 }
 
-/* GSL's multistep methods must see time go on, and begin anew where a pull has gone far. */
+/* GSL's multistep methods need a time that goes on; they begin anew where a pull has gone far. */
 static void
 ode_go_on(engine *e)
 {
     const state *m = &e->m->now;
     if (!((ode *)e)->multistep) {
-        e->has_start &= !m->moves;          /* positions change, and the measured base */
+        e->has_start &= !m->moves;          /* a new origin changes positions, and the measured base */
         ss_motion_rebase(e->m);
     } else if ((m->scene->base != NULL && m->u >= m->u_knot)
                || fabs(m->ramp * m->u) > FAR * m->scene->stiffness * m->x_scale) {
@@ -301,7 +301,8 @@ static const struct engine_type ode_type = {
     .release = ode_release
 };
 
-/* GSL's methods; the address of each is known at run time only. */
+/* GSL's methods.  The linker knows their addresses only at run time, so this is a table of pointers to
+ * them. */
 static const struct { const char *name; const gsl_odeiv2_step_type **type; int multistep; }
 method[] = {
     { "rk8pd", &gsl_odeiv2_step_rk8pd, 0 },

@@ -29,19 +29,19 @@ typedef struct sampler {
     const ss_scene *scene;
     const ss_sim_opts *opts;
     instant end;                        /* of the record, from the start of settling */
-    size_t n, i;                        /* samples in all (that anyone wants), next sample */
+    size_t n, i;                        /* all samples, 0 if no one wants any; the next sample */
     double interval;                    /* between samples */
     double cap;                         /* the longest step in the present mode */
-    double work;                        /* right-hand sides allowed where there is no max_steps */
-    turn base, base_further;            /* its phase at sample i - 1, and by how much it goes on */
+    double work;                        /* the right-hand sides allowed if there is no max_steps */
+    turn base, base_further;            /* the base's phase at sample i - 1, its change in an interval */
     size_t filled;
-    ss_sample *buffer;                  /* BUFFERED of them */
+    ss_sample *buffer;                  /* room for BUFFERED samples */
 } sampler;
 
 enum { BUFFERED = 256 };
 
-/* Base and motion are carried from sample to sample by turning further, and computed anew at each
- * sample whose number divides by this: the error is at most 16 times 3 eps / 2 of their size. */
+/* The phases of base and motion are turned further from sample to sample, and computed anew at each
+ * sample whose number is a multiple of RENEWAL: the error is at most 16 times 3 eps / 2 of their size. */
 enum { RENEWAL = 16 };
 
 static ss_status
@@ -54,14 +54,13 @@ flush(sampler *r)
     return SS_OK;
 }
 
-/* The change of the base's phase in one interval. */
 static turn
 base_turns(const ss_scene *scene)
 {
     return turn_of(2 * M_PI * instant_cycles(instant_sample(1, scene->rate), scene->base_frequency));
 }
 
-/* t seconds of settling and record are done. */
+/* Report that t seconds of settling and record are done. */
 static ss_status
 report(const sampler *r, double t)
 {
@@ -82,7 +81,7 @@ until_sample(const sampler *r, const motion *m, size_t i)
     return instant_diff(instant_of_sample(r, i), m->origin) - m->now.u;
 }
 
-/* The i-th sample, s from now. */
+/* Fill in the next sample, which is s from now. */
 static void
 fill_sample(ss_sample *sample, sampler *r, engine *e, int still, double s)
 {
@@ -113,7 +112,7 @@ check_each(const sampler *r, const ss_sample *s, ss_error *err)
                    "of this scene lie beyond double precision", name[i], s->t, r->scene->settle);
 }
 
-/* SS_ERANGE unless all its numbers are finite, as they are if their sum is. */
+/* SS_ERANGE unless all numbers of the sample are finite.  They are if their sum is. */
 static inline ss_status
 check_sample(const sampler *r, const ss_sample *s, ss_error *err)
 {
@@ -122,7 +121,7 @@ check_sample(const sampler *r, const ss_sample *s, ss_error *err)
     return check_each(r, s, err);
 }
 
-/* All samples up to, not including, h from now. */
+/* Write all samples before h from now. */
 static ss_status
 write_samples(sampler *r, engine *e, int still, double h, ss_error *err)
 {
@@ -183,12 +182,12 @@ change_mode(sampler *r, engine *e, int still, double s)
     return st;
 }
 
-/* More steps than any machine takes: a scene that would need them is refused, not run for ever. */
+/* No machine takes so many steps in useful time: a scene that needs more is refused at once. */
 #define TOO_MANY_STEPS 1e12
 
-/* The limit of a run without max_steps, in right-hand sides, which unlike steps cost about the same
- * in every method: a constant, plus a number for each sample and each second of settling and
- * record, and at most an hour of a machine of today.  Ordinary scenes take 10 a sample. */
+/* The limit of a run without max_steps is counted in right-hand sides, which cost about the same in every
+ * method; steps do not.  It is a constant, plus a number for each sample and each second of settling and
+ * record, and at most an hour on a machine of today.  Ordinary scenes take 10 a sample. */
 #define WORK_ALWAYS 5e6
 #define WORK_SAMPLE 1e4
 #define WORK_SECOND 1e6
@@ -207,7 +206,7 @@ has_budget(const sampler *r, const engine *e)
     return r->opts->max_steps > 0 ? e->steps < r->opts->max_steps : (double)e->rhs < r->work;
 }
 
-/* Why a run was too long for its budget, and how long it would have been. */
+/* SS_EBUDGET, with the reason why the run was too long and an estimate of the steps that it needs. */
 static ss_status
 over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
 {
@@ -232,8 +231,8 @@ over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
                    budget, t, all, about, estimate, cap, STEPS_PER_PERIOD, what);
 }
 
-/* Refuse at once a run that is sure to be too long: because of the mode in which the scene begins, if
- * no budget would suffice; because of its slip, the slower mode, if this budget would not. */
+/* Refuse at once a run that will certainly be too long: if the steps of its first mode are more than any
+ * budget allows, or if those of slip, the slowest mode, are more than this budget allows. */
 static ss_status
 check_length(const sampler *r, const state *m, int exact, ss_error *err)
 {
@@ -255,8 +254,8 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
                    m->omega >= slow ? "the base" : "the spring", most);
 }
 
-/* A step, up to the knot of a measured base; *h is its length, or the time to the end of the mode if
- * that comes first. */
+/* Make a step, at most up to the next knot of a measured base.  *h becomes its length, or the time to the
+ * end of the mode if that comes first. */
 static ss_status
 step(const sampler *r, engine *e, double knot, double *h, int *ends, ss_error *err)
 {
@@ -283,7 +282,7 @@ run(sampler *r, engine *e, ss_error *err)
     motion *m = e->m;
     const state *now = &m->now;
     const struct model *model = now->model;
-    double lasted = 0;                      /* of the present mode */
+    double lasted = 0;                      /* duration of the present mode */
     int in_a_row = 0;
 
     for (;;) {

@@ -54,7 +54,7 @@ ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
         row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
 }
 
-/* The scene's own text as notes, but for the rate, which every header has. */
+/* Add the scene's text as notes, without the rate, which every header has. */
 static ss_status
 note_scene(ss_header *head, const ss_scene *scene)
 {

@@ -17,17 +17,17 @@
 #include "base/error.h"
 #include "base/versions.h"
 
-/* Orders of the tolerances 1e-1 and 1e-14, even. */
+/* The orders for the tolerances 1e-1 and 1e-14; every order is even. */
 enum { LEAST_ORDER = 6, MOST_ORDER = 24 };
 
-/* Samples that are computed side by side: one vector of the widest kind. */
+/* The number of samples that are computed side by side: they fill the widest vector register. */
 enum { BATCH = 8 };
 
-/* A step is at most this much longer than the last: terms that are rounding at the last say nothing of
- * one that is much longer. */
+/* A step is at most this many times as long as the last: terms that are only rounding over the last step
+ * do not show the error of one that is much longer. */
 #define GROWTH 8.0
 
-/* And at most half a period of the mode's fastest motion, over which the terms are e^pi at most. */
+/* It is also at most half a period of the mode's fastest motion, over which no term exceeds e^pi. */
 enum { LONGEST = STEPS_PER_PERIOD / 2 };
 
 typedef struct taylor {
@@ -35,14 +35,14 @@ typedef struct taylor {
     int order;
     double tol;
     double scale[MAX_DIM];                  /* of the state's parts */
-    double shortest;                        /* of all steps in the mode [s] */
+    double shortest;                        /* the shortest step allowed in the mode [s] */
     double longest;
     double next;                            /* the length of the next step, about [s] */
     double unit, per_unit;                  /* [s], [1/s] */
     double per_order[MOST_ORDER + 2];       /* 1 / (n + 1) */
     double c[MOST_ORDER + 2][SERIES_PARTS]; /* of the state and of v' in s / unit */
     double sample[SERIES_PARTS][BATCH];     /* of the present step, one interval after the other */
-    int taken;                              /* of these; BATCH: none are left */
+    int taken;                              /* samples taken from the batch; BATCH: none are left */
 } taylor;
 
 static int
@@ -52,8 +52,8 @@ order_of(double tol)
     return order < LEAST_ORDER ? LEAST_ORDER : order > MOST_ORDER ? MOST_ORDER : order;
 }
 
-/* The longest step [unit] that keeps the tolerance; 0 if the series is not finite.  The unit is near
- * it, so that one root serves both orders; seven digits of it will do. */
+/* The longest step [unit] that keeps the tolerance; 0 if the series is not finite.  The step is near 1, so
+ * one root serves for the last two orders, and seven digits of it suffice. */
 static double
 tolerated(const taylor *t)
 {
@@ -81,8 +81,8 @@ expand(taylor *t)
     t->base.rhs += (unsigned long)t->order;
 }
 
-/* The state and the rates of change of its first two parts: Horner's scheme for the even and the odd
- * powers of all side by side, which compilers do in vectors. */
+/* The state and the rates of change of its first two parts.  Horner's scheme runs over the even and the
+ * odd powers of all parts side by side, for which compilers use vectors. */
 VERSIONS static void
 evaluate(const taylor *t, double s, double q[], double dqdt[])
 {
@@ -102,7 +102,7 @@ evaluate(const taylor *t, double s, double q[], double dqdt[])
     dqdt[2] = 0;
 }
 
-/* The next BATCH samples from s on: the same scheme with samples side by side. */
+/* Compute BATCH samples from s on: the same scheme with samples side by side. */
 VERSIONS static void
 evaluate_batch(taylor *t, double s, double interval)
 {
@@ -138,8 +138,8 @@ taylor_begin(engine *e)
     m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
 }
 
-/* Expand the series in units that neither overflow nor are too long for the mode; 0 if there are none.
- */
+/* Expand the series in a unit in which it is finite, and return the longest step [unit] that keeps the
+ * tolerance; 0 if no unit above the shortest step is small enough. */
 static double
 longest_step(taylor *t)
 {
@@ -200,8 +200,8 @@ taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt
 enum { LANES = D_MOST + 1 };
 typedef double derivatives[D_MOST][LANES];
 
-/* What the rates of v and of the state's third number gain with each of the three, and as a series what
- * the last of the rates gains with v, if that varies. */
+/* The derivatives of v' and of the rate of the state's third number by each of the three.  If the
+ * derivative of the last of these rates by v varies in time, varies is 1 and slope is its series. */
 typedef struct gains {
     double v[D_MOST], third[D_MOST], slope[MOST_ORDER + 1];
     int varies, is_third;
@@ -248,7 +248,7 @@ next_order(double step, derivatives d[], int n, const gains *g)
     }
 }
 
-/* The series of the derivatives, which are 1 at its start. */
+/* Expand the derivatives in series; at the start they are the identity. */
 VERSIONS static void
 expand_derivatives(const taylor *t, const gains *g, derivatives d[])
 {
@@ -262,8 +262,8 @@ expand_derivatives(const taylor *t, const gains *g, derivatives d[])
 /* Derivatives need no more digits than this. */
 #define FINE 1e-10
 
-/* How far [unit] it keeps the tolerance: a state at rest with what drives it says nothing of one
- * beside it that is not. */
+/* How far [unit] these series keep the tolerance.  The length of the step does not bound it: a state that
+ * moves slowly may have neighbours that move fast. */
 static double
 derivatives_reach(const taylor *t, derivatives d[])
 {
@@ -276,7 +276,7 @@ derivatives_reach(const taylor *t, derivatives d[])
     return pow(fmax(t->tol, FINE) / largest, t->per_order[t->order - 2]);
 }
 
-/* Let the series of the slope begin x [unit] later. */
+/* Expand the slope about a time x [unit] later. */
 static void
 shift_slope(gains *g, int order, double x)
 {
@@ -302,7 +302,7 @@ apply_derivatives(const taylor *t, derivatives d[], double x, double out[D_MOST]
             out[i][j] = at[i][0] * before[0][j] + at[i][1] * before[1][j] + at[i][2] * before[2][j];
 }
 
-/* Where a step takes more, the derivative is given up: it becomes NaN. */
+/* If a step needs more pieces than this, its derivatives become NaN. */
 enum { MOST_PIECES = 1000 };
 
 static void

@@ -42,7 +42,7 @@ ss_walk_at(walk *w, double s, double q[], double dqdt[])
     memset(dqdt, 0, sizeof m->q);
 }
 
-/* A leg by steps, as ss_sim_run makes them. */
+/* Make the steps of a leg, as ss_sim_run makes them. */
 static ss_status
 advance(walk *w, double longest, ss_error *err)
 {
