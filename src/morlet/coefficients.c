@@ -40,7 +40,7 @@ ss_coefficients_max(const ss_coefficients *coefficients)
         const double *w = coefficients->w + 2 * scale->offset;
         for (size_t k = 0; k < scale->n; k++) {
             double re = w[2 * k], im = w[2 * k + 1];
-            if (re * re + im * im < passed)             /* most are, and need no hypot */
+            if (re * re + im * im < passed)             /* true of most, which need no hypot */
                 continue;
             double level = hypot(re, im);
             all = fmax(all, level);

@@ -14,14 +14,14 @@ typedef struct compare {
     ss_morlet *other;                   /* the same grid by FFT alone */
     record rec;
     spectra spectra;
-    double *scratch, *row;              /* for a scale by FFT */
+    double *scratch, *row;              /* room to compute a scale by FFT */
     size_t each;                        /* coefficients of a scale */
     double *want;
     size_t *k;
     uint64_t state;
 } compare;
 
-/* Numbers of Vigna's splitmix64. */
+/* The next pseudo-random number, by Vigna's splitmix64. */
 static uint64_t
 draw(uint64_t *state)
 {
@@ -31,7 +31,7 @@ draw(uint64_t *state)
     return z ^ z >> 31;
 }
 
-/* Is a scale done by the definition that can be done by FFT? */
+/* 1 if the plan computes scale i by the definition, but FFTs could compute it. */
 static int
 only_by_sum(const compare *cmp, size_t i)
 {

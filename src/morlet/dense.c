@@ -18,13 +18,13 @@
 #endif
 
 enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASES_MAX,
-    LINE = 64 };                /* bytes; vectors that lie in one are read at once */
+    LINE = 64 };                /* bytes of a cache line; a vector within one is read at once */
 
 struct weights {
     size_t phases;
-    size_t blocks, points;      /* of LANES places, and points, after which the pattern repeats */
-    int taps, lead;             /* of a block; points before the place's own that tap 0 is */
-    size_t *late;               /* [blocks], points before a block's */
+    size_t blocks, points;      /* the pattern repeats after so many blocks of LANES places, or points */
+    int taps, lead;             /* taps of a block; tap 0 lies lead points before the place's own */
+    size_t *late;               /* [blocks], points before the first of a block */
     double *weight;             /* [blocks][taps][LANES][2] */
 };
 
@@ -109,12 +109,12 @@ multiply(const double a[2], const double b[2], double e[2])
 }
 
 typedef struct carrier {
-    double near[ROOT * ROOT][2];        /* of rows */
-    double (*far)[2];                   /* of every ROOT^2 rows */
+    double near[ROOT * ROOT][2];        /* of each row, relative to the last of far before it */
+    double (*far)[2];                   /* the carrier of every ROOT^2-th row */
     double *places;                     /* [blocks][2][LANES][2]: re and re, -im and im */
 } carrier;
 
-/* Of each row of a group, the carrier's re, re, -im, im. */
+/* Write re, re, -im, im of the carrier of each row of a group. */
 static inline void
 row_carriers(const carrier *from, size_t group, double e[ROWS][4])
 {
@@ -128,7 +128,8 @@ row_carriers(const carrier *from, size_t group, double e[ROWS][4])
     }
 }
 
-/* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), by squares: their errors are some eps. */
+/* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), each the product of two half as high: errors are some
+ * eps. */
 static void
 powers(size_t k, size_t c, size_t m, double e[ROOT][2])
 {
@@ -139,7 +140,7 @@ powers(size_t k, size_t c, size_t m, double e[ROOT][2])
         multiply(e[i / 2], e[i - i / 2], e[i]);
 }
 
-/* first: the place of row 0; factor: of places. */
+/* Fill in the carrier's tables.  Row 0 begins at the place `first`; the places are multiplied by factor. */
 static void
 make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t first, size_t rows,
              double factor, double *spare)
@@ -171,7 +172,7 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
 
 /* --- the loop --------------------------------------------------------------------------------- */
 
-/* Groups g <= ... < end of ROWS rows. */
+/* Write the groups g ... end - 1, each of ROWS rows. */
 typedef void write_groups(const weights *d, const double *series, size_t g, size_t end,
                           const carrier *turning, double *w);
 

@@ -16,14 +16,14 @@ typedef struct scale_queue {
     spectra spectra;
     double *w;
     pthread_mutex_t lock;       /* of the following fields */
-    size_t next;                /* scales below it are left */
+    size_t next;                /* the scales before this one are not yet computed */
     size_t done;                /* coefficients */
-    size_t failed;              /* the longest scale that failed, how and why */
+    size_t failed;              /* the longest scale that failed; its status and reason follow */
     ss_status status;
     ss_error error;
 } scale_queue;
 
-/* A thread: compute scales until none is left, the expensive short ones first. */
+/* The work of a thread: compute scales until none is left, the expensive short ones first. */
 static void
 compute_scales(void *user)
 {

@@ -16,11 +16,11 @@
 #include "base/range.h"
 #include "morlet/plan.h"
 
-#define SLACK 1e-9          /* in j; rounding of V log2 a is below 1e-10 */
+#define SLACK 1e-9          /* added to j, because V log2 a is rounded, by less than 1e-10 */
 #define STEPS_REPEAT 17     /* the wavelet reaches 8.5 a to either side */
 
-/* m, as far as FFTs of m 2^k points are fast.  The steps that they allow are at most 12.5 % apart, at
- * B_0 = 1 17 %. */
+/* The values of m for which FFTs of m 2^k points are fast.  The steps that they allow are at most 12.5 %
+ * apart, or 17 % at B_0 = 1. */
 static const int odd_part[] = { 1, 35, 9, 5, 21, 45, 3, 25, 7, 15 };
 enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
 
@@ -37,7 +37,7 @@ const struct ss_morlet_ranges ss_morlet_ranges = {
 };
 
 typedef struct range {
-    double lo, hi;          /* of j, whole numbers; empty if lo > hi */
+    double lo, hi;          /* the range of j, in whole numbers; empty if lo > hi */
 } range;
 
 static range
@@ -52,8 +52,8 @@ label(double j, const ss_morlet_opts *opts)
     return opts->center / (2 * M_PI * exp2(j / opts->voices));
 }
 
-/* Scales that the sampling resolves and the record holds, see stickslip/morlet.h; n = 0: any
- * record, the end of which is not known. */
+/* The scales that the sampling resolves and the record can hold, see stickslip/morlet.h; n is 0 if the
+ * length of the record is not known. */
 static range
 usable(size_t n, double rate, const ss_morlet_opts *opts)
 {
@@ -79,7 +79,7 @@ requested_range(size_t n, double rate, const ss_morlet_opts *opts, range use)
             ask.hi = fmin(use.hi, four_cycles);
         ask.hi = fmax(ask.hi, ask.lo);
     }
-    if (opts->fmax == 0)        /* a limit beyond the usable ones stands for itself */
+    if (opts->fmax == 0)        /* a limit that was asked for is kept even if it is not usable */
         ask.lo = fmin(ask.lo, ask.hi);
     return ask;
 }
@@ -199,7 +199,7 @@ ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate)
     return b < cone || (double)(n - 1) / rate - b < cone;
 }
 
-/* The floor is within one of the count that ss_scale_b gives, rounding included. */
+/* The division differs from the count that ss_scale_b gives by at most one, because of rounding. */
 size_t
 ss_scale_count(const ss_scale *scale, double t)
 {
@@ -222,7 +222,7 @@ count_translations(ss_scale *scale, size_t n, double rate, ss_error *err)
     return SS_OK;
 }
 
-/* The largest step of 2^p/m samples, but no more than so many. */
+/* Choose the largest step of 2^p/m samples that is at most `samples`. */
 static void
 choose_step(ss_scale *scale, double samples, double rate, double step)
 {
@@ -237,7 +237,7 @@ choose_step(ss_scale *scale, double samples, double rate, double step)
     }
 }
 
-/* The paper's grid has one voice and steps that are powers of two. */
+/* The paper's grid, of one voice and steps that are powers of two, needs no other steps. */
 static int
 step_is_exact(const ss_scale *scale, const ss_morlet_opts *opts)
 {
@@ -250,7 +250,7 @@ ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                    const ss_morlet_opts *opts, ss_error *err)
 {
     int v = opts->voices, octave = j >= 0 ? j / v : -((v - 1 - j) / v);     /* rounded down */
-    if (isnan(a))       /* octaves apart by exactly 2 */
+    if (isnan(a))       /* then an octave is a factor of exactly 2 */
         a = ldexp(exp2((double)(j - octave * v) / v), octave);
     *scale = (ss_scale){ .j = j, .m = (double)j / v, .a = a, .f = opts->center / (2 * M_PI * a),
                          .b_num = opts->dense ? 1 : opts->step * a,

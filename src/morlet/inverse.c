@@ -15,7 +15,7 @@
 #include "base/range.h"
 #include "morlet/plan.h"
 
-/* A residual that STALL_FROM or more passes, doubled, lower by less than STALL stays. */
+/* A residual stays if twice as many passes, from STALL_FROM on, lower it by less than this part. */
 enum { PASSES = 500, STALL_FROM = 16 };
 static const double STALL = 0.1;
 
@@ -23,11 +23,11 @@ typedef struct solver {
     const ss_coefficients *coef;
     ss_stretch progress;
     ss_morlet *plan;
-    wavelet **wave;                 /* a scale's */
+    wavelet **wave;                 /* of each scale */
     double *x, *gradient, *step;
     double *w, *rest;               /* coefficients of step; the part that x does not explain */
-    int exponent;                   /* all of these are times 2^exponent */
-    double bounds;                  /* upper frame bound over the lower one */
+    int exponent;                   /* all of these are divided by 2^exponent */
+    double bounds;                  /* the upper frame bound over the lower one */
 } solver;
 
 /* A scale's weight in sums over coefficients. */
@@ -61,7 +61,7 @@ norm2(const double *x, size_t n)
     return sum;
 }
 
-/* gradient = the adjoint of the transform, of the weighted rest. */
+/* gradient becomes the adjoint of the transform, applied to the weighted rest. */
 static void
 adjoint(solver *s)
 {
@@ -74,7 +74,7 @@ adjoint(solver *s)
     }
 }
 
-/* x in two digits, not less than it. */
+/* Round x up to two digits. */
 static double
 round_up(double x)
 {
@@ -95,7 +95,8 @@ refuse(double tol, double residual, int passes, int stays, ss_error *err)
                    takes, tol, takes);
 }
 
-/* See above.  *residual is what stays unexplained, relative to all. */
+/* Solve by conjugate gradients.  *residual becomes the size of the part that x does not explain, relative
+ * to all. */
 static ss_status
 solve(solver *s, double tol, double *residual, ss_error *err)
 {
@@ -107,7 +108,7 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     double slope = norm2(s->gradient, n), then = left;
     int pass = 0, mark = STALL_FROM, stays = 0;
     for (; left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
-        /* the rest falls by about the same factor every pass */
+        /* every pass lowers the rest by about the same factor */
         double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
         if ((st = ss_stretch_at(&s->progress, fmax(0, done))) != SS_OK
             || (st = ss_morlet_execute(s->plan, s->step, s->w, err)) != SS_OK)
@@ -135,7 +136,8 @@ solve(solver *s, double tol, double *residual, ss_error *err)
 
 /* --- is it a frame? --------------------------------------------------------------------------- */
 
-/* Sum over scales of |H(a w)| |H(a w + shift)|, H normalised, H's negative side being left out. */
+/* The sum over the scales of |H(a w)| |H(a w + shift)|.  H is normalised, and its side of negative
+ * frequencies left out. */
 static double
 overlap(const solver *s, double w, double shift)
 {
@@ -147,7 +149,7 @@ overlap(const solver *s, double w, double shift)
     return sum;
 }
 
-/* In units of the scale. */
+/* The largest step of translations in units of their scale. */
 static double
 largest_step(const ss_morlet *plan)
 {
@@ -157,8 +159,9 @@ largest_step(const ss_morlet *plan)
     return most;
 }
 
-/* Frame bounds after Daubechies (1990), theorem 2.7, for frequencies within the labels: the smallest
- * and the largest sum of |H|^2, less and more what translations apart by step a alias. */
+/* The ratio of the frame bounds after Daubechies (1990), theorem 2.7, for frequencies between those of the
+ * longest and the shortest scale.  The lower bound is the smallest sum of |H|^2 minus the aliases that
+ * translations step a apart make; the upper one is the largest sum plus these aliases. */
 static void
 find_bounds(solver *s)
 {
@@ -234,8 +237,8 @@ make_plan(solver *s, ss_error *err)
                                   "shortest");
 }
 
-/* The coefficients as they stand in the plan, times a power of two that keeps their squares from
- * overflowing and vanishing, and room for the rest. */
+/* Allocate the solver's arrays.  rest becomes the coefficients in the plan's order, times a power of two
+ * with which their squares neither overflow nor vanish. */
 static ss_status
 make_room(solver *s)
 {

@@ -37,7 +37,7 @@ ss_kaiser_response(int taps, double beta, double nu)
     return r * beta / sinh(beta);
 }
 
-/* The same with the ripple beyond the cutoff taken at its envelope. */
+/* The response, or beyond the cutoff the envelope of its ripple. */
 static double
 envelope(int taps, double beta, double nu)
 {
@@ -71,7 +71,7 @@ worst_image(const kaiser_band *band, int taps, double beta)
 int
 ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
 {
-    int fewest = 2 * (int)(-log(bound) / (2 * M_PI));   /* exp(-pi J) is out of reach */
+    int fewest = 2 * (int)(-log(bound) / (2 * M_PI));   /* no kernel of J taps reaches exp(-pi J) */
     for (int taps = fewest > 4 ? fewest : 4; taps <= KAISER_TAPS_MAX; taps += 2)
         for (double part = 1; part > 0.3; part -= 0.1) {
             double beta = 0.985 * M_PI * taps * (1 - part * band->edge);
@@ -94,7 +94,7 @@ node(int i, int n)
     return cos(M_PI * (i + 0.5) / n);
 }
 
-/* From n values at nodes x to the coefficients of Newton's form. */
+/* Replace the n values c at the nodes x by the coefficients of Newton's form. */
 static void
 divided_differences(double *c, const double *x, int n)
 {
@@ -103,7 +103,7 @@ divided_differences(double *c, const double *x, int n)
             c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
 }
 
-/* From Newton's form to powers. */
+/* Replace the coefficients of Newton's form by those of powers. */
 static void
 expand(double *c, const double *x, int n)
 {

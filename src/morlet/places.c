@@ -14,10 +14,10 @@ enum { LANES = 8, AT_ONCE = 64 };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
 typedef double pair __attribute__((vector_size(2 * sizeof(double))));
 
-/* Part of a function that is compiled for several kinds of machine. */
+/* Functions that are compiled into each version of their caller, for several kinds of machine. */
 #define INLINE static inline __attribute__((always_inline))
 
-/* So many translations from one on: a point before each, and how far it is behind that, at most 1. */
+/* AT_ONCE translations: the point before each, and the distance behind this point, at most 1. */
 typedef struct places {
     double point[AT_ONCE], behind[AT_ONCE];
 } places;
@@ -30,7 +30,7 @@ ss_places_kernel(kaiser *out, double reach, double center, double second, double
         band.edge *= 0.95;
 }
 
-/* As ss_scale_spot; in two loops, that it is done for several at a time. */
+/* Computes as ss_scale_spot does, in two loops, for which compilers use vectors. */
 INLINE void
 find_places(const point_series *s, double b_num, double b_den, double rate, double first, places *out)
 {
@@ -50,7 +50,7 @@ find_places(const point_series *s, double b_num, double b_den, double rate, doub
     }
 }
 
-/* Each of four weights twice, for re and im. */
+/* Four weights, each twice, for re and im. */
 #define TWO(w, i) (w)[i], (w)[i]
 #define TWICE(w, i) (lanes){ TWO(w, i), TWO(w, (i) + 1), TWO(w, (i) + 2), TWO(w, (i) + 3) }
 
@@ -82,7 +82,7 @@ add_taps(const kaiser *ker, const double *v, const places *at, size_t n, double 
     }
 }
 
-/* exp(2 pi i turns p): of a quarter of the angle by Taylor's series, then squared twice. */
+/* exp(2 pi i turns p) at each place p: Taylor's series of a quarter of the angle, squared twice. */
 INLINE void
 carriers(double turns, const places *at, double (*restrict e)[2])
 {

@@ -26,13 +26,13 @@
 #include "base/error.h"
 #include "morlet/plan.h"
 
-/* [s], measured by tests/bench/bench_morlet: a coefficient, and a tap of it. */
+/* The cost [s] of a coefficient and of each of its taps, measured by tests/bench/bench_morlet. */
 #define COST_PLACE 60e-9
 #define COST_TAP 0.8e-9
 
 enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
-/* The wavelet of one scale at whole samples; tables reach from -reach to reach. */
+/* The wavelet of one scale at whole samples. */
 typedef struct kernel {
     double d, d_low;                    /* 1/(a rate) and its rounding error */
     double cycles, cycles_low;          /* omega_c d / (2 pi), likewise */
@@ -61,7 +61,7 @@ kernel_of(const ss_morlet_opts *opts, double a, double rate)
     return ker;
 }
 
-/* omega_c k d, minus whole turns. */
+/* The angle omega_c k d without whole turns. */
 static double
 phase(const kernel *ker, double k)
 {
@@ -91,14 +91,14 @@ tail(const kernel *ker, double r)
         * (ker->d * exp(-r * r / 2) + sqrt(M_PI / 2) * erfc(r / sqrt(2)));
 }
 
-/* The number of taps |k| < taps for a tail of at most bound; at most n, which omits nothing. */
+/* The number of taps, |k| < taps, with which the tail is at most bound; at most n, which omits nothing. */
 static size_t
 taps_for(const kernel *ker, double bound, size_t n)
 {
     double r = 1;
     while (tail(ker, r) > bound)
         r += 1. / 16;
-    double taps = ceil(r / ker->d + 0.5);       /* |tau| <= 1/2 */
+    double taps = ceil(r / ker->d + 0.5);       /* 0.5 because |tau| <= 1/2 */
     return taps < (double)n ? (size_t)taps : n;
 }
 
@@ -113,7 +113,7 @@ taps_of_pass(kernel *ker, int pass, double bound, size_t n)
     return last->taps;
 }
 
-/* Sum x_i g_i (re_i, im_i) over n taps; in lanes, which a compiler may put into one register. */
+/* The sum of x_i g_i (re_i, im_i) over n taps, in lanes that a compiler may put into one register. */
 static void
 block_sum(const double *restrict x, const double *restrict g, const double *restrict re,
           const double *restrict im, size_t n, double sum[2])
@@ -134,7 +134,7 @@ block_sum(const double *restrict x, const double *restrict g, const double *rest
     sum[1] = (t[0] + t[1]) + (t[2] + t[3]);
 }
 
-/* sum += y, its rounding error into low. */
+/* Add y to *sum, and the rounding error of this to *low. */
 static void
 add(double *sum, double *low, double y)
 {
@@ -150,7 +150,7 @@ typedef struct place {
     double g[BLOCK];                    /* exp(j q) */
 } place;
 
-/* Sum over the taps lo <= k <= hi of x[c + k] exp(k q) (re_k, im_k). */
+/* The sum over the taps lo <= k <= hi of x[c + k] exp(k q) (re_k, im_k). */
 static void
 wing(const place *at, const double *x, const double *re, const double *im, ptrdiff_t lo,
      ptrdiff_t hi, double sum[2])
@@ -168,7 +168,7 @@ wing(const place *at, const double *x, const double *re, const double *im, ptrdi
     sum[1] += low[1];
 }
 
-/* Only the first width of at->g are needed. */
+/* Fill in the place of b, with the first `width` numbers of at->g. */
 static void
 locate(place *at, const kernel *ker, spot b, size_t width)
 {
@@ -198,7 +198,7 @@ add_taps(const kernel *ker, const record *rec, spot b, size_t from, size_t to, d
     ptrdiff_t lo = first > -out ? first : -out, hi = last < out ? last : out;
     ptrdiff_t in = (ptrdiff_t)from - 1; /* |k| <= in is in w already */
 
-    /* to the left of those in w, or all at once; then to the right */
+    /* first the taps to the left of those in w, or all at once; then those to the right */
     ptrdiff_t cut = from == 0 ? hi : hi < -in - 1 ? hi : -in - 1;
     wing(&at, x, ker->re, ker->im, lo, cut, sum);
     if (ker->second > 0)
@@ -223,8 +223,8 @@ add_taps(const kernel *ker, const record *rec, spot b, size_t from, size_t to, d
 
 struct wavelet {
     kernel ker;
-    size_t room;                        /* taps that leave out no more than TAIL_FLOOR, or n */
-    double *base;                       /* of its tables */
+    size_t room;                        /* taps with a tail of at most TAIL_FLOOR, or n */
+    double *base;                       /* the memory of its tables */
 };
 
 size_t
@@ -263,7 +263,7 @@ ss_wavelet_free(wavelet *wave)
     free(wave);
 }
 
-/* Add to w the taps from <= |k| < to of a part of a scale.  The largest |W|. */
+/* Add to w the taps from <= |k| < to of a part of a scale, and return the largest |W|. */
 static double
 add_to_part(const kernel *ker, const record *rec, double rate, const ss_scale *scale, span part,
             size_t from, size_t to, double *w)
@@ -276,7 +276,7 @@ add_to_part(const kernel *ker, const record *rec, double rate, const ss_scale *s
     return sqrt(most);
 }
 
-/* See above. */
+/* The second pass adds the taps that the largest |W| of the first requires, as the head says. */
 void
 ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                     wavelet *wave, span part, double factor, double *most, double *w)
@@ -303,7 +303,7 @@ ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *
         w[i] *= factor;
 }
 
-/* Add to x Re(w h) of a coefficient, all its taps. */
+/* Add Re(w h) to x, over all taps of the coefficient w at b. */
 static void
 add_wavelet(const kernel *ker, size_t n, spot b, const double w[2], double *x)
 {
@@ -336,7 +336,7 @@ ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wav
     }
 }
 
-/* Taps of a wavelet on one side in the first pass. */
+/* The taps of a wavelet on one side in the first pass. */
 static double
 taps_tried(const ss_morlet *plan, const ss_scale *scale)
 {

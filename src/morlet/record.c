@@ -10,7 +10,7 @@
 
 enum { LANES = 8 };
 
-/* max|x|; NaN and infinity are infinity. */
+/* max|x|; infinity if x contains NaN or infinity. */
 VERSIONS static double
 largest(const double *x, size_t n)
 {
@@ -58,8 +58,8 @@ normalise(record *rec, double most)
     rec->exponent += e;
 }
 
-/* Subtract the mean, or the line of least squares.  Sums are of differences to the first sample:
- * what is constant leaves exactly nothing. */
+/* Subtract the mean, or the line of least squares.  The sums are over differences from the first sample,
+ * so that a constant record becomes exactly 0. */
 static void
 subtract(record *rec, ss_detrend detrend)
 {
@@ -115,8 +115,9 @@ ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_
     return SS_OK;
 }
 
-/* x 2^exponent, as ldexp rounds it.  A subnormal number is made of its bits, which count units of 2^-1074:
- * some processors take 100 times as long to compute it.  all: 2^exponent in these units, or infinity. */
+/* x 2^exponent, rounded as ldexp does.  A subnormal number is made from its bits, which count units of
+ * 2^-1074, since some processors take 100 times as long to compute one.  all is 2^exponent in these units,
+ * or infinity. */
 static double
 move_exponent(double x, int exponent, double all)
 {

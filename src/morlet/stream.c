@@ -14,7 +14,7 @@
 
 /* --- samples ---------------------------------------------------------------------------------- */
 
-/* Make room for n more samples, in place of those that no window needs any more. */
+/* Make room for n more samples; samples that no window needs any more are discarded. */
 static void
 make_room(ss_stream *s, size_t n)
 {
@@ -31,8 +31,8 @@ make_room(ss_stream *s, size_t n)
     s->origin = keep;
 }
 
-/* Compute the full windows, and set the number of samples for the next: a window is computed with its
- * last sample, so its coefficients do not depend on how the samples arrived. */
+/* Compute the full windows, and set the number of samples at which the next will be full.  A window is
+ * computed as soon as it has its last sample, so its coefficients do not depend on how samples arrive. */
 static ss_status
 transform_full(ss_stream *s, ss_error *err)
 {
@@ -48,8 +48,8 @@ transform_full(ss_stream *s, ss_error *err)
     return st;
 }
 
-/* Samples are kept divided by this power of 2, so that squares neither overflow nor underflow: 0 but for a
- * signal near the ends of what a double holds. */
+/* Samples are stored divided by 2^exponent, so that their squares neither overflow nor underflow.  It is 0
+ * except for signals near the limits of a double. */
 static int
 exponent_of(double x_max)
 {
@@ -79,7 +79,7 @@ append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
     return st == SS_OK && good < n ? ss_morlet_not_finite(err, s->samples + 1, x[good]) : st;
 }
 
-/* Keep a failure, or report the earlier one. */
+/* Store the first failure in the stream; every later call returns it. */
 static ss_status
 keep(ss_stream *s, ss_status st, const ss_error *why, ss_error *err)
 {
@@ -111,7 +111,7 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
     return keep(s, st, &why, err);
 }
 
-/* Is a coefficient of the group complete that has not been sent? */
+/* 1 if a coefficient of the group is complete and has not been sent. */
 static int
 any_ready(const ss_stream *s, const group *g)
 {

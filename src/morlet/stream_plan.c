@@ -12,11 +12,11 @@
 #include "morlet/stream.h"
 
 enum {
-    BASE = 1 << 13,             /* samples in a window at least */
-    SHORT = 1 << 13,            /* reach of the scales that go together in the first group */
-    OCTAVES = 5,                /* of scales in the others */
+    BASE = 1 << 13,             /* a window has at least so many samples */
+    SHORT = 1 << 13,            /* scales of at most this reach form one group */
+    OCTAVES = 5,                /* other groups have scales of so many octaves */
     LONG = 1 << 21,             /* a window longer than this is twice its wavelet, not four times */
-    TABLES = 32 << 20           /* bytes of wavelets kept */
+    TABLES = 32 << 20           /* most bytes of wavelets that are stored */
 };
 
 static ss_status
@@ -38,7 +38,7 @@ plan_grid(ss_stream *s, ss_error *err)
     return SS_OK;
 }
 
-/* A plan for windows of n samples. */
+/* Make a group of n_scales scales, with windows of n samples. */
 static ss_status
 new_group(const ss_stream *s, group *g, size_t first, size_t n_scales, size_t n)
 {
@@ -53,7 +53,7 @@ new_group(const ss_stream *s, group *g, size_t first, size_t n_scales, size_t n)
     return SS_OK;
 }
 
-/* The scales that are transformed in blocks, of a record as long as may be. */
+/* Plan the scales that are transformed in blocks, as those of the longest record that a plan allows. */
 static ss_status
 plan_blocks(ss_stream *s)
 {
@@ -84,7 +84,7 @@ scales_together(const ss_stream *s, size_t first)
     return n;
 }
 
-/* The plan of a group, its scales with as many translations as a window yields. */
+/* Choose the windows of a group whose longest scale is `first`, and make its plan. */
 static ss_status
 plan_group(const ss_stream *s, group *g, size_t first)
 {
@@ -112,7 +112,8 @@ plan_groups(ss_stream *s)
     return SS_OK;
 }
 
-/* The cost by the definition, and its wavelets that are kept: the short ones. */
+/* Make the wavelets of the scales that are computed by the definition, from short to long, as many as
+ * TABLES allows. */
 static ss_status
 plan_sums(ss_stream *s)
 {
@@ -133,7 +134,7 @@ plan_sums(ss_stream *s)
     return SS_OK;
 }
 
-/* Room for samples; the signal is zero before its first. */
+/* Make room for samples.  The signal is zero before its first one. */
 static ss_status
 make_room_for_samples(ss_stream *s)
 {
@@ -149,7 +150,7 @@ make_room_for_samples(ss_stream *s)
     return s->x != NULL ? SS_OK : SS_ENOMEM;
 }
 
-/* Coefficients that a worker computes at a time, at most. */
+/* The largest number of coefficients that a worker computes at a time. */
 static size_t
 worker_room(const ss_stream *s)
 {

@@ -10,25 +10,25 @@
 #include "morlet/stream.h"
 
 enum {
-    WORTH_THREADS = 64,         /* fewer coefficients are computed by the caller's thread alone, */
-    BLOCK_WORTH_THREADS = 1 << 14       /* in blocks */
+    WORTH_THREADS = 64,         /* the caller's thread alone computes fewer coefficients than these, */
+    BLOCK_WORTH_THREADS = 1 << 14       /* and in blocks fewer than these */
 };
 
 typedef struct window {
     ss_stream *stream;
     const group *group;
     size_t first, end;          /* its scales */
-    size_t workers, each;       /* each computes so many scales at a time */
-    ptrdiff_t limit;            /* coefficients are complete that need no sample from here on */
+    size_t workers, each;       /* each worker computes so many scales at a time */
+    ptrdiff_t limit;            /* a coefficient is complete if it needs no sample from here on */
     record rec;
-    const spectra *spectra;     /* NULL: of a group, by the definition */
-    ptrdiff_t start;            /* of a group */
+    const spectra *spectra;     /* NULL for the window of a group, computed by the definition */
+    ptrdiff_t start;            /* the first sample of a group's window */
     size_t number;              /* of a window of blocks */
 } window;
 
 /* --- what a window gives ---------------------------------------------------------------------- */
 
-/* The sample at translation k or before it, 2^60 if it is that far away. */
+/* The last sample not after translation k; at most 2^60. */
 static ptrdiff_t
 place_of(const ss_stream *s, size_t i, size_t k)
 {
@@ -84,7 +84,7 @@ next_of_blocks(const window *win, size_t i)
     return n < complete ? n : complete;
 }
 
-/* Choose the next part of scale i; its length. */
+/* Choose the next part of scale i, and return its length. */
 static size_t
 choose_part(const window *win, size_t i)
 {
@@ -97,7 +97,7 @@ choose_part(const window *win, size_t i)
 
 /* --- computing and sending -------------------------------------------------------------------- */
 
-/* The scales of a worker. */
+/* Compute the scales of a worker. */
 static void
 compute(void *user)
 {
@@ -140,8 +140,8 @@ send_scales(ss_stream *s, const stream_worker *wk, ss_error *err)
     return st;
 }
 
-/* A part of each of the scales first ... end - 1, on as many workers as it takes.  *more becomes 1 if
- * something may be left of them. */
+/* Compute and send a part of each of the scales first ... end - 1, on as many workers as it takes.  *more
+ * becomes 1 if some of their coefficients may be left. */
 static ss_status
 share_scales(ss_stream *s, const window *win, size_t first, size_t end, int *more, ss_error *err)
 {
@@ -167,8 +167,8 @@ share_scales(ss_stream *s, const window *win, size_t first, size_t end, int *mor
     return st;
 }
 
-/* All coefficients of a window: a part of each scale, then the next of each, so that their order does
- * not depend on the number of workers. */
+/* Compute and send all coefficients of a window: one part of each scale, then the next part of each, so
+ * that their order does not depend on the number of workers. */
 static ss_status
 compute_window(ss_stream *s, const window *win, ss_error *err)
 {
@@ -211,14 +211,15 @@ ss_group_transform(ss_stream *s, const group *g, ptrdiff_t start, ss_error *err)
 
 /* --- windows of blocks ------------------------------------------------------------------------ */
 
-/* What is asked of the windows that become full. */
+/* The user data of transform_blocks. */
 typedef struct demand {
     ss_stream *stream;
     ptrdiff_t limit;
     ss_error *err;
 } demand;
 
-/* By one thread scale by scale, as they stay in the cache; by several, some scales each. */
+/* One thread computes scale by scale, so that each stays in the cache; of several threads each computes
+ * some scales. */
 static void
 divide_scales(window *win)
 {
@@ -238,7 +239,7 @@ divide_scales(window *win)
     win->each = each < fit ? each : fit;
 }
 
-/* All coefficients of a window of a level. */
+/* Compute and send all coefficients of a window of a level. */
 static ss_status
 transform_blocks(size_t level, size_t number, double *spectrum, void *user)
 {

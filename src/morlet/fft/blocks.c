@@ -48,15 +48,15 @@
 #define CUT 8.66
 #define BAND 1.99
 #define FILTER_CUT 8.3
-#define COST_POINT 4e-9         /* of an FFT, and what goes with it [s] */
-#define IMAGES 5e-17            /* of their interpolation */
+#define COST_POINT 4e-9         /* of a point of an FFT, with the work beside it [s] */
+#define IMAGES 5e-17            /* the bound of the images of an interpolation */
 
-/* Of a translation of each kind [s]. */
+/* The cost of a translation of each kind [s]. */
 static const double COST_OF[] = { 0, 8e-9, 1.3e-9 };
 
 enum {
-    LEAST_SAMPLES = 4,          /* of a level */
-    LONGEST = 1 << 20,          /* inverse FFT */
+    LEAST_SAMPLES = 4,          /* a level has at least so many */
+    LONGEST = 1 << 20,          /* inverse FFT, in points */
     LONGEST_WINDOW = 1 << 18,
     ALIGN = 8                   /* doubles; FFTW's plans are for arrays that begin at multiples */
 };
@@ -69,7 +69,7 @@ half_width(const ss_morlet_opts *opts)
     return half_band(opts->center, wavelet_second(opts), CUT);
 }
 
-/* A: the least samples of a scale on a level but the first. */
+/* A, the length in samples that a scale has at least on its level, unless this is level 0. */
 static double
 least_scale(const ss_morlet_opts *opts)
 {
@@ -85,7 +85,7 @@ level_of(const ss_morlet *plan, const ss_scale *scale)
     return a >= 2 && l < LEVELS && enough ? l : -1;
 }
 
-/* L and hop of a level of n samples on which wavelets reach so many, a power of two. */
+/* Choose L and hop of a level of n samples, on which wavelets reach `reach` samples, a power of two. */
 static void
 choose_windows(stage *st, size_t n, size_t reach, size_t margin)
 {
@@ -100,8 +100,8 @@ choose_windows(stage *st, size_t n, size_t reach, size_t margin)
     *st = best;
 }
 
-/* The same for level l of a stream: the lower levels make most coefficients and have the long windows,
- * which cost less; the higher ones delay most and have the short ones. */
+/* The same for level l of a stream.  The lower levels make most of the coefficients, and have long
+ * windows, which cost less; the higher levels delay most, and have short ones. */
 static void
 stream_windows(stage *st, int l, size_t reach, size_t margin)
 {
@@ -151,7 +151,7 @@ make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, const 
     return SS_OK;
 }
 
-/* M of a scale on its level, 0 if its steps do not repeat as they must. */
+/* M of a scale on its level; 0 if its steps do not repeat in a window. */
 static size_t
 points_of(const stage *st, const ss_scale *scale, int l, double rate)
 {
@@ -162,7 +162,7 @@ points_of(const stage *st, const ss_scale *scale, int l, double rate)
     return (size_t)points;
 }
 
-/* The same where translations lie between points: the least power of two for the kernel. */
+/* M where translations lie between points: the least power of two that the kernel needs. */
 static size_t
 points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
                int l)
@@ -176,7 +176,7 @@ points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, c
     return points <= LONGEST ? points : 0;
 }
 
-/* What scale i saves [s]: of a record, or of a window of a stream. */
+/* The time that FFTs save for scale i [s], over a record or over a window of a stream. */
 static double
 gain_of(const struct blocks *b, const ss_morlet *plan, size_t i)
 {
@@ -188,7 +188,7 @@ gain_of(const struct blocks *b, const ss_morlet *plan, size_t i)
         - COST_OF[r->kind] * (double)n;
 }
 
-/* The spectra of the levels in use. */
+/* The cost of the spectra of the levels in use [s]. */
 static double
 forward_cost(const struct blocks *b)
 {
@@ -198,7 +198,7 @@ forward_cost(const struct blocks *b)
     return COST_POINT * points;
 }
 
-/* The level and M of scale i, M 0 if it cannot be computed here. */
+/* Choose the level and M of scale i.  M is 0 if the scale cannot be computed here. */
 static void
 choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
 {
@@ -217,8 +217,9 @@ choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
         r->hop = st->hop << r->level;
 }
 
-/* Choose the scales that can be computed here: of a stream the longest; with AUTO those for which it
- * is cheaper, if their gain pays for the spectra, which a stream's does. */
+/* Choose the scales that are computed here: those that can be, in a stream only the longest.  With AUTO
+ * the choice is of those for which it is cheaper, and of none if a record's gain is less than the cost of
+ * its spectra. */
 static void
 choose_rows(struct blocks *b, const ss_morlet *plan)
 {
@@ -269,7 +270,7 @@ static ss_status
 all_weights(struct blocks *b, const ss_morlet *plan)
 {
     ss_status st = SS_OK;
-    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {       /* short to long */
+    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {       /* from short to long */
         block_scale *r = &b->scale[i];
         if (r->level < 0)
             continue;
@@ -285,7 +286,7 @@ all_weights(struct blocks *b, const ss_morlet *plan)
     return st;
 }
 
-/* The kernel's tables for a scale. */
+/* The kernel's weights for the places of a scale, shared with scales that have the same pattern. */
 static ss_status
 places_of(struct blocks *b, block_scale *r)
 {
@@ -347,7 +348,7 @@ inverse_of(const struct blocks *b, size_t i, double *v, unsigned how)
                             how);
 }
 
-/* While ss_fftw_planner is held. */
+/* Make all plans.  The caller holds ss_fftw_planner. */
 static ss_status
 plan_all(struct blocks *b, double *v, unsigned how)
 {

@@ -16,13 +16,13 @@
 
 enum { WORTH_A_THREAD = 8 };    /* windows */
 
-/* Samples lo ... hi - 1 of a level, x[0] being sample lo; zeros elsewhere. */
+/* Samples lo ... hi - 1 of a level, of which x[0] is sample lo; all others are 0. */
 typedef struct samples {
     double *x;
     ptrdiff_t lo, hi;
 } samples;
 
-/* to[i] = sample first + i. */
+/* to[i] becomes sample first + i. */
 static void
 copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
 {
@@ -36,7 +36,8 @@ copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
     memset(to + (hi - first), 0, (size_t)(end - hi) * sizeof *to);
 }
 
-/* The terms of a window of samples x that begins with those before its first, overlap/2. */
+/* The terms of a window.  Its samples follow at x[overlap/2]; before them x has the overlap/2 samples that
+ * precede the window. */
 static void
 transform_samples(const stage *st, const double *x, double *v, double *terms)
 {
@@ -46,7 +47,7 @@ transform_samples(const stage *st, const double *x, double *v, double *terms)
     fftw_execute_dft_r2c(st->forward, v, (fftw_complex *)terms);
 }
 
-/* Terms of a window of the next level, k <= L/4, from those of this one. */
+/* The terms k <= L/4 of the same window on the next level, from those on this one. */
 VERSIONS static void
 filter_terms(const stage *st, const double *restrict x, double *restrict y)
 {
@@ -58,8 +59,8 @@ filter_terms(const stage *st, const double *restrict x, double *restrict y)
     }
 }
 
-/* The samples of the next level that a window gives, the first of hop/2 at to[0]; spare has room for
- * a window. */
+/* The hop/2 samples of the next level that a window determines; to[0] becomes the first.  spare has room
+ * for a window. */
 static void
 decimate(const stage *st, const double *terms, double *spare, double *to)
 {
@@ -67,7 +68,7 @@ decimate(const stage *st, const double *terms, double *spare, double *to)
     fftw_execute_dft_c2r(st->back, (fftw_complex *)spare, to);
 }
 
-/* Doubles for work on a window of any level: its samples, its spectrum and the next level's samples. */
+/* The doubles needed for a window of any level: its samples, its spectrum and the next level's samples. */
 static size_t
 window_room(const struct blocks *b)
 {
@@ -84,7 +85,7 @@ typedef struct task {
     const stage *st;
     const samples *from;
     samples *next;              /* NULL: not needed */
-    double *spectra, *v;        /* spectra: of window 0 on, or NULL; v: window_room */
+    double *spectra, *v;        /* spectra from window 0 on, or NULL; window_room doubles */
     size_t first, end;          /* windows */
 } task;
 
@@ -116,7 +117,7 @@ some_windows(void *user)
         one_window(t, i);
 }
 
-/* The spectra of a level, if its scales need them, and the next level. */
+/* Compute the spectra of a level, if its scales need them, and the samples of the next level. */
 static ss_status
 forward_stage(const stage *st, task all, size_t room, size_t threads, double **out)
 {
@@ -189,18 +190,18 @@ ss_morlet_spectra_free(spectra *s)
 
 /* --- a stream --------------------------------------------------------------------------------- */
 
-/* The next window of a level. */
+/* The next window of a level, which samples fill. */
 typedef struct filling {
-    double *made;               /* the last samples that it gave the next level; x follows */
-    double *x;
-    size_t have, window;        /* samples in x, the first overlap/2 before the window's; its number */
+    double *made;               /* samples of the next level from the last window; x follows in memory */
+    double *x;                  /* the overlap/2 samples before the window, then the window's */
+    size_t have, window;        /* samples in x; the number of the window */
     ptrdiff_t end;              /* samples from here on are 0 */
 } filling;
 
 struct cascade {
     const struct blocks *b;
-    int exponent;               /* samples are x 2^exponent */
-    double *v;                  /* window_room */
+    int exponent;               /* the samples are x 2^exponent */
+    double *v;                  /* window_room doubles */
     filling level[LEVELS];
 };
 
@@ -225,7 +226,7 @@ empty_cascade(const struct blocks *b)
     return NULL;
 }
 
-/* Every level begins with the zeros of window 0 that come before what the level below makes. */
+/* Every level begins with zeros: those samples of window 0 that precede the first from the level before. */
 cascade *
 ss_cascade_new(const struct blocks *b)
 {
@@ -265,7 +266,7 @@ ss_cascade_free(cascade *c)
 
 static ss_status append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user);
 
-/* A window that is full, and the next, which begins with the last samples of this. */
+/* Transform a full window, and begin the next one with its last samples. */
 static ss_status
 finish_window(cascade *c, size_t l, window_sink *sink, void *user)
 {
@@ -283,7 +284,7 @@ finish_window(cascade *c, size_t l, window_sink *sink, void *user)
     return append(c, l + 1, f->made, st->hop / 2, sink, user);
 }
 
-/* The next samples of a level but the first, which has none before its margin. */
+/* Append samples to a level, except the first; samples before the margin are 0. */
 static ss_status
 append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user)
 {
@@ -354,7 +355,7 @@ ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
 
 /* --- a scale ---------------------------------------------------------------------------------- */
 
-/* The sample with which a window of a scale begins. */
+/* The sample of the record at which a window of a scale begins. */
 static double
 start_of(const struct blocks *b, const block_scale *r, size_t window)
 {
@@ -394,8 +395,8 @@ ss_blocks_most(const struct blocks *b, size_t i)
     return r->kind == BETWEEN ? (size_t)(start_of(b, r, 2) / step) + 2 : r->hop;
 }
 
-/* All points of a window, the first counted translation at v[0]; before and after them the circle goes
- * on. */
+/* Compute all points of a window, of which v[0] belongs to the window's first translation.  For kernels,
+ * the points are continued before and after, as on a circle. */
 static void
 transform_window(const stage *st, const block_scale *r, const double *x, double *c, double *v)
 {
@@ -410,7 +411,7 @@ transform_window(const stage *st, const block_scale *r, const double *x, double 
     }
 }
 
-/* Translations of a window between its points v, which go around. */
+/* Write translations that lie between the points v of a window. */
 static void
 write_between(const struct blocks *b, size_t i, size_t window, double *v, span part, double factor,
               double *w)
@@ -422,8 +423,8 @@ write_between(const struct blocks *b, size_t i, size_t window, double *v, span p
     ss_places_write(b->kernel, &s, &b->grid[i], b->rate, part, factor, w);
 }
 
-/* n translations of a window from one on.  Places repeat from point to point, so the first of them, in the
- * middle of a pattern, are written apart. */
+/* Write n translations of a window from `first` on.  Places repeat from point to point, so those before
+ * the first whole pattern are written apart. */
 static void
 write_each(const struct blocks *b, const block_scale *r, size_t first, size_t n, double *v,
            double factor, double *w)
@@ -474,7 +475,7 @@ ss_blocks_level(const struct blocks *b, size_t i)
 double
 ss_blocks_delay(const struct blocks *b, size_t i)
 {
-    double delay = 1 + (b->scale[i].kind == BETWEEN);   /* which may lie before their window */
+    double delay = 1 + (b->scale[i].kind == BETWEEN);   /* BETWEEN may lie before its window */
     for (int l = 0; l <= b->scale[i].level; l++)
         delay += ldexp((double)(b->stage[l].length - b->stage[l].overlap / 2), l);
     return delay;

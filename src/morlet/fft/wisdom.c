@@ -9,8 +9,8 @@
 
 pthread_mutex_t ss_fftw_planner = PTHREAD_MUTEX_INITIALIZER;
 
-/* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW aborts the
- * program over flags that do not fit where it keeps them, in 20, 20 and 9 bits. */
+/* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW stores the
+ * flags in 20, 20 and 9 bits, and aborts the program if they do not fit. */
 static int
 flags_fit(const char *wisdom)
 {
