@@ -12,11 +12,16 @@
 #define UNROLL
 #endif
 
-/* A function for machines of one kind, to be called if __builtin_cpu_supports that.  It may fuse
- * multiplications with additions: last bits differ from those of other kinds. */
+/* A function for machines of one kind.  It may fuse multiplications with additions: last bits differ from
+ * those of other kinds.  BEST_VERSION is the one of three such functions that is for this machine. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define HAVE_TARGETS
 #define FAST_FOR(kind) __attribute__((target(kind), optimize("O3", "fp-contract=fast")))
+#define BEST_VERSION(any, avx2_fma, avx512) \
+    (__builtin_cpu_supports("avx512f") ? (avx512) \
+     : __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? (avx2_fma) : (any))
+#else
+#define BEST_VERSION(any, avx2_fma, avx512) (any)
 #endif
 
 /* A function that is compiled for several kinds, where compiler and C library support that, and no

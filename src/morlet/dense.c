@@ -201,18 +201,6 @@ typedef void write_groups(const weights *d, const double *series, size_t g, size
 
 #endif
 
-static write_groups *
-best_loop(void)
-{
-#ifdef HAVE_TARGETS
-    if (__builtin_cpu_supports("avx512f"))
-        return double_64;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return double_32;
-#endif
-    return double_16;
-}
-
 size_t
 ss_dense_room(size_t n)
 {
@@ -227,7 +215,7 @@ ss_dense_write(const weights *d, const double *series, size_t turns, size_t circ
     carrier turning;
     size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
-    write_groups *write = best_loop();
+    write_groups *write = BEST_VERSION(double_16, double_32, double_64);
     ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
     make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, factor, aligned(spare));
     write(d, series + 2 * point, 0, whole, &turning, w);

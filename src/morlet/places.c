@@ -130,9 +130,6 @@ write_any(const kaiser *ker, const point_series *s, const ss_scale *scale, doubl
     }
 }
 
-typedef void write_places(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
-                          span part, double factor, double *w);
-
 #define WRITE(name, target) \
     target static void \
     name(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part, \
@@ -147,21 +144,9 @@ WRITE(write_256, FAST_FOR("avx2,fma"))
 WRITE(write_512, FAST_FOR("avx512f"))
 #endif
 
-static write_places *
-best_write(void)
-{
-#ifdef HAVE_TARGETS
-    if (__builtin_cpu_supports("avx512f"))
-        return write_512;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return write_256;
-#endif
-    return write_128;
-}
-
 void
 ss_places_write(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
                 span part, double factor, double *w)
 {
-    best_write()(ker, s, scale, rate, part, factor, w);
+    BEST_VERSION(write_128, write_256, write_512)(ker, s, scale, rate, part, factor, w);
 }
