@@ -166,11 +166,14 @@ int ss_delimited_is_segment(const struct table *t, const char *line);
 
 /* Find the column of time and the clock on which the rows are samples (delimited_clock.c). */
 ss_status ss_delimited_choose_clock(struct table *t, ss_error *err);
+/* The column of time that it will take, as names, kinds and the first row show. */
+struct time_column ss_delimited_time(const struct table *t);
+
+/* The time of a row (delimited_samples.c). */
+double ss_delimited_stamp(const struct table *t, const double *row);
 /* Go back to the first sample; and up to max more of them as rows of the columns kept, NaN where there is
  * none. */
 ss_status ss_delimited_begin_samples(struct table *t, ss_error *err);
 ss_status ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_error *err);
-/* The column of time that it will take, as names, kinds and the first row show. */
-struct time_column ss_delimited_time(const struct table *t);
 
 #endif

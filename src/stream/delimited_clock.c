@@ -1,6 +1,6 @@
-/* delimited_clock.c -- find the column of time of a text table, and make its rows samples of a clock. */
+/* delimited_clock.c -- find the column of time of a text table, and the clock that its numbers, dates or
+ * times of day show. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include "base/error.h"
@@ -8,6 +8,7 @@
 #include "stream/clock.h"
 #include "stream/delimited.h"
 #include "stream/stamp.h"
+#include "stream/time_unit.h"
 
 enum { GAPS_MOST = 1000 };      /* samples for each that is there */
 #define LONGEST 10              /* usual steps; stamps farther apart have a gap between them */
@@ -18,113 +19,7 @@ enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
 #define MOST_RATE 1e10
 #define DOUBTED_RATE 100.       /* [Hz] a clock below, of no unit, may count milliseconds */
 
-/* Seconds are stamps * factor / divisor. */
-struct time_unit {
-    const char *name, *others;  /* the usual name; others, with blanks between */
-    double factor, divisor;
-    int is_name;                /* does a column of such a name hold times? */
-};
-
-static const struct time_unit units_of_time[] = {
-    { "s", "sec secs second seconds", 1, 1, 0 },
-    { "ms", "msec millisecond milliseconds", 1, 1e3, 1 },
-    { "us", "usec microsecond microseconds \u00b5s \u03bcs", 1, 1e6, 1 },
-    { "ns", "nsec nanosecond nanoseconds", 1, 1e9, 1 },
-    { "min", "minute minutes", 60, 1, 0 },
-    { "h", "hr hour hours", 3600, 1, 0 }
-};
-enum { UNITS_OF_TIME = sizeof units_of_time / sizeof *units_of_time };
-
-const char *
-ss_time_unit_name(size_t i)
-{
-    return i < UNITS_OF_TIME ? units_of_time[i].name : NULL;
-}
-
-/* Is the word of n bytes one of those in the list, in any case? */
-static int
-is_in_list(const char *list, const char *word, size_t n)
-{
-    for (; n > 0 && *list != '\0'; list += strcspn(list, " "), list += *list == ' ')
-        if (strcspn(list, " ") == n && strncasecmp(list, word, n) == 0)
-            return 1;
-    return 0;
-}
-
-static const struct time_unit *
-find_time_unit(const char *name)
-{
-    for (const struct time_unit *unit = units_of_time; unit < units_of_time + UNITS_OF_TIME; unit++)
-        if (strcasecmp(unit->name, name) == 0 || is_in_list(unit->others, name, strlen(name)))
-            return unit;
-    return NULL;
-}
-
-/* The unit that a column's name is or ends with, or NULL: ms, Time_ms.  *length: of what stands
- * before. */
-static const struct time_unit *
-unit_in_name(const char *name, size_t *length)
-{
-    size_t n = strlen(name);
-    while (n > 0 && strchr("_.-", name[n - 1]) == NULL)
-        n--;
-    const struct time_unit *unit = find_time_unit(name + n);
-    *length = unit == NULL ? strlen(name) : n > 0 ? n - 1 : 0;
-    return unit;
-}
-
-/* Is this column called time, as Time, t, time_ms, ms and Seconds are? */
-static int
-is_called_time(const ss_column *c)
-{
-    static const char words[] = "t time timestamp time_stamp datetime date_time epoch unix_time zeit temps "
-        "tempo tiempo elapsed elapsed_time x_value";
-    static const char alone[] = "sec second seconds";
-    size_t length;
-    const struct time_unit *unit = unit_in_name(c->name, &length);
-    if (unit != NULL && length == 0)
-        return unit->is_name || is_in_list(alone, c->name, strlen(c->name));
-    return is_in_list(words, c->name, length);
-}
-
-/* A number of no unit that is a date between 2000 and 2100 in seconds since 1970, or in parts of
- * them: those, else NULL. */
-static const struct time_unit *
-unit_of_date(double stamp)
-{
-    for (size_t i = 0; i < 4; i++) {
-        double seconds = stamp / units_of_time[i].divisor;
-        if (seconds >= 946684800 && seconds < 4102444800)
-            return &units_of_time[i];
-    }
-    return NULL;
-}
-
-/* The unit of a column of numbers that are times: that given by the caller, the file or the
- * column's name, or else that of a date; NULL if nothing says what it is. */
-static ss_status
-unit_of_times(const struct table *t, size_t column, const struct time_unit **unit, int *is_date, ss_error *err)
-{
-    size_t length;
-    const ss_column *c = &t->names->column[column];
-    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
-    *unit = *own != '\0' ? find_time_unit(own) : strcasecmp(c->name, "x_value") == 0
-        ? &units_of_time[0] : unit_in_name(c->name, &length);
-    if (*unit == NULL && *own != '\0')
-        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
-                       c->name, own);
-    *is_date = *unit == NULL && (*unit = unit_of_date(t->first[column])) != NULL;
-    return SS_OK;
-}
-
 /* --- the stamps of the rows ---------------------------------------------------------------- */
-
-static double
-stamp_of(const struct table *t, const double *row)
-{
-    const struct time_column *c = &t->time;
-    return c->origin + row[c->column] * c->factor / c->divisor;
-}
 
 static ss_status
 rewind_rows(void *source, ss_error *err)
@@ -140,7 +35,7 @@ next_stamp(void *source, int *there, double *stamp, unsigned long *line, ss_erro
     ss_status st = ss_delimited_next(t, &row, err);
     *there = row != NULL;
     if (*there) {
-        *stamp = stamp_of(t, row);
+        *stamp = ss_delimited_stamp(t, row);
         *line = (unsigned long)row[t->n_columns];
     }
     return st;
@@ -179,7 +74,7 @@ survey_stamps(struct table *t, double *gap, double *last, size_t *n, ss_error *e
     *gap = -1;
     *last = 0;
     for (*n = 0; st == SS_OK && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL; ++*n) {
-        double stamp = stamp_of(t, row), start = t->names->start;
+        double stamp = ss_delimited_stamp(t, row), start = t->names->start;
         if (*n == 0)
             t->names->start = stamp;
         else if (*gap < 0 && stamp - *last > t->longest)
@@ -225,68 +120,24 @@ read_stamps(struct table *t, struct time_column time, double *own, ss_error *err
     return st;
 }
 
-/* --- samples ------------------------------------------------------------------------------- */
+/* --- a column of numbers ------------------------------------------------------------------- */
 
-static void
-keep_values(const struct table *t, const double *row, double *to)
-{
-    for (size_t c = 0; c < t->n_kept; c++)
-        to[c] = row[t->kept[c]];
-}
-
+/* The unit of a column of numbers that are times: that given by the caller, the file or the
+ * column's name, or else that of a date; NULL if nothing says what it is. */
 static ss_status
-next_row(void *source, int *there, double *stamp, double *to, ss_error *err)
+unit_of_times(const struct table *t, size_t column, const struct time_unit **unit, int *is_date, ss_error *err)
 {
-    struct table *t = source;
-    const double *row;
-    ss_status st = ss_delimited_next(t, &row, err);
-    *there = row != NULL;
-    if (*there) {
-        *stamp = stamp_of(t, row);
-        keep_values(t, row, to);
-    }
-    return st;
-}
-
-ss_status
-ss_delimited_begin_samples(struct table *t, ss_error *err)
-{
-    ss_resampler_free(t->resampler);
-    t->resampler = NULL;
-    t->count = (struct sample_count){ .usual = t->count.usual };
-    t->row = NULL;
-    t->given = 0;
-    ss_status st = ss_delimited_rewind(t, err);
-    if (st == SS_OK && t->longest > 0)
-        st = ss_resampler_new(&t->resampler, t->in->name, t->n_kept, t->names->rate, t->longest, next_row, t, err);
-    return st;
-}
-
-ss_status
-ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_error *err)
-{
-    if (t->resampler != NULL)
-        return ss_resampler_rows(t->resampler, rows, max, n, err);
-    for (*n = 0; *n < max; ++*n, t->given++) {
-        double *to = rows + *n * t->n_kept;
-        if (t->row == NULL) {
-            ss_status st = ss_delimited_next(t, &t->row, err);
-            if (st != SS_OK || t->row == NULL)
-                return st;
-            t->sample = t->time.column == NONE ? t->given : ss_clock_sample(&t->count, stamp_of(t, t->row));
-        }
-        if (t->sample == t->given) {
-            keep_values(t, t->row, to);
-            t->row = NULL;
-        } else {
-            for (size_t c = 0; c < t->n_kept; c++)
-                to[c] = NAN;
-        }
-    }
+    size_t length;
+    const ss_column *c = &t->names->column[column];
+    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
+    *unit = *own != '\0' ? ss_time_unit_find(own) : strcasecmp(c->name, "x_value") == 0
+        ? ss_time_unit_find("s") : ss_time_unit_in(c->name, &length);
+    if (*unit == NULL && *own != '\0')
+        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
+                       c->name, own);
+    *is_date = *unit == NULL && (*unit = ss_time_unit_of_date(t->first[column])) != NULL;
     return SS_OK;
 }
-
-/* ------------------------------------------------------------------------------------------- */
 
 /* Ask about a clock that no laboratory has, unless the caller gave its unit; doubt one without unit
  * that would be usual with another. */
@@ -318,7 +169,7 @@ read_clock(struct table *t, size_t column, ss_error *err)
     if (is_date)
         ss_delimited_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->in->name,
                           name, known->name);
-    const struct time_unit *unit = known != NULL ? known : &units_of_time[0];
+    const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
     st = read_stamps(t, (struct time_column){ column, t->counted.origin, unit->factor, unit->divisor }, &rate, err);
     return st == SS_OK ? check_rate(t, name, known, rate, err) : st;
 }
@@ -374,7 +225,7 @@ find_any_stamps(const struct table *t)
     return both != NONE ? both : time != NONE ? time : find_stamps(t, STAMP_DATE);
 }
 
-/* ------------------------------------------------------------------------------------------- */
+/* --- the choice ---------------------------------------------------------------------------- */
 
 static ss_status
 no_such_column(const struct table *t, const char *name, ss_error *err)
@@ -429,14 +280,14 @@ find_time(const struct table *t, int *guessed)
     if (t->counted.increment > 0)
         return t->counted.numbered ? 0 : NONE;
     for (size_t i = 0; i < t->n_columns; i++)
-        if (t->column[i].kind == COLUMN_NUMBERS && is_called_time(&column[i]))
+        if (t->column[i].kind == COLUMN_NUMBERS && ss_is_called_time(column[i].name))
             return i;
     size_t stamps = find_any_stamps(t);
     if (stamps != NONE)
         return stamps;
     if (t->n_columns < 2 || t->column[0].kind != COLUMN_NUMBERS)
         return NONE;
-    if (*column[0].unit != '\0' && find_time_unit(column[0].unit) != NULL)
+    if (*column[0].unit != '\0' && ss_time_unit_find(column[0].unit) != NULL)
         return 0;
     *guessed = !t->named;                       /* a force over its deflection ascends too */
     return *guessed ? 0 : NONE;
