@@ -14,12 +14,12 @@
 #include "stream/frames.h"
 #include "stream/reader.h"
 
-/* Limits of a header that is believed; the annotation is the rest of it. */
+/* A header within these limits is accepted; its annotation follows the fixed part. */
 enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 
 #define UNKNOWN_SIZE UINT32_C(0xffffffff)
 
-/* Bytes a value, by the encoding of the file; 0 is not supported. */
+/* Bytes of a value for each encoding of the file; 0 if it is not supported. */
 static const unsigned width[] = { 0, 0, 1, 2, 3, 4, 4, 8 };
 enum { ENCODING_FLOAT = 6, ENCODING_DOUBLE = 7 };
 
@@ -29,7 +29,7 @@ big_endian(const unsigned char *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Our header in the annotation: gives *out NULL if it is none or is malformed. */
+/* Read our header from the annotation; *out becomes NULL if this is not one, or is malformed. */
 static ss_status
 read_annotation(ss_header **out, const char *magic, char *text)
 {
@@ -56,7 +56,7 @@ read_annotation(ss_header **out, const char *magic, char *text)
     return SS_OK;
 }
 
-/* The nearest whole Hz that AU can say; the annotation has the exact rate. */
+/* The nearest rate in whole Hz, which is all that AU has; the annotation has the exact rate. */
 static uint32_t
 whole_rate(double rate)
 {
@@ -123,7 +123,7 @@ open_au(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (st != SS_OK)
         return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
     in->lo += offset;
-    /* 0 is what a program leaves that meant to fill it in at the end. */
+    /* a program that meant to fill in the size at the end leaves 0 */
     ss_frames_begin(reader, (sample_type){ .bytes = width[encoding],
                                            .is_float = encoding >= ENCODING_FLOAT },
                     size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size, (uint64_t)offset + size);
@@ -161,7 +161,7 @@ begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
     char *text = ss_header_text(head, magic, &length);
     if (text == NULL)
         return SS_ENOMEM;
-    size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* NULs, at least one */
+    size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* at least one NUL */
     int fits = head->n_columns <= MAX_CHANNELS && length + padding <= MAX_ANNOTATION;
     if (fits)
         write_header(out, head, text, length, padding);
@@ -177,7 +177,7 @@ encode_number(char *to, double x, int last)
 {
     (void)last;
     uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);     /* and one by one, which compilers make one instruction */
+    memcpy(&bits, &x, sizeof bits);     /* compilers make one instruction of these eight bytes */
     to[0] = (char)(bits >> 56), to[1] = (char)(bits >> 48 & 0xff);
     to[2] = (char)(bits >> 40 & 0xff), to[3] = (char)(bits >> 32 & 0xff);
     to[4] = (char)(bits >> 24 & 0xff), to[5] = (char)(bits >> 16 & 0xff);

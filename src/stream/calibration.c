@@ -6,7 +6,7 @@
 #include "signal/header.h"
 #include "stream/calibration.h"
 
-/* The column that is meant; -1 and the reason if it is not clear. */
+/* The index of the column that is to be calibrated; -1, with the reason in err, if this is not clear. */
 static int
 find_column(const ss_header *head, const ss_calibration *c, const char *name, ss_error *err)
 {
@@ -32,7 +32,7 @@ set_unit(ss_header *head, int column, const char *unit)
     return SS_OK;
 }
 
-/* "force x 4.45 N, accel g": what was done to the columns. */
+/* Note what was done to the columns: "force x 4.45 N, accel g". */
 static ss_status
 note_calibration(ss_header *head, const double *factor, const char *is_new)
 {
@@ -55,7 +55,7 @@ note_calibration(ss_header *head, const double *factor, const char *is_new)
     return st;
 }
 
-/* Factors first: a column that has one loses its unit, unless it is given another. */
+/* Apply the factors before the units: a column with a factor loses its unit, unless it is given another. */
 static ss_status
 apply(ss_header *head, const ss_read_opts *opts, const char *name, double *factor, char *is_new,
       ss_error *err)

@@ -12,12 +12,12 @@
 #include "base/list.h"
 #include "stream/clock.h"
 
-#define TOLERANCE 0.1           /* sample periods that a stamp may be off */
-enum { DIGIT = 16 };            /* bits of a step that are found at a time */
+#define TOLERANCE 0.1           /* a stamp may be off by so many sample periods */
+enum { DIGIT = 16 };            /* so many bits of a step are found at a time */
 
 /* --- the straight line through stamps, by least squares ------------------------------------- */
 
-/* Does the corner b lie within the hull of a and c?  sign: of the side. */
+/* 1 if b is no corner of the convex hull between a and c, on the side with this sign. */
 static int
 is_within(struct clock_point a, struct clock_point b, struct clock_point c, double sign)
 {
@@ -25,7 +25,8 @@ is_within(struct clock_point a, struct clock_point b, struct clock_point c, doub
                    - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0;
 }
 
-/* The point farthest from a line is a corner of the convex hull, which has few of them. */
+/* Add a point to one side of the convex hull; 0: no memory.  The point farthest from a line is one of its
+ * corners, of which there are few. */
 static int
 add_corner(struct clock_side *s, struct clock_point p, double sign)
 {
@@ -84,7 +85,7 @@ largest_distance(const clock_fit *f, struct line l)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; i < f->side[s].n; i++) {
             double off = distance(l, f->side[s].corner[i]);
-            most = off <= most ? most : off;    /* and NaN */
+            most = off <= most ? most : off;    /* NaN stays */
         }
     return most;
 }
@@ -93,7 +94,7 @@ largest_distance(const clock_fit *f, struct line l)
 
 struct walk {
     const struct stamps *of;
-    double stamp, before;       /* before: the one before it */
+    double stamp, before;       /* before: the previous stamp */
     unsigned long line;
     size_t n;                   /* stamps so far */
     ss_status status;
@@ -106,7 +107,7 @@ start(const struct stamps *s, ss_error *err)
     return (struct walk){ .of = s, .status = s->rewind(s->source, err), .err = err };
 }
 
-/* 0: there is no other stamp, or it cannot be read. */
+/* Go to the next stamp.  Returns 0 if there is none, or it cannot be read. */
 static int
 step(struct walk *w)
 {
@@ -139,7 +140,7 @@ check_stamps(const struct stamps *s, size_t *n, ss_error *err)
     return SS_OK;
 }
 
-/* A step between stamps that ascend, as an integer that ascends with it. */
+/* The bits of a double >= 0 as an integer: integers made in this way are in the order of the doubles. */
 static uint64_t
 bits_of(double x)
 {
@@ -148,8 +149,9 @@ bits_of(double x)
     return bits;
 }
 
-/* Find the next DIGIT bits of the step of this rank, in ascending order, among those whose highest bits
- * are known; *rank becomes that among those that have the new ones too. */
+/* Find the next DIGIT bits of a step whose highest bits are *known and whose rank among the steps with
+ * these highest bits is *rank.  *known gains the new bits; *rank becomes the rank among the steps that
+ * have these, too. */
 static ss_status
 next_digit(const struct stamps *s, size_t *count, int below, uint64_t *known, size_t *rank, ss_error *err)
 {
@@ -177,7 +179,7 @@ ss_usual_step(const struct stamps *s, double *usual, ss_error *err)
         return st;
     if ((count = malloc(((size_t)1 << DIGIT) * sizeof *count)) == NULL)
         return ss_fail_memory(err, s->file);
-    size_t rank = (n - 2) / 2;                  /* the lower median: gaps lengthen steps */
+    size_t rank = (n - 2) / 2;                  /* the lower median, since gaps lengthen steps */
     for (int below = 64 - DIGIT; st == SS_OK && below >= 0; below -= DIGIT)
         st = next_digit(s, count, below, &known, &rank, err);
     memcpy(usual, &known, sizeof *usual);
@@ -198,13 +200,13 @@ ss_clock_sample(struct sample_count *c, double stamp)
     return sample;
 }
 
-/* A stamp that is off. */
+/* A stamp that is off by `by`. */
 struct off {
     double by, stamp, before;
     unsigned long line;
 };
 
-/* The farthest from the line; the first, where rounding alone tells two apart. */
+/* Find the stamp that is farthest from the line; of several that differ only by rounding, the first. */
 static ss_status
 farthest_from(struct line l, const struct stamps *s, double usual, struct off *worst, ss_error *err)
 {
@@ -222,7 +224,7 @@ farthest_from(struct line l, const struct stamps *s, double usual, struct off *w
     return w.status;
 }
 
-/* The farthest from the one before and a usual step. */
+/* Find the stamp whose step from the one before differs most from the usual step. */
 static ss_status
 farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error *err)
 {
@@ -234,8 +236,8 @@ farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error 
     return w.status;
 }
 
-/* Name the row at fault: the one whose step from the row before is farthest from the usual one, or,
- * where no step is out of line, the one farthest from the best clock. */
+/* The error names the row at fault: the one whose step from the row before differs most from the usual
+ * step or, if all steps are within the tolerance, the one farthest from the best clock. */
 static ss_status
 refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
 {
@@ -270,7 +272,7 @@ ss_refuse_range(const char *name, double rate, double start, ss_error *err)
                    "... 1e300 Hz, -1e300 ... 1e300 s", name, rate, start);
 }
 
-/* The decimal of fewest digits in [lo, hi]; *digits is how many that are. */
+/* The decimal number with the fewest digits in [lo, hi]; *digits becomes their number. */
 static double
 roundest(double lo, double hi, int *digits)
 {
@@ -297,7 +299,7 @@ ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
     if (!(l.period > 0 && deviation <= TOLERANCE * l.period))
         return SS_EUNEVEN;
 
-    /* Each stamp is off by the deviation at most, so the period over all of them by twice that. */
+    /* each stamp is off by at most the deviation, so the period over all of them by at most twice that */
     double rounding = 2 * DBL_EPSILON * fmax(fabs(f->first.stamp), fabs(f->last.stamp));
     double slack = 2 * (deviation + rounding) / f->last.sample + 4 * DBL_EPSILON * l.period;
     int rate_digits, period_digits;

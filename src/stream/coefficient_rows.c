@@ -20,7 +20,7 @@ struct ss_coefficient_writer {
     double rate, start;
     ss_span *gap;
     size_t n_gaps;
-    int stream;                 /* the length comes last */
+    int stream;                 /* 1: the length of the record comes last */
     struct output out;          /* empty between calls */
 };
 
@@ -81,7 +81,7 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
         int edge = wavelet_edge(scale, first + i, samples, writer->rate, writer->start, writer->gap,
                                 writer->n_gaps);
         char *to = writer->out.buffer + writer->out.used;
-        memcpy(to, m_and_a, sizeof m_and_a);    /* a known size is copied without a call */
+        memcpy(to, m_and_a, sizeof m_and_a);    /* the constant size lets compilers avoid a call */
         to += length;
         to += write_number(to, b, 0);
         memcpy(to, f, sizeof f);
@@ -99,8 +99,8 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
     return ss_output_drain(&writer->out);
 }
 
-/* The length of a stream, which only its end shows: a note, or a row at scale 0 whose b is the last
- * sample's. */
+/* Write the length of a stream, which is known only at its end: as a note, or as a row at scale 0 whose b
+ * is the time of the last sample. */
 static void
 write_length(struct output *out, const struct format *format, size_t samples, double rate)
 {

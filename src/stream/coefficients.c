@@ -15,27 +15,27 @@
 #include "stream/coefficient_rows.h"
 #include "stream/reader.h"
 
-/* A scale of which rows have come. */
+/* A scale of which rows have been read. */
 typedef struct part {
-    ss_scale scale;             /* n is what the grid has, SIZE_MAX until that is known */
-    size_t n, room;             /* rows that have come, room for so many */
-    size_t tail;                /* n, or the first row with the edge of an end not known yet */
+    ss_scale scale;             /* n is the grid's, SIZE_MAX until that is known */
+    size_t n, room;             /* rows that have been read; room for rows */
+    size_t tail;                /* n, or the first row whose edge is that of an end not yet known */
     double *w;
 } part;
 
 typedef struct coefficient_reader {
-    ss_reader in;               /* comes first */
+    ss_reader in;               /* must be the first member */
     ss_error *err;
     ss_coefficients *coef;      /* its n is 0 until the length is known */
-    ss_morlet_opts opts;        /* what the grid follows from */
+    ss_morlet_opts opts;        /* the options that determine the grid */
     part *part;
-    size_t n_parts, room, last; /* last: the part of the row before */
-    size_t *part_of;            /* of every j that there can be, its part from 1; 0: none yet */
+    size_t n_parts, room, last; /* last: the part of the previous row */
+    size_t *part_of;            /* for every possible j its part, counted from 1; 0: none yet */
 } coefficient_reader;
 
-enum { LARGEST_M = 500 };       /* |log2 a| */
+enum { LARGEST_M = 500 };       /* the largest |log2 a| */
 
-/* SS_EDATA, and what is wrong with the current line of text, or row of AU. */
+/* SS_EDATA, with the number of the current line of text, or row of AU. */
 SS_PRINTF(2, 3)
 static ss_status
 refuse(const coefficient_reader *r, const char *format, ...)
@@ -52,7 +52,7 @@ refuse(const coefficient_reader *r, const char *format, ...)
 
 /* --- header */
 
-/* All but the columns of the stream's header, if these are those of coefficients. */
+/* Check that the columns are those of coefficients, and copy the rest of the stream's header. */
 static ss_status
 take_header(coefficient_reader *r)
 {
@@ -102,7 +102,7 @@ says_yes(const coefficient_reader *r, const char *key)
     return value != NULL && strcmp(value, "yes") == 0;
 }
 
-/* The options that the grid follows from. */
+/* Read the options that determine the grid. */
 static ss_status
 read_options(coefficient_reader *r)
 {
@@ -154,7 +154,7 @@ new_part(coefficient_reader *r, int j, const double number[])
     return SS_OK;
 }
 
-/* Make the part of this row the last one. */
+/* Find or add the part to which this row belongs; r->last becomes its index. */
 static ss_status
 find_part(coefficient_reader *r, const double number[])
 {
@@ -187,7 +187,7 @@ append(part *p, double re, double im)
     return SS_OK;
 }
 
-/* The edge as far as it is known of a record of n samples. */
+/* The edge of coefficient k in a record of n samples; SIZE_MAX if the end is not known. */
 static int
 known_edge(const coefficient_reader *r, const part *p, size_t k, size_t n)
 {
@@ -195,7 +195,8 @@ known_edge(const coefficient_reader *r, const part *p, size_t k, size_t n)
     return wavelet_edge(&p->scale, k, n, c->head->rate, c->head->start, c->gap, c->n_gaps);
 }
 
-/* Is that the edge?  Where the end is not known, this is looked at again by check_tail. */
+/* 1 if the edge of the next row of a part can be right.  While the end is not known, edges near it are
+ * accepted; check_tail checks them later. */
 static int
 edge_fits(const coefficient_reader *r, part *p, double edge)
 {
@@ -223,8 +224,8 @@ append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
     return append(p, number[4], number[5]);
 }
 
-/* Check all that depends on the length of the record: the translations of each scale, and where the
- * cone of influence of its end begins. */
+/* Check all that depends on the length of the record: the number of translations of a scale, and where
+ * the cone of influence of the record's end begins. */
 static ss_status
 check_tail(coefficient_reader *r, part *p)
 {
@@ -244,7 +245,7 @@ check_tail(coefficient_reader *r, part *p)
     return SS_OK;
 }
 
-/* The length of the record, which ends a stream. */
+/* Set the length of the record, and check the scales against it. */
 static ss_status
 set_length(coefficient_reader *r, double samples)
 {
@@ -270,7 +271,7 @@ read_late_note(ss_reader *in, char *line, ss_error *err)
     return set_length((coefficient_reader *)in, ss_number_parse(line + sizeof length - 1, NULL));
 }
 
-/* In AU, a row at scale 0 does: its b is the last sample's. */
+/* In AU, a row at scale 0 ends a stream: its b is the time of the last sample. */
 static ss_status
 read_rows_of_scales(coefficient_reader *r)
 {
@@ -320,7 +321,7 @@ assemble(coefficient_reader *r)
         p->scale.offset = offset;
         coef->scale[coef->n_scales] = p->scale;
         memcpy(coef->w + 2 * offset, p->w, 2 * p->n * sizeof *p->w);
-        free(p->w);                     /* now, as all of them twice may be too much */
+        free(p->w);                     /* now, as there may be no memory for all of them twice */
         p->w = NULL;
         offset += p->n;
     }

@@ -41,7 +41,7 @@ drop_lines(struct table *t)
     t->n_head = 0;
 }
 
-/* Keep the lines above the first row of data, which becomes *row; NULL: there is none. */
+/* Keep the lines above the first row of data.  *row becomes this row; NULL: there is none. */
 static ss_status
 keep_header(struct table *t, char **row, ss_error *err)
 {
@@ -92,7 +92,7 @@ append_row(struct table *t, char *text, ss_error *err)
     return st == SS_OK ? add_stamp(t, row, err) : st;
 }
 
-/* Find the kinds of the columns, as the cells of the first row show. */
+/* Find the kinds of the columns from the cells of the first row. */
 static ss_status
 find_kinds(struct table *t, const char *row, ss_error *err)
 {
@@ -127,7 +127,7 @@ begin_table(struct table *t, const char *row, ss_error *err)
 {
     if (t->n_columns > MAX_COLUMNS)
         return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->in->name, t->in->line);
-    char *first = strdup(row);                  /* split below, and for the names */
+    char *first = strdup(row);                  /* row may lie in what is split below */
     ss_status st = first != NULL ? find_kinds(t, first, err) : ss_delimited_no_memory(t, err);
     if (st == SS_OK)
         st = ss_delimited_read_names(t, err);
@@ -142,13 +142,13 @@ begin_table(struct table *t, const char *row, ss_error *err)
     return st;
 }
 
-/* Begin a table with this of the kept lines, and those below it. */
+/* Begin a table with a kept line as its first row, and the kept lines below it as further rows. */
 static ss_status
 begin_kept(struct table *t, size_t first, ss_error *err)
 {
     size_t n = t->n_head;
     unsigned long line = t->in->line;
-    t->n_head = first;                          /* for the names */
+    t->n_head = first;                          /* names are sought above this line */
     t->in->line = t->head[first].number;
     ss_status st = begin_table(t, t->head[first].text, err);
     for (size_t i = first + 1; st == SS_OK && i < n; i++) {
@@ -161,8 +161,8 @@ begin_kept(struct table *t, size_t first, ss_error *err)
     return st;
 }
 
-/* Begin with the first row of numbers.  If there is none, or a line of words and numbers stands
- * above it, begin with the first of the lines that are alike. */
+/* Begin a table with the first row of numbers.  If there is none, or a line of words and numbers stands
+ * above it, begin with the first line of words and numbers that is like those below it. */
 static ss_status
 begin_first(struct table *t, const char *row, ss_error *err)
 {
@@ -189,7 +189,7 @@ begin_first(struct table *t, const char *row, ss_error *err)
     return begin_kept(t, t->n_head - 1, err);
 }
 
-/* May this line be a heading, and no row? */
+/* *yes becomes 1 if this line may be a heading, and not a row. */
 static ss_status
 is_heading(struct table *t, const char *line, int *yes, ss_error *err)
 {
@@ -253,7 +253,7 @@ read_body(struct table *t, char **row, ss_error *err)
 
 /* --- several tables ------------------------------------------------------------------------- */
 
-/* Forget the rows and columns of a table before the next. */
+/* Discard the rows and columns of a table before the next one. */
 static ss_status
 clear_table(struct table *t, ss_error *err)
 {
@@ -308,7 +308,7 @@ read_table(struct table *t, ss_error *err)
 
 /* --- as a reader --------------------------------------------------------------------------- */
 
-/* Keep all columns but that of time and those of text or other stamps, with their names in *head. */
+/* Keep the columns of numbers without that of time; *head becomes a header with their names. */
 static ss_status
 keep_columns(struct table *t, ss_header **head)
 {
@@ -350,7 +350,7 @@ ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
         st = ss_fail(err, SS_EDATA, "%s: no column but time", t->in->name);
     if (st == SS_OK)
         st = ss_delimited_begin_samples(t, err);
-    t->opts = NULL;                             /* the caller's may be gone when samples are given */
+    t->opts = NULL;                             /* they may no longer exist when samples are read */
     reader->rows = give_samples;
     reader->rewind = rewind_samples;
     return st == SS_OK && gaps != SS_GAPS_REFUSE ? ss_reader_fill_gaps(reader, gaps, err) : st;
@@ -393,7 +393,7 @@ open_table(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail_memory(err, in->name);
     ss_status st = ss_input_need(in, 3, err);
     if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
-        in->lo += 3;                            /* a byte-order mark */
+        in->lo += 3;                            /* skip the byte-order mark */
     if (st == SS_OK)
         st = read_table(t, err);
     return st == SS_OK ? ss_delimited_finish(t, reader, err) : st;

@@ -80,7 +80,7 @@ ss_delimited_split(struct table *t, char *p, char separator)
     return n;
 }
 
-/* Words that recorders write in place of a number. */
+/* 1 if the cell is a word that recorders write in place of a missing number. */
 static int
 is_no_number(const char *cell)
 {
@@ -93,7 +93,7 @@ is_no_number(const char *cell)
     return 0;
 }
 
-/* As ss_number_parse, and Fortran's 1.0D+00 too. */
+/* Reads as ss_number_parse does, and also Fortran's 1.0D+00. */
 static double
 parse(char *cell, char **end)
 {

@@ -10,14 +10,14 @@
 #include "stream/stamp.h"
 #include "stream/time_unit.h"
 
-enum { GAPS_MOST = 1000 };      /* samples for each that is there */
+enum { GAPS_MOST = 1000 };      /* at most so many samples for each one that is not missing */
 #define LONGEST 10              /* usual steps; stamps farther apart have a gap between them */
-/* A short file may not claim much by two time stamps that lie far apart. */
+/* A short file cannot claim much memory by two time stamps that lie far apart. */
 enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
 
 #define LEAST_RATE (1 / 3600. * (1 - 1e-9))     /* a sample an hour */
 #define MOST_RATE 1e10
-#define DOUBTED_RATE 100.       /* [Hz] a clock below, of no unit, may count milliseconds */
+#define DOUBTED_RATE 100.       /* [Hz] a slower clock without a unit may count milliseconds */
 
 /* --- the stamps of the rows ---------------------------------------------------------------- */
 
@@ -41,7 +41,7 @@ next_stamp(void *source, int *there, double *stamp, unsigned long *line, ss_erro
     return st;
 }
 
-/* Find the clock of the stamps, on which rows are samples. */
+/* Find the clock on which the rows with these stamps are samples. */
 static ss_status
 find_clock(struct table *t, const struct stamps *s, ss_error *err)
 {
@@ -63,8 +63,8 @@ find_clock(struct table *t, const struct stamps *s, ss_error *err)
     return st;
 }
 
-/* The first and the last stamp, how many there are, and, behind gap, the first sample at this rate that lies in a
- * gap, or a negative number. */
+/* Find the first and the last stamp, their number, and the first sample of the resampled signal that lies
+ * in a gap; *gap is negative if there is none. */
 static ss_status
 survey_stamps(struct table *t, double *gap, double *last, size_t *n, ss_error *err)
 {
@@ -84,7 +84,7 @@ survey_stamps(struct table *t, double *gap, double *last, size_t *n, ss_error *e
     return st;
 }
 
-/* A clock of opts->resample, to which a spline leads from the stamps. */
+/* The clock is opts->resample; check that the stamps can be resampled to it.  *own becomes their rate. */
 static ss_status
 resample_stamps(struct table *t, const struct stamps *s, double *own, ss_error *err)
 {
@@ -107,7 +107,7 @@ resample_stamps(struct table *t, const struct stamps *s, double *own, ss_error *
                    t->names->start + gap / rate, usual);
 }
 
-/* The column holds times; *own: their rate. */
+/* Find the clock of the times in a column.  *own becomes their rate. */
 static ss_status
 read_stamps(struct table *t, struct time_column time, double *own, ss_error *err)
 {
@@ -122,8 +122,8 @@ read_stamps(struct table *t, struct time_column time, double *own, ss_error *err
 
 /* --- a column of numbers ------------------------------------------------------------------- */
 
-/* The unit of a column of numbers that are times: that given by the caller, the file or the
- * column's name, or else that of a date; NULL if nothing says what it is. */
+/* The unit of a column of numbers that are times: given by the caller, the file or the column's name, or
+ * that of a date (*is_date is 1); NULL if it is not known. */
 static ss_status
 unit_of_times(const struct table *t, size_t column, const struct time_unit **unit, int *is_date, ss_error *err)
 {
@@ -139,8 +139,8 @@ unit_of_times(const struct table *t, size_t column, const struct time_unit **uni
     return SS_OK;
 }
 
-/* Ask about a clock that no laboratory has, unless the caller gave its unit; doubt one without unit
- * that would be usual with another. */
+/* SS_EUNIT for a clock that no laboratory has, unless the caller gave its unit.  Warn of a clock without a
+ * unit that would be usual in another unit. */
 static ss_status
 check_rate(const struct table *t, const char *name, const struct time_unit *given, double rate, ss_error *err)
 {
@@ -188,7 +188,7 @@ note_date(struct table *t, double day)
     return ss_header_note(t->names, "date", text);
 }
 
-/* A clock of a column of dates, times or both. */
+/* Find the clock of a column of dates, times of day or both. */
 static ss_status
 read_stamp_clock(struct table *t, size_t column, ss_error *err)
 {
@@ -207,7 +207,7 @@ read_stamp_clock(struct table *t, size_t column, ss_error *err)
     return st;
 }
 
-/* The first column of such stamps, or NONE. */
+/* The first column of stamps with these parts, or NONE. */
 static size_t
 find_stamps(const struct table *t, unsigned parts)
 {
@@ -217,7 +217,7 @@ find_stamps(const struct table *t, unsigned parts)
     return NONE;
 }
 
-/* The column that tells most of when, or NONE. */
+/* The first column of dates with times, or else of times, or else of dates; NONE if there is none. */
 static size_t
 find_any_stamps(const struct table *t)
 {
@@ -242,7 +242,7 @@ no_such_column(const struct table *t, const char *name, ss_error *err)
     return ss_fail(err, SS_EDATA, "%s: no column '%.40s', there are %s", t->in->name, name, list);
 }
 
-/* The column of time that the caller names. */
+/* Find the clock of the column that the caller has named. */
 static ss_status
 read_chosen(struct table *t, size_t chosen, ss_error *err)
 {
@@ -258,7 +258,7 @@ read_chosen(struct table *t, size_t chosen, ss_error *err)
                    t->names->column[chosen].name);
 }
 
-/* Rows one after the other at a step that the header gives. */
+/* The rows follow each other at a step that the header gives. */
 static ss_status
 count_rows(struct table *t)
 {
@@ -267,7 +267,7 @@ count_rows(struct table *t)
     return SS_OK;
 }
 
-/* The column of time, or NONE; *guessed: only its place says so. */
+/* The column of time, or NONE.  *guessed becomes 1 if only its place suggests that it is one. */
 static size_t
 find_time(const struct table *t, int *guessed)
 {
@@ -289,7 +289,7 @@ find_time(const struct table *t, int *guessed)
         return NONE;
     if (*column[0].unit != '\0' && ss_time_unit_find(column[0].unit) != NULL)
         return 0;
-    *guessed = !t->named;                       /* a force over its deflection ascends too */
+    *guessed = !t->named;                       /* if named, it may be a deflection that ascends */
     return *guessed ? 0 : NONE;
 }
 

@@ -34,9 +34,9 @@ ss_delimited_is_key(const char *cell)
     return is_one_of(cell, steps) || is_one_of(cell, units) || is_one_of(cell, names);
 }
 
-/* The cells of the last kept line, behind the file's own header, that begins with one of these
- * words; gives how many there are behind it, in t->cell + 1.  0: there is none; NONE: no memory.
- * *text holds the cells and is to be freed. */
+/* Find the last kept line that begins with one of these words.  Returns the number of cells behind the
+ * word, which are in t->cell + 1; 0: there is no such line; NONE: no memory.  The cells lie in *text,
+ * which is to be freed. */
 static size_t
 find_line(struct table *t, const char *const *word, char **text)
 {
@@ -44,7 +44,7 @@ find_line(struct table *t, const char *const *word, char **text)
     for (size_t i = t->n_head; i-- > 0;) {
         size_t n_columns = t->n_columns;
         char *copy = strdup(t->head[i].text);
-        t->n_columns = 0;                       /* so that empty cells at the end are dropped */
+        t->n_columns = 0;                       /* then all empty cells at the end are dropped */
         size_t n = copy != NULL ? ss_delimited_split(t, copy, t->separator) : NONE;
         t->n_columns = n_columns;
         if (n == NONE) {
@@ -63,8 +63,8 @@ find_line(struct table *t, const char *const *word, char **text)
 
 /* --- what the lines say -------------------------------------------------------------------- */
 
-/* The number that all cells of a line have; *n: how many, 0 if there is no such line.  Cells that
- * are no numbers, as dates, are none. */
+/* Read the number that all cells of a line have in common.  *n becomes the number of these cells, 0 if
+ * there is no such line.  Cells without a number, such as dates, do not count. */
 static ss_status
 read_same(struct table *t, const char *const *word, double *x, size_t *n, ss_error *err)
 {
@@ -86,8 +86,8 @@ read_same(struct table *t, const char *const *word, double *x, size_t *n, ss_err
     return st;
 }
 
-/* The place in a list of the word behind the first cell of a line, or what it was without such a
- * line. */
+/* *found becomes the index of a line's second cell in the list of choices; it stays as it is if there is
+ * no such line. */
 static ss_status
 read_choice(struct table *t, const char *const *word, const char *const *choice, int *found, ss_error *err)
 {
@@ -100,7 +100,7 @@ read_choice(struct table *t, const char *const *word, const char *const *choice,
     return n != NONE ? SS_OK : ss_delimited_no_memory(t, err);
 }
 
-/* Give every step-th column from first on a name or a unit, where there is a line of them. */
+/* If there is a line of names or units, give them to every step-th column from `first` on. */
 static ss_status
 label_columns(struct table *t, const char *const *word, size_t first, size_t step, int is_unit, ss_error *err)
 {
@@ -127,7 +127,7 @@ label_columns(struct table *t, const char *const *word, size_t first, size_t ste
 
 /* --- the columns of x ---------------------------------------------------------------------- */
 
-/* Column 0 has the times, in seconds. */
+/* Column 0 becomes the column of times, in seconds. */
 static ss_status
 take_first(struct table *t, ss_error *err)
 {
@@ -186,7 +186,7 @@ ss_delimited_read_labview(struct table *t, ss_error *err)
     return st;
 }
 
-/* The first of the columns of x that is not the same as column 0; n_columns: all are. */
+/* Find the first column of x that differs from column 0; n_columns: there is none. */
 static ss_status
 find_other_times(struct table *t, size_t *first, ss_error *err)
 {
@@ -200,10 +200,10 @@ find_other_times(struct table *t, size_t *first, ss_error *err)
     return st;
 }
 
-#define MOST_APART 0.1          /* sample periods that a time may be off, as on any clock */
-#define MOST_ROUNDING 5.1e-7    /* [s] of LabVIEW's six decimals */
+#define MOST_APART 0.1          /* a time may be off by so many sample periods, as on any clock */
+#define MOST_ROUNDING 5.1e-7    /* [s] LabVIEW writes six decimals */
 
-/* The largest distance of the first column from rows of this step. */
+/* Find the largest distance of the first column from times that go on by this step. */
 static ss_status
 find_farthest(struct table *t, double step, double *most, ss_error *err)
 {
@@ -215,7 +215,7 @@ find_farthest(struct table *t, double step, double *most, ss_error *err)
     return st;
 }
 
-/* Each channel has times of its own, which must be the same. */
+/* Each channel has a column of times.  They must be equal; all but the first are left out. */
 static ss_status
 leave_one_x(struct table *t, ss_error *err)
 {
@@ -246,7 +246,7 @@ ss_delimited_check_labview(struct table *t, ss_error *err)
         return st;
     if (from_times <= fmax(MOST_APART * c.increment, MOST_ROUNDING)) {
         t->counted.origin = t->first[0];
-    } else if (from_numbers > 1e-6) {           /* nor are they numbered */
+    } else if (from_numbers > 1e-6) {           /* nor does it number the rows */
         t->counted = (struct counted){ 0, 0, 0 };
         return take_first(t, err);
     }

@@ -46,7 +46,7 @@ is_unit(const char *p)
     return 1;
 }
 
-/* The kind of a row above the data that has as many cells as the data. */
+/* The kind of a row above the data, if it has as many cells as the data. */
 enum row_kind { ROW_OTHER, ROW_NAMES, ROW_UNITS, ROW_MIXED, ROW_NO_MEMORY };
 
 static enum row_kind
@@ -59,7 +59,7 @@ kind_of_row(struct table *t, const char *line)
     char *copy = strdup(line);
     size_t n = copy != NULL ? ss_delimited_split(t, copy, t->separator) : NONE;
     if (n == t->n_columns + 1 && strcasecmp(t->cell[n - 1], "comment") == 0) {
-        n--;                                    /* LabVIEW names a column that few of its rows have */
+        n--;                                    /* LabVIEW names a column of comments that few rows have */
         t->comments = 1;
     }
     for (size_t i = 0; n == t->n_columns && i < n; i++) {
@@ -122,8 +122,8 @@ has_word(const char *name, const char *const *word)
     return 0;
 }
 
-/* The unit that a name ends with: slip_velocity_mm_s.  Letters that are ends of other words too are
- * units behind a word of that quantity alone: displacement_in, accel_g. */
+/* The unit at the end of a name, as in slip_velocity_mm_s.  Letters that end other words, too, are a unit
+ * only behind a word for its quantity, as in displacement_in and accel_g. */
 static const char *
 unit_of_name(const char *name)
 {
@@ -150,7 +150,7 @@ unit_of_name(const char *name)
     return "";
 }
 
-/* Columns with the names of one line and the units of another, which are cut up; either may be
+/* Name the columns by one line and give them the units of another.  Both lines are cut up; either may be
  * NULL. */
 static ss_status
 name_columns(struct table *t, char *names, char *units)
@@ -160,7 +160,7 @@ name_columns(struct table *t, char *names, char *units)
     if (units != NULL) {
         if (ss_delimited_split(t, units, t->separator) == NONE)
             return SS_ENOMEM;
-        unit_cell = t->cell;                    /* kept beside those of the names */
+        unit_cell = t->cell;                    /* the cells of the names get room of their own */
         t->cell = NULL;
         t->cell_room = 0;
     }
@@ -190,15 +190,16 @@ cut(char *line, size_t n, char separator)
             *line = '\0';
 }
 
-/* The text of a kept line, 0 being the one right above the data, or NULL. */
+/* The text of the kept line that is `up` lines above the last one, which is just above the data; NULL if
+ * there is none. */
 static char *
 line_above(const struct table *t, size_t up)
 {
     return t->n_head > up ? t->head[t->n_head - 1 - up].text : NULL;
 }
 
-/* Rigol's oscilloscopes number the rows; beside the names of their columns are Start and Increment, and
- * below these words the times.  Read them if they are there, and leave names and units. */
+/* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and
+ * Increment, and the two times in the line below.  Read the times and cut both lines before them. */
 static ss_status
 find_increment(struct table *t)
 {

@@ -10,15 +10,15 @@
 static const char candidate[] = { '\t', ';', ',', ' ' };
 enum { CANDIDATES = sizeof candidate / sizeof *candidate };
 
-/* Can cells of this line be between such separators? */
+/* 1 if the cells of this line may lie between such separators. */
 static int
 may_separate(const struct table *t, const char *line, char separator)
 {
     return separator == ' ' ? !t->labview : strchr(line, separator) != NULL;
 }
 
-/* The number of cells that are columns, if all of them hold numbers; else 0.  LabVIEW leaves the
- * cell of x empty and writes comments behind some rows. */
+/* The number of cells that belong to columns, if all of these hold numbers; else 0.  LabVIEW leaves the
+ * cell of x empty, and writes comments behind some rows. */
 static size_t
 count_cells(const struct table *t, const char *line, const char *shape, size_t numbers)
 {
@@ -74,7 +74,7 @@ ss_delimited_is_data(struct table *t, const char *line, int *yes)
 
 /* --- words among the numbers --------------------------------------------------------------- */
 
-/* The shapes of the kept lines with one separator; a comment has none. */
+/* The shapes of the kept lines if they have this separator, NULL for a comment.  NULL: no memory. */
 static char **
 shapes_of(struct table *t, char separator)
 {
@@ -91,7 +91,7 @@ shapes_of(struct table *t, char separator)
     return shape;
 }
 
-/* Is this row like another, whose empty cells at the end may be cut off? */
+/* 1 if two rows have cells of the same kinds.  The second may lack its empty cells at the end. */
 static int
 is_like(const char *shape, const char *row)
 {
@@ -101,7 +101,7 @@ is_like(const char *shape, const char *row)
     return *row == '\0' && strchr(shape, 'n') == NULL;
 }
 
-/* The first line with both numbers and words that up to two lines below it are like. */
+/* The first line with numbers and words that has two lines like it below, or one if there are no more. */
 static size_t
 find_like(const struct table *t, char *const *shape)
 {
