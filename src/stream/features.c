@@ -15,10 +15,10 @@
 typedef struct feature_reader {
     struct input in;
     ss_overlay *overlay;
-    size_t spans, maxima, spikes;       /* that the lists have room for */
+    size_t spans, maxima, spikes;       /* the room of each list */
 } feature_reader;
 
-/* Append the pair to a list, unless a part of it is not known. */
+/* Append the pair to a list, unless one of its numbers is NaN. */
 static ss_status
 append(feature_reader *r, double (**list)[2], size_t *n, size_t *room, const double pair[2],
        ss_error *err)
@@ -33,19 +33,19 @@ append(feature_reader *r, double (**list)[2], size_t *n, size_t *room, const dou
     return SS_OK;
 }
 
-/* A number, or a hyphen for an unknown value, which is NaN. */
+/* Read a number, or NaN from a hyphen, which stands for an unknown value. */
 static ss_status
 read_field(const feature_reader *r, const char **text, double *x, ss_error *err)
 {
     const char *p = *text;
-    if (*p != '-' || strchr(" \t", p[1]) == NULL)      /* or the NUL at its end */
+    if (*p != '-' || strchr(" \t", p[1]) == NULL)      /* strchr also finds the NUL */
         return ss_input_number(&r->in, text, "onset, end, spikes, time and frequency", x, err);
     *x = NAN;
     *text = p + 1 + strspn(p + 1, " \t");
     return SS_OK;
 }
 
-/* A transition: onset, end, spikes, and time and frequency of its maximum. */
+/* Read a transition: onset, end, number of spikes, and time and frequency of its maximum. */
 static ss_status
 read_transition(feature_reader *r, const char *text, ss_error *err)
 {
@@ -59,7 +59,7 @@ read_transition(feature_reader *r, const char *text, ss_error *err)
     return st == SS_OK ? append(r, &o->maximum, &o->n_maxima, &r->maxima, field + 3, err) : st;
 }
 
-/* Time and kind of a spike: jumps and kinks are drawn. */
+/* Read time and kind of a spike.  Jumps and kinks are kept, since they are drawn. */
 static ss_status
 read_spike(feature_reader *r, const char *text, ss_error *err)
 {
@@ -190,7 +190,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         { "prominence", "dB" }, { "transition_frequency", "Hz" },
         { "transition_frequency_error", "Hz" }, { "damping_ratio", "" },
         { "damping_ratio_error", "" },
-        /* of falls of a force only */
+        /* only falls of a force have these */
         { "slope", "" }, { "slope_error", "" }, { "stiffness", "" }, { "stiffness_error", "" },
         { "drop", "" }, { "drop_error", "" }, { "duration", "s" }, { "duration_error", "s" },
         { "recurrence", "s" }, { "recurrence_error", "s" }, { "stick", "s" }, { "stick_error", "s" },
@@ -203,7 +203,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         || ss_rows_begin(&rows, out, format, SS_KIND_FEATURES) != SS_OK)
         return SS_EINVAL;
     const ss_header *head = signal->head;
-    ss_rows_notes(&rows, head, ss_summary_has_key);     /* those of a scene are no results */
+    ss_rows_notes(&rows, head, ss_summary_has_key);     /* without a scene's keys of the same names */
     ss_rows_note(&rows, "column: %s", head->column[column].name);
     ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
     ss_rows_note(&rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");

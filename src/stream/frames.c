@@ -69,7 +69,7 @@ decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
     return SS_OK;
 }
 
-/* Are these four letters? */
+/* 1 if these four bytes can be the name of a chunk: letters. */
 static int
 names_chunk(const char *name)
 {
@@ -87,8 +87,8 @@ refuse_rest(const ss_reader *reader, ss_error *err)
                    (unsigned long long)reader->end);
 }
 
-/* Pass over chunks, each of four letters, a length and so many bytes, to the end of the file.  Samples
- * seldom look like this.  A byte that makes a length even may be missing at the end. */
+/* Skip chunks up to the end of the file.  Each has four letters, a length and so many bytes, as samples
+ * hardly ever do.  The byte that makes an odd length even may be missing at the end. */
 static ss_status
 skip_chunks(ss_reader *reader, ss_error *err)
 {
@@ -109,8 +109,8 @@ skip_chunks(ss_reader *reader, ss_error *err)
     }
 }
 
-/* Behind the data that the header gives there must be nothing, or other chunks: else which of the
- * two is right? */
+/* SS_EDATA if bytes other than chunks follow the data: then either they or the length that the header gives
+ * is wrong. */
 static ss_status
 refuse_more(ss_reader *reader, ss_error *err)
 {

@@ -21,7 +21,7 @@ ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err)
     in->file = file;
     in->name = strdup(name);
     in->capacity = PIECE;
-    in->buffer = malloc(in->capacity + 1);      /* and a NUL behind the last line */
+    in->buffer = malloc(in->capacity + 1);      /* 1 for a NUL behind the last line */
     if (in->name == NULL || in->buffer == NULL)
         return ss_fail_memory(err, name);
     fflush(file);       /* moves the descriptor of a file (not a pipe) to where the FILE is */
@@ -57,7 +57,7 @@ make_room(struct input *in, ss_error *err)
     return SS_OK;
 }
 
-/* Wait for some more bytes. */
+/* Read more bytes, at least one unless the file ends. */
 static ss_status
 fill(struct input *in, ss_error *err)
 {
@@ -178,7 +178,7 @@ ss_input_number(const struct input *in, const char **text, const char *expected,
 {
     char *end;
     *x = ss_number_parse(*text, &end);
-    if (end == *text || !isfinite(*x) || strchr(" \t,", *end) == NULL)  /* or the NUL at its end */
+    if (end == *text || !isfinite(*x) || strchr(" \t,", *end) == NULL)  /* strchr also finds the NUL */
         return ss_fail(err, SS_EDATA, "%s:%lu: expected %s", in->name, in->line, expected);
     *text = end + strspn(end, " \t,");
     return SS_OK;

@@ -10,7 +10,7 @@ enum { DIGITS = 4 };            /* more than a criterion deserves */
 
 /* --- notes --------------------------------------------------------------------------------- */
 
-/* A part of the signal's power in per cent, with two digits of the rest: 99.98. */
+/* Write a part of the signal's power in per cent, so that the rest has two digits: 99.98. */
 static void
 write_explained(FILE *out, double part)
 {
@@ -26,7 +26,7 @@ is_compared(const ss_ranking *r)
     return !isnan(r->row[0].total);
 }
 
-/* Without a scene named, the one that explains most. */
+/* The first row if the verdict names its scene, else the row that explains most. */
 static const ss_rank_row *
 find_best(const ss_ranking *r)
 {
@@ -53,7 +53,7 @@ write_answer(FILE *out, const ss_ranking *r, const char *const *scene)
     fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
 }
 
-/* "# key: name number, name number" of the criteria from the first up to the last, without it. */
+/* Write "# key: name number, name number" for the criteria first ... last - 1. */
 static void
 write_criteria(FILE *out, const char *key, int first, int last, const ss_ranking *values)
 {
@@ -87,7 +87,7 @@ write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const 
                     ss_scene_is_pulled(&r->row[i].adjusted) ? "pulled" : "forced");
 }
 
-/* Write each other order that a threshold 20 % lower or higher gives. */
+/* Write the orders of the scenes that other thresholds, 20 % lower or higher, give. */
 static void
 write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *order)
 {

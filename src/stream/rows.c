@@ -114,7 +114,7 @@ ss_number_text(char text[SS_NUMBER_MAX], double x)
     return text;
 }
 
-/* The number that printf wrote, whatever the locale's decimal point, of one byte or more. */
+/* Copy a number that printf wrote.  The locale's decimal point, of one byte or more, becomes ".". */
 static const char *
 copy_number(char text[SS_NUMBER_MAX], const char *raw)
 {

@@ -3,7 +3,7 @@
 #include <string.h>
 #include "stream/stamp.h"
 
-/* So many digits as a number; NULL if they are not there, or p is NULL. */
+/* Read n digits as a number.  Returns their end; NULL if there are not so many, or p is NULL. */
 static const char *
 read_digits(const char *p, int n, long *x)
 {
@@ -23,8 +23,8 @@ read_part(const char *p, const char *marks, int n, long *x)
     return p != NULL && *p != '\0' && strchr(marks, *p) != NULL ? read_digits(p + 1, n, x) : NULL;
 }
 
-/* The day's number in the Gregorian calendar: years begin in March, so that a leap day is their
- * last. */
+/* The number of a day in the Gregorian calendar.  Years begin in March here, so that a leap day is the
+ * last day of its year. */
 static long
 day_number(long year, long month, long day)
 {
@@ -66,7 +66,7 @@ read_time(const char *p, double *seconds)
     return p;
 }
 
-/* "Z", "+01", "+01:00" or "+0100" at the end; NULL if it is none of them. */
+/* Read a zone at the end: "Z", "+01", "+01:00" or "+0100".  NULL if it is none of them. */
 static const char *
 read_zone(const char *p, double *ahead)
 {

@@ -8,7 +8,7 @@
 #include "features/numbers.h"
 #include "stream/output.h"
 
-/* A signal of this kind has such numbers. */
+/* 1 if a signal of this kind has the numbers of a group. */
 static int
 applies(number_group of, const ss_features *f)
 {
@@ -20,7 +20,7 @@ applies(number_group of, const ss_features *f)
     }
 }
 
-/* They were asked for, too. */
+/* 1 if a signal of this kind has the numbers of a group, and the options ask for them. */
 static int
 belongs(number_group of, const ss_features *f, const ss_features_opts *opts)
 {
@@ -81,7 +81,7 @@ ss_summary_fill(ss_summary *out, const ss_features *f, const ss_signal *signal, 
 {
     if (out == NULL)
         return;
-    memset(out, 0, sizeof *out);        /* all of it: it may be written to a file */
+    memset(out, 0, sizeof *out);        /* padding too, since it may be written to a file */
     for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++)
         out->number[i] = (ss_value){ NAN, NAN };
     if (f == NULL || signal == NULL || column >= signal->head->n_columns) {
@@ -116,7 +116,7 @@ write_columns(struct rows *rows)
     ss_rows_end(rows);
 }
 
-/* A word of one line; nothing is a hyphen. */
+/* Write a word as one cell; an empty one becomes a hyphen. */
 static ss_status
 write_word(struct rows *rows, const char *word)
 {
@@ -144,12 +144,12 @@ write_row(struct rows *rows, const char *file, const ss_summary *s)
     return st;
 }
 
-/* One number over all files that have it. */
+/* The scatter of one number over all files that have it. */
 typedef struct scatter {
     size_t n, n_errors;
     double mean, squares;       /* sum of squares of differences from the mean (Welford 1962) */
     double errors;              /* sum of squares of standard errors */
-    const char *unit;           /* of the first of them; NULL: not the same in all */
+    const char *unit;           /* NULL: it is not the same in all files */
 } scatter;
 
 static void
@@ -171,7 +171,7 @@ add_value(scatter *sum, const ss_summary *s, size_t i)
     sum->errors += v.error * v.error;
 }
 
-/* A number of forces in N and in lbf has no mean. */
+/* Write the mean of a number and its scatter.  Forces in N and in lbf have no mean. */
 static void
 write_scatter(struct rows *rows, size_t i, const ss_summary summary[], size_t n)
 {

@@ -10,7 +10,7 @@
 #include "stream/input.h"
 #include "stream/rows.h"
 
-/* Is this key varied, or does it say how the scene is recorded? */
+/* 1 if this key is varied, or is not about the motion but about its record. */
 static int
 is_left_out(const ss_sweep_opts *opts, const char *key)
 {
@@ -20,7 +20,7 @@ is_left_out(const ss_sweep_opts *opts, const char *key)
     return strcmp(key, "settle") == 0 || strcmp(key, "duration") == 0 || strcmp(key, "rate") == 0;
 }
 
-/* The scene's own numbers. */
+/* Write the keys of the scene that are the same in all rows. */
 static ss_status
 write_scene(struct rows *rows, const ss_sweep_text *sweep)
 {
@@ -131,7 +131,7 @@ ss_sweep_header(char **out, const ss_sweep_text *sweep)
     return st;
 }
 
-/* strobe: the start of the cycle that the row stands for; NULL: of the first one. */
+/* Write a row.  strobe is the start of its cycle; NULL: that of the first cycle. */
 static void
 write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row, const ss_strobe *strobe)
 {
@@ -169,8 +169,8 @@ ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *ou
 
 /* --- going on ------------------------------------------------------------------------------ */
 
-/* The first of the next line's bytes, as far as there is room, without its end; gives the length of
- * all of it, or 0 if it was cut off. */
+/* Read the next line, as much of it as there is room for, without its end.  Returns the length of the
+ * whole line in the file, or 0 if the file ends within it. */
 static long
 read_line(FILE *in, char *line, size_t room)
 {
@@ -186,7 +186,8 @@ read_line(FILE *in, char *line, size_t room)
     return c == '\n' ? length + 1 : 0;
 }
 
-/* Does the file begin with this header, or is it the beginning of it?  *got bytes of it are there. */
+/* 1 if the file begins with this header, or is itself only a beginning of it.  *got becomes the number of
+ * bytes that were read. */
 static int
 has_header(FILE *in, const char *header, char *start, size_t *got)
 {
@@ -194,8 +195,8 @@ has_header(FILE *in, const char *header, char *start, size_t *got)
     return memcmp(start, header, *got) == 0;
 }
 
-/* Whole rows, in the order in which they must come.  Of a point with several, the last in the file,
- * there may be more: it is left out. */
+/* Count the whole rows, which must be in the order of the points.  The last point is left out if it may
+ * have several rows, as some of them may be missing. */
 static ss_status
 count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t *rows, long *end,
            ss_error *err)

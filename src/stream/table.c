@@ -12,8 +12,8 @@
 typedef struct table_reader {
     struct input in;
     ss_table *table;
-    char *columns_text;                 /* what the first header says of them */
-    size_t notes, columns, cells;       /* that the lists have room for */
+    char *columns_text;                 /* the columns as the first header names them */
+    size_t notes, columns, cells;       /* the room of each list */
 } table_reader;
 
 static ss_status
@@ -47,7 +47,7 @@ add_column(table_reader *r, char *label, ss_error *err)
         : ss_fail_memory(err, r->in.name);
 }
 
-/* Labels with blanks between; blanks in brackets are a unit's. */
+/* Read the labels of the columns, which blanks separate.  A blank in brackets belongs to a unit. */
 static ss_status
 read_columns(table_reader *r, char *text, ss_error *err)
 {
@@ -68,7 +68,7 @@ read_columns(table_reader *r, char *text, ss_error *err)
     return st;
 }
 
-/* The cells of a row lie in a copy of its line, which the first of them begins. */
+/* Read a row.  Its cells lie in a copy of the line, which begins with the first of them. */
 static ss_status
 read_row(table_reader *r, const char *line, ss_error *err)
 {

@@ -5,7 +5,7 @@
 #include "stream/output.h"
 #include "stream/rows.h"
 
-enum { DIGITS = 3 };            /* of a measurement these are plenty */
+enum { DIGITS = 3 };            /* a measurement does not deserve more */
 
 static void
 write_count(struct rows *rows, size_t n, int known)

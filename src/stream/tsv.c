@@ -51,7 +51,7 @@ refuse_row(const ss_reader *reader, const char *line, ss_error *err)
                    bad);
 }
 
-/* A stamp may be off by rounding and by 1e-6 sample periods. */
+/* SS_EDATA if a stamp differs from the clock by more than rounding and 1e-6 sample periods. */
 static ss_status
 check_time(const ss_reader *reader, double t, ss_error *err)
 {

@@ -17,9 +17,10 @@ enum {
     MAX_CHUNKS = 1000, MAX_CHANNELS = 4096,
     CODE_PCM = 1, CODE_FLOAT = 3, CODE_EXTENSIBLE = 0xfffe
 };
-#define UNKNOWN_FROM UINT32_C(0x7ffff000)       /* SoX gives this, others 2^31 - 1 or 2^32 - 1 */
+/* A length from here on is unknown: SoX writes this one, other programs 2^31 - 1 or 2^32 - 1. */
+#define UNKNOWN_FROM UINT32_C(0x7ffff000)
 
-typedef struct description {    /* what "fmt " says; channels = 0: it has not come yet */
+typedef struct description {    /* the contents of "fmt "; channels is 0 until it has been read */
     unsigned code, channels, bits;
     uint32_t rate;
 } description;
@@ -81,7 +82,7 @@ read_description(struct input *in, uint32_t length, description *d, ss_error *er
     return skip(in, length, err);
 }
 
-/* Everything up to the data, whose place in the file and length are given. */
+/* Read the chunks before the data.  *place becomes the place of the data in the file, *length its length. */
 static ss_status
 read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length, ss_error *err)
 {
@@ -110,7 +111,7 @@ read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length,
                    MAX_CHUNKS);
 }
 
-/* Is it a file of so many bytes, not a pipe? */
+/* 1 if the input is a file of n bytes or more, and not a pipe. */
 static int
 has_bytes(const struct input *in, uint64_t n)
 {
