@@ -94,6 +94,8 @@ typedef struct tool_reading {
 /* Call after tool_parse; --scale and --unit without a name are of this column, or if NULL of the
  * only one. */
 void tool_reading_end(tool_reading *r, const char *column);
+/* Of delimited text only these columns are needed, whose n names are not copied; all, if n is 0. */
+void tool_reading_needs(tool_reading *r, const char *const *column, size_t n);
 void tool_reading_free(tool_reading *r);
 
 /* For tool_parse: begin, and write the rows. */

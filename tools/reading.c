@@ -92,6 +92,13 @@ tool_reading_end(tool_reading *r, const char *column)
 }
 
 void
+tool_reading_needs(tool_reading *r, const char *const *column, size_t n)
+{
+    r->opts.needed = column;
+    r->opts.n_needed = n;
+}
+
+void
 tool_reading_free(tool_reading *r)
 {
     free(r->calibration);

@@ -87,6 +87,7 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-cat", usage);
     path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
+    tool_reading_needs(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     copy_rows(kind, &reading.opts);
     tool_reading_free(&reading);

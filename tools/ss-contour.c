@@ -255,6 +255,7 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         tool_usage("--fmin does not lie below --fmax");
     tool_output_kind(d->output, TOOL_PICTURES, TOOL_GP);
     tool_reading_end(&d->reading, d->column);
+    tool_reading_needs(&d->reading, &d->column, d->column != NULL);
     if (is_stdin(d->path) + is_stdin(d->signal_path) + is_stdin(d->events) + is_stdin(d->features) > 1)
         tool_usage("standard input can be read only once");
 }

@@ -33,10 +33,13 @@ TOOL_READING_USAGE
 
 enum { JOBS_MAX = 100 };    /* each has two files open, and as many may wait for one before them */
 
+/* The columns of displacement and force, if none are named. */
+static const char usual_displacement[] = "x", usual_force[] = "f";
+
 typedef struct request {
     ss_features_opts opts;
     tool_reading reading;
-    const char *column, *displacement, *force, *output;
+    const char *column, *displacement, *force, *output, *needed[3];
     tool_kind kind;
     int jobs, summary;
 } request;
@@ -63,8 +66,8 @@ find_features(const request *req, const char *path)
     ss_error err = { 0 };
     const ss_header *head = f.signal->head;
     f.column = tool_column(head, path, req->column);
-    f.opts.displacement = find_column(head, path, req->displacement, "x");
-    f.opts.force = find_column(head, path, req->force, "f");
+    f.opts.displacement = find_column(head, path, req->displacement, usual_displacement);
+    f.opts.force = find_column(head, path, req->force, usual_force);
     ss_status st = ss_features_find(&f.features, f.signal, f.column, &f.opts, &err);
     if (st != SS_OK)
         tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
@@ -219,6 +222,10 @@ main(int argc, char *argv[])
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
     tool_reading_end(&req.reading, req.column);
+    req.needed[0] = req.column;
+    req.needed[1] = req.displacement != NULL ? req.displacement : usual_displacement;
+    req.needed[2] = req.force != NULL ? req.force : usual_force;
+    tool_reading_needs(&req.reading, req.needed, req.column != NULL ? 3 : 0);
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, req.kind);
     req.opts.progress = (ss_progress){ tool_progress, &req };
     char *standard[] = { "-" }, **file = argc > first ? argv + first : standard;

@@ -288,6 +288,7 @@ main(int argc, char *argv[])
     const char *path = tool_input(argc, argv, first);
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
+    tool_reading_needs(&reading, xy.n > 0 ? xy.text : wanted.text, xy.n + wanted.n);
     opts.from = reading.from;           /* the lines go on to the border */
     opts.to = reading.to;
     reading.opts.from = reading.opts.to = 0;

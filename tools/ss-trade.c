@@ -238,6 +238,7 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-trade", usage);
     int first = TOOL_PARSE(argc, argv, options, &req.reading);
     tool_reading_end(&req.reading, req.column);
+    tool_reading_needs(&req.reading, &req.column, req.column != NULL);
     if (first == argc)
         tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
     if (first + 1 != argc)

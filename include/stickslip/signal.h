@@ -90,6 +90,10 @@ typedef struct ss_read_opts {
     const char *time_unit;      /* delimited text: unit of the column of time; NULL: the unit in the
                                    file, or if it has none seconds, or the unit with which the stamps
                                    are dates of this century */
+    const char *const *needed;  /* delimited text: names or numbers of the n_needed columns that the caller
+                                   uses.  In the others a cell without a number is 0, with a warning for
+                                   each column, and no gap.  n_needed 0: all are needed */
+    size_t n_needed;
     size_t table;               /* number of a table in delimited text, from 1; 0: the only one */
     double from, to;            /* [s] on the source's clock: only samples at from or later and before
                                    to are read; from >= to: all are */

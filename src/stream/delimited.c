@@ -103,9 +103,9 @@ find_kinds(struct table *t, const char *row, ss_error *err)
         && ss_delimited_split(t, copy, t->separator) != NONE ? SS_OK : ss_delimited_no_memory(t, err);
     for (size_t i = 0; st == SS_OK && i < t->n_columns; i++) {
         unsigned parts = ss_stamp_read(t->cell[i]).parts;
-        int text = shape[i] == 't' || (shape[i] == 'e' && t->opts->gaps == SS_GAPS_REFUSE);
-        t->column[i] = (struct table_column){ text ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS
-                                              : COLUMN_NUMBERS, parts, NAN, NAN };
+        int text = shape[i] == 't' || (shape[i] == 'e' && !ss_delimited_may_lack(t));
+        t->column[i] = (struct table_column){ .kind = text ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS
+                                              : COLUMN_NUMBERS, .parts = parts, .day = NAN, .last = NAN };
     }
     free(shape);
     free(copy);
@@ -133,6 +133,8 @@ begin_table(struct table *t, const char *row, ss_error *err)
         st = ss_delimited_read_names(t, err);
     if (st == SS_OK)
         st = ss_delimited_read_labview(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_mark_spare(t, err);
     if (st == SS_OK) {
         warn_of_text(t, first);
         ss_delimited_begin_rows(t);

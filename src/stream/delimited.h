@@ -30,6 +30,8 @@ struct counted {
 
 struct table_column {
     enum column_kind kind;
+    int spare;                  /* is it a column of numbers that the caller does not need? */
+    int incomplete;             /* has a cell of such a column no number? */
     unsigned parts;             /* of stamps: a date, a time of day or both */
     double day;                 /* the day from which they count, in the first row; NaN: no date */
     double last;                /* the stamp of the row before */
@@ -131,6 +133,8 @@ void ss_delimited_free_rows(struct table *t);
 char *ss_cell_trim(char *p);
 /* The number in a cell, with a decimal comma unless commas separate cells. */
 enum cell_kind ss_cell_read(char *cell, char separator, double *x);
+/* May a cell of a row be empty? */
+int ss_delimited_may_lack(const struct table *t);
 /* Split a line, in place, into t->cell and return the number of cells, without surplus empty cells at
  * the end.  NONE: no memory. */
 size_t ss_delimited_split(struct table *t, char *p, char separator);
@@ -168,6 +172,8 @@ int ss_delimited_is_segment(const struct table *t, const char *line);
 ss_status ss_delimited_choose_clock(struct table *t, ss_error *err);
 /* The column of time that it will take, as names, kinds and the first row show. */
 struct time_column ss_delimited_time(const struct table *t);
+/* Mark the columns that the caller does not need, as far as the names tell, before the first row is read. */
+ss_status ss_delimited_mark_spare(struct table *t, ss_error *err);
 
 /* The time of a row (delimited_samples.c). */
 double ss_delimited_stamp(const struct table *t, const double *row);

@@ -80,6 +80,12 @@ ss_delimited_split(struct table *t, char *p, char separator)
     return n;
 }
 
+int
+ss_delimited_may_lack(const struct table *t)
+{
+    return t->opts->gaps != SS_GAPS_REFUSE || t->opts->n_needed > 0;
+}
+
 /* 1 if the cell is a word that recorders write in place of a missing number. */
 static int
 is_no_number(const char *cell)

@@ -1,6 +1,7 @@
 /* delimited_clock.c -- find the column of time of a text table, and the clock that its numbers, dates or
  * times of day show. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include "base/error.h"
@@ -291,6 +292,43 @@ find_time(const struct table *t, int *guessed)
         return 0;
     *guessed = !t->named;                       /* if named, it may be a deflection that ascends */
     return *guessed ? 0 : NONE;
+}
+
+/* The columns that may become channels, and their header, in which they have the numbers of the signal.  A column
+ * of time that is only guessed leaves these open: then there are none. */
+static ss_status
+list_channels(const struct table *t, size_t *channel, size_t *n, ss_header **head)
+{
+    int guessed;
+    size_t time = find_time(t, &guessed);
+    *n = 0;
+    for (size_t c = 0; c < t->n_columns && !guessed; c++)
+        if (c != time && t->column[c].kind == COLUMN_NUMBERS)
+            channel[(*n)++] = c;
+    return ss_header_select(head, t->names, channel, *n, 0);
+}
+
+ss_status
+ss_delimited_mark_spare(struct table *t, ss_error *err)
+{
+    if (t->opts->n_needed == 0)
+        return SS_OK;
+    ss_header *head = NULL;
+    size_t n, *channel = malloc(t->n_columns * sizeof *channel);
+    if (channel == NULL || list_channels(t, channel, &n, &head) != SS_OK) {
+        free(channel);
+        return ss_delimited_no_memory(t, err);
+    }
+    for (size_t i = 0; i < n; i++)
+        t->column[channel[i]].spare = 1;
+    for (size_t i = 0; i < t->opts->n_needed; i++) {
+        int found = ss_header_column(head, t->opts->needed[i]);
+        if (found >= 0)
+            t->column[channel[found]].spare = 0;
+    }
+    ss_header_free(head);
+    free(channel);
+    return SS_OK;
 }
 
 struct time_column

@@ -78,6 +78,19 @@ read_stamp(struct table_column *c, const char *cell)
     return c->last = s.seconds + 86400 * days;  /* the nearest to the row before */
 }
 
+/* A column that nobody needs has no value here. */
+static ss_status
+pass_over(struct table *t, size_t column, double *value)
+{
+    struct table_column *c = &t->column[column];
+    if (!c->incomplete)
+        ss_delimited_warn(t, SS_OK, "%s:%lu: column %s has no number here; it is not needed, and read as 0 "
+                          "where it has none", t->in->name, t->in->line, t->names->column[column].name);
+    c->incomplete = 1;
+    *value = 0;
+    return SS_OK;
+}
+
 /* The value of one cell of the line that was split. */
 static ss_status
 read_cell(struct table *t, size_t i, double *value, ss_error *err)
@@ -89,6 +102,8 @@ read_cell(struct table *t, size_t i, double *value, ss_error *err)
         return SS_OK;
     enum cell_kind kind = ss_cell_read(cell, t->separator, value);
     int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
+    if (c->spare && kind != CELL_NUMBER)
+        return pass_over(t, i, value);
     if (missing && t->opts->gaps != SS_GAPS_REFUSE) {
         *value = NAN;
         return SS_OK;

@@ -23,7 +23,7 @@ static size_t
 count_cells(const struct table *t, const char *line, const char *shape, size_t numbers)
 {
     size_t n = strlen(shape), first = t->labview && line[0] == '\t';
-    const char *wrong = t->opts->gaps == SS_GAPS_REFUSE ? "te" : "t";
+    const char *wrong = ss_delimited_may_lack(t) ? "t" : "te";
     if (t->labview && n > 1 && shape[n - 1] == 't')
         n--;
     return numbers > 0 && n > first && strcspn(shape + first, wrong) >= n - first ? n : 0;
@@ -44,7 +44,7 @@ count_names(struct table *t, char separator, size_t *n)
     return (last > 0 && copy == NULL) || *n == NONE ? SS_ENOMEM : SS_OK;
 }
 
-/* Where gaps are allowed, cells that are empty at the end of the row count if each has a name above. */
+/* Where cells may be empty, those at the end of the row count if each has a name above. */
 ss_status
 ss_delimited_is_data(struct table *t, const char *line, int *yes)
 {
@@ -55,7 +55,7 @@ ss_delimited_is_data(struct table *t, const char *line, int *yes)
         size_t numbers;
         if (!may_separate(t, line, separator))
             continue;
-        if (t->opts->gaps != SS_GAPS_REFUSE && count_names(t, separator, &t->n_columns) != SS_OK)
+        if (ss_delimited_may_lack(t) && count_names(t, separator, &t->n_columns) != SS_OK)
             return SS_ENOMEM;
         char *shape = ss_delimited_shape(t, line, separator, &numbers);
         t->n_columns = columns;

@@ -79,7 +79,8 @@ ss_reader_close(ss_reader *reader)
 ss_status
 ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {
-    if (out == NULL || in == NULL || name == NULL)
+    if (out == NULL || in == NULL || name == NULL
+        || (opts != NULL && opts->needed == NULL && opts->n_needed > 0))
         return SS_FAIL_NULL(err);
     *out = NULL;
     if (opts != NULL && ((unsigned)opts->gaps > SS_GAPS_INTERPOLATE || !(opts->rate >= 0)

@@ -24,6 +24,15 @@ awk 'BEGIN { print "t,x"; for (i = 0; i < 60; i++) if (i < 20 || i > 39)
 ss-cat --gaps=interpolate both.csv || echo $?
 ss-cat --resample 10 --gaps=interpolate both.csv | sed -n '/^# rate/p;/^# gaps/p;$p'
 
+# What is missing in a column that nobody asks for is no gap: a slow channel, a word for an overload.
+printf 't,a,temp,b\n0,1,20,5\n0.1,2,,6\n0.2,3,,\n0.3,4,OVL,8\n' > slow.csv
+ss-cat -c a slow.csv
+ss-cat -c 1 -c 3 slow.csv || echo $?
+ss-cat -q -c b --gaps=interpolate slow.csv
+ss-cat -q -c 2 --gaps=split slow.csv || echo $?
+ss-cat -q -c c slow.csv || echo $?
+printf 't;a;temp\n0;1;\n0,5;2;\n1;3;20\n' | ss-cat -c a
+
 # A gap in the first row, in its last column: it is a row of data all the same.
 for s in ',' ';'; do
     printf "t${s}a${s}b\n0${s}7${s}\n0.5${s}5${s}7\n" | ss-cat --gaps split - | tail -n 3
