@@ -124,10 +124,9 @@ typedef struct ss_reader ss_reader;
  * caller keeps and closes in.  The reader bypasses its buffer, so nothing may have been read from
  * a pipe before.  Messages call the file by name.  opts may be NULL.
  *
- * Text and AU streams are read as they arrive, in constant memory.  Delimited text is first read
- * to its end, to check its clock.  If it has more than 2^18 numbers, they are kept in a temporary
- * file, 8 bytes for each number and each row.  Its memory grows with its gaps only.
- */
+ * Text and AU streams are read as they arrive, in constant memory.  Delimited text and .npy are first
+ * read to their end, to check their clock.  If they have more than 2^18 numbers, these are kept in a
+ * temporary file, 8 bytes for each number and each row.  Memory grows with gaps only. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */

@@ -341,7 +341,7 @@ ss_status
 ss_delimited_finish(struct table *t, ss_reader *reader, ss_error *err)
 {
     ss_gaps gaps = t->opts->gaps;
-    ss_status st = ss_delimited_end_rows(t, err);
+    ss_status st = ss_kept_end(&t->rows, err);
     if (st == SS_OK)
         st = ss_delimited_check_labview(t, err);
     if (st == SS_OK)

@@ -9,6 +9,7 @@
 #include "signal/resample.h"
 #include "stream/clock.h"
 #include "stream/input.h"
+#include "stream/kept.h"
 #include "stream/reader.h"
 
 #define NONE SIZE_MAX
@@ -49,18 +50,6 @@ struct table_line {             /* above the data, to be freed */
     int comment;
 };
 
-/* Rows, each of them the values of all columns and the number of its line, which are read again
- * (delimited_rows.c). */
-struct table_rows {
-    size_t width;               /* numbers a row */
-    uint64_t n;                 /* rows */
-    double *block;              /* some of them, one after the other, or all of few */
-    size_t room, held, at;      /* numbers; rows in it; of these, the one that is given next */
-    uint64_t given;             /* rows */
-    int is_away;                /* are rows not in the block? */
-    FILE *file;                 /* of these, or NULL */
-};
-
 struct table {
     struct input *in;
     const ss_read_opts *opts;
@@ -82,7 +71,7 @@ struct table {
     int first_x;                /* is the first column no channel? */
     int comments;               /* cells too many are comments, which LabVIEW writes behind its rows */
     ss_header *names;           /* all columns, that of time among them, and the clock */
-    struct table_rows rows;
+    struct kept rows;           /* each of them the values of all columns and the number of its line */
     double *first;              /* the first of them */
     struct time_column fitted;  /* fit is that of its stamps, if they ascend */
     clock_fit fit;
@@ -119,9 +108,8 @@ void ss_delimited_begin_rows(struct table *t);
 ss_status ss_delimited_read_row(struct table *t, char *text, const double **row, ss_error *err);
 /* Or room for the values of one more row, and, when they are there, add it. */
 ss_status ss_delimited_new_row(struct table *t, double **row, ss_error *err);
-ss_status ss_delimited_add_row(struct table *t, ss_error *err);
-ss_status ss_delimited_end_rows(struct table *t, ss_error *err);
-/* After that: go back to the first row, before each reading of them; and the next that has a time, if there
+ss_status ss_delimited_add_row(struct table *t, const double *row, ss_error *err);
+/* After ss_kept_end: go back to the first row, before each reading of them; and the next that has a time, if there
  * is a column of time, or NULL. */
 ss_status ss_delimited_rewind(struct table *t, ss_error *err);
 ss_status ss_delimited_next(struct table *t, const double **row, ss_error *err);

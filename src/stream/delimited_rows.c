@@ -1,19 +1,12 @@
-/* delimited_rows.c -- the rows of a text table, which are read several times.
- *
- * Only all stamps together show the rate, and all cells the gaps.  A table of more than a piece is therefore
- * put away in a file without a name, and read again from there. */
-#include <errno.h>
+/* delimited_rows.c -- the rows of a text table, which are kept: only all stamps together show the rate, and
+ * all cells the gaps. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "base/error.h"
-#include "base/list.h"
 #include "base/number.h"
 #include "stream/delimited.h"
 #include "stream/stamp.h"
-
-enum { PIECE = 1 << 18 };               /* numbers in memory, or one row */
 
 /* --- lines --------------------------------------------------------------------------------- */
 
@@ -156,97 +149,34 @@ parse_row(struct table *t, char *text, double *row, ss_error *err)
     return st;
 }
 
-/* --- rows that are put away ---------------------------------------------------------------- */
-
-static ss_status
-fail_file(const struct table *t, ss_error *err)
-{
-    char name[300];
-    snprintf(name, sizeof name, "%.200s: a temporary file for its rows", t->in->name);
-    return ss_fail_errno(err, name, errno);
-}
-
-/* A file that nobody else sees and that ends with us. */
-static FILE *
-open_nameless(const char *first)
-{
-    const char *folder[] = { first, "/var/tmp", "/tmp" };
-    char name[512];
-    for (size_t i = 0; i < sizeof folder / sizeof *folder; i++) {
-        int fits = folder[i] != NULL && folder[i][0] != '\0'
-            && snprintf(name, sizeof name, "%s/stickslip.XXXXXX", folder[i]) < (int)sizeof name;
-        int fd = fits ? mkstemp(name) : -1;
-        if (fd < 0)
-            continue;
-        unlink(name);
-        FILE *file = fdopen(fd, "w+");
-        if (file == NULL)
-            close(fd);
-        return file;
-    }
-    return NULL;
-}
-
-/* Empty the block. */
-static ss_status
-put_away(struct table *t, ss_error *err)
-{
-    struct table_rows *r = &t->rows;
-    if (r->file == NULL && (r->file = open_nameless(t->opts->folder)) == NULL)
-        return fail_file(t, err);
-    if (fwrite(r->block, r->width * sizeof *r->block, r->held, r->file) != r->held)
-        return fail_file(t, err);
-    r->is_away = 1;
-    r->held = 0;
-    return SS_OK;
-}
-
-static size_t
-rows_in_piece(const struct table_rows *r)
-{
-    return r->width < PIECE ? PIECE / r->width : 1;
-}
+/* --- rows that are kept -------------------------------------------------------------------- */
 
 void
 ss_delimited_begin_rows(struct table *t)
 {
-    struct table_rows *r = &t->rows;
-    r->width = t->n_columns + 1;
-    r->n = r->held = 0;
-    r->is_away = 0;
-    if (r->file != NULL)
-        rewind(r->file);
+    ss_kept_begin(&t->rows, t->in->name, t->opts->folder, t->n_columns + 1);
 }
 
 ss_status
 ss_delimited_new_row(struct table *t, double **row, ss_error *err)
 {
-    struct table_rows *r = &t->rows;
-    ss_status st = r->held == rows_in_piece(r) ? put_away(t, err) : SS_OK;
-    if (st != SS_OK)
-        return st;
-    double *more = ss_list_grow(r->block, &r->room, (r->held + 1) * r->width, sizeof *more);
-    if (more == NULL)
-        return ss_delimited_no_memory(t, err);
-    r->block = more;
-    *row = more + r->held * r->width;
-    (*row)[t->n_columns] = (double)t->in->line;
-    return SS_OK;
+    ss_status st = ss_kept_new(&t->rows, row, err);
+    if (st == SS_OK)
+        (*row)[t->n_columns] = (double)t->in->line;
+    return st;
 }
 
 ss_status
-ss_delimited_add_row(struct table *t, ss_error *err)
+ss_delimited_add_row(struct table *t, const double *row, ss_error *err)
 {
-    struct table_rows *r = &t->rows;
-    if (r->n == 0) {
-        free(t->first);
-        t->first = malloc(r->width * sizeof *t->first);
-        if (t->first == NULL)
-            return ss_delimited_no_memory(t, err);
-        memcpy(t->first, r->block, r->width * sizeof *t->first);
-    }
-    r->held++;
-    r->n++;
+    ss_kept_add(&t->rows);
+    if (t->rows.n > 1)
+        return SS_OK;
+    free(t->first);
+    t->first = malloc((t->n_columns + 1) * sizeof *t->first);
+    if (t->first == NULL)
+        return ss_delimited_no_memory(t, err);
+    memcpy(t->first, row, (t->n_columns + 1) * sizeof *t->first);
     return SS_OK;
 }
 
@@ -258,66 +188,28 @@ ss_delimited_read_row(struct table *t, char *text, const double **row, ss_error 
     if (st == SS_OK)
         st = parse_row(t, text, new_row, err);
     *row = new_row;
-    return st == SS_OK ? ss_delimited_add_row(t, err) : st;
-}
-
-ss_status
-ss_delimited_end_rows(struct table *t, ss_error *err)
-{
-    ss_status st = t->rows.is_away ? put_away(t, err) : SS_OK;
-    if (st == SS_OK && t->rows.is_away && fflush(t->rows.file) != 0)
-        return fail_file(t, err);
-    return st;
-}
-
-/* --- rows that are read again -------------------------------------------------------------- */
-
-/* The next piece into the block. */
-static ss_status
-fetch(struct table *t, ss_error *err)
-{
-    struct table_rows *r = &t->rows;
-    uint64_t left = r->n - r->given, piece = rows_in_piece(r);
-    size_t n = (size_t)(left < piece ? left : piece);
-    r->held = r->at = 0;
-    r->held = n;
-    return fread(r->block, r->width * sizeof *r->block, n, r->file) == n ? SS_OK : fail_file(t, err);
+    return st == SS_OK ? ss_delimited_add_row(t, new_row, err) : st;
 }
 
 ss_status
 ss_delimited_rewind(struct table *t, ss_error *err)
 {
-    struct table_rows *r = &t->rows;
-    r->at = 0;
-    r->given = 0;
-    if (!r->is_away)
-        return SS_OK;
-    r->held = 0;
-    return fseek(r->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(t, err);
+    return ss_kept_rewind(&t->rows, err);
 }
 
 ss_status
 ss_delimited_next(struct table *t, const double **row, ss_error *err)
 {
-    struct table_rows *r = &t->rows;
-    do {
-        *row = NULL;
-        if (r->given == r->n)
-            return SS_OK;
-        ss_status st = r->at == r->held ? fetch(t, err) : SS_OK;
-        if (st != SS_OK)
-            return st;
-        *row = r->block + r->at++ * r->width;
-        r->given++;
-    } while (t->time.column != NONE && isnan((*row)[t->time.column]));
-    return SS_OK;
+    ss_status st;
+    do
+        st = ss_kept_next(&t->rows, row, err);
+    while (*row != NULL && t->time.column != NONE && isnan((*row)[t->time.column]));
+    return st;
 }
 
 void
 ss_delimited_free_rows(struct table *t)
 {
-    if (t->rows.file != NULL)
-        fclose(t->rows.file);
-    free(t->rows.block);
+    ss_kept_free(&t->rows);
     free(t->first);
 }

@@ -12,7 +12,10 @@
 #include "stream/format.h"
 #include "stream/frames.h"
 
-enum { MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20 };
+enum {
+    MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20,
+    PIECE = 1 << 16             /* values of columns that become rows at a time, or one row */
+};
 
 struct field {
     char name[64];
@@ -211,68 +214,135 @@ read_header(struct input *in, char **text, ss_error *err)
 
 /* --- the numbers --------------------------------------------------------------------------- */
 
-/* All records, as they come, into *value; it grows with what is there, not with what the header
- * says. */
+/* The next value or, of named fields, record; at: the values before it. */
 static ss_status
-read_records(struct input *in, const struct npy *a, double **value, ss_error *err)
+read_record(struct input *in, const struct npy *a, uint64_t at, double *value, ss_error *err)
 {
-    size_t records = a->named ? a->rows : a->rows * a->columns, n = 0, room = 0;
-    for (size_t i = 0; i < records; i++) {
-        ss_status st = ss_input_need(in, a->record, err);
-        double *more = st == SS_OK ? ss_list_grow(*value, &room, n + a->n_fields, sizeof *more) : NULL;
-        if (st != SS_OK)
-            return st;
-        if (more == NULL)
-            return ss_fail(err, SS_ENOMEM, "%s: no memory for an array this large", in->name);
-        *value = more;
-        if (in->hi - in->lo < a->record)
-            return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu values", in->name, n,
-                           records * a->n_fields);
-        for (size_t f = 0; f < a->n_fields; f++)
-            more[n++] = ss_sample_raw((const unsigned char *)in->buffer + in->lo + a->field[f].at,
-                                      a->field[f].type);
-        in->lo += a->record;
-    }
-    ss_status st = ss_input_need(in, 1, err);
-    if (st == SS_OK && in->hi > in->lo)
-        return ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", in->name,
-                       records * a->n_fields);
-    return st;
+    ss_status st = ss_input_need(in, a->record, err);
+    if (st != SS_OK)
+        return st;
+    if (in->hi - in->lo < a->record)
+        return ss_fail(err, SS_EDATA, "%s: truncated: %llu of %zu values", in->name, (unsigned long long)at,
+                       a->rows * a->columns);
+    for (size_t f = 0; f < a->n_fields; f++)
+        value[f] = ss_sample_raw((const unsigned char *)in->buffer + in->lo + a->field[f].at, a->field[f].type);
+    in->lo += a->record;
+    return SS_OK;
 }
 
-/* The values as rows of a table. */
+/* The columns of the table. */
 static ss_status
-fill_table(struct table *t, const struct npy *a, const double *value, ss_error *err)
+name_columns(struct table *t, const struct npy *a, ss_error *err)
 {
     char number[32];
-    double *row;
     ss_status st = SS_OK;
     t->n_columns = a->columns;
     t->named = a->named;
     t->column = calloc(a->columns, sizeof *t->column);
-    if (t->column == NULL)
-        return ss_delimited_no_memory(t, err);
-    for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
+    for (size_t c = 0; t->column != NULL && st == SS_OK && c < a->columns; c++) {
         snprintf(number, sizeof number, "ch%zu", c + 1);
         const char *name = a->named ? a->field[c].name : "";
         st = ss_header_add_column(t->names, *name != '\0' ? name : number, "");
     }
-    if (st != SS_OK)
-        return ss_delimited_no_memory(t, err);
-    ss_delimited_begin_rows(t);
-    for (size_t i = 0; st == SS_OK && i < a->rows; i++) {
-        t->in->line = i + 1;
-        st = ss_delimited_new_row(t, &row, err);
-        for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
-            double x = value[a->fortran ? c * a->rows + i : i * a->columns + c];
-            if (!isfinite(x) && t->opts->gaps == SS_GAPS_REFUSE)
-                return ss_fail(err, SS_EGAPS, "%s: row %zu, column %s: not a finite number", t->in->name, i + 1,
-                               t->names->column[c].name);
-            row[c] = isfinite(x) ? x : NAN;
-        }
-        if (st == SS_OK)
-            st = ss_delimited_add_row(t, err);
+    return t->column != NULL && st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
+}
+
+/* Check the values of row number i and add it. */
+static ss_status
+add_row(struct table *t, uint64_t i, double *row, ss_error *err)
+{
+    for (size_t c = 0; c < t->n_columns; c++) {
+        if (isfinite(row[c]))
+            continue;
+        if (t->opts->gaps == SS_GAPS_REFUSE)
+            return ss_fail(err, SS_EGAPS, "%s: row %llu, column %s: not a finite number", t->in->name,
+                           (unsigned long long)i + 1, t->names->column[c].name);
+        row[c] = NAN;
     }
+    return ss_delimited_add_row(t, row, err);
+}
+
+static ss_status
+begin_row(struct table *t, uint64_t i, double **row, ss_error *err)
+{
+    t->in->line = (unsigned long)i + 1;
+    return ss_delimited_new_row(t, row, err);
+}
+
+static ss_status
+read_by_rows(struct table *t, const struct npy *a, ss_error *err)
+{
+    ss_status st = SS_OK;
+    double *row;
+    for (uint64_t i = 0; st == SS_OK && i < a->rows; i++) {
+        st = begin_row(t, i, &row, err);
+        for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields)
+            st = read_record(t->in, a, i * a->columns + c, row + c, err);
+        if (st == SS_OK)
+            st = add_row(t, i, row, err);
+    }
+    return st;
+}
+
+/* Rows of columns that stand in the file one after the other, and are all kept. */
+static ss_status
+add_rows(struct table *t, const struct npy *a, struct kept *value, ss_error *err)
+{
+    size_t piece = 1 + PIECE / a->columns;
+    double *x = malloc(piece * a->columns * sizeof *x), *row;
+    ss_status st = x != NULL ? SS_OK : ss_delimited_no_memory(t, err);
+    for (size_t first = 0, n; st == SS_OK && first < a->rows; first += n) {
+        n = a->rows - first < piece ? a->rows - first : piece;
+        for (size_t c = 0; st == SS_OK && c < a->columns; c++)
+            st = ss_kept_copy(value, c * a->rows + first, n, x + c * n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            st = begin_row(t, first + i, &row, err);
+            for (size_t c = 0; st == SS_OK && c < a->columns; c++)
+                row[c] = x[c * n + i];
+            if (st == SS_OK)
+                st = add_row(t, first + i, row, err);
+        }
+    }
+    free(x);
+    return st;
+}
+
+static ss_status
+read_by_columns(struct table *t, const struct npy *a, ss_error *err)
+{
+    struct kept value = { .name = NULL };
+    double *x;
+    ss_status st = SS_OK;
+    ss_kept_begin(&value, t->in->name, t->opts->folder, 1);
+    for (uint64_t i = 0; st == SS_OK && i < a->rows * a->columns; i++) {
+        st = ss_kept_new(&value, &x, err);
+        if (st == SS_OK)
+            st = read_record(t->in, a, i, x, err);
+        if (st == SS_OK)
+            ss_kept_add(&value);
+    }
+    if (st == SS_OK)
+        st = ss_kept_end(&value, err);
+    if (st == SS_OK)
+        st = add_rows(t, a, &value, err);
+    ss_kept_free(&value);
+    return st;
+}
+
+static ss_status
+fill_table(struct table *t, const struct npy *a, ss_error *err)
+{
+    struct input *in = t->in;
+    ss_status st = name_columns(t, a, err);
+    if (st != SS_OK)
+        return st;
+    ss_delimited_begin_rows(t);
+    st = a->fortran && a->columns > 1 ? read_by_columns(t, a, err) : read_by_rows(t, a, err);
+    if (st == SS_OK)
+        st = ss_input_need(in, 1, err);
+    if (st == SS_OK && in->hi > in->lo)
+        return ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", in->name,
+                       a->rows * a->columns);
     return st;
 }
 
@@ -283,7 +353,6 @@ open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     struct table *t = ss_delimited_new(reader, opts);
     struct npy a = { .field = NULL };
     char *text;
-    double *value = NULL;
     if (t == NULL)
         return ss_fail_memory(err, in->name);
     ss_status st = read_header(in, &text, err);
@@ -293,10 +362,7 @@ open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
                       "array.astype('f8')) writes one of one or two dimensions that is", in->name,
                       ss_cell_trim(text));
     if (st == SS_OK)
-        st = read_records(in, &a, &value, err);
-    if (st == SS_OK)
-        st = fill_table(t, &a, value, err);
-    free(value);
+        st = fill_table(t, &a, err);
     if (st == SS_OK)
         st = ss_delimited_finish(t, reader, err);
     free(a.field);

@@ -24,6 +24,11 @@ np.save("fields.npy", fields)
 padded = np.zeros(4, np.dtype({"names": ["t", "force"], "formats": ["<f8", "<f4"], "offsets": [0, 12], "itemsize": 24}))
 padded["force"] = fields["force"]
 np.save("padded.npy", padded)
+long = np.arange(900000).reshape(300000, 3) / 4
+np.save("long.npy", long)
+np.save("long-fortran.npy", np.asfortranarray(long))
+np.save("long-wide.npy", long.T)
+np.save("long-wide-copied.npy", long.T.copy())
 np.save("nan.npy", np.array([1, np.nan, 3.]))
 np.save("complex.npy", a * 1j)
 np.save("half.npy", a.astype("f2"))
@@ -41,6 +46,11 @@ for name in u1 u2 u4 u8; do
     for order in le be; do ss-cat --rate 10 $name$order.npy > $name$order.tsv; cmp u1le.tsv $name$order.tsv; done
 done
 for file in fortran wide wide-fortran version1 version2 version3; do ss-cat --rate 10 $file.npy | cmp i1le.tsv -; done
+awk 'BEGIN { for (i = 0; i < 900000; i += 3) printf "%.9g\t%.9g\t%.9g\n", i / 4, (i + 1) / 4, (i + 2) / 4 }' \
+    > long.tsv
+for file in long long-fortran long-wide long-wide-copied; do
+    ss-cat --rate 10 $file.npy -c ch1 -c ch2 -c ch3 | grep -v '^#' | cut -f 2- | cmp long.tsv -
+done
 cat i1le.tsv
 ss-cat --rate 10 vector.npy
 ss-cat --rate 10 flags.npy | tail -n 2
