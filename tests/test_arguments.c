@@ -145,6 +145,7 @@ headers_and_samples_refuse_null(void **state)
     ss_signal *signal = NULL;
     ss_span *gap;
     ss_noise *noise = NULL;
+    ss_variance variance = { .n = 0 };
     double x[2] = { 1, 2 };
     size_t n;
     ss_error e = { 0 };
@@ -167,6 +168,9 @@ headers_and_samples_refuse_null(void **state)
     assert_refused(ss_writer_flush(NULL), NULL);
     assert_refused(ss_reader_resample(NULL, 1, &e), &e);
     assert_refused(ss_reader_resample(&(ss_reader *){ NULL }, 1, &e), &e);
+    assert_refused(ss_reader_keep(NULL, NULL, &e), &e);
+    assert_refused(ss_reader_keep(&(ss_reader *){ NULL }, NULL, &e), &e);
+    assert_refused(ss_reader_rewind(NULL, &e), &e);
     assert_refused(ss_signal_resample(NULL, NULL, 1, NULL), NULL);
     assert_refused(ss_signal_resample(&signal, NULL, 1, NULL), NULL);
     assert_refused(ss_wave_new(NULL, SS_SINE, &ss_wave_defaults, &e), &e);
@@ -181,6 +185,11 @@ headers_and_samples_refuse_null(void **state)
     assert_refused(ss_noise_add_band(noise, NULL, 2, 1, (ss_range){ 0, 1 }, 1, &e), &e);
     ss_noise_free(noise);
     assert_true(isnan(ss_noise_rms(NULL, 1, 0)));
+    ss_variance_mean(NULL, x, 1, 1);
+    ss_variance_mean(&variance, NULL, 1, 1);
+    ss_variance_square(NULL, x, 1, 1);
+    ss_variance_square(&variance, NULL, 1, 1);
+    assert_true(isnan(ss_variance_noise(NULL, 0)));
     assert_refused(ss_samples_quantise(NULL, 1, 8, 1, NULL, NULL), NULL);
     assert_int_equal(ss_number_format(NULL, 1), 0);
     assert_true(ss_number_parse(NULL, NULL) == 0);

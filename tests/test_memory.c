@@ -222,6 +222,30 @@ read_streams(int variant)
     return st >= SS_EDATA && st <= SS_ETABLES ? SS_OK : st;
 }
 
+/* As text, as AU, and as delimited text, which goes back without being kept. */
+static ss_status
+read_twice(int variant)
+{
+    static const char table[] = "t,x\n0,1\n0.1,\n0.2,3\n";
+    static const ss_read_opts opts = { .gaps = SS_GAPS_INTERPOLATE };
+    double rows[64];
+    size_t n;
+    ss_reader *reader = NULL;
+    const char *from = variant < 2 ? text[variant] : table;
+    FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : sizeof table - 1, "r");
+    ss_status st = ss_reader_new(&reader, in, "in", variant < 2 ? NULL : &opts, &err);
+    if (st == SS_OK)
+        st = ss_reader_keep(&reader, NULL, &err);
+    for (int again = 0; st == SS_OK && again < 2; again++) {
+        st = ss_reader_rows(reader, rows, 4, &n, &err);
+        if (st == SS_OK)
+            st = ss_reader_rewind(reader, &err);
+    }
+    ss_reader_free(reader);
+    fclose(in);
+    return st;
+}
+
 static ss_status
 write_streams(int variant)
 {
@@ -679,6 +703,7 @@ static const struct row {
                                    with LONG=1, which is all of them for most rows */
 } row[] = {
     { "headers", headers, 1, 100 }, { "reading streams", read_streams, 14, 100 },
+    { "reading twice", read_twice, 3, 100 },
     { "writing streams", write_streams, 3, 100 }, { "signals", signals, 8, 100 },
     { "noises", noises, 1, 100 }, { "bases", bases, 1, 100 },
     { "simulations", simulations, 3, 100 },

@@ -138,6 +138,33 @@ noise_has_the_ratio_asked_for(void **state)
     ss_signal_free(noisy);
 }
 
+/* Of -A, A, -B, B, ..., however large: in pieces as the order of magnitude changes between them. */
+static void
+a_level_is_that_of_all_pieces(void **state)
+{
+    static const struct { double pair[3], rms; } row[] = {
+        { { 1e-300, 1e-300, 1e-300 }, 1e-300 },
+        { { 1e-300, 1e-160, 1e-160 }, 0.81649658092772603e-160 },
+        { { 0, 1e-200, 3 }, 1.7320508075688772 },
+        { { 1e-200, 7, 1e200 }, 0.57735026918962576e200 },
+        { { 5, 1e300, 1e300 }, 0.81649658092772603e300 },
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        ss_variance v = { .n = 0 };
+        for (int again = 0; again < 2; again++)
+            for (size_t i = 0; i < 3; i++) {
+                double x[4] = { row[k].pair[i], NAN, -row[k].pair[i], NAN };
+                (again ? ss_variance_square : ss_variance_mean)(&v, x, 2, 2);
+            }
+        double rms = ss_variance_noise(&v, 0);
+        if (!(fabs(rms / row[k].rms - 1) <= 8 * DBL_EPSILON))
+            fail_msg("row %zu: %.17g, not %.17g", k, rms, row[k].rms);
+        assert_true(fabs(ss_variance_noise(&v, 20) / row[k].rms - 0.1) <= 2 * DBL_EPSILON);
+    }
+    assert_true(ss_variance_noise(&(ss_variance){ .n = 0 }, 0) == 0);
+}
+
 static void
 noise_is_the_same_in_pieces(void **state)
 {
@@ -286,6 +313,7 @@ main(void)
         cmocka_unit_test(impulse_and_step_are_where_they_should_be),
         cmocka_unit_test(refuses_waves_out_of_range),
         cmocka_unit_test(noise_has_the_ratio_asked_for),
+        cmocka_unit_test(a_level_is_that_of_all_pieces),
         cmocka_unit_test(noise_is_the_same_in_pieces),
         cmocka_unit_test(noise_of_a_band_stays_in_it),
         cmocka_unit_test(bands_without_a_frequency_are_refused),

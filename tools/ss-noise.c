@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char usage[] =
 "usage: ss-noise [options] --snr=DB|--rms=VALUE|--bits=N --range=R [FILE]\n"
@@ -88,71 +89,82 @@ add_notes(ss_header *head)
     }
 }
 
-/* The rms of the noise of one column. */
+/* Report the rms of the noise of a column, which is returned. */
 static double
-find_level(const ss_header *head, size_t column, const double *x, size_t n)
+report(const ss_header *head, size_t column, double level)
 {
     const char *name = head->column[column].name;
-    double level = isnan(rms) ? ss_noise_rms(x, n, snr) : rms;
     if (level == 0 && isnan(rms))
         tool_warn("%s: column %s is constant: no noise added", tool_input_name(path), name);
     tool_note("column %s: noise of rms %g", name, level);
     return level;
 }
 
-/* White noise is drawn row by row, as in a stream; that of a band column by column. */
+/* The frequencies of a band are those of the whole record.  Its noise is drawn column by column. */
 static void
-add_noise(ss_noise *noise, ss_signal *signal, const double *level)
-{
-    size_t n = signal->n, columns = signal->head->n_columns;
-    ss_error err = { 0 };
-    if (isnan(band[0]))
-        tool_check(ss_noise_add(noise, signal->values, n, 1, columns, n, level), NULL);
-    for (size_t c = 0; c < columns && !isnan(band[0]); c++)
-        if (level[c] > 0)
-            tool_check(ss_noise_add_band(noise, signal->values + c * n, n, signal->head->rate,
-                                         (ss_range){ band[0], band[1] }, level[c], &err), &err);
-}
-
-/* The variance and the frequencies of a band are known only from the whole record. */
-static void
-change_whole(tool_kind kind, ss_noise *noise)
+add_band(tool_kind kind, ss_noise *noise)
 {
     ss_signal *signal = tool_read_signal(path, &reading.opts);
     size_t n = signal->n, columns = signal->head->n_columns;
     char text[128];
-    double *chosen = choose_columns(signal->head), *level = choose_columns(signal->head);
-    for (size_t c = 0; c < columns; c++)
-        if (chosen[c] == 1)
-            level[c] = isnan(snr) && isnan(rms) ? 0
-                : find_level(signal->head, c, signal->values + c * n, n);
-    add_noise(noise, signal, level);
-    for (size_t c = 0; c < columns && bits > 0; c++)
-        if (chosen[c] == 1)
-            convert(signal->values + c * n, n);
+    ss_error err = { 0 };
+    double *chosen = choose_columns(signal->head), *x = signal->values;
+    for (size_t c = 0; c < columns; c++, x += n) {
+        if (chosen[c] == 0)
+            continue;
+        double level = report(signal->head, c, isnan(rms) ? ss_noise_rms(x, n, snr) : rms);
+        if (level > 0)
+            tool_check(ss_noise_add_band(noise, x, n, signal->head->rate, (ss_range){ band[0], band[1] }, level,
+                                         &err), &err);
+        if (bits > 0)
+            convert(x, n);
+    }
     add_notes(signal->head);
     if (tell_clipped(text, sizeof text))
         tool_check(ss_header_note(signal->head, "clipped", text), NULL);
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
     free(chosen);
-    free(level);
 }
 
-/* Row by row, in constant memory and as they come. */
+/* The rms of the noise of each column of white noise; that of a ratio takes two readings of its rows. */
+static double *
+find_levels(ss_reader *reader, const double *chosen, double *rows)
+{
+    const ss_header *head = ss_reader_header(reader);
+    size_t columns = head->n_columns, n;
+    ss_error err = { 0 };
+    double *level = tool_room(NULL, columns, sizeof *level);
+    ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
+    memset(variance, 0, columns * sizeof *variance);
+    for (int again = 0; again < 2 && !isnan(snr); again++) {
+        while ((n = tool_rows(reader, rows, PIECE)) > 0)
+            for (size_t c = 0; c < columns; c++)
+                (again ? ss_variance_square : ss_variance_mean)(&variance[c], rows + c, n, columns);
+        tool_check(ss_reader_rewind(reader, &err), &err);
+    }
+    for (size_t c = 0; c < columns; c++)
+        level[c] = chosen[c] == 0 || (isnan(snr) && isnan(rms)) ? 0
+            : report(head, c, isnan(rms) ? ss_variance_noise(&variance[c], snr) : rms);
+    free(variance);
+    return level;
+}
+
+/* Row by row, in constant memory, and as they come unless their variance must be known. */
 static void
 change_rows(tool_kind kind, ss_noise *noise)
 {
     ss_reader *reader = tool_read_rows(path, &reading.opts);
     size_t n;
     char text[128];
+    ss_error err = { 0 };
+    if (!isnan(snr))
+        tool_check(ss_reader_keep(&reader, reading.opts.folder, &err), &err);
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     if (head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     double *rows = tool_room(NULL, PIECE * head->n_columns, sizeof *rows);
-    double *chosen = choose_columns(head), *level = choose_columns(head);
-    for (size_t c = 0; c < head->n_columns; c++)
-        level[c] *= isnan(rms) ? 0 : rms;
+    double *chosen = choose_columns(head), *level = find_levels(reader, chosen, rows);
     add_notes(head);
     tool_signal *out = tool_signal_new(head, output, kind);
     while ((n = tool_rows(reader, rows, PIECE)) > 0) {
@@ -207,8 +219,8 @@ main(int argc, char *argv[])
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
-    if (!isnan(snr) || !isnan(band[0]))
-        change_whole(kind, noise);
+    if (!isnan(band[0]))
+        add_band(kind, noise);
     else
         change_rows(kind, noise);
     ss_noise_free(noise);

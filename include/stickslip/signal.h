@@ -143,6 +143,13 @@ void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
  * in constant memory.  A failure leaves it as it is.  Reading fails where there is but one row. */
 ss_status ss_reader_resample(ss_reader **reader, double rate, ss_error *err);
 
+/* Let *reader, which is at its first row, go back there.  A source that cannot is read to its end; more
+ * than 2^18 numbers of it are kept in a temporary file, in this folder (NULL: see ss_read_opts).  A failure
+ * leaves *reader to be freed. */
+ss_status ss_reader_keep(ss_reader **reader, const char *folder, ss_error *err);
+/* Go back to the first row.  SS_EINVAL: it cannot. */
+ss_status ss_reader_rewind(ss_reader *reader, ss_error *err);
+
 /* A whole signal in memory. */
 typedef struct ss_signal {
     ss_header *head;
@@ -244,6 +251,16 @@ ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, s
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of noise whose power is snr_db [dB] below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
+/* The same for values that come in pieces of n, x[i * step], and are read twice: from zeros, with _mean for
+ * all, then with _square for all again. */
+typedef struct ss_variance {
+    size_t n;
+    double largest;
+    double mean, square;        /* of the values times a power of 2; the sum of squares about the mean */
+} ss_variance;
+void ss_variance_mean(ss_variance *variance, const double *x, size_t n, size_t step);
+void ss_variance_square(ss_variance *variance, const double *x, size_t n, size_t step);
+double ss_variance_noise(const ss_variance *variance, double snr_db);
 
 /* Replace x by the output of a converter of so many bits whose input spans -range to range: the
  * nearest multiple of the step range / 2^(bits - 1) (halfway the even one), at least -range and at

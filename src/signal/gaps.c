@@ -124,6 +124,14 @@ spans(const struct runs *r, const ss_header *head)
     return text;
 }
 
+void
+ss_gaps_rewind(gap_filler *g)
+{
+    g->row = 0;
+    for (size_t c = 0; c < g->n_columns; c++)
+        g->column[c].next = 0;
+}
+
 ss_status
 ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
 {
@@ -134,7 +142,7 @@ ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
         if (r->open)
             r->run[r->n - 1].right = r->last;
     }
-    g->row = 0;
+    ss_gaps_rewind(g);
     if (g->rows.n == 0)
         return SS_OK;
     char *text = spans(&g->rows, head);

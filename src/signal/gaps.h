@@ -14,6 +14,8 @@ int ss_gaps_add(gap_filler *g, const double *rows, size_t n);
 ss_status ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err);
 /* 0: a value is missing that was there when the rows were added. */
 int ss_gaps_fill(gap_filler *g, double *rows, size_t n);
+/* Fill from the first row on again. */
+void ss_gaps_rewind(gap_filler *g);
 void ss_gaps_free(gap_filler *g);               /* NULL is allowed */
 
 /* The gaps of a record of so many rows, which head notes, in seconds from its first sample.  Each

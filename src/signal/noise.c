@@ -127,34 +127,63 @@ ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed)
     return st;
 }
 
-/* The standard deviation of x * unit about its mean. */
-static double
-deviation(const double *x, size_t n, double unit)
-{
-    double mean = 0, square = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += (x[i] * unit - mean) / (double)(i + 1);
-    for (size_t i = 0; i < n; i++)
-        square += (x[i] * unit - mean) * (x[i] * unit - mean);
-    return sqrt(square / (double)n);
-}
+/* --- its level ----------------------------------------------------------------------------- */
 
 /* The square of a number below SQUARE_LEAST loses digits to underflow, that of one above SQUARE_MOST
  * overflows. */
 #define SQUARE_LEAST 1e-145
 #define SQUARE_MOST 1e145
 
+/* The power of 2 by which values up to the largest are multiplied. */
+static int
+order_of(double largest)
+{
+    return largest > SQUARE_MOST ? -1000 : largest > 0 && largest < SQUARE_LEAST ? 1000 : 0;
+}
+
+void
+ss_variance_mean(ss_variance *v, const double *x, size_t n, size_t step)
+{
+    if (v == NULL || x == NULL)
+        return;
+    int before = order_of(v->largest);
+    for (size_t i = 0; i < n; i++)
+        v->largest = fmax(v->largest, fabs(x[i * step]));
+    int order = order_of(v->largest);
+    double unit = ldexp(1, order);
+    v->mean = ldexp(v->mean, order - before);
+    for (size_t i = 0; i < n; i++)
+        v->mean += (x[i * step] * unit - v->mean) / (double)++v->n;
+}
+
+void
+ss_variance_square(ss_variance *v, const double *x, size_t n, size_t step)
+{
+    if (v == NULL || x == NULL)
+        return;
+    double unit = ldexp(1, order_of(v->largest));
+    for (size_t i = 0; i < n; i++)
+        v->square += (x[i * step] * unit - v->mean) * (x[i * step] * unit - v->mean);
+}
+
+double
+ss_variance_noise(const ss_variance *v, double snr_db)
+{
+    if (v == NULL)
+        return NAN;
+    double unit = ldexp(1, order_of(v->largest));
+    return v->n > 0 ? sqrt(v->square / (double)v->n) / unit * pow(10, -snr_db / 20) : 0;
+}
+
 double
 ss_noise_rms(const double *x, size_t n, double snr_db)
 {
-    double largest = 0, unit = 1;
+    ss_variance v = { .n = 0 };
     if (x == NULL && n > 0)
         return NAN;
-    for (size_t i = 0; i < n; i++)
-        largest = fmax(largest, fabs(x[i]));
-    if (largest > SQUARE_MOST || (largest > 0 && largest < SQUARE_LEAST))
-        unit = ldexp(1, largest > 1 ? -1000 : 1000);
-    return n > 0 ? deviation(x, n, unit) / unit * pow(10, -snr_db / 20) : 0;
+    ss_variance_mean(&v, x, n, 1);
+    ss_variance_square(&v, x, n, 1);
+    return ss_variance_noise(&v, snr_db);
 }
 
 ss_status

@@ -76,6 +76,21 @@ ss_reader_close(ss_reader *reader)
     free(reader->factor);
 }
 
+ss_reader *
+ss_reader_like(const ss_reader *reader)
+{
+    ss_reader *r = calloc(1, sizeof *r);
+    if (r == NULL)
+        return NULL;
+    r->in.name = strdup(reader->in.name);
+    r->head = ss_header_copy(reader->head);
+    r->length = r->end_row = UINT64_MAX;
+    if (r->in.name != NULL && r->head != NULL)
+        return r;
+    ss_reader_free(r);
+    return NULL;
+}
+
 ss_status
 ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {

@@ -47,6 +47,8 @@ struct ss_reader {
 ss_status ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind,
                          const ss_read_opts *opts, ss_error *err);
 void ss_reader_close(ss_reader *reader);
+/* A reader without a source, with the name and header of another.  NULL: no memory. */
+ss_reader *ss_reader_like(const ss_reader *reader);
 /* The last step of opening: apply the options that hold for every format; needs the header, length
  * and in.name. */
 ss_status ss_reader_adjust(ss_reader *reader, const ss_read_opts *opts, ss_error *err);

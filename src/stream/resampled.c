@@ -71,10 +71,9 @@ ss_reader_resample(ss_reader **reader, double rate, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: each sample would become %.3g at %g Hz; at most %g are made",
                        (*reader)->in.name, rate / head->rate, rate, MOST);
     size_t columns = head->n_columns;
-    ss_reader *r = calloc(1, sizeof *r);
+    ss_reader *r = ss_reader_like(*reader);
     struct inner *in = calloc(1, sizeof *in);
     if (r == NULL || in == NULL || (in->rows = malloc((PIECE + columns) * sizeof *in->rows)) == NULL
-        || (r->in.name = strdup((*reader)->in.name)) == NULL || (r->head = ss_header_copy(head)) == NULL
         || ss_resampler_new(&in->resampler, r->in.name, columns, rate, INFINITY, next_row, in, NULL) != SS_OK) {
         ss_reader_free(r);
         if (in != NULL) {
@@ -88,7 +87,6 @@ ss_reader_resample(ss_reader **reader, double rate, ss_error *err)
     r->head->rate = rate;
     r->rows = give_samples;
     r->waits = waits;
-    r->length = r->end_row = UINT64_MAX;
     r->source = in;
     r->close = close_inner;
     *reader = r;

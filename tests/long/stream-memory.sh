@@ -39,7 +39,7 @@ for command in ss-cat 'ss-noise --rms 1'; do
     [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command into HDF5: $most KiB"
 done
 for file in long.csv comma.csv long.h5 long.h5:/signal/a; do
-    for command in 'ss-cat --format au' 'ss-noise --rms 1 --format au' \
+    for command in 'ss-cat --format au' 'ss-noise --rms 1 --format au' 'ss-noise --snr 9 --format au' \
             'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au'; do
         $command $file > /dev/null &
         most=$(high_water $!)
@@ -51,11 +51,14 @@ done
 # So are delimited text through a pipe, with gaps and at another rate, and one of several tables, and HDF5 with
 # gaps; numbers that are read again are in a file.
 awk -F , 'NR % 1000 != 7' long.csv > gaps.csv
+{ printf '\223NUMPY\1\0v\0%-117s\n' "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 5000000), }"
+    head -c 80000000 /dev/zero; } > long.npy
 { cat long.csv; printf 'Step 2\nt,b\n0,1\n1,2\n'; } > tables.csv
 for command in 'ss-cat --format au -' 'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au' \
         'ss-cat --format au --gaps=interpolate gaps.csv' 'ss-cat --format au --resample 9000 gaps.csv' \
         'ss-cat --format au --gaps=split --resample 12000 gaps.csv' 'ss-cat --format au --table 1 tables.csv' \
-        'ss-cat --format au --gaps=split long.h5' 'ss-noise --rms 1 --format au --resample 9000 long.h5'; do
+        'ss-cat --format au --gaps=split long.h5' 'ss-noise --rms 1 --format au --resample 9000 long.h5' \
+        'ss-noise --snr 9 --format au' 'ss-cat --rate 1e4 --format au long.npy'; do
     mkfifo in
     cat long.csv > in &
     $command < in > /dev/null &
@@ -65,7 +68,7 @@ for command in 'ss-cat --format au -' 'ss-morlet --stream --voices 2 --octaves=-
     rm in
     [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command: $most KiB"
 done
-rm gaps.csv tables.csv
+rm gaps.csv tables.csv long.npy
 
 # A picture over time, of files and through a pipe.
 for file in long.csv long.h5; do

@@ -6,6 +6,23 @@ paste pieces whole | awk '{ d = $2 - $4; if (d * d > e) e = d * d } END { print 
 ss-noise --snr 20 --seed 5 clean.tsv | head -n 2
 printf 't,x,y\n0,1,2\n1,1,3\n' | ss-noise --snr 20 -c x
 
+# The variance of a signal that comes but once: its rows are kept, in whatever form they are read.
+ss-signal noise --rate 100 --duration 3 > n.tsv
+ss-cat n.tsv -o n.h5
+ss-cat n.tsv --format au > n.au
+ss-cat n.tsv --format csv > n.csv
+ss-cat n.tsv --format csv | awk 'NR % 50 != 7' > gaps.csv
+ss-noise --snr 7 n.tsv > n.out
+for file in n.au n.h5 n.csv; do ss-noise -q --snr 7 $file | cmp n.out -; done
+ss-noise --snr 7 < n.tsv | cmp n.out -
+for options in '--gaps=interpolate gaps.csv' '--gaps=split gaps.csv' '--resample 70 n.csv' '--resample 70 n.h5' \
+        '--resample 70 n.tsv' '--from 1 --to 2 n.au' '--scale 3 n.csv'; do
+    # shellcheck disable=SC2086  # options
+    { ss-noise -q --snr 7 $options; ss-cat -q $options | ss-noise --snr 7; } | grep -v '^#' | awk '
+        { row[NR] = $0 } END { for (i = 1; i <= NR / 2; i++) if (row[i] != row[i + NR / 2]) print i
+            if (NR == 0) print "nothing" }'
+done
+
 # A band and a converter, whole and row by row; the band's rms is that of what was added.
 ss-noise --snr 20 --band 100:200 clean.tsv -o band.tsv
 grep -v '^#' clean.tsv > before
@@ -38,3 +55,6 @@ ss-noise -q --rms 0.1 --bits 8 --range 1 --format au long.au | ss-cat > rows.tsv
 ss-cat long.h5 | grep -v '^# clipped' | cmp - rows.tsv
 ss-cat long.h5 | sed -n '/^# clipped/p'
 ss-noise --rms 0.1 --bits 8 --range 1 long.au 2> /dev/null | tail -n 1
+ss-noise --snr 16.98970004336019 --format au long.au | ss-cat | grep -v '^#' > whole
+ss-noise --rms 0.1 --format au long.au | ss-cat | grep -v '^#' | paste - whole |
+    awk '{ d = $2 - $4; if (d * d > e) e = d * d } END { print NR, (e < 1e-24) }'
