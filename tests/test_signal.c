@@ -51,6 +51,22 @@ cleans_names_and_units(void **state)
     ss_header_free(head);
 }
 
+/* Escape and CSI, of ASCII, of Latin-1 and of UTF-8, would drive a terminal on which a header is shown. */
+static void
+blanks_control_characters(void **state)
+{
+    ss_header *head = ss_header_new(1, 0);
+    (void)state;
+    ss_header_add_column(head, "a\033[2J\302\2332J\303\233", "\033m\302\233\302\265");
+    ss_header_add_column(head, "b\2332J", NULL);
+    ss_header_note(head, "note", "\033]0;t\a\n\tu\302\205v\177");
+    assert_string_equal(head->column[0].name, "a_[2J__2J\303\233");
+    assert_string_equal(head->column[0].unit, " m  \302\265");
+    assert_string_equal(head->column[1].name, "b__2J");
+    assert_string_equal(ss_header_find_note(head, "note"), " ]0;t  \tu  v ");
+    ss_header_free(head);
+}
+
 static void
 numbers_the_same_name_by_what_is_free(void **state)
 {
@@ -220,6 +236,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_columns_by_name_and_number),
         cmocka_unit_test(cleans_names_and_units),
+        cmocka_unit_test(blanks_control_characters),
         cmocka_unit_test(numbers_the_same_name_by_what_is_free),
         cmocka_unit_test(names_thousands_of_columns_alike),
         cmocka_unit_test(replaces_a_note_of_the_same_key),

@@ -400,7 +400,7 @@ tool_name_scene(const char *path, const tool_texts *settings)
         if (physical)
             end = stpcpy(stpcpy(end, ", "), settings->text[i]);
     }
-    return name;
+    return ss_printable(name);
 }
 
 void

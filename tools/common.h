@@ -73,7 +73,8 @@ ss_coefficients *tool_read_coefficients(const char *path);
 /* Read a scene from a path, the name of a shipped scene, or "-"; then settings "key=value" replace
  * its values.  Dies if that fails; a wrong setting is wrong usage. */
 ss_scene tool_read_scene(const char *path, const tool_texts *settings);
-/* The name of a scene without directories, and the settings that change its physics; to be freed. */
+/* The name of a scene without directories, and the settings that change its physics, in one line;
+ * to be freed. */
 char *tool_name_scene(const char *path, const tool_texts *settings);
 /* 1 if path holds HDF5 or names a dataset in it, else 0. */
 int tool_is_hdf5(const char *path);

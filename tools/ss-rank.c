@@ -32,6 +32,7 @@ TOOL_READING_USAGE
 
 typedef struct job {
     const char *signal_path, *column_name, *known_by, *output;
+    char *signal_name;
     int as, fits;               /* as: of ss_quantity_names; -1: not given */
     tool_texts settings;
     const char **scenes;
@@ -41,12 +42,15 @@ typedef struct job {
     ss_rank_opts opts;
 } job;
 
-/* The name of the signal in outputs, which does not depend on the file's directory. */
-static const char *
+/* The name of the signal in outputs, one line that does not depend on the file's directory; to be freed. */
+static char *
 signal_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    return slash != NULL && strstr(path, ":/") == NULL ? slash + 1 : tool_input_name(path);
+    char *name = strdup(slash != NULL && strstr(path, ":/") == NULL ? slash + 1 : tool_input_name(path));
+    if (name == NULL)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    return ss_printable(name);
 }
 
 /* --- the quantity -------------------------------------------------------------------------- */
@@ -186,7 +190,7 @@ rank(const job *j, const ss_signal *signal, size_t column)
     tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, &j->opts, &err), &err);
     note_work(r, name, &j->opts);
     const ss_ranking_text about = {
-        .signal = signal_name(j->signal_path), .column = signal->head->column[column].name,
+        .signal = j->signal_name, .column = signal->head->column[column].name,
         .known_by = j->known_by, .scene = (const char *const *)name };
     tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind)), NULL);
     for (size_t i = 0; i < j->n_scenes; i++)
@@ -211,7 +215,7 @@ fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene
     FILE *out = tool_output(j->output);
     fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness, damping,\n"
             "# static_friction / friction and release rule are those given; standard errors:\n",
-            signal_name(j->signal_path),
+            j->signal_name,
             signal->head->column[column].name);
     for (size_t i = 0; i < sizeof found / sizeof *found; i++)
         fprintf(out, "#   %-17s %.2g %%\n", found[i].key, 100 * found[i].v.error / found[i].v.value);
@@ -327,7 +331,7 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
     warn_of_pull(p, k_over_m, loading, j->opts.spread);
     FILE *out = tool_output(j->output);
     fprintf(out, "# Pulled slider with %s friction, fitted to %s, column %s.\n", p->n_keys == 0 ? "Coulomb"
-            : ss_model_name(start->model), signal_name(j->signal_path), signal->head->column[column].name);
+            : ss_model_name(start->model), j->signal_name, signal->head->column[column].name);
     if (p->n_keys == 0)
         write_slips(out, p, signal, k_over_m, loading);
     else
@@ -392,6 +396,7 @@ main(int argc, char *argv[])
     parse(&j, argc, argv);
     ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
+    j.signal_name = signal_name(j.signal_path);
     j.opts.quantity = quantity_of(&signal->head->column[column], j.as, &j.known_by);
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
               signal->n, signal->head->column[column].name, ss_quantity_names[j.opts.quantity],
@@ -405,6 +410,7 @@ main(int argc, char *argv[])
     ss_signal_free(signal);
     tool_reading_free(&j.reading);
     free(j.settings.text);
+    free(j.signal_name);
     tool_end();
     return 0;
 }

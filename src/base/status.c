@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/utf8.h"
 
 const char *
 ss_strerror(ss_status status)
@@ -35,20 +36,15 @@ ss_version(void)
     return SS_VERSION;
 }
 
-/* A byte from 0x80 to 0x9f is a control character by itself and behind 0xc2, else a part of a letter.
- */
 char *
 ss_printable(char *text)
 {
-    unsigned char before = 0;
-    for (char *p = text; p != NULL && *p != '\0'; p++) {
-        unsigned char c = (unsigned char)*p;
-        int is_c1 = c >= 0x80 && c < 0xa0 && (before < 0x80 || before == 0xc2);
-        if (is_c1 && before == 0xc2)
-            p[-1] = '?';
-        if (is_c1 || c < ' ' || c == 0x7f)
-            *p = '?';
-        before = (unsigned char)*p;
+    int is_control;
+    for (char *p = text; p != NULL && *p != '\0';) {
+        size_t n = ss_utf8_next(p, &is_control);
+        if (is_control)
+            memset(p, '?', n);
+        p += n;
     }
     return text;
 }

@@ -19,6 +19,16 @@ ss_utf8_length(const char *text)
     return n;
 }
 
+size_t
+ss_utf8_next(const char *text, int *is_control)
+{
+    const unsigned char *p = (const unsigned char *)text;
+    size_t n = ss_utf8_length(text);
+    unsigned c = n == 2 ? (p[0] & 0x1fu) << 6 | (p[1] & 0x3fu) : p[0];
+    *is_control = n < 3 && (c < ' ' || (c >= 0x7f && c < 0xa0));
+    return n > 0 ? n : 1;
+}
+
 char *
 ss_utf8_text(const char *text)
 {

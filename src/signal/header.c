@@ -122,6 +122,20 @@ is_blank(char c)
     return (unsigned char)c <= ' ' || c == 127;
 }
 
+/* What drives a terminal becomes blanks, but for tabs. */
+static char *
+blank_controls(char *text)
+{
+    int is_control;
+    for (char *p = text; p != NULL && *p != '\0';) {
+        size_t n = ss_utf8_next(p, &is_control);
+        if (is_control && *p != '\t')
+            memset(p, ' ', n);
+        p += n;
+    }
+    return text;
+}
+
 static char
 clean_letter(char c)
 {
@@ -165,7 +179,7 @@ free_suffix(const ss_header *head, const char *name)
 static char *
 clean_name(const ss_header *head, const char *name)
 {
-    char *clean = ss_utf8_text(name);
+    char *clean = blank_controls(ss_utf8_text(name));
     if (clean == NULL)
         return NULL;
     for (char *p = clean; *p != '\0'; p++)
@@ -184,7 +198,7 @@ clean_name(const ss_header *head, const char *name)
 char *
 ss_clean_unit(const char *unit)
 {
-    char *clean = ss_utf8_text(unit != NULL ? unit : "");
+    char *clean = blank_controls(ss_utf8_text(unit != NULL ? unit : ""));
     int depth = 0, lowest = 0;
     if (clean == NULL)
         return NULL;
@@ -302,9 +316,7 @@ ss_header_note(ss_header *head, const char *key, const char *value)
     if (raw == NULL)
         return SS_ENOMEM;
     sprintf(raw, "%s: %s", key, value);
-    for (char *p = raw; (p = strpbrk(p, "\r\n")) != NULL; )
-        *p = ' ';
-    char *note = ss_utf8_text(raw);
+    char *note = blank_controls(ss_utf8_text(raw));
     free(raw);
     if (note == NULL)
         return SS_ENOMEM;
