@@ -160,7 +160,7 @@ while [ $# -gt 0 ]; do
     case $name in
     -o|--output) dir=${value%/} ;;
     -j|--jobs) jobs="--jobs=$(quote "$value")" ;;
-    -c|--column) options="$options --column=$(quote "$value")" ;;
+    -c|--column) finding="$finding --column=$(quote "$value")" ;;
     --time|--time-unit|--rate|--table|--gaps|--resample|--from|--to|--scale|--unit)
         options="$options $name=$(quote "$value")" ;;
     --threshold|--norm|--fmin|--mass|--stiffness|--displacement|--force|--drop)

@@ -22,6 +22,9 @@ sed -n '/<pre>/,/<\/pre>/p' $page | sed 's/<[^>]*>//g' > commands.sh
 sed 's/ -o / -o made-/; s/--features /--features made-/; s/ run.h5$/ made-run.h5/' commands.sh | sh -eu && ls made-*
 cmp made-features.tsv found
 
+# a column that is asked for is drawn once
+ss-report -q -c a -o column run.tsv && sed -n 's/.*\(ss-plot .*\)/\1/p' column/*.html
+
 # a folder whose name is an assignment to awk
 ss-report -q -o b=c run.tsv && sed 's/b=c/again/' b=c/0001-run.tsv.html | cmp - again/0001-run.tsv.html
 
