@@ -160,7 +160,7 @@ kind_hint(ss_kind found, ss_kind wanted)
     static const char *const reads[] = {
         [SS_KIND_SIGNAL] = "; ss-morlet makes coefficients of it, ss-plot draws it",
         [SS_KIND_COEFFICIENTS] = "; ss-contour reads them, and ss-morlet --inverse",
-        [SS_KIND_FEATURES] = "; ss-contour --features reads it",
+        [SS_KIND_FEATURES] = "; --features of ss-contour and ss-plot reads it",
         [SS_KIND_EVENTS] = "; ss-contour --events reads it",
         [SS_KIND_SWEEP] = "; ss-plot --map reads it",
         [SS_KIND_TRADE] = "; ss-trade -o FILE.png draws one",
@@ -332,6 +332,20 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
     tool_check(ss_signal_resample(&other, signal, opts->resample, &err), &err);
     ss_signal_free(signal);
     return other;
+}
+
+ss_overlay *
+tool_read_features(const char *path)
+{
+    ss_overlay *features;
+    ss_error err = { 0 };
+    if (path == NULL)
+        return NULL;
+    FILE *in = tool_open(path);
+    tool_check(ss_overlay_read(&features, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
+    return features;
 }
 
 ss_coefficients *

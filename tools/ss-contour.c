@@ -216,17 +216,6 @@ read_events(drawing *d)
     d->opts.event = d->event;
 }
 
-static void
-read_features(drawing *d)
-{
-    ss_error err = { 0 };
-    FILE *in = tool_open(d->features);
-    tool_check(ss_overlay_read(&d->overlay, in, tool_input_name(d->features), &err), &err);
-    if (in != stdin)
-        fclose(in);
-    d->opts.overlay = d->overlay;
-}
-
 /* --- the whole ----------------------------------------------------------------------------- */
 
 static int
@@ -289,8 +278,7 @@ main(int argc, char *argv[])
         tool_usage("--column needs a signal; give one with --signal");
     if (d.events != NULL)
         read_events(&d);
-    if (d.features != NULL)
-        read_features(&d);
+    d.opts.overlay = d.overlay = tool_read_features(d.features);
     note_contents(&d);
     tool_draw(d.output, &opts, write_script, &d);
     free(d.event);

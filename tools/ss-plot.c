@@ -13,6 +13,7 @@ static const char usage[] =
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
 "      --over=FILE      draw its first column over the first panel, from the\n"
 "                       beginning of the signal on; or with --xy its X and Y\n"
+"      --features=FILE  shade the transitions that ss-features found\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --map=X,Y,Z[,Z]  rows of ss-sweep over two keys: a column of few\n"
 "                       values as regions, another as lines of equal value;\n"
@@ -251,16 +252,19 @@ read_whole(drawing *d, const char *path, const tool_texts *name, const ss_read_o
 
 /* Draw the named columns of a signal, or all, or one over another, in the form of d. */
 static void
-draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *output,
-            const ss_read_opts *reading, ss_plot_opts *opts)
+draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *features,
+            const char *output, const ss_read_opts *reading, ss_plot_opts *opts)
 {
     int whole = d.xy || d.spectrum || over != NULL;
     ss_signal *signal = whole ? read_whole(&d, path, name, reading)
         : read_envelope(&d, path, name, reading, opts);
     d.signal = signal;
     ss_signal *other = over != NULL ? tool_read_signal(over, NULL) : NULL;
+    ss_overlay *overlay = tool_read_features(features);
     opts->over = other;
+    opts->features = overlay;
     tool_draw(output, opts, write_script, &d);
+    ss_overlay_free(overlay);
     ss_signal_free(other);
     ss_signal_free(signal);
     free(d.column);
@@ -271,14 +275,15 @@ main(int argc, char *argv[])
 {
     ss_plot_opts opts = ss_plot_defaults;
     tool_reading reading = { .rate_letter = 'r' };
-    const char *output = NULL, *over = NULL, *map = NULL, *line = NULL;
+    const char *output = NULL, *over = NULL, *features = NULL, *map = NULL, *line = NULL;
     tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
     drawing d = { .signal = NULL };
     const tool_option options[] = {
         TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &d.decibels),
         TOOL_NUMBER(0, "resolution", &d.resolution, ((ss_range){ 1e-300, 1e300 })),
         TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
-        TOOL_VALUE(0, "over", set_over, &over), TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
+        TOOL_VALUE(0, "over", set_over, &over), TOOL_TEXT(0, "features", &features),
+        TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
         TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
 
     tool_begin(argv, "ss-plot", usage);
@@ -297,6 +302,10 @@ main(int argc, char *argv[])
     if (over != NULL && map != NULL)
         tool_usage("--over excludes --map");
     d.xy = xy.n > 0;
+    if (features != NULL && (map != NULL || d.xy || d.spectrum))
+        tool_usage("--features is over time; it excludes --map, --xy and --spectrum");
+    if (features != NULL && strcmp(features, "-") == 0 && strcmp(path, "-") == 0)
+        tool_usage("standard input can be read only once");
     if (d.spectrum && (map != NULL || d.xy || over != NULL))
         tool_usage("--spectrum excludes --map, --xy and --over");
     if ((d.decibels || d.resolution > 0) && !d.spectrum)
@@ -306,7 +315,7 @@ main(int argc, char *argv[])
     if (map != NULL) {
         draw_map(path, map, line, output, &opts);
     } else {
-        draw_signal(path, d.xy ? &xy : &wanted, d, over, output, &reading.opts, &opts);
+        draw_signal(path, d.xy ? &xy : &wanted, d, over, features, output, &reading.opts, &opts);
     }
     free(wanted.text);
     free(xy.text);

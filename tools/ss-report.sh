@@ -125,7 +125,8 @@ page() {        # ROW FILE
         { foot "$2"; return; }
     column=$(sed -n 's/^# column: //p' "$work/features.tsv")
     printf '<p>Column %s</p>\n<h2>Signal</h2>\n' "$(escape_line "$column")"
-    eval "run ss-plot -q $options --column=\"\$column\" -o \"\$work/signal.svg\" -- \"\$2\"" && inline signal
+    eval "run ss-plot -q $options --column=\"\$column\" --features \"\$work/features.tsv\" \
+        -o \"\$work/signal.svg\" -- \"\$2\"" && inline signal
     echo '<h2>Contours of the wavelet coefficients, with what was found</h2>'
     eval "run ss-morlet -q $options --column=\"\$column\" --detrend mean -o \"\$work/run.h5\" -- \"\$2\"" &&
         run ss-contour -q --features "$work/features.tsv" -o "$work/contours.svg" "$work/run.h5" &&

@@ -29,6 +29,7 @@ typedef struct ss_plot_opts {
     double from, to;            /* [s] on the source's clock, the span to draw; NaN: all of it */
     ss_plot_style style;
     const ss_signal *over;      /* a second signal for ss_plot_signal and ss_plot_xy; NULL: none */
+    const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;
 

@@ -98,11 +98,10 @@ write_events(FILE *out, const contour_map *map, const ss_contour_opts *contour)
     return end_arrows(&b);
 }
 
-/* Write spans, cut at the ends of the map, then spikes, and maxima with their frequencies. */
-static void
-write_features(FILE *out, const contour_map *map, const ss_overlay *overlay, contour_marks *seen)
+size_t
+ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay)
 {
-    const script_span *span = map->span_of_time;
+    size_t n = 0;
     int decimals = ss_script_decimals(span->to - span->from);
     fputs("$spans << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spans; i++) {
@@ -113,9 +112,20 @@ write_features(FILE *out, const contour_map *map, const ss_overlay *overlay, con
             continue;
         ss_script_write(out, from, decimals, " ");
         ss_script_write(out, to, decimals, "\n");
-        seen->spans++;
+        n++;
     }
-    fputs("EOD\n$spikes << EOD\n", out);
+    fputs("EOD\n", out);
+    return n;
+}
+
+/* Write spans, then spikes, and maxima with their frequencies. */
+static void
+write_features(FILE *out, const contour_map *map, const ss_overlay *overlay, contour_marks *seen)
+{
+    const script_span *span = map->span_of_time;
+    int decimals = ss_script_decimals(span->to - span->from);
+    seen->spans = ss_contour_write_spans(out, span, overlay);
+    fputs("$spikes << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spikes; i++)
         if (is_inside(span, overlay->spike[i])) {
             ss_script_write(out, overlay->spike[i], decimals, "\n");
@@ -223,14 +233,17 @@ find_unplaced(const ss_overlay *overlay)
 }
 
 ss_status
+ss_contour_check_overlay(const ss_overlay *overlay, ss_error *err)
+{
+    const char *what = overlay != NULL ? find_unplaced(overlay) : NULL;
+    return what == NULL ? SS_OK : ss_fail(err, SS_EINVAL, "a time or frequency of a %s is not finite", what);
+}
+
+ss_status
 ss_contour_check_marks(const ss_contour_opts *contour, ss_error *err)
 {
-    const char *what = contour->overlay != NULL ? find_unplaced(contour->overlay) : NULL;
     for (size_t i = 0; i < contour->n_events; i++)
         if (!isfinite(contour->event[i]))
-            what = "event";
-    if (what != NULL)
-        return ss_fail(err, SS_EINVAL, "a time or frequency of a%s %s is not finite",
-                       what[0] == 'e' ? "n" : "", what);
-    return SS_OK;
+            return ss_fail(err, SS_EINVAL, "a time or frequency of an event is not finite");
+    return ss_contour_check_overlay(contour->overlay, err);
 }

@@ -1,4 +1,4 @@
-/* contour_marks.h -- draw the events and features of a signal over its contours. */
+/* contour_marks.h -- draw the events and features of a signal over its contours, or over time. */
 #ifndef CONTOUR_MARKS_H
 #define CONTOUR_MARKS_H
 
@@ -16,8 +16,12 @@ contour_marks ss_contour_write_marks(FILE *out, const contour_map *map, const ss
 void ss_contour_plot_events(FILE *out, const contour_marks *marks, size_t n_events);
 void ss_contour_plot_features(FILE *out, const contour_marks *marks);
 
-/* SS_EINVAL: a time or frequency is not finite. */
+/* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
+size_t ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay);
+
+/* SS_EINVAL: a time or frequency is not finite.  overlay may be NULL. */
 ss_status ss_contour_check_marks(const ss_contour_opts *contour, ss_error *err);
+ss_status ss_contour_check_overlay(const ss_overlay *overlay, ss_error *err);
 
 /* Decimals of a frequency: six digits at least. */
 int ss_contour_decimals(double f);

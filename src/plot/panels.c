@@ -1,4 +1,5 @@
 /* panels.c -- draw a signal over time with a panel for each column, or one column over another. */
+#include "plot/contour_marks.h"
 #include "plot/script.h"
 
 #include <math.h>
@@ -89,9 +90,21 @@ write_traces(FILE *out, panel p[], size_t n, const script_clock *clock, const sc
     }
 }
 
+/* Bands from the bottom of the panel to its top, which the second axis of y has at 0 and 1. */
+static size_t
+write_bands(FILE *out, const ss_overlay *features, const script_span *span)
+{
+    size_t n = ss_contour_write_spans(out, span, features);
+    fputs(n > 0 ? "feature_colour = '#f2ccc4'; set y2range [0:1]\n" : "", out);
+    return n;
+}
+
+static const char plot_bands[] = "$spans using 1:(0):1:2:(0):(1) axes x1y2 with boxxyerror fill solid "
+    "noborder lc rgb feature_colour, ";
+
 /* Panel i of n, from 1 on; the lowest has the labels of time.  A line of one sample would be invisible. */
 static void
-plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int over)
+plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int bands, int over)
 {
     script_label label;
     if (i == n)
@@ -102,7 +115,7 @@ plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int ov
     fputs("unset label 1; ", out);
     ss_script_write_side_label(out, 1, &label);
     ss_script_write_tics(out, "ytics", p->drawn, 5);
-    fprintf(out, "plot $panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", i,
+    fprintf(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", bands ? plot_bands : "", i,
             samples > 1 ? "lines" : "points pt 7 ps 1", over ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
     if (i == 1)
         fputs("unset title\n", out);
@@ -119,7 +132,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     script_span span, over_span;
     panel *p = NULL;
     int over = opts->over != NULL;
-    size_t panels = n > 0 ? n : head->n_columns;
+    size_t panels = n > 0 ? n : head->n_columns, bands = 0;
     double height = TITLE + TIME + PANEL * (double)panels;
     ss_status status = make_panels(&p, signal, n > 0 ? column : NULL, panels, err);
     if (status == SS_OK)
@@ -131,11 +144,15 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     if (status == SS_OK)
         status = make_over(&over_clock, &over_span, head->start, opts, err);
     if (status == SS_OK)
+        status = ss_contour_check_overlay(opts->features, err);
+    if (status == SS_OK)
         status = ss_script_begin(out, opts, height, err);
     if (status == SS_OK) {
         ss_script_write_title(out, opts, head, NULL);
         ss_script_write_span(out, &span);
         fprintf(out, "colour = '#0072b2'\n%s", over ? "over = '#d55e00'\n" : "");
+        if (opts->features != NULL)
+            bands = write_bands(out, opts->features, &span);
         write_traces(out, p, panels, &clock, &span);
         if (over)
             ss_script_write_trace(out, "$over", opts->over->values, &over_clock, &over_span, p[0].scale,
@@ -144,7 +161,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
                 1 - TITLE / height, panels);
         fputs(layout, out);
         for (size_t i = 1; i <= panels; i++)
-            plot_panel(out, &p[i - 1], i, panels, span.n, over && i == 1);
+            plot_panel(out, &p[i - 1], i, panels, span.n, bands > 0, over && i == 1);
         fputs("unset multiplot\n", out);
         status = ss_script_end(out);
     }
