@@ -9,11 +9,11 @@
 #include <string.h>
 #include "base/versions.h"
 
-enum { FASTEST = 1 };           /* of libdeflate's levels */
+enum { FASTEST = 1 };           /* the fastest of libdeflate's levels */
 
 struct deflater {
     struct libdeflate_compressor *compressor;
-    size_t room;                /* bytes of out */
+    size_t room;                /* bytes in out */
     unsigned char shuffled[DEFLATE_MOST * sizeof(double)], out[];
 };
 

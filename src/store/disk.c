@@ -25,7 +25,7 @@ open_file(const char *name, unsigned flags, hid_t access, haddr_t most)
     return &info->disk->of_hdf5;
 }
 
-/* The caller keeps ownership. */
+/* Close HDF5's view of the file; the FILE stays the caller's. */
 static herr_t
 close_file(H5FD_t *file)
 {
@@ -127,7 +127,7 @@ truncate_file(H5FD_t *file, hid_t how, hbool_t closing)
 static const H5FD_class_t driver = {
 #ifdef H5FD_CLASS_VERSION
     .version = H5FD_CLASS_VERSION,
-    .value = H5_VFD_RESERVED + 100,     /* one that no published driver has */
+    .value = H5_VFD_RESERVED + 100,     /* no published driver has this value */
 #endif
     .name = "stickslip",
     .maxaddr = (haddr_t)1 << 62,

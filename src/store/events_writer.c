@@ -11,7 +11,7 @@ ss_h5_write_events(h5_file *file, const ss_event *event, size_t n)
 {
     static const char none;
     hid_t group = ss_h5_new_group(file->id, "events"), text = H5Tcopy(H5T_C_S1);
-    double *real = malloc((3 * n + 1) * sizeof *real);      /* t, x, v interleaved */
+    double *real = malloc((3 * n + 1) * sizeof *real);      /* t, x and v of each event */
     char *kind = calloc(n + 1, KIND_LENGTH);
     int *direction = malloc((n + 1) * sizeof *direction);
     ss_status status = real && kind && direction ? SS_OK : SS_ENOMEM;

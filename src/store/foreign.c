@@ -15,12 +15,12 @@
 
 typedef struct array {
     size_t rows, columns;
-    int transposed;             /* a column is contiguous in the file */
+    int transposed;             /* 1: a column is contiguous in the file */
 } array;
 
 /* --- readable datasets --------------------------------------------------------------------- */
 
-/* SS_OK if it holds real numbers, else *why it does not, or NULL if the text is in file->err. */
+/* SS_OK if a dataset holds real numbers; else *why becomes the reason, or NULL if it is in file->err. */
 static ss_status
 check_type(h5_file *file, hid_t id, const char **why)
 {
@@ -64,11 +64,12 @@ get_shape(hid_t id, array *shape)
 
 /* --- the list ------------------------------------------------------------------------------ */
 
-enum { LISTED = 300, LOOKED_AT = 10000 };       /* letters; objects, for files with only names */
+/* The list has at most so many letters; at most so many objects are visited, as all may be groups. */
+enum { LISTED = 300, LOOKED_AT = 10000 };
 
 struct list {
     h5_file *file;
-    char text[LISTED + 10];                     /* room for the dots behind */
+    char text[LISTED + 10];                     /* 10 for the dots at its end */
     int looked_at;
 };
 
@@ -107,7 +108,7 @@ ss_h5_fail_listing(h5_file *file)
 
 /* --- one dataset --------------------------------------------------------------------------- */
 
-/* Rate and start: the caller's, else those noted at the dataset or its group. */
+/* Find rate and start: the caller's, else those in attributes of the dataset or its group. */
 static ss_status
 find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
 {
@@ -133,7 +134,7 @@ find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *s
     return SS_OK;
 }
 
-/* Columns named after the dataset, numbered from 1 where there are several. */
+/* Make a header whose columns have the name of the dataset, numbered from 1 if there are several. */
 static ss_status
 make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, double rate,
             ss_header **out)

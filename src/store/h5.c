@@ -111,8 +111,8 @@ file_size(hid_t object)
     return (double)size;
 }
 
-/* The bytes that a file may claim for everything read from it: the most that deflate can make of the
- * whole file, or a size that is small anyway. */
+/* All that is read from a file may need at most so many bytes: as many as deflate can make of the whole
+ * file, or a size that is small anyway. */
 static double
 largest_claim(hid_t object)
 {
@@ -130,8 +130,8 @@ chunk_values(hid_t how)
     return values;
 }
 
-/* Are the values stored as they are, or by filters of which the limit of largest_claim is true?  Twice
- * deflated, a file would hold 1032^2 times its size; other filters take the size from the file. */
+/* 1 if the values are stored as they are, or by filters for which the limit of largest_claim is true.
+ * Deflated twice, a file would hold 1032^2 times its size; other filters take the size from the file. */
 static int
 has_plain_filters(hid_t how)
 {
@@ -148,7 +148,8 @@ has_plain_filters(hid_t how)
     return n >= 0 && deflated <= 1;
 }
 
-/* The same before the extent is looked at: for that of a virtual dataset HDF5 opens its sources. */
+/* The reason to refuse how values are stored, or NULL.  Call it before reading the extent: for that of a
+ * virtual dataset, HDF5 opens the files that it refers to. */
 static const char *
 refuse_storage(hid_t how)
 {
@@ -189,7 +190,7 @@ ss_h5_refuse_values(hid_t dataset)
     return wrong;
 }
 
-/* One dataset under many names would be read many times. */
+/* Refuse a dataset that has been read under another name: under many names, one would be read many times. */
 static ss_status
 refuse_second_name(h5_file *file, hid_t dataset, const char **wrong)
 {
@@ -209,7 +210,7 @@ refuse_second_name(h5_file *file, hid_t dataset, const char **wrong)
     return node != NULL ? SS_EDATA : SS_ENOMEM;
 }
 
-/* Count the values of a dataset among those that the file claims, once, before they are read. */
+/* Add the values of a dataset to those that the file claims, once, before they are read. */
 static ss_status
 claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
 {
@@ -227,7 +228,7 @@ claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
     return file->claimed > largest_claim(dataset) ? SS_EDATA : SS_OK;
 }
 
-/* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good there is no mask: then all is 0. */
+/* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good, HDF5 gives no mask, and 0 is returned. */
 unsigned
 ss_h5_forbid_plugins(void)
 {
@@ -262,7 +263,7 @@ ss_h5_get_number(hid_t object, const char *name, double *value)
     return good;
 }
 
-/* A string of either storage, fixed or variable, as a new C string. */
+/* Read a string of fixed or variable length as a new C string. */
 static ss_status
 read_text(hid_t id, hid_t type, char **text)
 {
@@ -291,7 +292,8 @@ read_text(hid_t id, hid_t type, char **text)
     return status;
 }
 
-/* No attribute is packed, but those of variable length may be one text under many names. */
+/* Attributes are not compressed, so their texts are no longer than the file, unless many attributes of
+ * variable length refer to one text. */
 static int
 has_claimed_too_much(const h5_file *file)
 {
@@ -360,12 +362,12 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
     if (value != NULL)
         notes->status = ss_header_note(notes->head, name, value);
     free(value);
-    if (notes->status == SS_EINVAL)             /* other programs may write attributes that are no notes */
+    if (notes->status == SS_EINVAL)             /* other programs' attributes need not be notes */
         notes->status = SS_OK;
     return notes->status != SS_OK;
 }
 
-/* The notes among the root's attributes, in the order in which they were written. */
+/* Read the notes among the root's attributes, in the order in which they were written. */
 static ss_status
 read_notes(h5_file *file, ss_header *head)
 {
@@ -419,6 +421,17 @@ ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
     ss_status status = claim(file, id, n, &wrong);
     H5Dclose(id);
     return status == SS_EDATA ? ss_h5_fail(file, status, group, name, wrong) : status;
+}
+
+int
+ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], double *values)
+{
+    hid_t space = H5Dget_space(id), memory = H5Screate_simple(rank, count, NULL);
+    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) >= 0
+        && H5Dread(id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values) >= 0;
+    H5Sclose(memory);
+    H5Sclose(space);
+    return good;
 }
 
 ss_status

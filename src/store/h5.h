@@ -74,6 +74,9 @@ ss_status ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **t
 /* Read a whole dataset of real numbers, of n values in all, as doubles. */
 ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n);
 
+/* Read count[i] values along dimension i of a dataset, from at[i] on, as doubles.  Returns 0 if HDF5 fails. */
+int ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], double *values);
+
 /* SS_EDATA with the place of the first value that is not finite. */
 ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
 /* The number of values of a dataset, which the caller reads next: they are counted as claimed, and a

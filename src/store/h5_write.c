@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define PLAIN_BYTES 65536       /* a dataset up to this size is stored without compression */
-#define OPEN_BYTES (32 << 20)   /* of chunks being filled, about, where lengths are not known */
+#define OPEN_BYTES (32 << 20)   /* about so much are all chunks in memory if lengths are not known */
 #define LEAST_CHUNK 256
 #define LEAST_ROW 2048          /* shorter rows share chunks */
 
@@ -64,7 +64,7 @@ ss_h5_write_clock(hid_t group, const ss_header *head)
            && ss_h5_write_number(group, "has_time", H5T_STD_I8LE, head->has_time);
 }
 
-/* The layout of a dataset: large ones in compressed chunks along the last dimension. */
+/* The layout of a dataset: if it is large, in compressed chunks along the last dimension. */
 static hid_t
 layout(const h5_dataset *v, int rank, const hsize_t dims[])
 {
@@ -87,7 +87,7 @@ layout(const h5_dataset *v, int rank, const hsize_t dims[])
     return plist;
 }
 
-/* The cache of a growing dataset: room for a chunk a row. */
+/* Access properties of a dataset.  If it grows, its cache has room for one chunk of each row. */
 static hid_t
 access_of(const h5_dataset *v, int rank, const hsize_t dims[])
 {
@@ -99,7 +99,7 @@ access_of(const h5_dataset *v, int rank, const hsize_t dims[])
     return plist;
 }
 
-/* The values in memory as HDF5 sees them: every stride-th of a line. */
+/* The values in memory as a dataspace: every stride-th number of an array. */
 static hid_t
 memory_space(const h5_dataset *v, hsize_t values)
 {
@@ -188,7 +188,7 @@ ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
     return good;
 }
 
-/* Values of a row in a chunk of a dataset that is shuffled and deflated row by row, else 0. */
+/* The number of values in a chunk, if the dataset is shuffled and deflated row by row; else 0. */
 static size_t
 row_chunk(hid_t id)
 {

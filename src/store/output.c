@@ -20,7 +20,7 @@ create_file(const char *path, hid_t access)
 {
     hid_t how = H5Pcreate(H5P_FILE_CREATE);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);   /* read by everyone since 2008 */
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);   /* programs read it since 2008 */
     H5Pset_obj_track_times(how, 0);
     H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     H5Pset_attr_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
@@ -29,8 +29,8 @@ create_file(const char *path, hid_t access)
     return id;
 }
 
-/* Open what path names.  Where HDF5 cannot go to and fro in it, a device or a FIFO, it gets a file
- * without a name, to be copied in the end. */
+/* Open the file at the path.  HDF5 cannot go back and forth in a device or a FIFO: there it gets a file
+ * without a name, which is copied at the end. */
 static ss_status
 open_disk(h5_output *out)
 {
@@ -87,7 +87,7 @@ copy_out(const h5_output *out)
 static ss_status
 close_hdf5(h5_output *out, ss_status st)
 {
-    int good = out->file.id < 0 || H5Fclose(out->file.id) >= 0; /* closes all that is open in it */
+    int good = out->file.id < 0 || H5Fclose(out->file.id) >= 0; /* and all objects in it */
     out->file.id = -1;
     return st == SS_OK && !good ? ss_h5_fail_write(&out->file, 0, "") : st;
 }

@@ -11,17 +11,6 @@ struct ss_store_reader {
     wavelet_reader wavelet;
 };
 
-/* --- public -------------------------------------------------------------------------------- */
-
-static ss_status
-finish(h5_file *file, ss_status status)
-{
-    ss_h5_close(file);
-    if (status == SS_ENOMEM)
-        return ss_fail(file->err, status, "%s: %s", file->path, ss_strerror(status));
-    return status;
-}
-
 int
 ss_store_has_signal(const char *path)
 {
@@ -32,7 +21,7 @@ ss_store_has_signal(const char *path)
     QUIETLY(
         if (ss_h5_open(&file) == SS_OK)
             has = H5Lexists(file.id, "signal", H5P_DEFAULT) > 0;
-        finish(&file, SS_OK);
+        ss_h5_close(&file);
     );
     return has;
 }
@@ -134,7 +123,7 @@ ss_store_reader_free(ss_store_reader *r)
         return;
     QUIETLY(
         ss_wavelet_reader_close(&r->wavelet);
-        finish(&r->file, SS_OK);
+        ss_h5_close(&r->file);
     );
     free(r->path);
     free(r);

@@ -6,7 +6,7 @@
 #include "store/groups.h"
 #include "stream/clock.h"
 
-/* The links of a group, in the order of writing where the file keeps it. */
+/* The order of a group's links: that of writing if the file has it, else that of the names. */
 static H5_index_t
 link_order(hid_t group)
 {
@@ -31,7 +31,7 @@ append_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
     (void)group, (void)info;
     if (more != NULL)
         links->name = more;
-    if (links->n == MAX_COLUMNS + 1)            /* and t */
+    if (links->n == MAX_COLUMNS + 1)            /* 1 for t */
         links->status = SS_EDATA;
     else if (more == NULL || (more[links->n] = strdup(name)) == NULL)
         links->status = SS_ENOMEM;
@@ -40,8 +40,8 @@ append_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
     return links->status != SS_OK;
 }
 
-/* All names of a group at once: one by one, HDF5 sorts them all again for each where the group has no
- * index of that order. */
+/* List all names of a group at once.  Asked one by one, HDF5 would sort them all again for each, if the
+ * group has no index of that order. */
 static ss_status
 list_links(h5_file *file, hid_t group, struct links *links)
 {
@@ -52,7 +52,7 @@ list_links(h5_file *file, hid_t group, struct links *links)
     return links->status;
 }
 
-/* Add the dataset at a link, of n values, as a column of the header; it stays open. */
+/* Add the dataset of n values at a link as a column of the header.  The dataset stays open. */
 static ss_status
 add_column(signal_rows *s, hid_t group, const char *link, ss_header *head)
 {

@@ -6,9 +6,9 @@
 #include <string.h>
 #include "store/groups.h"
 
-enum { PIECE = 1 << 18 };       /* values that are read at a time, if chunks are not larger */
+enum { PIECE = 1 << 18 };       /* values that are read at a time, unless chunks are larger */
 
-/* The dimension of a dataset, of one or two, along which its rows go. */
+/* The index of the dimension, of one or two, along which the rows of a dataset go. */
 static int
 rows_dimension(int rank, int by_columns)
 {
@@ -22,17 +22,13 @@ read_rows_of(hid_t id, int by_columns, size_t row, size_t n, double *to)
     hsize_t first[H5S_MAX_RANK] = { 0 }, count[H5S_MAX_RANK];
     hid_t space = H5Dget_space(id);
     int rank = H5Sget_simple_extent_dims(space, count, NULL), along = rows_dimension(rank, by_columns);
+    H5Sclose(space);
     first[along] = row;
     count[along] = n;
-    hid_t memory = H5Screate_simple(rank, count, NULL);
-    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, first, NULL, count, NULL) >= 0
-        && H5Dread(id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, to) >= 0;
-    H5Sclose(memory);
-    H5Sclose(space);
-    return good;
+    return ss_h5_read_piece(id, rank, first, count, to);
 }
 
-/* The rows in a chunk of a dataset; 0: it is not in chunks. */
+/* The number of rows in a chunk of a dataset; 0: it is not in chunks. */
 static hsize_t
 chunk_rows(hid_t id, int by_columns)
 {
@@ -43,7 +39,8 @@ chunk_rows(hid_t id, int by_columns)
     return rank > 0 ? chunk[rows_dimension(rank, by_columns)] : 0;
 }
 
-/* Whole chunks of the dataset whose chunks are the longest, about PIECE values, or all rows. */
+/* The number of rows to read at a time: whole chunks of the dataset with the longest chunks, about PIECE
+ * values in all, or all rows. */
 static size_t
 piece_rows(const signal_rows *s, size_t columns)
 {
@@ -56,7 +53,7 @@ piece_rows(const signal_rows *s, size_t columns)
     return rows < s->n ? (size_t)rows : s->n;
 }
 
-/* Of n rows of dataset d, in x, of so many columns. */
+/* Check n rows of dataset d.  Values that are not finite become NaN if there may be gaps, else SS_EDATA. */
 static ss_status
 check_finite(signal_rows *s, size_t d, double *x, size_t n, size_t columns)
 {
@@ -74,7 +71,7 @@ check_finite(signal_rows *s, size_t d, double *x, size_t n, size_t columns)
     return SS_OK;
 }
 
-/* The next n rows into the values of the reader. */
+/* Read the next n rows into the values of the reader. */
 static ss_status
 read_piece(ss_reader *reader, signal_rows *s, size_t n)
 {

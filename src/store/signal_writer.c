@@ -24,14 +24,14 @@ long_name(const ss_column *column)
     return column->name;
 }
 
-/* A free link name in the group for a column: its own, where HDF5 and the group allow it. */
+/* Choose the name of a column's link in a group: its own name if HDF5 allows it and it is not used. */
 static void
 link_name(char link[256], hid_t group, const char *name)
 {
     size_t length = 199;
     if (snprintf(link, length + 1, "%s", name) > (int)length) {
         while (length > 0 && (name[length] & 0xc0) == 0x80)
-            length--;                   /* to the start of a character */
+            length--;                   /* back to the start of a character */
         link[length] = '\0';
     }
     for (char *c = link; *c != '\0'; c++)
@@ -44,9 +44,8 @@ link_name(char link[256], hid_t group, const char *name)
         sprintf(link + length, "_%d", i);
 }
 
-/* HDF5 writes the list of what is attached to t anew for each column.  A list of more than 64 kB it
- * does not keep in the header of t but appends each time: 32768 columns would take a minute and 1
- * GB. */
+/* For each column that is attached to t, HDF5 writes the list of all of them again.  A list of more than
+ * 64 kB is not replaced but appended each time: 32768 columns would take a minute and 1 GB. */
 enum { MOST_ATTACHED = 4000 };
 
 static ss_status

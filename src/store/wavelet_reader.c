@@ -34,7 +34,7 @@ get_lattice(h5_file *file, hid_t group, ss_scale *scale)
     return status;
 }
 
-/* Is scale i one of this record's grid, and shorter than the one before? */
+/* SS_EDATA unless scale i is one of this record's grid, and shorter than the one before. */
 static ss_status
 check_scale(const wavelet_reader *r, hid_t group, size_t i)
 {
@@ -51,7 +51,7 @@ check_scale(const wavelet_reader *r, hid_t group, size_t i)
     return wrong == NULL ? SS_OK : ss_h5_fail(r->file, SS_EDATA, group, "", wrong);
 }
 
-/* The next n of all coefficients are this scale's. */
+/* Give the next n of all coefficients to this scale. */
 static ss_status
 add_scale(wavelet_reader *r, ss_scale *scale, size_t n)
 {
@@ -99,7 +99,7 @@ get_scale(wavelet_reader *r, size_t i)
     return status;
 }
 
-/* A rectangle, a row a scale of a value a sample. */
+/* SS_EDATA unless a dataset is a rectangle with a row for each scale and a value for each sample. */
 static ss_status
 check_rectangle(const wavelet_reader *r, const char *name)
 {
@@ -120,7 +120,7 @@ check_rectangle(const wavelet_reader *r, const char *name)
         : ss_h5_fail(r->file, SS_EDATA, group, name, "not a row a scale of a value a sample");
 }
 
-/* The scales of a rectangle, their members one dataset each. */
+/* Read the scales of rectangles; each of their numbers is a dataset. */
 static ss_status
 get_dense(wavelet_reader *r)
 {
@@ -155,7 +155,7 @@ get_dense(wavelet_reader *r)
     return status;
 }
 
-/* All but the coefficients. */
+/* Read the scales, without their coefficients. */
 static ss_status
 read_grid(wavelet_reader *r)
 {
@@ -211,17 +211,12 @@ ss_wavelet_reader_open(wavelet_reader *r, h5_file *file)
     return r->row != NULL ? SS_OK : SS_ENOMEM;
 }
 
-/* Row i of a rectangle. */
+/* Read row i of re (k = 0) or im (k = 1) of a rectangle. */
 static ss_status
 read_row(wavelet_reader *r, int k, size_t i)
 {
     const hsize_t at[2] = { i, 0 }, count[2] = { 1, r->grid->n };
-    hid_t space = H5Dget_space(r->part[k]), memory = H5Screate_simple(1, &count[1], NULL);
-    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) >= 0
-        && H5Dread(r->part[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, r->row) >= 0;
-    H5Sclose(memory);
-    H5Sclose(space);
-    return good ? SS_OK
+    return ss_h5_read_piece(r->part[k], 2, at, count, r->row) ? SS_OK
         : ss_h5_fail(r->file, SS_EIO, r->group, part_name[k], "cannot be read");
 }
 

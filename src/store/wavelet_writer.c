@@ -12,12 +12,12 @@
 
 struct scale_datasets {
     hid_t group, time, edge;
-    h5_row re, im;              /* if dense, ids of the same two datasets at each scale */
+    h5_row re, im;              /* if dense, all scales have the ids of the same two datasets */
     size_t done;
     double most;                /* the largest |W| so far */
 };
 
-/* One coefficient a sample at every scale, so that all share one line of times? */
+/* 1 if every scale has one coefficient a sample, so that all scales share one dataset of times. */
 static int
 is_dense(const wavelet_writer *w)
 {
@@ -145,7 +145,7 @@ ss_wavelet_writer_find(const wavelet_writer *w, const ss_scale *scale, size_t fi
     return i;
 }
 
-/* Write what is held of a scale. */
+/* Write the rest of a scale, which is held in memory. */
 static int
 end_rows(wavelet_writer *w, size_t i)
 {
@@ -171,8 +171,9 @@ close_datasets(struct scale_datasets *r)
     return good;
 }
 
-/* Added and subtracted, this rounds to a multiple of the largest power of two that is at most sqrt(2) x
- * the error that is left for W, so that re and im are off by half of that.  0: all bits are kept. */
+/* A number that, added and then subtracted, rounds to a multiple of the largest power of two that is at
+ * most sqrt(2) times the error allowed for W: re and im are off by at most half of that.  0: all bits are
+ * kept. */
 static double
 rounding_of(double tolerance, double most)
 {
@@ -191,7 +192,7 @@ largest_of(const double *x, size_t n, double most)
     return fmax(most, sqrt(square));
 }
 
-/* The datasets of scale i, which are lines, or those of all scales, which are rectangles. */
+/* Make the datasets of scale i, or, if dense, those of all scales, which are rectangles. */
 static ss_status
 open_datasets(wavelet_writer *w, size_t i, int single)
 {
@@ -218,7 +219,7 @@ open_datasets(wavelet_writer *w, size_t i, int single)
     hid_t *const id[] = { NULL, &d->re.id, &d->im.id, &d->edge };
     for (size_t k = 1; k < sizeof v / sizeof *v; k++) {
         *id[k] = ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
-        /* CF: the label of a row that is not its index */
+        /* the CF conventions name so the label of a row that is not its index */
         if (*id[k] < 0 || (w->dense && !ss_h5_write_text(*id[k], "coordinates", "frequency")))
             return ss_h5_fail_write(w->pieces->file, group, v[k].name);
     }
@@ -228,10 +229,10 @@ open_datasets(wavelet_writer *w, size_t i, int single)
     return SS_OK;
 }
 
-/* Begin scale i, whose largest |W| is `most` so far; its datasets, too, unless another scale has made them.
- * For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which 32-bit floats
- * hold exactly unless the unit is below 2^-149.  What is lost there is far below 16 eps a^1/2 max|x|, by
- * which W may be off anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one scale. */
+/* Begin scale i, whose largest |W| is `most` so far, and make its datasets, unless another scale has made
+ * them.  For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which 32-bit
+ * floats hold exactly unless the unit is below 2^-149.  The error there is far below the 16 eps a^1/2 max|x|
+ * that W has anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one scale. */
 static ss_status
 begin_scale(wavelet_writer *w, size_t i, double most)
 {
@@ -245,7 +246,7 @@ begin_scale(wavelet_writer *w, size_t i, double most)
     return st == SS_OK ? ss_h5_hold_row(&d->im) : st;
 }
 
-/* Rounded by a sum with `shift`, apart from each other. */
+/* Split coefficients into re and im, rounded by adding and subtracting `shift`. */
 VERSIONS static void
 split(double *restrict re, double *restrict im, const double *restrict x, size_t n, double shift)
 {
@@ -255,7 +256,7 @@ split(double *restrict re, double *restrict im, const double *restrict x, size_t
     }
 }
 
-/* Is each of n coefficients, from the first on, in a cone of influence?  But for gaps, those that are not
+/* Find which of n coefficients, from `first` on, are in a cone of influence.  Without gaps, all that are not
  * follow each other. */
 static void
 find_edges(const wavelet_writer *w, const ss_scale *scale, size_t first, size_t n, size_t samples)
@@ -273,7 +274,7 @@ find_edges(const wavelet_writer *w, const ss_scale *scale, size_t first, size_t 
                                               w->n_gaps);
 }
 
-/* n coefficients of scale i, as many as fit into a piece. */
+/* Write n coefficients of scale i, at most a piece. */
 static int
 write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
@@ -316,7 +317,7 @@ ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x,
     return SS_OK;
 }
 
-/* Are all coefficients there that a scale has in a record of so many samples? */
+/* 1 if scale i has all the coefficients that it has in a record of so many samples. */
 static int
 is_full(const wavelet_writer *w, size_t i, size_t samples)
 {

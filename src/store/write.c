@@ -11,7 +11,7 @@
 struct ss_store_writer {
     h5_output output;
     h5_pieces pieces;
-    ss_status status;           /* of what failed first */
+    ss_status status;           /* the first failure */
     signal_writer signal;
     wavelet_writer wavelet;
 };
@@ -36,7 +36,7 @@ write_notes(h5_file *file, const ss_header *head)
     return SS_OK;
 }
 
-/* Make the file; write the notes and keep the clock, which hold for all that follows. */
+/* Make the file, write the notes, and keep the clock for the groups that follow. */
 static ss_status
 begin(ss_store_writer **out, const char *path, const ss_header *head)
 {
@@ -73,7 +73,7 @@ begin_empty(ss_store_writer **out, const char *path, const ss_header *signal,
     return st == SS_OK ? ss_wavelet_writer_open(&w->wavelet, &w->pieces, grid) : st;
 }
 
-/* Keep what failed first, the disk included. */
+/* Store the first failure, which may be the disk's, for later calls. */
 static ss_status
 keep(ss_store_writer *w, ss_status st)
 {
@@ -169,7 +169,7 @@ ss_store_writer_note(ss_store_writer *w, const char *key, const char *value, ss_
     return report(w, st, err);
 }
 
-/* Have all samples been given that the file is to have? */
+/* 1 if all samples of the file have been given. */
 static int
 is_whole(const ss_store_writer *w, size_t samples)
 {
@@ -209,7 +209,7 @@ ss_store_writer_free(ss_store_writer *w)
     if (w == NULL)
         return;
     H5E_BEGIN_TRY {
-        ss_h5_output_close(&w->output, SS_STOP);     /* unless it has ended */
+        ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
     } H5E_END_TRY
     ss_wavelet_writer_free(&w->wavelet);
     ss_deflater_free(w->pieces.deflater);
