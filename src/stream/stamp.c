@@ -16,11 +16,11 @@ read_digits(const char *p, int n, long *x)
     return p;
 }
 
-/* The same behind one of these marks. */
+/* Read two digits behind one of these marks, likewise. */
 static const char *
-read_part(const char *p, const char *marks, int n, long *x)
+read_part(const char *p, const char *marks, long *x)
 {
-    return p != NULL && *p != '\0' && strchr(marks, *p) != NULL ? read_digits(p + 1, n, x) : NULL;
+    return p != NULL && *p != '\0' && strchr(marks, *p) != NULL ? read_digits(p + 1, 2, x) : NULL;
 }
 
 /* The number of a day in the Gregorian calendar.  Years begin in March here, so that a leap day is the
@@ -38,10 +38,10 @@ read_date(const char *p, long *day)
 {
     long y, m, d;
     const char *mark = (p = read_digits(p, 4, &y));
-    p = read_part(p, "-/", 2, &m);
+    p = read_part(p, "-/", &m);
     if (p == NULL || *p != *mark)
         return NULL;
-    p = read_part(p, "-/", 2, &d);
+    p = read_part(p, "-/", &d);
     if (p == NULL || m < 1 || m > 12 || d < 1 || d > 31)
         return NULL;
     *day = day_number(y, m, d);
@@ -52,7 +52,7 @@ static const char *
 read_time(const char *p, double *seconds)
 {
     long h, m, s;
-    p = read_part(read_part(read_digits(p, 2, &h), ":", 2, &m), ":", 2, &s);
+    p = read_part(read_part(read_digits(p, 2, &h), ":", &m), ":", &s);
     if (p == NULL || h > 23 || m > 59 || s > 60)
         return NULL;
     long digits = 0;
@@ -75,7 +75,7 @@ read_zone(const char *p, double *ahead)
     *ahead = 0;
     if (*p == 'Z' || *p == '\0')
         return p + (*p == 'Z');
-    p = read_part(p, "+-", 2, &h);
+    p = read_part(p, "+-", &h);
     if (p != NULL && *p != '\0')
         p = read_digits(p + (*p == ':'), 2, &m);
     *ahead = sign * (double)(3600 * h + 60 * m);
