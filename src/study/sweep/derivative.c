@@ -33,8 +33,9 @@ ss_finder_coordinate_units(const finder *f, double unit[D_MOST])
     unit[D_V] = f->unit.v;
 }
 
-/* Where so many cycles lead from a state that is moved by `by` along one coordinate, on the other side
- * if its mode forbids this one; *by becomes what it was moved.  An end in another mode is NaN. */
+/* Go on for so many cycles from a state that is moved by *by along one coordinate, or by -*by if its mode
+ * forbids that.  end becomes the coordinates at the end, *by the distance moved; it is NaN if the mode at
+ * the end is another. */
 static ss_status
 neighbour(finder *f, const motion *start, int cycles, int coordinate, double *by, double end[D_MOST])
 {
@@ -60,8 +61,8 @@ neighbour(finder *f, const motion *start, int cycles, int coordinate, double *by
 static ss_status
 differences(finder *f, int cycles, derivative_use use, tangent *t)
 {
-    /* in units of each coordinate: the error of a one-sided difference is the size, that of a central
-     * one its square, and what tolerance leaves of a walk is divided by it */
+    /* in units of each coordinate: a one-sided difference has an error of this size, a central one of its
+     * square, and the error that the tolerance allows a walk is divided by it */
     const double size = use == MULTIPLIERS ? 1e-4 : 1e-6;
     const motion start = f->w.m;
     double unit[D_MOST], centre[D_MOST];
@@ -71,7 +72,7 @@ differences(finder *f, int cycles, derivative_use use, tangent *t)
     ss_finder_coordinates(&end, centre);
     ss_finder_coordinate_units(f, unit);
     if (start.now.model->memory != NULL && start.now.model->dim < D_MOST && start.now.mode == 0) {
-        unit[D_Q] = f->unit.y;          /* q is the deflection of a contact, which may be small beside x */
+        unit[D_Q] = f->unit.y;          /* q is a contact's deflection, much smaller than x perhaps */
         unit[D_V] = f->unit.y * sqrt(start.now.k / f->scene->mass);
     }
     start.now.model->variation->free(&start.now, is_free);

@@ -7,7 +7,7 @@
 
 /* --- states -------------------------------------------------------------------------------- */
 
-/* *unit: what y is measured by. */
+/* The third number of the state, y; *unit becomes its scale. */
 static double
 memory_of(const state *m, double *unit)
 {
@@ -64,13 +64,14 @@ ss_finder_begin(finder *f, const char *method)
 ss_status
 ss_finder_begin_at(finder *f, const motion *from)
 {
-    const motion copy = *from;          /* which may be the walk's own */
+    const motion copy = *from;          /* from may be the walk's own motion */
     f->n = 0;
     ss_walk_begin_at(&f->w, &copy);
     return SS_OK;
 }
 
-/* Of a distance and at most; an error grows a hundredfold in a cycle where v passes 0 steeply. */
+/* A rough tolerance is this part of a distance, and at most ROUGHEST: where v passes 0 steeply, an error
+ * grows a hundredfold in a cycle. */
 #define ROUGH 1e-4
 #define ROUGHEST 1e-6
 
@@ -87,10 +88,10 @@ ss_finder_keep(finder *f, double distance)
 
 /* --- walking ------------------------------------------------------------------------------- */
 
-/* A point takes many cycles: one that costs much more than the motion asks for is refused before it has
- * used up the steps of the point.  A cycle has a tenth of those, 10^6 at least, and always three times
- * what the fastest period of the mode asks for; each is worth RHS_PER_STEP right-hand sides, which
- * unlike steps cost about the same in every method. */
+/* A point takes many cycles.  A cycle that costs much more than its motion needs is refused before it has
+ * used up the steps of the point.  It may take a tenth of these steps, at least 10^6, and always three
+ * times as many as the fastest period of the mode needs.  The limit is in right-hand sides, RHS_PER_STEP
+ * for each step, since they cost about the same in every method. */
 #define CYCLE_STEPS 1e6
 
 static double
@@ -112,7 +113,7 @@ check_work(const finder *f, double since, int cycles)
                    f->w.m.origin.hi + f->w.m.now.u);
 }
 
-/* One leg; *sticks: a stick begins at its end. */
+/* Walk one leg.  *sticks becomes 1 if a stick begins at its end. */
 static ss_status
 go_leg(finder *f, double longest, meter *r, tangent *t, int *sticks)
 {
@@ -141,8 +142,8 @@ go_leg(finder *f, double longest, meter *r, tangent *t, int *sticks)
     return SS_OK;
 }
 
-/* So many onsets of stick on.  A true stick is one leg; all else is walked by own periods, so that a slip
- * without end is noticed. */
+/* Walk to the onset of stick that is `cycles` onsets ahead.  A true stick is one leg.  All other legs last
+ * at most one period of the free mass, so that a slip without end is noticed. */
 static ss_status
 go_to_onset(finder *f, int cycles, meter *r, tangent *t)
 {

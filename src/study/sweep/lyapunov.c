@@ -13,10 +13,10 @@
 enum { PARTS = 20 };
 
 typedef struct part {
-    double log, time;               /* by which a difference has grown, and in what time [s] */
+    double log, time;               /* the logarithm of a difference's growth, in this time [s] */
 } part;
 
-/* Carry the difference across the cycle that ends in m, and give the factor by which it has grown. */
+/* Carry the difference across the cycle that ends in m, and return the factor by which it has grown. */
 static double
 stretch(const tangent *t, const state *m, const double unit[D_MOST], double difference[D_MOST])
 {
@@ -57,7 +57,7 @@ ss_finder_exponent(finder *f, unsigned long cycles, double *exponent, double *er
 {
     double difference[D_MOST] = { 1, 1, 1 }, log = 0, time = 0, scatter = 0;
     part parts[PARTS];
-    ss_status st = follow(f, cycles / 10, difference, &parts[0]);   /* until it points where it grows most */
+    ss_status st = follow(f, cycles / 10, difference, &parts[0]);   /* it turns to where it grows most */
     for (int i = 0; st == SS_OK && i < PARTS; i++) {
         st = follow(f, (cycles + PARTS - 1) / PARTS, difference, &parts[i]);
         log += parts[i].log;

@@ -16,14 +16,14 @@ void
 ss_meter_begin(meter *r, unsigned wanted, const state *m)
 {
     unsigned inside = 1u << SS_V_MAX | 1u << SS_A_MAX | 1u << SS_TRANSITION;
-    if (m->model->force_varies || pull_of(m->scene) != 0)   /* else x has its extrema where modes end */
+    if (m->model->force_varies || pull_of(m->scene) != 0)   /* if not, modes end at all extrema of x */
         inside |= RANGE | 1u << SS_ENERGY;
     *r = (meter){ .wanted = wanted, .needs_course = (wanted & inside) != 0,
                   .x_lo = INFINITY, .x_hi = -INFINITY, .slip = m->mode, .in_first = 1 };
 }
 
 typedef struct point {
-    double s, x, dx;                /* x - U t and its rate */
+    double s, x, dx;                /* time in the leg; x - U t and its rate */
     double v, a, jerk, f;
     double slid, slip;              /* place and velocity on the surface */
 } point;
@@ -80,8 +80,8 @@ rate_of(const point *p, rate which)
     return which == OF_X ? p->dx : which == OF_V ? p->a : p->jerk;
 }
 
-/* Where the rate is 0 between lo and hi, at which its signs differ: by false position with the
- * Illinois rule (Dowell and Jarratt 1971). */
+/* The point between lo and hi at which the rate is 0; its signs at lo and hi differ.  It is found by false
+ * position with the Illinois rule (Dowell and Jarratt 1971). */
 static point
 extremum(walk *w, point lo, point hi, rate which)
 {
@@ -126,7 +126,8 @@ count_extremum_of_a(meter *r, const state *m, const point *p)
     r->now.last = t;
 }
 
-/* Fewer than three extrema are no oscillation: the base alone causes two. */
+/* Add the spacings of a transition's extrema.  Fewer than three are no oscillation, since the base alone
+ * causes two. */
 static void
 count_ring(meter *r, const ring *of)
 {
@@ -147,7 +148,7 @@ leave_transition(meter *r)
     r->now.n = 0;
 }
 
-/* If the cycles close, the transition at the end continues as the one at the start. */
+/* Count the last transition and the one at the start, which are parts of one if the cycles close. */
 static void
 end_transition(meter *r, int closes)
 {
@@ -163,7 +164,7 @@ end_transition(meter *r, int closes)
     count_ring(r, &joined);
 }
 
-/* Of the friction. */
+/* The power of the friction at s. */
 static double
 power_at(walk *w, double s)
 {
@@ -189,7 +190,7 @@ work_between(walk *w, double lo, double hi)
     return half * sum;
 }
 
-/* The part of a leg between two points near to each other. */
+/* Measure the part of a leg between two points that are near each other. */
 static void
 measure_part(meter *r, walk *w, const point *lo, const point *hi)
 {
@@ -206,7 +207,7 @@ measure_part(meter *r, walk *w, const point *lo, const point *hi)
         leave_transition(r);
 }
 
-/* Does the friction force vary within the mode? */
+/* 1 if the friction force varies within the mode. */
 static int
 force_varies(const state *m)
 {
@@ -235,7 +236,7 @@ ss_course_free(course *c)
     }
 }
 
-/* Along a leg that begins at this time. */
+/* Record the course along a leg that begins at this time. */
 static void
 record_course(course *c, walk *w, double time)
 {

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* A multiplier that rounding, or what tolerance leaves of a difference, may have made is no multiplier. */
+/* The exponent of a multiplier; NaN if rounding, or the error that the tolerance allows, may have made it. */
 static double
 exponent_of(const finder *f, double multiplier, double time)
 {

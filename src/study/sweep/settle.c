@@ -13,7 +13,7 @@ record_section(finder *f)
     f->last[f->recorded++ % (SECTIONS)] = ss_section_of(&f->w.m.now);
 }
 
-/* The state so many cycles before the latest. */
+/* The state so many cycles before the last one. */
 static section
 section_before(const finder *f, int cycles)
 {
@@ -34,8 +34,9 @@ has_period(const finder *f, int p)
     return ratio < 1 && now * ratio / (1 - ratio) <= f->opts->tol;
 }
 
-/* The state within tol of its limit is within 2 tol of itself after any multiple of its period, so
- * a state that is as near after fewer cycles has not reached the shorter period yet. */
+/* The first period that the motion has; 0 if it has none yet.  A state within tol of its limit is within
+ * 2 tol of itself after any multiple of its period.  So the search ends at a p after which the state is
+ * near itself, but has not the period p: it may still come to have it. */
 static int
 find_period(const finder *f)
 {
@@ -49,7 +50,8 @@ find_period(const finder *f)
     return 0;
 }
 
-/* Settle for the given cycles; then find the first cycle that returns to its first state. */
+/* Simulate the cycles that the options give.  Then find the period: the number of cycles after which the
+ * motion returns to the same state. */
 static ss_status
 settle_and_look(finder *f, int *period)
 {
@@ -64,7 +66,7 @@ settle_and_look(finder *f, int *period)
 
 /* --- the end of the approach by shooting ------------------------------------------------------- */
 
-/* Newton's method is tried where the motion has come so near to a period, by its own size, and comes
+/* Newton's method is tried when the motion is this near to a period, in units of its own size, and comes
  * nearer.  It is tried again after twice as many cycles. */
 #define NEAR 0.3
 enum { FIRST_TRY = 2 };
@@ -91,7 +93,7 @@ try_to_shoot(finder *f, int p, ss_steady *out, int *period)
 
 /* --- either ------------------------------------------------------------------------------------ */
 
-/* Until the period is known; *measured: by shooting, which has measured it. */
+/* Simulate until the period is known.  *measured becomes 1 if shooting has found and measured it. */
 static ss_status
 settle(finder *f, int may_shoot, int *period, int *measured, ss_steady *out)
 {

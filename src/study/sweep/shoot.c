@@ -4,25 +4,25 @@
 #include <math.h>
 #include <string.h>
 
-/* At most so many, of which so many may come no nearer by a quarter.  (At the end of a line of motions,
- * where the root is a double one, each comes nearer by half.) */
+/* There are at most NEWTON_STEPS steps, and at most MOST_IN_VAIN of them may shorten the distance by less
+ * than a quarter.  (At the end of a line of motions the root is a double one, and each step halves it.) */
 enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
-/* The part of a distance by which a motion may miss what the derivative at its limit says. */
+/* A motion may differ by this part of its distance from what the derivative at its limit predicts. */
 #define NONLINEAR 0.3
-/* The same for the change of the part that shrinks least: it must go the same way. */
+/* The part that shrinks least may differ by this part of its change: it must change in the same direction. */
 #define SAME_WAY 0.8
-/* So near 1, a multiplier says nothing of how a motion is approached, as at the end of a line of
- * motions. */
+/* A multiplier this near to 1, as at the end of a line of motions, does not show how a motion is
+ * approached. */
 #define NEUTRAL 1e-6
-/* And the part of the first distance that it may be off by, as walks are no more accurate. */
+/* A difference of this part of the first distance is allowed, since walks are no more accurate. */
 #define MEASURABLE 0.01
 enum { REPETITIONS = 4 };
 
 /* --- Newton's method ----------------------------------------------------------------------- */
 
-/* One step, which moves *at, by *t if it is known, else by the derivative there, which *t becomes.
- * *off: the larger of the step and the miss; INFINITY if the step was shortened, unless the miss is
- * rounding. */
+/* Make one step of Newton's method, which moves *at.  The derivative is *t if it is known; else *t becomes
+ * the derivative at *at.  *off becomes the larger of the step and of the distance by which the motion
+ * misses its start; INFINITY if the step was shortened, unless this distance is rounding. */
 static ss_status
 newton_step(finder *f, int period, motion *at, int known, tangent *t, double *off)
 {
@@ -51,7 +51,7 @@ newton_step(finder *f, int period, motion *at, int known, tangent *t, double *of
     *off = missed <= ROUNDING ? missed : INFINITY;
     if (allowed && halvings == 0)
         *off = fmax(missed, ss_section_distance(f, ss_section_of(&moved.now), ss_section_of(&at->now)));
-    *at = allowed ? moved : end;        /* no step to be had: simulate on */
+    *at = allowed ? moved : end;        /* if no step is possible, simulate on */
     ss_motion_rebase(at);
     at->origin = (instant){ 0, 0 };
     return SS_OK;
@@ -75,8 +75,8 @@ size_of(const double d[D_MOST])
     return fmax(fabs(d[D_REF]), fmax(fabs(d[D_Q]), fabs(d[D_V])));
 }
 
-/* What 2^30 repetitions leave of a difference, but for the factor exp(*scale): the part that shrinks
- * least. */
+/* The derivative of 2^30 repetitions, divided by exp(*scale): only the part of a difference that shrinks
+ * least is left. */
 static tangent
 slow_part(const tangent *t, double *scale)
 {
@@ -109,16 +109,16 @@ away_from(const motion *centre, const motion *m, const double unit[D_MOST], doub
         d[i] = (d[i] - c[i]) / unit[i];
 }
 
-/* Have they the same coordinates?  Slips in either direction have. */
+/* 1 if two motions have the same coordinates, as slips in either direction do. */
 static int
 alike(const motion *a, const motion *b)
 {
     return (a->now.mode == 0) == (b->now.mode == 0);
 }
 
-/* Whether a difference has become after what the derivative makes of it, once.  Motions that lie
- * side by side are told apart by the part that shrinks least, of which little goes in a cycle: it
- * must shrink as the derivative says. */
+/* 1 if a difference `before` has become `after` as the derivative of one repetition predicts.  Motions that
+ * lie side by side differ in the part that shrinks least, and little of it is lost in a cycle: this part,
+ * too, must shrink as predicted. */
 static int
 goes_as_expected(const tangent *once, const tangent *slow, const double before[D_MOST],
                  const double after[D_MOST], double allowed, double allowed_slow)
@@ -135,9 +135,9 @@ goes_as_expected(const tangent *once, const tangent *slow, const double before[D
         && size_of(slow_off) <= SAME_WAY * size_of(slow_change) + allowed_slow;
 }
 
-/* Whether the motion from a state goes, in some repetitions of so many cycles, towards the periodic
- * one as its derivative says: otherwise that is another motion than the one which is approached, or
- * none is.  One repetition would not do: a chaotic motion comes near many that it leaves again. */
+/* *yes becomes 1 if the motion from a state approaches the periodic motion `at`, in several repetitions of
+ * its cycles, as its derivative predicts.  If not, another motion is approached, or none.  One repetition
+ * would not suffice: a chaotic motion comes near many periodic ones that it leaves again. */
 static ss_status
 is_approached(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
 {
@@ -166,13 +166,13 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     return st;
 }
 
-/* Without a closed form a derivative costs as much as three steps.  So close to the limit that of
- * the last step serves the next, unless such steps shrink too little; if it is near 1, they magnify
- * its error. */
+/* Without a closed form a derivative costs as much as three steps.  When a step is as short as CLOSE, the
+ * next one uses the derivative of the last, unless such steps shrink too little (SHRINKS).  Where the
+ * multiplier is near 1, the error of the derivative is magnified, so CLOSE is multiplied by the rest. */
 #define CLOSE 0.05
 #define SHRINKS 0.1
 
-/* Newton's steps until one is within tol, which *found says. */
+/* Make Newton's steps until one is within tol; *found becomes 1 if there is one. */
 static ss_status
 converge(finder *f, int cycles, motion *at, tangent *t, int *found)
 {
@@ -196,9 +196,9 @@ converge(finder *f, int cycles, motion *at, tangent *t, int *found)
     return st;
 }
 
-/* What Newton's method has found misses itself by a part of tol.  Where it is a limit at which a
- * contact only touches, and which the motion approaches from one side, only simulation can tell how
- * many events a cycle has. */
+/* Measure the motion that Newton's method has found, which misses its start by a part of tol.  *period
+ * becomes 0 if it cannot be measured: at a limit where a contact only touches, which the motion approaches
+ * from one side, only simulation shows how many events a cycle has. */
 static ss_status
 measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
 {
@@ -241,6 +241,6 @@ ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
     ss_finder_keep(f, 0);
     if (st != SS_EDATA)
         return st;
-    *period = 0;                        /* a step has led to where there are no cycles */
+    *period = 0;                        /* a step has led to a state without cycles */
     return SS_OK;
 }

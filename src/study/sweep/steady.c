@@ -12,7 +12,7 @@ const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
 const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
                                             .max_steps = 10000000 };
 
-/* The condition of a measure on the model. */
+/* 1 if the model sticks, which some measures require. */
 static int
 sticks(const struct model *model)
 {
@@ -82,7 +82,7 @@ ss_measure_unit(ss_measure m)
     return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
 }
 
-/* Without a closed form any method represents the one that suits the point. */
+/* The method for a model.  Without a closed form it stands for the method that each point chooses. */
 static const char *
 method_of(const ss_steady_opts *opts, const struct model *model)
 {
@@ -126,8 +126,9 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
     return SS_OK;
 }
 
-/* Without forcing, differences that are small beside x change the time of the next onset too much for a
- * derivative: the method has to know it, unless a true stick makes it 0. */
+/* 1 if shooting is possible.  Without forcing, even differences that are small beside x change the time of
+ * the next onset so much that finite differences give no derivative: the method must compute it, unless a
+ * true stick makes it 0. */
 static int
 can_shoot(const ss_scene *scene, const ss_steady_opts *opts)
 {
@@ -180,8 +181,8 @@ search(finder *f, ss_steady *out)
 
 /* --- the model in the limit ------------------------------------------------------------------ */
 
-/* A course of two cycles may stand against one of a cycle in one way only; two of several cycles each
- * have no common phase. */
+/* Compare two courses.  If one of them has one cycle, there is one way to lay them side by side; two
+ * courses of several cycles each have no common phase. */
 static ss_status
 compare_courses(const course *limit, const course *ref, double value[], ss_error *err)
 {
@@ -216,7 +217,7 @@ compare_with_limit(const finder *f, ss_steady *out)
     return st;
 }
 
-/* The reason for a missing measure, if one is missing. */
+/* SS_EDATA, with the reason, if a measure is missing. */
 static ss_status
 complete(const finder *f, const ss_steady *out)
 {
@@ -240,7 +241,8 @@ complete(const finder *f, const ss_steady *out)
     return SS_OK;
 }
 
-/* Without forcing a cycle begins with a stick, again and again only if something pulls. */
+/* Check that the scene has cycles.  Without forcing, a cycle begins with a stick, and another follows only
+ * if something pulls. */
 static ss_status
 check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
 {

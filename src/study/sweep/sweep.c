@@ -41,7 +41,7 @@ ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
         axis.log = strcmp(end, ":log") == 0;
         ok = *end == '\0' || axis.log;
     }
-    if (!ok && axis.n > 0)              /* the digits of 1e12, say */
+    if (!ok && axis.n > 0)              /* n is no plain number: 1e12, say */
         return ss_fail(err, SS_EINVAL, "'%s': n is '%s', but must be digits, of a number up to %zu",
                        text, rest + 1, SIZE_MAX / 2);
     if (!ok || !isfinite(axis.from) || !isfinite(axis.to))
@@ -67,7 +67,7 @@ ss_axis_value(const ss_axis *axis, size_t i)
     double ratio = axis->to / axis->from, x = axis->from * (n - done) + axis->to * done;
     if (axis->log && ratio > 0 && isfinite(ratio))
         return axis->from * pow(ratio, part);
-    if (axis->log)                      /* the ends are further apart than a double reaches */
+    if (axis->log)                      /* the ratio of the ends may exceed a double */
         return pow(axis->from, 1 - part) * pow(axis->to, part);
     return isfinite(x) ? x / n : axis->from * (1 - part) + axis->to * part;
 }
@@ -159,14 +159,14 @@ typedef struct batch {
 typedef struct sweep {
     const ss_scene *scene;
     const ss_sweep_opts *opts;
-    size_t n, taken, sent;         /* points of the shard; the next to compute; the next for the sink */
+    size_t n, taken, sent;         /* points of the shard; the next to compute; the next to send */
     batch *ring;
     size_t room;
-    ss_strobe *strobe;              /* of all in the ring, NULL if none are wanted */
+    ss_strobe *strobe;              /* of all points in the ring; NULL if none are wanted */
     double *vary;                   /* of the row for the sink */
     ss_status status;
-    pthread_mutex_t lock;           /* of all from taken on; the sink is called under it */
-    pthread_cond_t moved;           /* sent has grown, or the status has changed */
+    pthread_mutex_t lock;           /* of taken, sent and the rest; held while the sink is called */
+    pthread_cond_t moved;           /* signalled when sent has grown, or the status has changed */
 } sweep;
 
 static size_t
@@ -234,7 +234,7 @@ work_on(void *user)
     free(vary);
 }
 
-/* Room in the ring, where starts of cycles are wanted. */
+/* Make room for the starts of cycles of the points in the ring, if they are wanted. */
 static ss_status
 make_room(sweep *w)
 {

@@ -11,13 +11,13 @@
 #include "motion/engine.h"
 #include "study/trade/runs.h"
 
-#define OUTRAGEOUS 300              /* times the steps of the reference: SS_EBUDGET */
+#define OUTRAGEOUS 300              /* a method may take so many times the steps of the reference */
 
 const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
 
-/* The cost of a right-hand side with all that goes with it, in units of rk8pd's, and how many a step,
- * or a sample within one, needs: measured with ss-trade on the state-variable scene, for the order
- * of the methods only. */
+/* The cost of a right-hand side with the work beside it, in units of rk8pd's, and the number of right-hand
+ * sides of a step; at_samples is 1 if each sample needs a step, too.  ss-trade measured them on
+ * the state-variable scene, and they serve only to compare methods. */
 static const struct cost { const char *method; double rhs; unsigned a_step; int at_samples; }
 cost[] = {
     { TAYLOR, 0.4, 12, 0 }, { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 },
@@ -32,12 +32,12 @@ typedef struct choice {
     probe p;
     run ref, run;
     double known, accuracy;
-    unsigned long user_steps;       /* of opts */
-    double max_steps;               /* that a method may take */
-    double tol, reached;            /* of the last method, SS_OK; the least error seen */
+    unsigned long user_steps;       /* the limit of opts */
+    double max_steps;               /* a method may take so many */
+    double tol, reached;            /* the last method's tolerance, and the least error it reached */
 } choice;
 
-/* The loosest tolerance at which the method keeps the accuracy. */
+/* Find the loosest tolerance at which the method keeps the accuracy; SS_ETOL: there is none. */
 static ss_status
 loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
 {
@@ -72,8 +72,8 @@ choose_given(choice *s, const char *method, ss_error *err)
     return st;
 }
 
-/* Without a closed form: a method is stopped when it has done the work of the best.  Each sample
- * costs the one-step methods a step of its own. */
+/* Choose the cheapest method for a scene without a closed form.  A method is stopped when it has done as
+ * much work as the best so far.  With one-step methods each sample costs a step of its own. */
 static ss_status
 choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
 {
@@ -100,7 +100,7 @@ choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
     return ss_fail(err, SS_ETOL, "no method keeps an accuracy of %g in this scene", s->accuracy);
 }
 
-/* SS_ETOL if these two do not agree to within the accuracy. */
+/* Make the reference with two methods; SS_ETOL if they do not agree within the accuracy. */
 static ss_status
 refer_to(choice *s, const char *method[2], ss_error *err)
 {

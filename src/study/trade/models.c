@@ -28,7 +28,8 @@ static const struct { const char *name, *unit; } compared[FEATURES] = {
     [SS_COMPARED_EVENTS] = { "events", "" }, { "microslips", "" },
 };
 
-/* Behind them the features that are no count and no medians, as ratios. */
+/* The feature at place i, behind the numbers in `compared`: features are compared as ratios, without the
+ * count and the medians. */
 static const feature_number *
 feature_at(size_t i)
 {
@@ -56,7 +57,7 @@ typedef struct portrait {           /* of one scene */
     ss_signal *signal;              /* x - U t, v, a, f */
     ss_coefficients *map;           /* NULL: no scale is usable */
     ss_features *features;
-    double largest;                 /* |W| of the map */
+    double largest;                 /* the largest |W| of the map */
     ss_sim_stats stats;
     size_t events, microslips;
     int slip;                       /* direction of the last slip; 0: none */
@@ -103,7 +104,7 @@ pass_samples(const ss_sample *s, size_t n, void *user)
     return 0;
 }
 
-/* p NULL: for the time alone. */
+/* Simulate a scene and measure its time.  If p is NULL, only the time is kept. */
 static ss_status
 simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
 {
@@ -151,7 +152,7 @@ find_features(portrait *p, const ss_scene *scene, const ss_models_opts *how, ss_
     return ss_features_find(&p->features, p->signal, A, &opts, err);
 }
 
-/* Simulate a scene and look at its record. */
+/* Simulate a scene, transform its record and find its features. */
 static ss_status
 portray(portrait *p, const ss_scene *scene, const ss_models_opts *how, double *seconds, ss_error *err)
 {
@@ -177,7 +178,7 @@ level(const portrait *p, size_t i, double span)
     return fmax(-span, 20 * log10(hypot(w[0], w[1]) / p->largest));
 }
 
-/* Over the area that is drawn: a coefficient's share of its row is the same for all. */
+/* Compare two maps over the area that is drawn.  All coefficients of a row have the same share of it. */
 static void
 compare_maps(double error[2], const portrait *p, const portrait *ref, double span)
 {
@@ -232,15 +233,15 @@ compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_sce
         error[i] = is == was ? 0 : fabs(is - was) / fabs(was);
     }
     for (size_t i = 0; i < SS_COMPARED; i++)
-        error[i] = isfinite(error[i]) ? error[i] : NAN;     /* a part of 0, or beyond a double */
+        error[i] = isfinite(error[i]) ? error[i] : NAN;     /* relative to 0, or too large */
     row->events = p->events;
     row->microslips = p->microslips;
 }
 
 /* --- the rows ------------------------------------------------------------------------------ */
 
-/* The same record of the periodic state that the scene settles to, which may take so many times the
- * steps of the scene itself. */
+/* The search for the periodic state to which the scene settles may take so many times the steps of the
+ * scene itself. */
 #define PATIENCE 30
 
 static ss_status
@@ -309,7 +310,7 @@ run_again(void *user, const ss_trade_row *row, double done, double *seconds)
     return st == SS_OK ? simulate(&t->models->row[row - t->first].scene, NULL, seconds, NULL) : st;
 }
 
-/* Short runs once more, as those of methods are. */
+/* Repeat short runs, as those of methods are repeated. */
 static ss_status
 repeat(ss_models *models, const ss_models_opts *how)
 {

@@ -125,7 +125,7 @@ write_need(FILE *out, const ss_need *need)
         fprintf(out, "%s within %g %%", name, 100 * need->within);
 }
 
-/* "A, B and C": the needs for which this row is the cheapest.  Gives their number. */
+/* Write the needs for which this row is the cheapest, as "A, B and C".  Returns their number. */
 static size_t
 write_needs(FILE *out, const ss_models *models, const ss_models_row *row, const ss_need *need, size_t n)
 {
@@ -141,7 +141,7 @@ write_needs(FILE *out, const ss_models *models, const ss_models_row *row, const 
     return all;
 }
 
-/* Those that lost most come first, the scene itself last. */
+/* Write which row suffices for which needs.  The rows that leave out most come first, the scene last. */
 static void
 write_answer(FILE *out, const ss_models *models, const ss_need *need, size_t n)
 {

@@ -19,8 +19,8 @@
 #include "motion/engine.h"
 #include "study/trade/common.h"
 
-/* Samples compared at most.  A prime: however many cycles the base goes through in a record, the
- * samples fall on all of its phases. */
+/* At most so many samples are compared.  It is a prime, so that samples fall on all phases of the base
+ * whatever number of its cycles the record has. */
 enum { MOST = 19997 };
 
 const double ss_trade_tolerance[TOLERANCES] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9,
@@ -28,8 +28,9 @@ const double ss_trade_tolerance[TOLERANCES] = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e
 
 /* --- one run ------------------------------------------------------------------------------- */
 
-/* The events of a scene do not depend on its rate.  The steps of multistep methods on a model without
- * events do, so that keeps its rate and one sample in every stride is compared. */
+/* Events do not depend on the rate of a scene, so a model with events gets another rate.  A model without
+ * events keeps its rate, since the steps of multistep methods depend on it, and one sample in every stride
+ * is compared. */
 probe
 ss_trade_probe(const ss_scene *scene)
 {
@@ -61,8 +62,8 @@ pulled_by(const ss_scene *scene, double t)
     return scene->base_velocity * (scene->settle + t);
 }
 
-/* Of each stride of samples one, at a place that varies, so that a stride of whole periods still
- * sees all phases (Knuth's multiplicative hash). */
+/* Keep one sample of each stride, at a place that varies (Knuth's multiplicative hash), so that all phases
+ * are seen even if a stride is a whole number of periods. */
 static int
 keep_samples(const ss_sample *s, size_t n, void *user)
 {
@@ -91,7 +92,7 @@ keep_event(const ss_event *e, void *user)
     return 0;
 }
 
-/* Stop early a run that is sure to exceed its budget. */
+/* Stop a run as soon as it is certain to exceed its budget. */
 static int
 watch(double done, void *user)
 {
@@ -163,8 +164,8 @@ ss_trade_error_x(const run *k, const run *ref)
     return worst / largest(ref->x, ref->p->n);
 }
 
-/* The event of k nearest to e that is of the same kind and direction, or SIZE_MAX.  *from, where to
- * look, goes on with e. */
+/* The event of k nearest to e with the same kind and direction, or SIZE_MAX.  *from is an index near e at
+ * which the search begins; it follows e from call to call. */
 static size_t
 nearest(const run *k, const ss_event *e, size_t *from)
 {
@@ -183,8 +184,8 @@ nearest(const run *k, const ss_event *e, size_t *from)
     return best;
 }
 
-/* Events that are each other's nearest are the same.  own[i] becomes the error of the reference's
- * i-th, 0 if it was missed. */
+/* Compare the events of two runs.  Two events that are each other's nearest are the same event.  own[i]
+ * becomes the error in time of event i of the reference, 0 if it was missed. */
 static void
 compare_events(ss_trade_row *row, const run *k, const run *ref, double *own)
 {
@@ -208,7 +209,7 @@ compare_events(ss_trade_row *row, const run *k, const run *ref, double *own)
     row->invented = k->n_events - matched;
 }
 
-/* Near an event the acceleration may be that of its other side. */
+/* 1 if t is so near to an event that the acceleration may be that of the event's other side. */
 static int
 is_beside(const ss_event *e, double own, double t)
 {

@@ -8,13 +8,13 @@
 #include "study/trade/common.h"
 #include "study/trade/runs.h"
 
-enum { REPEATS = 5 };               /* of short rows */
+enum { REPEATS = 5 };               /* short rows are measured so many times */
 #define SHORT 0.1                   /* [s] */
 
-/* What each run of the reference may take, times a row's CPU time.  It is time and not steps, as the
- * user's budget is, and no byte of a measurement depends on it: a reference that exceeds it is refused,
- * never replaced by a looser one.  ss_trade_choose, whose choice must not depend on the machine, bounds
- * its runs by right-hand sides only. */
+/* Each run of the reference may take so many times a row's CPU time.  The limit is a time, as the user's
+ * budget is, and not a number of steps.  No byte of a measurement depends on it: a reference that exceeds
+ * it is refused, never replaced by a looser one.  ss_trade_choose, whose choice must not depend on the
+ * machine, limits its runs by right-hand sides only. */
 #define REFERENCE_BUDGET 100
 
 const ss_trade_opts ss_trade_defaults = { .budget = 10 };
@@ -46,7 +46,7 @@ ss_trade_cheapest(const ss_trade *trade, double accuracy)
     return best;
 }
 
-/* The rows to measure: exact once, the others at each tolerance; none is measured yet. */
+/* Make the rows to be measured: one for the closed form, and one for each other method and tolerance. */
 static ss_status
 make_rows(ss_trade *trade, const ss_scene *scene)
 {
@@ -100,7 +100,8 @@ measure_row(measurement *t, ss_trade_row *row)
     return st;
 }
 
-/* In turns, so that a disturbance of the machine affects all rows alike; the medians count. */
+/* Rows are repeated in turns, so that a disturbance of the machine affects all of them alike.  Their times
+ * become the medians. */
 ss_status
 ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
 {

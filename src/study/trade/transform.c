@@ -33,7 +33,7 @@ typedef struct trial {
     double rate;
     ss_morlet_opts opts;
     const ss_trade_opts *how;
-    double x_max, by_sum;           /* seconds that the definition takes at its best, about */
+    double x_max, by_sum;           /* about the seconds that the definition takes at its best */
     double *w;
     size_t n_scales;
     scale_reference *reference;
@@ -42,8 +42,8 @@ typedef struct trial {
 
 /* --- the reference ---------------------------------------------------------------------------- */
 
-/* Translations of a scale spread over it at random places (Knuth's multiplicative hash), the last
- * being where |W| is largest. */
+/* Choose translations of a scale: the last is where |W| is largest, the others are spread over the scale at
+ * random places (Knuth's multiplicative hash). */
 static void
 choose_places(scale_reference *ref, const ss_scale *scale, const double *w)
 {
@@ -76,7 +76,7 @@ refer_scale(trial *t, const ss_morlet *plan, const record *rec, size_t i, ss_err
     return st;
 }
 
-/* The grid is that of the tightest accuracy, for all. */
+/* Make the grid of the tightest accuracy, which serves for all rows, and its reference. */
 static ss_status
 refer(trial *t, ss_error *err)
 {
@@ -126,7 +126,7 @@ worst_error(const trial *t, const ss_morlet *plan)
     return worst;
 }
 
-/* One transform as a row says; its error into *error, unless that is NULL. */
+/* Make the transform of a row.  *error becomes its error, unless error is NULL. */
 static ss_status
 transform(trial *t, const ss_trade_row *row, double *seconds, double *error, ss_error *err)
 {
@@ -159,7 +159,7 @@ transform_again(void *user, const ss_trade_row *row, double done, double *second
 static ss_status
 measure_row(trial *t, ss_trade_row *row, ss_error *err)
 {
-    double reach = sqrt(log(row->tol) / log(DBL_EPSILON));  /* of the whole window */
+    double reach = sqrt(log(row->tol) / log(DBL_EPSILON));  /* as a part of the whole window */
     if (strcmp(row->method, method[0]) == 0 && t->by_sum * reach > t->how->budget) {
         row->status = SS_EBUDGET;
         row->seconds = t->by_sum * reach;
