@@ -105,7 +105,7 @@ find_kinds(struct table *t, const char *row, ss_error *err)
         unsigned parts = ss_stamp_read(t->cell[i]).parts;
         int text = shape[i] == 't' || (shape[i] == 'e' && !ss_delimited_may_lack(t));
         t->column[i] = (struct table_column){ .kind = text ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS
-                                              : COLUMN_NUMBERS, .parts = parts, .day = NAN, .last = NAN };
+                                              : COLUMN_NUMBERS, .parts = parts, .fits = { 1, 1 }, .last = NAN };
     }
     free(shape);
     free(copy);
@@ -210,8 +210,24 @@ is_heading(struct table *t, const char *line, int *yes, ss_error *err)
     return SS_OK;
 }
 
+/* Are the lines from a heading to the end of the file nothing but words, in other columns than those of rows? */
+static ss_status
+is_footer(struct table *t, int *yes, ss_error *err)
+{
+    size_t numbers;
+    *yes = t->n_head < HEADER_LINES;
+    for (size_t i = 0; *yes && i < t->n_head; i++) {
+        char *shape = ss_delimited_shape(t, t->head[i].text, t->separator, &numbers);
+        if (shape == NULL)
+            return ss_delimited_no_memory(t, err);
+        *yes = strlen(shape) != t->n_columns && strchr(shape, 'n') == NULL;
+        free(shape);
+    }
+    return SS_OK;
+}
+
 /* Keep the lines from a heading on, up to the first row of another table, which becomes *row.  If none
- * follows, the heading is a malformed row. */
+ * follows, the heading is a footer or a malformed row. */
 static ss_status
 look_below(struct table *t, const char *heading, char **row, ss_error *err)
 {
@@ -228,8 +244,12 @@ look_below(struct table *t, const char *heading, char **row, ss_error *err)
     t->separator = separator;
     if (st != SS_OK || *row != NULL)
         return st;
+    int footer;
     t->in->line = number;
-    return append_row(t, t->head[0].text, err);
+    if ((st = is_footer(t, &footer, err)) != SS_OK || !footer)
+        return st == SS_OK ? append_row(t, t->head[0].text, err) : st;
+    ss_delimited_warn(t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", t->in->name, number);
+    return SS_OK;
 }
 
 /* Read rows up to the end, or up to the first row of another table, which becomes *row. */

@@ -11,6 +11,7 @@
 #include "stream/input.h"
 #include "stream/kept.h"
 #include "stream/reader.h"
+#include "stream/stamp.h"
 
 #define NONE SIZE_MAX
 
@@ -34,7 +35,10 @@ struct table_column {
     int spare;                  /* is it a column of numbers that the caller does not need? */
     int incomplete;             /* has a cell of such a column no number? */
     unsigned parts;             /* of stamps: a date, a time of day or both */
-    double day;                 /* the day from which they count, in the first row; NaN: no date */
+    int dated;                  /* have its rows a date? */
+    int fits[ORDERS];           /* may their day and month stand in this order? */
+    long first[ORDERS];         /* the first row's day in it */
+    long before[ORDERS];        /* and that of the row before */
     double last;                /* the stamp of the row before */
 };
 
@@ -114,6 +118,9 @@ ss_status ss_delimited_add_row(struct table *t, const double *row, ss_error *err
 ss_status ss_delimited_rewind(struct table *t, ss_error *err);
 ss_status ss_delimited_next(struct table *t, const double **row, ss_error *err);
 void ss_delimited_free_rows(struct table *t);
+/* The day of the first row of a column of stamps, since 1970-01-01; NaN: it has none, or day and month may stand
+ * in either order. */
+double ss_delimited_day(const struct table_column *c);
 
 /* Cells (delimited_cells.c). */
 

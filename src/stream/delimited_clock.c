@@ -198,10 +198,10 @@ read_stamp_clock(struct table *t, size_t column, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: column %s holds times of day or dates, so it has no unit to choose",
                        t->in->name, t->names->column[column].name);
     for (size_t i = t->n_columns; i-- > 0;)
-        if (t->column[i].kind == COLUMN_STAMPS && !isnan(t->column[i].day))
-            day = t->column[i].day;
-    if (!isnan(t->column[column].day))
-        day = t->column[column].day;
+        if (t->column[i].kind == COLUMN_STAMPS && !isnan(ss_delimited_day(&t->column[i])))
+            day = ss_delimited_day(&t->column[i]);
+    if (!isnan(ss_delimited_day(&t->column[column])))
+        day = ss_delimited_day(&t->column[column]);
     ss_status st = read_stamps(t, (struct time_column){ column, t->counted.origin, 1, 1 }, &rate, err);
     if (st == SS_OK && !isnan(day) && note_date(t, day) != SS_OK)
         st = ss_delimited_no_memory(t, err);

@@ -54,6 +54,38 @@ check_mark(struct table *t, size_t column, ss_error *err)
                    mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
 }
 
+static int
+order_of(const struct table_column *c)
+{
+    return c->fits[DAY_FIRST] ? DAY_FIRST : MONTH_FIRST;
+}
+
+double
+ss_delimited_day(const struct table_column *c)
+{
+    int known = c->dated && !(c->fits[DAY_FIRST] && c->fits[MONTH_FIRST] && c->first[DAY_FIRST] != c->first[MONTH_FIRST]);
+    return known ? (double)c->first[order_of(c)] : NAN;
+}
+
+/* Days since the first row.  The rows have day and month in one order: a day above 12 shows it, or else, where the
+ * date changes, that the next day follows.  NaN: the date fits no order. */
+static double
+count_days(struct table_column *c, const long day[ORDERS])
+{
+    if (!c->dated)
+        memcpy(c->first, day, sizeof c->first);
+    for (int i = 0; i < ORDERS; i++)
+        c->fits[i] &= day[i] != NO_DAY;
+    if (c->dated && c->fits[DAY_FIRST] && c->fits[MONTH_FIRST]
+        && day[DAY_FIRST] - c->first[DAY_FIRST] != day[MONTH_FIRST] - c->first[MONTH_FIRST])
+        for (int i = 0; i < ORDERS; i++)
+            c->fits[i] = day[i] == c->before[i] + 1;
+    memcpy(c->before, day, sizeof c->before);
+    c->dated = 1;
+    int order = order_of(c);
+    return c->fits[order] ? (double)(day[order] - c->first[order]) : NAN;
+}
+
 /* The seconds of a stamp: of the day without a date, and going on at midnight; else from the midnight
  * before the first row. */
 static double
@@ -62,11 +94,8 @@ read_stamp(struct table_column *c, const char *cell)
     const time_stamp s = ss_stamp_read(cell);
     if (s.parts != c->parts)
         return NAN;
-    if (c->parts & STAMP_DATE) {
-        if (isnan(c->day))
-            c->day = (double)s.day;
-        return 86400 * ((double)s.day - c->day) + s.seconds;
-    }
+    if (c->parts & STAMP_DATE)
+        return 86400 * count_days(c, s.day) + s.seconds;
     double days = isnan(c->last) ? 0 : floor((c->last - s.seconds) / 86400 + 0.5);
     return c->last = s.seconds + 86400 * days;  /* the nearest to the row before */
 }

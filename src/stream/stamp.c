@@ -1,6 +1,7 @@
-/* stamp.c -- read dates and times of day in the form of ISO 8601. */
+/* stamp.c -- read dates and times of day in the form of ISO 8601 and in those of spreadsheets. */
 #include <stddef.h>
 #include <string.h>
+#include <strings.h>
 #include "stream/stamp.h"
 
 /* Read n digits as a number.  Returns their end; NULL if there are not so many, or p is NULL. */
@@ -33,26 +34,73 @@ day_number(long year, long month, long day)
     return 365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - 1 - 719468;
 }
 
+static long
+find_day(long year, long month, long day)
+{
+    return month >= 1 && month <= 12 && day >= 1 && day <= 31 ? day_number(year, month, day) : NO_DAY;
+}
+
+/* Read two digits or one, likewise. */
 static const char *
-read_date(const char *p, long *day)
+read_one_or_two(const char *p, long *x)
+{
+    const char *two = read_digits(p, 2, x);
+    return two != NULL ? two : read_digits(p, 1, x);
+}
+
+/* Read a date whose year comes last: with points the day is first, else day and month may stand in either
+ * order. */
+static const char *
+read_date_of_year_last(const char *p, long day[ORDERS])
+{
+    long a, b, y;
+    const char *mark = (p = read_one_or_two(p, &a));
+    if (p == NULL || *p == '\0' || strchr("./-", *p) == NULL)
+        return NULL;
+    p = read_one_or_two(p + 1, &b);
+    if (p == NULL || *p != *mark || (p = read_digits(p + 1, 4, &y)) == NULL)
+        return NULL;
+    day[DAY_FIRST] = find_day(y, b, a);
+    day[MONTH_FIRST] = *mark == '.' ? day[DAY_FIRST] : find_day(y, a, b);
+    return day[DAY_FIRST] != NO_DAY || day[MONTH_FIRST] != NO_DAY ? p : NULL;
+}
+
+static const char *
+read_date(const char *cell, long day[ORDERS])
 {
     long y, m, d;
-    const char *mark = (p = read_digits(p, 4, &y));
+    const char *p = read_digits(cell, 4, &y), *mark = p;
+    if (p == NULL)
+        return read_date_of_year_last(cell, day);
     p = read_part(p, "-/", &m);
     if (p == NULL || *p != *mark)
         return NULL;
     p = read_part(p, "-/", &d);
-    if (p == NULL || m < 1 || m > 12 || d < 1 || d > 31)
+    if (p == NULL)
         return NULL;
-    *day = day_number(y, m, d);
-    return p;
+    day[DAY_FIRST] = day[MONTH_FIRST] = find_day(y, m, d);
+    return day[DAY_FIRST] != NO_DAY ? p : NULL;
+}
+
+/* Read "AM" or "PM" behind a time of day, and set its hour.  Returns p if there is neither; NULL if the hour has
+ * no half. */
+static const char *
+read_half(const char *p, long *hour)
+{
+    const char *half = p + strspn(p, " ");
+    if (strncasecmp(half, "AM", 2) != 0 && strncasecmp(half, "PM", 2) != 0)
+        return p;
+    if (*hour < 1 || *hour > 12)
+        return NULL;
+    *hour = *hour % 12 + (*half == 'p' || *half == 'P' ? 12 : 0);
+    return half + 2;
 }
 
 static const char *
 read_time(const char *p, double *seconds)
 {
     long h, m, s;
-    p = read_part(read_part(read_digits(p, 2, &h), ":", &m), ":", &s);
+    p = read_part(read_part(read_one_or_two(p, &h), ":", &m), ":", &s);
     if (p == NULL || h > 23 || m > 59 || s > 60)
         return NULL;
     long digits = 0;
@@ -62,6 +110,7 @@ read_time(const char *p, double *seconds)
             fraction = 10 * fraction + (*p - '0');
             unit *= 10;
         }
+    p = read_half(p, &h);
     *seconds = (double)(3600 * h + 60 * m + s) + fraction / unit;
     return p;
 }
@@ -85,10 +134,10 @@ read_zone(const char *p, double *ahead)
 time_stamp
 ss_stamp_read(const char *cell)
 {
-    const time_stamp none = { 0, 0, 0 };
+    const time_stamp none = { 0 };
     time_stamp found = none;
     double ahead;
-    const char *p = read_date(cell, &found.day);
+    const char *p = read_date(cell, found.day);
     if (p != NULL) {
         found.parts = STAMP_DATE;
         if (*p == '\0')

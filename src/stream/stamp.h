@@ -4,14 +4,19 @@
 
 enum { STAMP_DATE = 1, STAMP_TIME = 2 };       /* of a cell; both: a date and a time of day */
 
+/* The order of a date whose year comes last. */
+enum { DAY_FIRST, MONTH_FIRST, ORDERS };
+#define NO_DAY (-1000000000L)                   /* there is no such date in this order */
+
 typedef struct time_stamp {
     unsigned parts;             /* STAMP_...; 0: the cell is not a stamp */
-    long day;                   /* since 1970-01-01; 0 without a date */
+    long day[ORDERS];           /* since 1970-01-01, in either order; the same if the form tells the order */
     double seconds;             /* of the day in UTC: the offset of a zone is subtracted */
 } time_stamp;
 
 /* Read a stamp of ISO 8601: 2024-03-05, 10:12:13.125, 2024-03-05T10:12:13,125Z.  The date may have
- * slashes, a blank may replace the T, and hours and minutes of a zone may follow. */
+ * slashes, a blank may replace the T, and hours and minutes of a zone may follow.  Or read what others write:
+ * 5.3.2024, 03/05/2024 and 03-05-2024 in either order, 9:12:13, 09:12:13 PM. */
 time_stamp ss_stamp_read(const char *cell);
 
 #endif

@@ -20,3 +20,16 @@ awk 'BEGIN { for (i = 0; i < 5000; i++) printf "a%s", i < 4999 ? "," : "\n"
              for (i = 0; i < 5000; i++) printf "1%s", i < 4999 ? "," : "\n" }' > wide.csv
 ss-cat --rate 1 --format au wide.csv || echo $?
 ss-cat --rate 1 wide.csv | awk '/columns/ { print NF, $5, $NF }'
+
+echo '-- words at the end'
+printf 't,x\n0,1\n0.5,2\n\nEnd of data\nNot averaged\n' | ss-cat
+for end in 'End,of' 'Max,2' 'End\n1,3' 'End 5'; do
+    printf "t,x\n0,1\n0.5,2\n$end\n" | ss-cat -q || echo $?
+done
+echo '-- dates of spreadsheets'
+for second in 04/05 03/06 03/07; do
+    printf 'when;x\n03/05/2024 23:59:59,5;1\n%s/2024 0:00:00,0;2\n' $second | ss-cat || echo $?
+done
+printf 'Date,Time,x\n03/05/2024,1:59:59.5 PM,1\n03/05/2024,2:00:00.0 PM,2\n' | ss-cat -q
+printf 'when;x\n5.3.2024 23:59:59,5;1\n6.3.2024 0:00:00,0;2\n' | ss-cat -q
+printf 'Time,x\n13:59:59.5 PM,1\n14:00:00.0 PM,2\n' | ss-cat || echo $?
