@@ -22,7 +22,7 @@
 int tool_verbosity;
 static const char *tool_name = "stickslip", *usage_text = "";
 
-static volatile sig_atomic_t asked_to_stop;     /* the signal, 0 if none came */
+static volatile sig_atomic_t asked_to_stop;     /* the signal that asked; 0: none did */
 
 int
 tool_stopping(void)
@@ -95,10 +95,10 @@ tool_begin(char *argv[], const char *name, const char *usage)
     usage_text = usage;
     argv[0] = (char *)name;             /* getopt_long prefixes its messages with this */
     gsl_set_error_handler_off();        /* statuses are checked; GSL must not abort */
-    signal(SIGXFSZ, SIG_IGN);           /* a file over the limit is a failed write, not a signal */
+    signal(SIGXFSZ, SIG_IGN);           /* a write beyond the limit of files then fails, without a signal */
 }
 
-/* One line, whatever stands in the names of files. */
+/* Write one line to standard error, even if names of files contain newlines. */
 static void
 say(const char *format, va_list args)
 {
@@ -153,7 +153,7 @@ tool_note(const char *format, ...)
         SAY(format);
 }
 
-/* A hint: the tool that reads the kind found, or else the tool that makes the kind wanted. */
+/* A hint: the tool that reads the kind that was found, or else the tool that makes the kind wanted. */
 static const char *
 kind_hint(ss_kind found, ss_kind wanted)
 {
@@ -245,7 +245,7 @@ tool_input_name(const char *path)
     return strcmp(path, "-") == 0 ? "<stdin>" : path;
 }
 
-/* 1 if the path, which will be read now, is standard input. */
+/* 1 if a path that is read now stands for standard input. */
 static int
 is_stdin(const char *path)
 {
@@ -274,7 +274,7 @@ tool_open(const char *path)
     return in;
 }
 
-/* Is a signal to be resampled?  Delimited text at this rate was. */
+/* 1 if a signal must still be resampled.  Delimited text that has the rate already has been. */
 static int
 is_resampled(const ss_header *head, const char *path, const ss_read_opts *opts)
 {
@@ -385,7 +385,7 @@ tool_read_scene(const char *path, const tool_texts *settings)
     if (st == SS_EINVAL)
         tool_usage("--set: %s", err.text);
     tool_check(st, &err);
-    static ss_base *base;               /* the last one; it lives as long as the scene */
+    static ss_base *base;               /* the scene points at it */
     tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
     return scene;
 }
@@ -420,7 +420,7 @@ tool_name_scene(const char *path, const tool_texts *settings)
 void
 tool_list(char *list, size_t size, const char *word)
 {
-    size_t length = strlen(list);               /* invariant: dots still fit */
+    size_t length = strlen(list);               /* invariant: there is room for the dots */
     if (length >= 3 && strcmp(list + length - 3, "...") == 0)
         return;
     if (length + strlen(word) + sizeof ",  ..." > size)
@@ -478,6 +478,6 @@ tool_end(void)
     if (fclose(stdout) != 0 || failed)
         tool_die("write error: %s", strerror(errno));
     note_cost();
-    if (tool_stopping())                /* as a shell expects it, after a whole last row */
+    if (tool_stopping())                /* the last row is whole; a shell expects the signal's end */
         raise(asked_to_stop);
 }

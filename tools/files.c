@@ -22,13 +22,13 @@
 /* A file being written. */
 typedef struct output {
     FILE *file;                         /* NULL: a library call writes it */
-    const char *name;                   /* what the user calls it */
-    char *target;                       /* its name when it is whole; NULL: has it already */
-    char temporary[PATH_MAX];           /* an array, for the signal handler */
+    const char *name;                   /* as the user gave it */
+    char *target;                       /* its name when it is whole; NULL: it has it already */
+    char temporary[PATH_MAX];           /* an array, which a signal handler can read */
     int fd;                             /* of a file without a name, whose path is temporary; or -1 */
 } output;
 
-enum { OUTPUTS = 2 };                   /* of -o, and of --wisdom */
+enum { OUTPUTS = 2 };                   /* those of -o and of --wisdom */
 static output out[OUTPUTS];
 static volatile sig_atomic_t n_out;
 static int on_stdout;                   /* standard output gets the data */
@@ -47,7 +47,7 @@ void
 files_begin(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
-        if (fcntl(fd, F_GETFD) < 0)     /* opened the wrong way round, so that its use is an error */
+        if (fcntl(fd, F_GETFD) < 0)     /* open it for the wrong direction: its use is then an error */
             open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
@@ -82,12 +82,12 @@ discard_and_die(int number)
 
 /* --- no output replaces an input -------------------------------------------------------------- */
 
-/* Keep that this file is read, or written; dies if it is both. */
+/* Remember that this file is read or written, and die if it is both. */
 static void
 add_known(const struct stat *st, int written, const char *name)
 {
     if (!S_ISREG(st->st_mode))
-        return;                         /* a device, a pipe: nothing is lost */
+        return;                         /* in a device or a pipe nothing is lost */
     for (size_t i = 0; i < n_known; i++)
         if (known[i].device == st->st_dev && known[i].number == st->st_ino
             && known[i].written != written)
@@ -131,7 +131,7 @@ tool_writes(const char *path)
 
 /* --- output ---------------------------------------------------------------------------------- */
 
-/* The real path of a file to be written: a link keeps its target, which may not exist yet. */
+/* The real path of a file to be written, which may not exist yet.  A link stays a link to it. */
 static char *
 resolve(const char *path)
 {
@@ -157,7 +157,7 @@ folder_length(const char *path)
     return slash != NULL ? (int)(slash - path) + 1 : 0;
 }
 
-/* Will both be one file?  The folder can have two names. */
+/* 1 if both paths will name one file.  Their folders may be one with two names. */
 static int
 same_target(const char *a, const char *b)
 {
@@ -170,7 +170,7 @@ same_target(const char *a, const char *b)
         && in_a.st_dev == in_b.st_dev && in_a.st_ino == in_b.st_ino;
 }
 
-/* A name beside target that no other file has, to end in letters that the caller chooses. */
+/* Make a name in the folder of target that no other file has.  It ends with letters of the caller. */
 static int
 name_beside(char name[PATH_MAX], const char *target, const char *ending)
 {
@@ -178,7 +178,7 @@ name_beside(char name[PATH_MAX], const char *target, const char *ending)
     return snprintf(name, PATH_MAX, "%.*s.%s.%s", n, target, target + n, ending) < PATH_MAX;
 }
 
-/* A file without a name in the folder of o->target; or -1. */
+/* Open a file without a name in the folder of o->target.  Returns -1 if the system cannot. */
 static int
 open_nameless(output *o)
 {
@@ -197,7 +197,7 @@ open_nameless(output *o)
     return -1;
 }
 
-/* A temporary file beside o->target, or die. */
+/* Open a temporary file in the folder of o->target, or die. */
 static void
 open_beside(output *o, mode_t mode)
 {
@@ -208,7 +208,7 @@ open_beside(output *o, mode_t mode)
     close(fd);
 }
 
-/* Is the last part of a path longer than its folder allows? */
+/* 1 if the last part of a path is longer than its folder allows. */
 static int
 too_long(const char *path)
 {
@@ -226,7 +226,7 @@ tool_output_path(const char *path)
     if (exists && S_ISDIR(st.st_mode))
         tool_die("%s: %s", path, strerror(EISDIR));
     if (exists && !S_ISREG(st.st_mode))
-        return path;                    /* a device or a FIFO: nothing to rename */
+        return path;                    /* a device or a FIFO is written as it is */
     if (!exists && (errno == ELOOP || too_long(path)))
         tool_die("%s: %s", path, strerror(errno));
 
@@ -238,7 +238,7 @@ tool_output_path(const char *path)
             tool_usage("%s is the output of two options", path);
     mode_t mask = umask(0), mode = exists ? st.st_mode & 0777 : 0666 & ~mask;
     umask(mask);
-    sigset_t all, before;               /* no signal may fall between making and knowing the file */
+    sigset_t all, before;               /* a signal must not come before the new file is known */
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all, &before);
     o->fd = open_nameless(o);
@@ -329,8 +329,8 @@ files_name(const char *text, const char **rest)
     return NULL;
 }
 
-/* Name a file that has none.  A name that is there can only be replaced by renaming, so the file then
- * has another name for a moment. */
+/* Give a file without a name its name.  If another file has this name, only renaming replaces it, so the
+ * file has a temporary name for a moment. */
 static int
 link_nameless(const output *o)
 {

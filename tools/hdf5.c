@@ -9,7 +9,7 @@
 
 #define LIBRARY "libstickslip.so." SS_VERSION
 
-/* The store's function of that name into *function; 0, with the reason, if there is none. */
+/* *function becomes the store's function with this name.  Returns 0, with the reason, if there is none. */
 static int
 find(void *function, const char *name, ss_error *err)
 {
@@ -17,7 +17,7 @@ find(void *function, const char *name, ss_error *err)
     if (library == NULL)
         library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
     void *found = library != NULL ? dlsym(library, name) : NULL;
-    *(void **)function = found;             /* as dlsym(3) has it: C converts no such pointer */
+    *(void **)function = found;             /* the form of dlsym(3), as C has no such conversion */
     if (found == NULL && err != NULL)
         snprintf(err->text, sizeof err->text,
                  "HDF5 files need the library that is installed with the tools: %s", dlerror());
@@ -71,7 +71,7 @@ ss_store_reader_grid(const ss_store_reader *reader)
     return find(&function, "ss_store_reader_grid", NULL) ? function(reader) : NULL;
 }
 
-/* NULL, where nothing was opened, opens nothing. */
+/* If no writer was made, the library need not be opened to free it. */
 void
 ss_store_writer_free(ss_store_writer *writer)
 {

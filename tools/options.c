@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OPTIONS_MOST = 64, LONG = 256 };         /* options of a tool; getopt_long's value of the first */
+enum { OPTIONS_MOST = 64, LONG = 256 };         /* LONG: getopt_long's value of a table's first row */
 
 /* --- values -------------------------------------------------------------------------------- */
 
@@ -78,7 +78,7 @@ tool_choice(const char *option, const char *text, const char *const choice[])
 
 /* --- rows ---------------------------------------------------------------------------------- */
 
-/* "--name", as messages have it. */
+/* The option's name with its dashes, for messages. */
 static const char *
 dashed(const tool_option *o)
 {
@@ -128,7 +128,7 @@ tool_set_count(const tool_option *o, char *text)
 
 const char *const tool_styles[] = { "paper", "screen", NULL };  /* in the order of ss_plot_style */
 
-/* An enumeration has the size of int, whatever its sign. */
+/* An enumeration is stored as an int: it has the size of one, signed or not. */
 void
 tool_set_choice(const tool_option *o, char *text)
 {
@@ -201,7 +201,7 @@ tool_given_others(const char *const names[])
     return 0;
 }
 
-/* A table as getopt_long wants it. */
+/* The rows of all options, and what getopt_long needs to know of them. */
 typedef struct table {
     tool_option row[OPTIONS_MOST];
     size_t n;
@@ -221,7 +221,7 @@ append(table *t, const tool_option option[], size_t n)
     }
 }
 
-/* The row of what getopt_long gave; NULL: it has said what is wrong. */
+/* The row of the option that getopt_long has found; NULL: it has written an error. */
 static const tool_option *
 find_row(const table *t, int c)
 {
@@ -233,7 +233,8 @@ find_row(const table *t, int c)
     return NULL;
 }
 
-/* getopt would show a long option that it does not know as it is: a file may have such a name. */
+/* Refuse control characters in long options, since getopt prints an unknown option as it is.  Names of
+ * files may look like options. */
 static void
 refuse_control(char *argv[])
 {

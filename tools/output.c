@@ -46,7 +46,7 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     tool_usage("--output: the ending of '%s' gives the form and must be one of%s", path, list);
 }
 
-/* The value of --format, among the formats that hold words, or all. */
+/* Read the value of --format; words: only formats that hold words are allowed. */
 static void
 set_format(const tool_option *o, const char *text, int words)
 {
@@ -85,7 +85,7 @@ tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
 
 /* --- a signal as it comes -------------------------------------------------------------------- */
 
-enum { WHOLE = 1 << 20 };       /* values of a signal that goes into HDF5 in one piece, as short ones do */
+enum { WHOLE = 1 << 20 };       /* a signal of at most so many values goes into HDF5 in one piece */
 
 struct tool_signal {
     ss_header *head;
@@ -119,7 +119,7 @@ begin_stream(tool_signal *s)
     tool_check(ss_writer_new(&s->writer, s->out, tool_stream(s->kind), s->head, &err), &err);
 }
 
-/* Keep the rows; 0: there are too many by now. */
+/* Keep the rows.  Returns 0 if they become too many. */
 static int
 keep_rows(tool_signal *s, const double *rows, size_t n)
 {
@@ -169,7 +169,7 @@ tool_signal_note(tool_signal *s, const char *key, const char *value)
         fprintf(s->out, "# %s: %s\n", key, value);
 }
 
-/* All rows that were kept. */
+/* Store all rows that were kept. */
 static void
 store_whole(const tool_signal *s)
 {
@@ -202,7 +202,7 @@ tool_signal_end(tool_signal *s)
 
 /* --- gnuplot ------------------------------------------------------------------------------- */
 
-/* The last line of gnuplot's words is the reason; those above quote the script. */
+/* The last line that gnuplot has written is the reason; the lines above it quote the script. */
 static void
 last_line(FILE *words, char *line, int size)
 {
@@ -215,8 +215,8 @@ last_line(FILE *words, char *line, int size)
     }
 }
 
-/* gnuplot runs the commands in GNUTERM and takes folders, fonts and programs from other variables: it
- * gets only those that it needs to start and to find the fonts of the machine. */
+/* gnuplot runs the commands in GNUTERM, and takes folders, fonts and programs from other variables.  So it
+ * gets only the variables that it needs to start and to find the fonts of the machine. */
 static void
 clear_environment(void)
 {
@@ -231,11 +231,11 @@ clear_environment(void)
                 break;
             }
     environ[n] = NULL;
-    setenv("TZ", "UTC0", 1);            /* of the date in a PDF */
+    setenv("TZ", "UTC0", 1);            /* for the date in a PDF */
 }
 
-/* Start gnuplot on a script, without the settings of a user; its words go to a file, its picture comes
- * through *picture. */
+/* Start gnuplot on a script, without the settings of a user.  Its messages go to the file `words`, and its
+ * picture comes through *picture. */
 static pid_t
 start_gnuplot(FILE *script, FILE *words, FILE **picture)
 {
@@ -260,7 +260,7 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
     return child;
 }
 
-/* The time at which Cairo wrote a PDF would make two of one script differ: it is replaced. */
+/* Replace the time at which Cairo wrote a PDF, which would make two pictures of one script differ. */
 static void
 fix_date(char *picture, size_t n)
 {
@@ -272,7 +272,7 @@ fix_date(char *picture, size_t n)
             memcpy(picture + i + key_length, date, length);
 }
 
-/* All bytes of a pipe, to be freed. */
+/* Read all bytes of a pipe; they are to be freed. */
 static char *
 read_all(FILE *in, size_t *n)
 {
@@ -288,7 +288,7 @@ read_all(FILE *in, size_t *n)
     return bytes;
 }
 
-/* gnuplot says nothing of a full disk, so it is we who write what it draws. */
+/* Run gnuplot and write what it draws, since gnuplot itself does not report a full disk. */
 static void
 run_gnuplot(FILE *script, FILE *out)
 {
@@ -311,7 +311,7 @@ run_gnuplot(FILE *script, FILE *out)
     }
     fclose(words);
     fix_date(drawn, n);
-    fwrite(drawn, 1, n, out);       /* tool_end looks for errors */
+    fwrite(drawn, 1, n, out);       /* tool_end checks for errors */
     free(drawn);
 }
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One contour spacing: a local maximum less prominent than this may show no closed contour, and a
- * spike less prominent along the shortest scale is none. */
+/* One contour spacing.  A local maximum less prominent than this may have no closed contour, and what is
+ * less prominent along the shortest scale is not counted as a spike. */
 #define PROMINENCE (80.0 / 18)
 #define LOWEST (-40.0)          /* local maxima below this are noise [dB] */
 #define LOW 20.0                /* local maxima below belong to the base and its harmonics [Hz] */
@@ -22,7 +22,7 @@ static const struct { const char *figure, *words; } paper[] = {
     { "figure7", "local maximum near 45 Hz at each transition, grouped spikes, more besides" },
 };
 
-/* "build/paper/figure2-dyadic.h5" is "figure2-dyadic". */
+/* The name of a figure: "build/paper/figure2-dyadic.h5" becomes "figure2-dyadic". */
 static void
 name_figure(char name[64], const char *path)
 {
@@ -40,7 +40,7 @@ find_words(const char *name)
     return "-";
 }
 
-/* Half a period of the base: there is one transition in it; 0 if it is not known. */
+/* Half a period of the base, which has one transition; 0 if it is not known. */
 static double
 half_cycle(const ss_header *head)
 {
@@ -50,7 +50,7 @@ half_cycle(const ss_header *head)
     return f > 0 ? 1 / (2 * f) : 0;
 }
 
-/* Keep those with a level of at least lowest. */
+/* Keep the maxima with a level of at least `lowest`, and return their number. */
 static size_t
 keep(ss_maximum *maximum, size_t n, double lowest)
 {
@@ -61,7 +61,7 @@ keep(ss_maximum *maximum, size_t n, double lowest)
     return kept;
 }
 
-/* Of those above the harmonics of the base: how many, where, how prominent. */
+/* Print number, frequencies and prominences of the maxima above the harmonics of the base. */
 static void
 print_ranges(const ss_maximum *maximum, size_t n)
 {
@@ -165,7 +165,8 @@ print_row(const char *name, const char *format, double words, double raw, ss_val
     printf("\n");
 }
 
-/* The paper's estimate of the contact, ours by the same reading, the fit, and what was simulated. */
+/* Print the contact as the paper estimates it, as the same reading of our map does, as the fit finds it,
+ * and as it was simulated. */
 static void
 print_contact(const char *path, const char *name, const char *column_name)
 {

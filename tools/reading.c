@@ -20,7 +20,7 @@ set_table(const tool_option *o, char *text)
     *(size_t *)o->to = (size_t)tool_integer("--table", text, 1, 1000000);
 }
 
-/* Cut "[NAME=]VALUE": gives VALUE; a new calibration, *made, has the name. */
+/* Cut "[NAME=]VALUE" and return VALUE.  *made becomes a new calibration with the name. */
 static char *
 add_calibration(tool_reading *r, char *text, ss_calibration **made)
 {

@@ -51,7 +51,7 @@ choose_columns(const ss_header *head, size_t *n)
     return column;
 }
 
-/* Row by row, in constant memory and as they come. */
+/* Copy rows as they come, in constant memory. */
 static void
 copy_rows(tool_kind kind, const ss_read_opts *opts)
 {

@@ -32,7 +32,7 @@ TOOL_READING_USAGE
 typedef struct drawing {
     const char *path, *output;
     const char *signal_path, *column, *events, *features;       /* NULL: not given */
-    ss_coefficients *own;       /* all in memory, or else a file that has them */
+    ss_coefficients *own;       /* all in memory; NULL if a file has them */
     ss_store_reader *reader;
     ss_overview *overview;      /* of a recording */
     const ss_coefficients *coefficients;
@@ -58,10 +58,10 @@ read_scale(size_t i, double *w, void *user, ss_error *err)
 
 /* --- a recording, in one pass -------------------------------------------------------------- */
 
-/* A frequency that any recording of use has some cycles of, if its length is not known. */
+/* The lowest frequency of a recording whose length is not known: a useful one has some cycles of it. */
 #define LOWEST 5e-4             /* of the rate */
 
-/* Begin with the column asked for, or "a", or the only one; returns its index. */
+/* Begin the overview of the column that was asked for, or of "a", or of the only one; return its index. */
 static size_t
 open_overview(drawing *d, const ss_header *head)
 {
@@ -98,7 +98,7 @@ end_overview(drawing *d)
     d->opts.fmin = d->opts.fmax = 0;
 }
 
-/* in: the file whose place shows how far the work is, or NULL. */
+/* Draw rows as they come.  The place in the file `in`, unless it is NULL, shows the progress. */
 static void
 draw_rows(drawing *d, ss_reader *reader, FILE *in)
 {
@@ -166,7 +166,7 @@ open_input(drawing *d)
     d->opts.source_user = d->reader;
 }
 
-/* Panel (a) shows the time of panel (b), so a signal of another time or clock causes a warning. */
+/* Warn of a signal with another clock, as panel (a) shows the time of panel (b). */
 static void
 compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients *c)
 {
@@ -181,7 +181,7 @@ compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients 
                   "signal?", tool_input_name(path), start, end, from, to);
 }
 
-/* The signal for panel (a): the one asked for, or the one that an HDF5 file has, or none. */
+/* The signal for panel (a): the one that was asked for, or the one in an HDF5 file; NULL: there is none. */
 static ss_signal *
 find_signal(drawing *d)
 {
@@ -270,7 +270,7 @@ main(int argc, char *argv[])
     open_input(&d);
     if (d.overview != NULL && d.signal_path != NULL)
         tool_usage("--signal is for coefficients; %s is a signal", d.path);
-    opts.from = d.reading.from;         /* the lines go on to the border */
+    opts.from = d.reading.from;         /* so that lines reach the border */
     opts.to = d.reading.to;
     d.reading.opts.from = d.reading.opts.to = 0;
     ss_signal *signal = d.overview == NULL ? find_signal(&d) : NULL;

@@ -31,7 +31,8 @@ TOOL_READING_USAGE
 "  -o, --output=FILE       .tsv or .csv; --format=tsv|csv of standard output\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
-enum { JOBS_MAX = 100 };    /* each has two files open, and as many may wait for one before them */
+/* Each job has two files open, and so have the finished ones that wait for one before them. */
+enum { JOBS_MAX = 100 };
 
 /* The columns of displacement and force, if none are named. */
 static const char usual_displacement[] = "x", usual_force[] = "f";
@@ -44,14 +45,14 @@ typedef struct request {
     int jobs, summary;
 } request;
 
-/* The column that was asked for, or the one of that name if it is there, else -1. */
+/* The column that was asked for, or else the one with this name, or -1. */
 static int
 find_column(const ss_header *head, const char *path, const char *asked, const char *name)
 {
     return asked != NULL ? (int)tool_column(head, path, asked) : ss_header_column(head, name);
 }
 
-/* The features of one file, and what they were found in. */
+/* The features of one file, with its signal, column and options. */
 typedef struct found {
     ss_signal *signal;
     size_t column;
@@ -97,8 +98,8 @@ write_one(const request *req, const char *path, tool_kind kind)
 
 /* --- several files ------------------------------------------------------------------------- */
 
-/* A process of its own for each file: one that cannot be read ends no other.  Its summary and what it
- * says come back through files without a name. */
+/* A process of its own for each file, so that a file that cannot be read ends no other.  Its summary and
+ * its messages come back through files without a name. */
 typedef struct job {
     pid_t pid;
     FILE *summary, *words;
@@ -122,7 +123,7 @@ start_job(job *j, const request *req, const char *path)
     _exit(fflush(j->summary) != 0);
 }
 
-/* Wait for any of the jobs begun. */
+/* Wait until any of the jobs that have begun ends. */
 static void
 wait_for_job(job *jobs, size_t begun)
 {
@@ -137,7 +138,7 @@ wait_for_job(job *jobs, size_t begun)
         }
 }
 
-/* Pass on what a job said; line gets the last of it, without the tool's name. */
+/* Pass on the messages of a job.  line becomes the last of them, without the tool's name. */
 static void
 pass_words(job *j, char *line, int size)
 {
@@ -154,7 +155,7 @@ pass_words(job *j, char *line, int size)
     fclose(j->words);
 }
 
-/* The summary of a job that is done, or why there is none; 1 if there is one. */
+/* Read the summary of a job that is done.  Returns 0 if there is none; its reason then is the error. */
 static int
 collect_job(job *j, ss_summary *summary)
 {
@@ -170,8 +171,8 @@ collect_job(job *j, ss_summary *summary)
     return whole;
 }
 
-/* A row for each of n files, in their order whichever is done first.  Gives the number of files that
- * have features. */
+/* Write a row for each of n files, in their order, whichever is done first.  Returns the number of files
+ * that have features. */
 static size_t
 write_table(const request *req, char *const path[], size_t n, tool_kind kind)
 {
@@ -203,7 +204,7 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
 int
 main(int argc, char *argv[])
 {
-    static const char *const norms[] = { "l2", "l1", NULL };    /* as in ss_norm */
+    static const char *const norms[] = { "l2", "l1", NULL };    /* in the order of ss_norm */
     const ss_range prominences = { 1e-3, 1000 }, positive = { 1e-100, 1e100 }, springs = { 0, 1e100 };
     const ss_range heights = { 1e-300, 1e300 }, jobs = { 1, JOBS_MAX };
     request req = { .opts = ss_features_defaults, .kind = TOOL_TSV, .jobs = 1 };

@@ -41,7 +41,7 @@ typedef struct request {
     tool_reading reading;
     const char *column, *output, *wisdom;
     int dyadic, stream, inverse, check, exact_bits;
-    tool_kind kind;                     /* what is written */
+    tool_kind kind;                     /* of the output */
 } request;
 
 static void
@@ -78,7 +78,7 @@ parse(request *req, int argc, char *argv[])
     return TOOL_PARSE(argc, argv, options, &req->reading);
 }
 
-/* Options that exclude each other. */
+/* Refuse options that exclude each other. */
 static void
 check_request(request *req)
 {
@@ -143,7 +143,7 @@ read_wisdom(const char *path)
         return;
     if (in == NULL)
         tool_die("%s: %s", path, strerror(errno));
-    int c = getc(in);           /* an empty file is one to be filled */
+    int c = getc(in);           /* an empty file will get its wisdom at the end */
     if (c != EOF && ungetc(c, in) == c && ss_wisdom_read(in, &err) != SS_OK)
         tool_die("%s: %s", path, err.text);
     fclose(in);
@@ -153,7 +153,7 @@ static void
 check_written(ss_status status, const ss_error *err)
 {
     if (status == SS_EIO || status == SS_STOP)
-        tool_end();                     /* says why */
+        tool_end();                     /* it writes the reason */
     tool_check(status, err);
 }
 
@@ -166,11 +166,11 @@ typedef struct flow {
     ss_error error;                     /* of the store */
     size_t coefficients;
     double seconds;                     /* spent on writing */
-    double *w;                          /* of all, for --check, or NULL */
+    double *w;                          /* all coefficients, for --check; or NULL */
     ss_stream *stream;                  /* or NULL */
 } flow;
 
-/* A sink. */
+/* Write coefficients of one scale: the sink of both ways to transform. */
 static int
 write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
            void *user)
@@ -196,7 +196,7 @@ store_samples(flow *f, const double *x, size_t n, size_t row, size_t column)
         tool_check(ss_store_writer_signal(f->store, x, n, row, column, &f->error), &f->error);
 }
 
-/* n samples, 0 if they are not counted yet, on a grid of so many scales. */
+/* Open the output for n samples on this grid; n is 0 if their number is not known yet. */
 static void
 open_output(flow *f, const request *req, const ss_header *signal, size_t column, size_t n,
             const ss_scale *scale, size_t n_scales)
@@ -216,12 +216,12 @@ open_output(flow *f, const request *req, const ss_header *signal, size_t column,
     ss_header_free(head);
 }
 
-/* The library's answer to what has been done. */
+/* Die if the transform has failed, because of the output or of the library. */
 static void
 check_flow(const flow *f, ss_status status, const ss_error *err, const char *path)
 {
     if (status != SS_OK && status != SS_STOP && f->out != NULL)
-        fflush(f->out);                 /* what is written stays */
+        fflush(f->out);                 /* rows that are written stay */
     if (status == SS_STOP && f->store != NULL)
         tool_check(SS_EIO, &f->error);
     if (status == SS_STOP)
@@ -293,7 +293,7 @@ transform_whole(const request *req, const char *path)
     ss_signal_free(signal);
 }
 
-/* Coefficients back to a signal. */
+/* Make a signal of coefficients. */
 static void
 invert(const request *req, const char *path)
 {
@@ -313,9 +313,9 @@ invert(const request *req, const char *path)
 
 /* --- streams ------------------------------------------------------------------------------- */
 
-/* The definition costs the same sample by sample: then each coefficient comes with the last sample that
- * it needs.  Else windows come when they are full.  In neither case does it matter how many samples
- * are there at a time. */
+/* By the definition a coefficient is written with the last sample that it needs, which costs the same as
+ * writing later.  Windows are written when they are full.  In neither case does it matter how many samples
+ * come at a time. */
 static void
 push_samples(flow *f, const double *x, size_t n, const request *req, const char *path)
 {
@@ -329,7 +329,7 @@ push_samples(flow *f, const double *x, size_t n, const request *req, const char 
     }
 }
 
-/* n samples of a row each, which may be 0; the first open the output. */
+/* Push a column of n rows; n may be 0.  The first call opens the output. */
 static void
 push_rows(flow *f, const double *rows, double *x, size_t n, const ss_header *head, size_t column,
           const request *req, const char *path)
@@ -342,7 +342,7 @@ push_rows(flow *f, const double *rows, double *x, size_t n, const ss_header *hea
     push_samples(f, x, n, req, path);
 }
 
-/* Samples as they come, until there are no more. */
+/* Push samples as they come, until there are no more. */
 static void
 follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
 {
@@ -357,7 +357,7 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
         if (all == 0)                   /* then nothing is written */
             tool_check(st, &bad);
         push_rows(f, rows, x, n, head, column, req, path);
-        if (st != SS_OK)                /* bad data: what is complete before them is written */
+        if (st != SS_OK)                /* coefficients that are complete before bad data are written */
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
         if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
             check_written(SS_EIO, NULL);

@@ -47,7 +47,7 @@ choose_columns(const ss_header *head)
     return chosen;
 }
 
-/* Of the samples that went through the converter. */
+/* The numbers of samples that went through the converter, and of those that it clipped. */
 static size_t n_converted, n_clipped;
 
 static void
@@ -58,7 +58,7 @@ convert(double *x, size_t n)
     n_converted += n;
 }
 
-/* The note's value in text; 0: nothing was clipped. */
+/* Write the value of the note on clipping.  Returns 0 if nothing was clipped. */
 static int
 tell_clipped(char *text, size_t size)
 {

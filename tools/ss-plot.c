@@ -58,7 +58,7 @@ find_signal_column(const drawing *d, const ss_header *head, const char *path, co
     return tool_column(head, path, name);
 }
 
-/* --xy X,Y: two columns. */
+/* Read the two columns of --xy X,Y. */
 static void
 set_xy(const tool_option *o, char *pair)
 {
@@ -105,7 +105,7 @@ find_column(const ss_table *t, const char *path, const char *name, size_t length
     tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, name, list);
 }
 
-/* The columns that are named; how many. */
+/* Find the columns that are named, and return their number. */
 static size_t
 find_columns(const ss_table *t, const char *path, const char *names, size_t column[], size_t most)
 {
@@ -120,7 +120,7 @@ find_columns(const ss_table *t, const char *path, const char *names, size_t colu
     return n;
 }
 
-/* One parameter was varied, in every part of the table. */
+/* 1 if the same single parameter was varied in every part of the table. */
 static int
 is_diagram(const ss_table *t)
 {
@@ -131,7 +131,7 @@ is_diagram(const ss_table *t)
     return first != NULL;
 }
 
-/* Rows of x and y; any other row breaks the line. */
+/* Read a curve: rows of x and y.  Any other row breaks the line. */
 static double *
 read_line(const char *path, size_t *n)
 {
@@ -148,7 +148,7 @@ read_line(const char *path, size_t *n)
         line[2 * *n] = end > text && rest > end ? x : NAN;
         line[2 * *n + 1] = y;
         for (int c = strchr(text, '\n') != NULL ? '\n' : 0; c != '\n' && c != EOF;)
-            c = getc(in);               /* the rest of a long row is no row */
+            c = getc(in);               /* skip the rest of a long row */
         points += !isnan(line[2 * *n]);
     }
     if (ferror(in))
@@ -196,7 +196,7 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
 
 /* --- the whole ----------------------------------------------------------------------------- */
 
-/* The columns that are named, or all. */
+/* Choose the columns that are named, or all. */
 static void
 choose_columns(drawing *d, const ss_header *head, const char *path, const tool_texts *name)
 {
@@ -294,7 +294,7 @@ main(int argc, char *argv[])
     tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     tool_reading_needs(&reading, xy.n > 0 ? xy.text : wanted.text, xy.n + wanted.n);
-    opts.from = reading.from;           /* the lines go on to the border */
+    opts.from = reading.from;           /* so that lines reach the border */
     opts.to = reading.to;
     reading.opts.from = reading.opts.to = 0;
     if (map != NULL && (xy.n > 0 || wanted.n > 0 || reading.given))

@@ -55,7 +55,8 @@ signal_name(const char *path)
 
 /* --- the quantity -------------------------------------------------------------------------- */
 
-/* Of a force or a length; of a length over time, "mm/s" or as in names "mm_s"; -1: none of these. */
+/* The quantity of a unit: of a force, of a length, or of a length over time, "mm/s" or, in names, "mm_s";
+ * -1: none of these. */
 static int
 quantity_of_unit(const char *unit)
 {
@@ -78,7 +79,8 @@ quantity_of_unit(const char *unit)
     return -1;
 }
 
-/* By the first of a name's words that is one of these, whatever its case: friction_force_kip. */
+/* The quantity that a word of a column's name shows, in upper or lower case, as in friction_force_kip; -1:
+ * none does. */
 static int
 quantity_of_word(const char *name)
 {
@@ -96,7 +98,7 @@ quantity_of_word(const char *name)
     return -1;
 }
 
-/* The quantity by a unit at the end of a name: slip_mm, load_kN. */
+/* The quantity that a unit at the end of a name shows, as in slip_mm and load_kN; -1: none does. */
 static int
 quantity_of_ending(const char *name)
 {
@@ -117,7 +119,7 @@ quantity_of_name(const char *name)
     return strcmp(name, "F") == 0 ? SS_FORCE : quantity_of_word(name);
 }
 
-/* And by what that is known. */
+/* The quantity of a column; *by becomes the reason for it. */
 static ss_quantity
 quantity_of(const ss_column *column, int as, const char **by)
 {
@@ -139,7 +141,7 @@ quantity_of(const ss_column *column, int as, const char **by)
     return SS_ACCELERATION;
 }
 
-/* The other columns whose names say what they are of: the first of each quantity. */
+/* Find the other columns whose names show their quantity: the first of each quantity. */
 static void
 find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
 {
@@ -152,7 +154,7 @@ find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
 
 /* --- work ---------------------------------------------------------------------------------- */
 
-/* Note the result, also if it is not conclusive. */
+/* Note the result, even if it is not conclusive. */
 static void
 note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
 {
@@ -227,7 +229,7 @@ fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene
 
 /* --- a pull -------------------------------------------------------------------------------- */
 
-/* Beside what the given scene says; NaN: nothing. */
+/* Write a median, and beside it the value of the given scene, unless that is NaN. */
 static void
 write_median(FILE *out, const char *what, ss_median m, const char *unit, double given)
 {
@@ -260,7 +262,7 @@ write_events(FILE *out, const ss_features *f, double start)
     }
 }
 
-/* A Coulomb slider without damping, slip by slip. */
+/* Write the slips of a Coulomb slider without damping, one by one. */
 static void
 write_slips(FILE *out, const ss_pull *p, const ss_signal *signal, double k_over_m, double loading)
 {
@@ -277,7 +279,7 @@ write_slips(FILE *out, const ss_pull *p, const ss_signal *signal, double k_over_
     write_events(out, f, signal->head->start);
 }
 
-/* Another scene: what all slips have in common, and the frictions of each. */
+/* Write the result for another scene: the numbers that all slips share, and the frictions. */
 static void
 write_common(FILE *out, const ss_pull *p)
 {
@@ -348,8 +350,8 @@ fit(const job *j, const ss_signal *signal, size_t column)
     (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
 }
 
-/* The signal and the scenes named; without scenes, those of the paper, or of a fit the one that it starts
- * from. */
+/* Set the signal and the scenes that are named.  Without any, the scenes are those of the paper, or, for a
+ * fit, the one from which it starts. */
 static void
 set_files(job *j, int n, char *file[])
 {

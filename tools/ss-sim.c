@@ -45,7 +45,7 @@ typedef struct request {
 typedef struct output {
     const request *req;
     ss_header *head;
-    ss_event_writer *event_writer;      /* events as text */
+    ss_event_writer *event_writer;      /* of events as text */
     ss_writer *writer;                  /* samples as a stream */
     ss_signal *signal;                  /* for HDF5 */
     size_t n_samples;
@@ -138,7 +138,7 @@ list(void)
     exit(0);
 }
 
-/* The scene as it would be simulated, with every key that its model has. */
+/* Write the scene as it would be simulated, with every key of its model. */
 static void
 write_scene(const request *req, const ss_scene *scene)
 {
@@ -149,7 +149,7 @@ write_scene(const request *req, const ss_scene *scene)
     tool_check(ss_scene_write(scene, out), NULL);
 }
 
-/* The base moves as measured, whatever the scene says.  What stands behind the last colon is a column,
+/* Let the base move as it was measured, in place of the scene's base.  A column follows the last colon,
  * unless the name of a file goes on there. */
 static void
 set_base(ss_scene *scene, const char *given)
@@ -195,7 +195,7 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->tol = ss_sim_defaults.tol;
 }
 
-/* A rate that was mistyped should not fill the disk, or the memory before a word is said. */
+/* A mistyped rate must not fill the disk, or the memory, without a warning. */
 static void
 check_samples(const request *req, const ss_scene *scene)
 {
@@ -253,7 +253,7 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--accuracy and --tol exclude each other");
 }
 
-/* Run the scene, its samples and events going where they are asked for. */
+/* Run the scene.  Samples and events go to the output that was asked for. */
 static void
 simulate(request *req, const ss_scene *scene, output *o)
 {
@@ -273,12 +273,12 @@ simulate(request *req, const ss_scene *scene, output *o)
     tool_check(st, &err);
     tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req->opts.method,
               req->opts.tol, stats.steps, stats.rhs, stats.events);
-    if (stats.unresolved > 0 && req->accuracy == 0)     /* else the events have been counted twice */
+    if (stats.unresolved > 0 && req->accuracy == 0)     /* an accuracy was checked by two methods */
         tool_warn("slips and touches of the limit smaller than the error of x: %lu; x is right, "
                   "their number and times are not resolved", stats.unresolved);
 }
 
-/* Put what the run has made where it belongs. */
+/* Write what is left of the output. */
 static void
 finish(output *o, int has_events)
 {

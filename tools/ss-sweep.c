@@ -37,7 +37,7 @@ typedef struct request {
     tool_texts settings;
     ss_axis *axis;
     ss_sweep_opts opts;
-    ss_measure pick[SS_MEASURES];       /* the measures, in the order asked for */
+    ss_measure pick[SS_MEASURES];       /* the measures, in the order of the command line */
     size_t n_picks;
     ss_sweep_text text;
     FILE *out;
@@ -174,7 +174,7 @@ write_row(const ss_sweep_row *row, void *user)
     return ss_sweep_row_write(&req->text, row, req->out) != SS_OK;
 }
 
-/* Between batches: what is done must outlive a kill. */
+/* Called between batches: flush the rows, which must outlive a kill. */
 static int
 report(double done, void *user)
 {
@@ -182,7 +182,7 @@ report(double done, void *user)
     return (req->resume != NULL && fflush(req->out) != 0) || tool_progress(done, NULL) != 0;
 }
 
-/* Open what the rows go to, with the header where it is not there yet. */
+/* Open the output of the rows, and write the header unless it is there already. */
 static void
 open_rows(request *req)
 {
@@ -204,7 +204,7 @@ open_rows(request *req)
     free(header);
 }
 
-/* A value that is varied cannot be given too. */
+/* Refuse a setting of a key that is varied. */
 static void
 check_settings(const request *req)
 {
@@ -218,8 +218,8 @@ check_settings(const request *req)
     }
 }
 
-/* Where the model is set, the scene may lack a key of it that is varied: then the first value stands for
- * all. */
+/* Read the scene.  If a setting chooses the model, the scene may lack a key of this model that is varied:
+ * it gets the first value. */
 static ss_scene
 read_scene(const request *req)
 {

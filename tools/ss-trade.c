@@ -53,7 +53,7 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     return ss_plot_trade(out, user, opts, err);
 }
 
-/* What the command line asks for. */
+/* The request of the command line. */
 typedef struct request {
     const char *column, *output, *path;
     tool_texts settings;
@@ -83,7 +83,7 @@ keep_input(void)
     fclose(copy);
 }
 
-/* 1 if its first line that is neither empty nor a comment begins with a name and an equals sign. */
+/* 1 if the first line that is neither empty nor a comment begins with a name and an equals sign. */
 static int
 reads_as_scene(FILE *in)
 {
