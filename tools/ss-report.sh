@@ -26,7 +26,9 @@ Of reading, as in ss-cat:
 END
 }
 
-die() { printf 'ss-report: %s\n' "$2" | tr '\001-\011\013-\037\177' '?' >&2; exit "$1"; }
+(: >&2) || exec 2> /dev/null
+exec 3>&2
+die() { printf 'ss-report: %s\n' "$2" | tr '\001-\011\013-\037\177' '?' >&3; exit "$1"; }
 quote() { printf "'"; printf %s "$1" | sed "s/'/'\\\\''/g"; printf "'"; }
 # Text as HTML shows it, on one line or more.
 escape() {
@@ -106,19 +108,22 @@ inline() {      # NAME
         -e "/<text>/!s/url(#/url(#$1-/g" "$work/$1.svg"
 }
 
-# Run a tool and note how, without our folder; what it says is a reason.
+# Run a tool and note how, without our folder; what it says is a reason, unless it could not write.
 run() {
-    for word; do
-        printf '%s ' "$(quote "${word#"$work"/}" | sed "s/^'\([A-Za-z0-9_.,:=+/-]*\)'\$/\1/")"
-    done | sed 's/ $//' >> "$work/commands"
-    echo >> "$work/commands"
+    command=$(for word; do
+        printf ' %s' "$(quote "${word#"$work"/}" | sed "s/^'\([A-Za-z0-9_.,:=+/-]*\)'\$/\1/")"
+    done)
+    commands=$commands${command# }$newline
     "$@" 2> "$work/said" < /dev/null && return
+    if ! [ -s "$work/said" ] || grep -q ': write error: \|: No space left on device$' "$work/said"; then
+        die 1 "$dir: $1 could not write; is the disk full?"
+    fi
     printf '<p class="why">%s</p>\n' "$(sed 1q "$work/said" | escape)"
     return 1
 }
 
 page() {        # ROW FILE
-    : > "$work/commands"
+    commands=''
     begin "$(escape_line "${2##*/}")"
     printf '<p><a href="index.html">All recordings</a></p><h1>%s</h1>\n' "$(escape_line "$2")"
     eval "run ss-features -q $options $finding -o \"\$work/features.tsv\" -- \"\$2\"" ||
@@ -139,11 +144,16 @@ page() {        # ROW FILE
 }
 
 foot() {        # FILE
-    printf '<h2>How to make it again</h2>\n<pre>'; escape < "$work/commands"
+    printf '<h2>How to make it again</h2>\n<pre>'; printf %s "$commands" | escape
     printf '</pre>\n<p>libstickslip %s. Input, by cksum: %s</p>\n</body></html>\n' "$version" \
         "$({ cksum < "$1"; } 2> /dev/null || echo 'not readable')"
 }
 
+# One write, so that its failure is seen.
+write() { printf '%s\n' "$2" > "$new/$1" || die 1 "$dir/$1: not written"; }
+
+newline='
+'
 options='' finding='' dir='' jobs='' quiet='' row=0
 while [ $# -gt 0 ]; do
     case $1 in
@@ -185,17 +195,22 @@ mkdir -- "$new" "$work" 2> /dev/null || die 1 "$dir: cannot be made here"
 eval "ss-features --summary $quiet $jobs $options $finding -o \"\$new/summaries.tsv\" -- \"\$@\""
 status=$?
 [ -f "$new/summaries.tsv" ] || exit $status
-escape < "$new/summaries.tsv" > "$work/escaped"
+exec 2> /dev/null                       # what the shell says of a full disk: die says it in one line
+escape < "$new/summaries.tsv" > "$work/escaped" || die 1 "$dir: not written"
 for file; do
     row=$((row + 1))
     name=$(printf '%04d-%s' "$row" "${file##*/}" | tr -c 'A-Za-z0-9._-' _ | cut -c1-80).html
-    echo "$name" >> "$work/pages"
-    page "$row" "$file" > "$new/$name" || die 1 "$dir/$name: not written"
+    echo "$name" >> "$work/pages" || die 1 "$dir: not written"
+    html=$(page "$row" "$file") || exit 1
+    write "$name" "$html"
 done
-{
+index() {
     begin Recordings
     printf '<h1>Recordings</h1>\n<div class="wide"><table>\n%s</table></div>\n' "$(table)"
     printf '<p>With all digits: <a href="summaries.tsv">summaries.tsv</a>. '
     printf 'libstickslip %s.</p>\n</body></html>\n' "$version"
-} > "$new/index.html" || die 1 "$dir/index.html: not written"
-rm -r "$work" && mv "$new" "$dir" && exit $status
+}
+write index.html "$(index)"
+rm -r "$work"
+mv "$new" "$dir" || die 1 "$dir: cannot be made here"
+exit $status
