@@ -4,6 +4,7 @@
  * in files.c: an exit or a signal anywhere finds what has to be removed. */
 #include "common.h"
 #include "files.h"
+#include "options.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -187,7 +188,8 @@ tool_hint(ss_status status, const ss_error *err)
     case SS_EUNEVEN: return "; --resample HZ makes time stamps uniform, --rate HZ takes the rows so";
     case SS_EUNIT:   return "; --time-unit UNIT says what it counts: s, ms, us, ns, min or h";
     case SS_ETABLES: return "; --table N reads one";
-    case SS_ESCALE:  return "; ss-morlet --force computes them all the same";
+    case SS_ESCALE:  return tool_given("force") || tool_given("inverse") ? ""
+        : "; ss-morlet --force computes them all the same";
     default:         return "";
     }
 }

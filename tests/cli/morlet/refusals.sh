@@ -10,6 +10,9 @@ ss-morlet --force --fmin 0.1 --fmax 2000 s.tsv | tail -n 1 | cut -f 1
 ss-signal sine --duration 0 | ss-morlet 2>&1 || echo "exit $?"
 ss-signal sine --duration 0.0005 | ss-morlet 2>&1 || echo "exit $?"
 ss-signal sine --duration 0.001 | ss-morlet --force --fmin 100 --fmax 200 | grep -vc '^#'
+ss-signal sine --duration 0.001 | ss-morlet --force --fmin 100 2>&1 || echo "exit $?"
+ss-morlet --voices 1 --center 20 s.tsv | ss-morlet --inverse 2> said || echo "exit $?"
+sed 's/factor of [^ ]*/factor of N/' said
 ss-features --fmin 900 s.tsv 2>&1 || echo "exit $?"
 ss-morlet --wisdom nowhere/w s.tsv -o c.tsv 2>&1 || echo "exit $?"
 [ ! -e c.tsv ]
