@@ -185,6 +185,7 @@ what_cannot_be_read_is_refused_in_clear_words(void **state)
         { "/complex", "holds complex numbers; a signal is real" },
         { "/huge", "has more values than can be read at once" },
         { "/nothing", "no such dataset" },
+        { "/line/", "no such dataset" },
         { "/", "no such dataset" },
     };
     (void)state;

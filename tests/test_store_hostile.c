@@ -353,6 +353,27 @@ the_list_of_arrays_ends_after_10000_objects(void **state)
     ss_signal_free(signal);
 }
 
+/* 1200 deep, the list would take minutes; it ends where no name would fit any more. */
+static void
+groups_in_groups_are_not_followed_without_end(void **state)
+{
+    ss_signal *signal = NULL;
+    ss_error err = { 0 };
+    (void)state;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), group = H5Gopen2(file, "/", H5P_DEFAULT);
+    put_array(file, "a", H5T_IEEE_F64LE, 6, H5P_DEFAULT);
+    for (int depth = 0; depth < 1200; depth++) {
+        hid_t inner = H5Gcreate2(group, "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        assert_true(inner >= 0);
+        H5Gclose(group);
+        group = inner;
+    }
+    H5Gclose(group);
+    H5Fclose(file);
+    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, ":/PATH from /a ..."));
+}
+
 /* On a busy machine a second of its own is many on the wall.  0: no limit. */
 static void
 limit_cpu_time(time_t seconds)
@@ -543,6 +564,7 @@ main(void)
         cmocka_unit_test(a_column_shorter_than_t_is_refused),
         cmocka_unit_test(one_text_under_many_names_is_not_read_many_times),
         cmocka_unit_test(the_list_of_arrays_ends_after_10000_objects),
+        cmocka_unit_test(groups_in_groups_are_not_followed_without_end),
         cmocka_unit_test(many_columns_without_an_index_are_listed_at_once),
         cmocka_unit_test(the_sources_of_a_virtual_dataset_are_not_opened),
         cmocka_unit_test(only_filters_that_bound_what_they_make_are_run),

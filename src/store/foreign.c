@@ -73,6 +73,19 @@ struct list {
     int looked_at;
 };
 
+/* Add a name, or dots and return 1 if it does not fit. */
+static int
+append_name(struct list *list, const char *name)
+{
+    size_t length = strlen(list->text), room = LISTED - length;
+    int full = snprintf(list->text + length, room, " /%s", name) >= (int)room;
+    if (full)
+        strcpy(list->text + length, " ...");
+    return full;
+}
+
+/* HDF5's time for groups in groups grows with the cube of their depth, so those whose names would not fit
+ * are not looked into: they end the list. */
 static herr_t
 list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
 {
@@ -81,16 +94,13 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
     struct list *list = user;
     if (++list->looked_at > LOOKED_AT)
         return 1;
+    if (strlen(name) >= LISTED)
+        return append_name(list, name);
     if (info->type != H5O_TYPE_DATASET)
         return 0;
     hid_t id = ss_h5_open_dataset(root, name);
-    int full = 0;
-    if (id >= 0 && check_type(list->file, id, &why) == SS_OK && get_shape(id, &shape) == NULL) {
-        size_t length = strlen(list->text), room = LISTED - length;
-        full = snprintf(list->text + length, room, " /%s", name) >= (int)room;
-        if (full)
-            strcpy(list->text + length, " ...");
-    }
+    int full = id >= 0 && check_type(list->file, id, &why) == SS_OK && get_shape(id, &shape) == NULL
+        && append_name(list, name);
     H5Dclose(id);
     return full;
 }
@@ -169,7 +179,9 @@ ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss
 {
     array shape = { .rows = 0 };
     h5_file *file = &s->file;
-    hid_t id = ss_h5_open_pieces(file->id, dataset);
+    const char *slash = strrchr(dataset, '/');
+    int has_name = slash == NULL || slash[1] != '\0';           /* for its columns */
+    hid_t id = has_name ? ss_h5_open_pieces(file->id, dataset) : -1;
     s->dataset = malloc(sizeof *s->dataset);
     if (s->dataset == NULL)
         return SS_ENOMEM;
