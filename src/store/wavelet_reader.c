@@ -144,11 +144,13 @@ get_dense(wavelet_reader *r)
         scale->m = row[i];
         scale->a = row[n + i];
         scale->f = row[2 * n + i];
-        scale->j = (int)row[3 * n + i];
-        if (!(scale->a >= 1e-300 && scale->f >= 1e-300 && fabs(row[3 * n + i]) <= 1e6))
+        if (!(scale->a >= 1e-300 && scale->f >= 1e-300 && fabs(row[3 * n + i]) <= 1e6)) {
             status = ss_h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
-        else if ((status = get_lattice(file, group, scale)) == SS_OK
-                 && (status = add_scale(r, scale, r->grid->n)) == SS_OK)
+            break;
+        }
+        scale->j = (int)row[3 * n + i];
+        if ((status = get_lattice(file, group, scale)) == SS_OK
+            && (status = add_scale(r, scale, r->grid->n)) == SS_OK)
             status = check_scale(r, group, i);
     }
     free(row);

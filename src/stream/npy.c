@@ -108,7 +108,7 @@ add_field(struct npy *a, const char *name, const char *type)
 static const char *
 read_descr(struct npy *a, const char *p)
 {
-    char type[32], name[sizeof a->field->name];
+    char type[32] = "", name[sizeof a->field->name];
     if (!comes(p, '[')) {
         p = read_string(p, type, sizeof type);
         return p != NULL && type[1] != 'V' && add_field(a, "", type) ? p : NULL;
@@ -159,7 +159,8 @@ read_dictionary(struct npy *a, const char *p)
             : strcmp(key, "fortran_order") == 0 ? read_flag(a, p) : NULL;
         p = comes(p, ',') ? expect(p, ',') : p;
     }
-    return p != NULL && a->n_fields > 0;
+    p = expect(p, '}');
+    return p != NULL && p[strspn(p, " ")] == '\0' && a->n_fields > 0;
 }
 
 /* Rows and columns of what the header says; 0: it is no signal. */

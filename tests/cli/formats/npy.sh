@@ -66,6 +66,8 @@ head -c 150 f8le.npy > cut.npy
 refused ss-cat --rate 10 cut.npy
 { cat f8le.npy; echo; } > more.npy
 refused ss-cat --rate 10 more.npy
+sed 's/}      /} + x()/' f8le.npy > code.npy
+refused ss-cat --rate 10 code.npy
 sed 's/(3, 2)/(99999999999, 2)/' f8le.npy > huge.npy
 # shellcheck disable=SC3045  # a limit where the shell has one
 ([ -n "$SAN" ] || ulimit -v 500000 2> /dev/null || true; refused ss-cat --rate 10 huge.npy)
