@@ -5,6 +5,7 @@
  * slips to the falls (slip.c).  The stick is the part of the rise that is in no slip and within NEAR
  * standard deviations of the line.  The line is then fitted to the whole stick.  A fall that the fit
  * of a slip does not explain has no drop, duration and friction, and a stick beside it has no length.
+ * Nor has any fall, unless the falls show the inertia of a mass (inertia.c).
  * Samples of a measured force are not independent, so the standard error of the slope counts fewer of
  * them (colour.c).
  *
@@ -20,6 +21,7 @@
 #include "base/gauss.h"
 #include "features/colour.h"
 #include "features/drops.h"
+#include "features/inertia.h"
 #include "features/slip.h"
 #include "features/window.h"
 
@@ -260,19 +262,20 @@ summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
         *of_slips[i].to = is_typical ? median_over(out, of_slips[i].offset, v, scratch) : none;
 }
 
-/* Lines through the rises, and slips between them, by the median slope of these. */
+/* Lines through the rises, and slips between them, by *loading, the median slope of these. */
 static ss_status
-fit_falls(fall *f, const search *s, const double *x, size_t n, ss_value *v, double *scratch)
+fit_falls(fall *f, const search *s, const double *x, size_t n, ss_value *v, double *scratch,
+          double *loading)
 {
     ss_status st = SS_OK;
     for (size_t i = 0; i < n; i++) {
         f[i].line = fit_rise(x, f[i].rise);
         v[i] = (ss_value){ f[i].line.slope > 0 ? f[i].line.slope : NAN, NAN };
     }
-    double loading = ss_median_of(v, n, scratch).value;
+    *loading = ss_median_of(v, n, scratch).value;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         const ss_window room = { f[i].rise.first, i + 1 < n ? f[i + 1].rise.end : s->n };
-        st = ss_slip_fit(&f[i].slip, &f[i].is_slip, x, room, f[i].high, f[i].low, loading);
+        st = ss_slip_fit(&f[i].slip, &f[i].is_slip, x, room, f[i].high, f[i].low, *loading);
     }
     return st;
 }
@@ -289,6 +292,25 @@ leave_out_slips(fall *f, size_t n)
     }
 }
 
+/* Unless slips explain more of the falls better than relaxations do, there are none. */
+static ss_status
+judge_inertia(fall *f, const search *s, const double *x, size_t n, double loading)
+{
+    enum { MOST = 64 };         /* falls that are judged, evenly spread */
+    int signs = 0, sign;
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < n; i += n / MOST + 1) {
+        const ss_window room = { f[i].rise.first, i + 1 < n ? f[i + 1].rise.end : s->n };
+        if (!f[i].is_slip)
+            continue;
+        st = ss_inertia_sign(&sign, x, room, &f[i].slip, loading);
+        signs += sign;
+    }
+    for (size_t i = 0; i < n && signs <= 0; i++)
+        f[i].is_slip = 0;
+    return st;
+}
+
 /* The falls of x that the drops are.  A line that still has a part of a slip in it is too steep or
  * too flat.  The slips fitted with such lines are wrong, too, but less: three passes are enough. */
 static ss_status
@@ -296,6 +318,7 @@ find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_
            double *scratch)
 {
     enum { PASSES = 3 };
+    double loading = NAN;
     ss_status st = SS_OK;
     for (size_t i = 0; i < n; i++) {
         f[i].high = (size_t)(drop[i].t * s->rate + 0.5);
@@ -307,9 +330,9 @@ find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_
     for (int pass = 0; st == SS_OK && pass < PASSES; pass++) {
         if (pass > 0)
             leave_out_slips(f, n);
-        st = fit_falls(f, s, x, n, v, scratch);
+        st = fit_falls(f, s, x, n, v, scratch, &loading);
     }
-    return st;
+    return st == SS_OK ? judge_inertia(f, s, x, n, loading) : st;
 }
 
 static ss_loading

@@ -1,0 +1,12 @@
+/* inertia.h -- whether the falls of a force are the slips of a mass. */
+#ifndef INERTIA_H
+#define INERTIA_H
+
+#include "features/slip.h"
+
+/* *sign: 1, the slip explains the samples about it better than a relaxation between the same loadings,
+ * -1, it does not, 0, there are too few samples or no fit.  Only samples in room are used; loading: of the
+ * slip's fit. */
+ss_status ss_inertia_sign(int *sign, const double *x, ss_window room, const ss_slip *slip, double loading);
+
+#endif
