@@ -25,6 +25,7 @@ BINDIR     ?= $(PREFIX)/bin
 LIBDIR     ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 SCENEDIR   ?= $(PREFIX)/share/stickslip/scenes
+EXAMPLEDIR ?= $(PREFIX)/share/doc/stickslip/examples
 MANDIR     ?= $(PREFIX)/share/man
 BASHDIR    ?= $(PREFIX)/share/bash-completion/completions
 ZSHDIR     ?= $(PREFIX)/share/zsh/site-functions
@@ -79,6 +80,7 @@ PAPER   := $(sort $(wildcard data/scenes/*.scene))
 PUBLISHED := $(sort $(wildcard data/catalogue/*.scene))
 SCENES  := $(PAPER) $(PUBLISHED)
 HEADERS := $(sort $(wildcard include/stickslip/*.h))
+EXAMPLES := $(sort $(wildcard tests/examples/*.c))
 MANUAL  := $(sort $(wildcard man/*.[1-9]))
 TOOLS   := $(patsubst tools/%.c,%,$(sort $(wildcard tools/ss-*.c)))
 SCRIPTS := $(patsubst tools/%.sh,%,$(sort $(wildcard tools/ss-*.sh)))
@@ -266,7 +268,7 @@ to     = $(call quote,$(DESTDIR)$($1))
 remove = ! cd $(call to,$1) 2> /dev/null || rm -f $2
 
 install: all
-	$(INSTALL) -d $(call to,BINDIR) $(call to,LIBDIR)/pkgconfig $(call to,SCENEDIR) \
+	$(INSTALL) -d $(call to,BINDIR) $(call to,LIBDIR)/pkgconfig $(call to,SCENEDIR) $(call to,EXAMPLEDIR) \
 		$(call to,INCLUDEDIR)/stickslip
 	$(INSTALL) -m 644 include/stickslip.h $(call to,INCLUDEDIR)
 	$(INSTALL) -m 644 $(HEADERS) $(call to,INCLUDEDIR)/stickslip
@@ -276,6 +278,7 @@ install: all
 	sed -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' -e 's|@VERSION@|$(VERSION)|' \
 		-e 's|@LIBS@|$(LIBS)|' stickslip.pc.in > $(call to,LIBDIR)/pkgconfig/stickslip.pc
 	$(INSTALL) -m 644 $(SCENES) $(call to,SCENEDIR)
+	$(INSTALL) -m 644 $(EXAMPLES) $(call to,EXAMPLEDIR)
 	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(call to,BINDIR) || exit 1; done
 	for m in $(MANUAL); do d=$(call to,MANDIR)/man$${m##*.}; \
 		$(INSTALL) -d "$$d" && $(INSTALL) -m 644 $$m "$$d" || exit 1; done
@@ -289,11 +292,13 @@ uninstall:
 	$(call remove,LIBDIR,$(notdir $(STATIC)) $(SHARED) $(LINKS) pkgconfig/stickslip.pc)
 	$(call remove,INCLUDEDIR,stickslip.h $(HEADERS:include/%=%))
 	$(call remove,SCENEDIR,$(notdir $(SCENES)))
+	$(call remove,EXAMPLEDIR,$(notdir $(EXAMPLES)))
 	$(call remove,BINDIR,$(TOOLS) $(SCRIPTS))
 	$(call remove,BASHDIR,$(TOOLS) $(SCRIPTS))
 	$(call remove,ZSHDIR,_stickslip)
 	$(call remove,MANDIR,$(foreach m,$(MANUAL),man$(subst .,,$(suffix $m))/$(notdir $m)))
-	for d in $(call to,INCLUDEDIR)/stickslip $(call to,SCENEDIR) $(call to,PREFIX)/share/stickslip; do \
+	for d in $(call to,INCLUDEDIR)/stickslip $(call to,SCENEDIR) $(call to,PREFIX)/share/stickslip \
+		$(call to,EXAMPLEDIR) $(call to,PREFIX)/share/doc/stickslip; do \
 		rmdir "$$d" 2> /dev/null || :; done
 
 # The same commit gives the same bytes.

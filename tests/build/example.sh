@@ -6,6 +6,7 @@ export PKG_CONFIG_PATH
 printf 't,force (N)\n' > run.csv
 # A burst, so that there is one largest |W| and not a row of equals.
 awk 'BEGIN { for (i = 0; i < 4000; i++) print i / 1000 "," 3 + exp(-((i - 2000) / 200)^2) * sin(6.283185307179586 * i / 25) }' >> run.csv
+{ echo 't,accel (m/s^2)'; ss-sim -c t,a compliant-heavy | ss-noise --snr 40 | grep -v '^#' | tr '\t' ','; } > accel.csv
 
 build() {       # shared|static [FLAG]: all examples, in a directory of this name
     mkdir "$1"
@@ -26,6 +27,8 @@ run() {
     ./simulate
     ./recording ../run.csv force
     ./plan
+    ./stiffness ../accel.csv accel 2.42 2310
+    ./stiffness ../run.csv force 2.42 2310
     cd ..
 }
 

@@ -6,7 +6,7 @@ make_() {
 make_ install
 (cd "$root/usr" && find . ! -type d | sort) > files
 for path in include/stickslip.h include/stickslip/sim.h lib/libstickslip.a lib/pkgconfig/stickslip.pc \
-        share/stickslip/scenes/compliant-light.scene; do
+        share/stickslip/scenes/compliant-light.scene share/doc/stickslip/examples/stiffness.c; do
     grep -qx "./$path" files || echo "not installed: $path"
 done
 for tool in "$SRC"/tools/ss-*.*; do
