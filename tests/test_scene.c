@@ -42,7 +42,7 @@ takes_comments_blanks_crlf_and_a_last_line_without_newline(void **state)
     ss_scene s;
     ss_error err = { 0 };
     (void)state;
-    assert_int_equal(read_text(&s, "# a scene\r\n\r\n  model\t=  coulomb # yes\r\nmass=2\r\n"
+    assert_int_equal(read_text(&s, "\xef\xbb\xbf# a scene\r\n\r\n  model\t=  coulomb # yes\r\nmass=2\r\n"
                                "stiffness = 5e1\r\nfriction = 1\r\nbase_amplitude = 1E-1\r\n"
                                "base_frequency = 1", NULL, 0, &err), SS_OK);
     assert_true(s.stiffness == 50 && s.base_frequency == 1);
@@ -170,6 +170,10 @@ static const struct { const char *text, *setting; ss_status status; const char *
       "my.scene:1: base_file leads out of the scene's folder; a file there or below is meant" },
     { "base_file = /etc/passwd\n", NULL, SS_EDATA,
       "my.scene:1: base_file leads out of the scene's folder; a file there or below is meant" },
+    { "base_file = z\033[2J.tsv\n", NULL, SS_EDATA, "my.scene:1: base_file has a control character or a '#'" },
+    { "base_file = \302\233.tsv\n", NULL, SS_EDATA, "my.scene:1: base_file has a control character or a '#'" },
+    { "model=coulomb\n" GOOD, "base_file=z\nmass=1", SS_EINVAL, "base_file has a control character or a '#'" },
+    { "model=coulomb\n" GOOD, "base_file=z#.tsv", SS_EINVAL, "base_file has a control character or a '#'" },
     { "base_column =\n", NULL, SS_EDATA, "my.scene:1: base_column is empty" },
     { "mass = -2", NULL, SS_EDATA, "my.scene:1: mass = -2 is out of range, it must be > 0" },
     { "friction = -1e-300", NULL, SS_EDATA,
@@ -228,6 +232,10 @@ checks_scenes_made_by_hand(void **state)
     s.mass = s.stiffness = 1;
     s.alpha = NAN;                      /* not a parameter of this model */
     assert_int_equal(ss_scene_check(&s, &err), SS_OK);
+    strcpy(s.base_file, "z\nmass = 2");
+    assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
+    assert_string_equal(err.text, "base_file has a control character or a '#'");
+    s.base_file[0] = '\0';
     s.model = (ss_model)7;
     assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
     s.model = SS_STATE_VARIABLE;

@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/utf8.h"
 #include "scene/model.h"
 
 const ss_scene ss_scene_defaults = { .duration = 10, .rate = 2000 };
@@ -82,6 +83,18 @@ range_text(const scene_key *k)
     return k->range == POSITIVE ? "> 0" : k->range == NOT_NEGATIVE ? ">= 0" : "finite";
 }
 
+/* It would not read back as it is written, or drives a terminal. */
+static int
+is_no_line(const char *text)
+{
+    int is_control = 0;
+    while (*text != '\0' && *text != '#' && !is_control)
+        text += ss_utf8_next(text, &is_control);
+    return *text != '\0' || is_control;
+}
+
+#define NO_LINE "has a control character or a '#'"
+
 /* The origin of a key, which messages name: a line of the file, or a setting. */
 struct key_origin {
     const char *name;           /* of the file */
@@ -115,6 +128,7 @@ set_text(ss_scene *scene, const scene_key *k, const char *value, struct key_orig
          ss_error *err)
 {
     const char *wrong = *value == '\0' ? "is empty" : strlen(value) >= k->room ? "is too long"
+        : is_no_line(value) ? NO_LINE
         : k->range == PATH && leaves_folder(value)
         ? "leads out of the scene's folder; a file there or below is meant" : NULL;
     if (wrong != NULL)
@@ -403,8 +417,9 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
     for (int end = 0; st == SS_OK && !end;) {
         at.line++;
         st = read_line(in, line, sizeof line, at, &end, err);
-        if (st == SS_OK && *trim(line) != '\0')
-            st = read_setting(&scene, line, at, &g, err);
+        char *text = at.line == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0 ? line + 3 : line;
+        if (st == SS_OK && *trim(text) != '\0')        /* without a byte-order mark */
+            st = read_setting(&scene, text, at, &g, err);
     }
     struct key_origin setting = { name, -1 };
     for (size_t i = 0; st == SS_OK && i < n; i++) {
@@ -438,6 +453,8 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
         if (k->word != NULL && !is_choice(k, *word_of(&copy, k)))
             return ss_fail(err, SS_EINVAL, "%s is no known choice", k->name);
+        if (k->room > 0 && is_no_line(text_of(&copy, k)))
+            return ss_fail(err, SS_EINVAL, "%s " NO_LINE, k->name);
         if (is_number(k) && !in_range(k, *number_of(&copy, k))) {
             char text[SS_NUMBER_MAX];
             ss_number_format(text, *number_of(&copy, k));
