@@ -18,7 +18,6 @@
 #define ROOM 8.0                /* for the label of a panel [ems] */
 enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
 
-
 /* Rows of one value of the key stand together. */
 static int
 is_line(const double *x, const double *y, size_t n)
@@ -31,10 +30,11 @@ is_line(const double *x, const double *y, size_t n)
 
 /* Points that would cover each other are written once. */
 static void
-write_points(FILE *out, const double *x, const double *y, size_t n, double unit, script_extent e)
+write_points(FILE *out, const double *x, script_scale of_x, const double *y, script_scale of_y, size_t n,
+             script_extent e)
 {
     char seen[CELLS + 1] = { 0 };
-    int decimals = ss_script_decimals((e.hi - e.lo) / unit);
+    int decimals = ss_script_decimals((e.hi - e.lo) / of_y.unit);
     for (size_t i = 0; i < n; i++) {
         if (i > 0 && x[i] != x[i - 1])
             memset(seen, 0, sizeof seen);
@@ -46,25 +46,26 @@ write_points(FILE *out, const double *x, const double *y, size_t n, double unit,
         if (seen[cell])
             continue;
         seen[cell] = 1;
-        fprintf(out, "%.9g ", x[i]);
-        ss_script_write(out, y[i] / unit, decimals, "\n");
+        fprintf(out, "%.9g ", ss_script_scaled(x[i], of_x));
+        ss_script_write(out, ss_script_scaled(y[i], of_y), decimals, "\n");
     }
 }
 
-/* Panel i of all between two heights of the picture, as parts of it. */
+/* Write panel i, between two heights of the picture, as parts of it. */
 static void
-write_panel(FILE *out, const map_column *column, size_t i, size_t n, double bottom, double top)
+write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, size_t n, double bottom, double top)
 {
     const double *x = column[0].value, *y = column[i].value;
     script_extent e = ss_script_extent(y, n);
-    int exponent = ss_script_exponent((double[]){ e.lo, e.hi }, 2), line = is_line(x, y, n);
-    double unit = pow(10, exponent);
-    script_label label = ss_map_label(column[i].label, exponent, ROOM);
+    script_scale of_y = ss_script_scale(e);
+    script_label label = ss_map_label(column[i].label, of_y, ROOM);
+    int line = is_line(x, y, n);
     fprintf(out, "$panel%zu << EOD\n", i);
-    write_points(out, x, y, n, unit, e);
+    write_points(out, x, of_x, y, of_y, n, e);
     fprintf(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
     ss_script_write_side_label(out, 1, &label);
-    ss_script_write_tics(out, "ytics", (script_extent){ e.lo / unit, e.hi / unit }, i == 1 ? 6 : 4);
+    ss_script_write_tics(out, "ytics", (script_extent){ ss_script_scaled(e.lo, of_y), ss_script_scaled(e.hi, of_y) },
+                         i == 1 ? 6 : 4);
     fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
             line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '#999999' lw 0.7, " : "", i,
             line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
@@ -74,15 +75,15 @@ static ss_status
 write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_columns,
               const ss_plot_opts *opts, ss_error *err)
 {
-    ss_plot_opts titled = *opts;
-    const char *scene = ss_table_note(t, "scene"), *vary = ss_table_note(t, "vary");
+    const ss_plot_opts titled = ss_map_titled(opts, t);
+    const char *vary = ss_table_note(t, "vary");
     size_t letters = vary != NULL ? strlen(vary) : 0;
     int log = letters > 4 && strcmp(vary + letters - 4, ":log") == 0;
     script_extent x = ss_script_extent(column[0].value, t->n);
     double height = TITLE + FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, top = height - TITLE;
-    script_label x_label = ss_map_label(column[0].label, 0, INFINITY);
-    if (titled.title == NULL)
-        titled.title = scene != NULL ? scene : "";
+    script_scale of_x = log ? ss_script_power(0) : ss_map_scale(x);
+    script_label x_label = ss_map_label(column[0].label, of_x, INFINITY);
+    x = (script_extent){ ss_script_scaled(x.lo, of_x), ss_script_scaled(x.hi, of_x) };
     ss_status st = ss_script_begin(out, &titled, height, err);
     if (st != SS_OK)
         return st;
@@ -92,6 +93,8 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
             "set xrange [%.9g:%.9g]%s; set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
             "set grid xtics lc rgb '#dddddd' lt 1; set xtics format ''\n", log ? x.lo * (1 - 1e-8) : x.lo,
             log ? x.hi * (1 + 1e-8) : x.hi, log ? "; set logscale x" : "");
+    if (!log)
+        ss_map_write_x_tics(out, x);
     for (size_t i = 1; i < n_columns; i++) {
         double tall = i == 1 ? FIRST : NEXT;
         if (i + 1 == n_columns) {
@@ -100,7 +103,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
             if (log)
                 ss_script_write_decades(out, "x", x.lo, x.hi);
         }
-        write_panel(out, column, i, t->n, (top - tall) / height, top / height);
+        write_panel(out, column, of_x, i, t->n, (top - tall) / height, top / height);
         top -= tall + GAP;
     }
     fputs("unset multiplot\n", out);

@@ -166,22 +166,11 @@ write_curve(FILE *out, const ss_map_opts *map, const map_grid *g)
     fputs("EOD\n", out);
 }
 
-/* The length of the longest label of a tic.  gnuplot sets tics at powers of ten, or at some ten
- * equally spaced values. */
-static int
-letters_of(const map_axis *a)
+static script_extent
+drawn_range(const map_axis *a)
 {
-    double lo = a->value[0], hi = a->value[a->n - 1], step = pow(10, floor(log10(hi - lo)));
-    double tic[2] = { step * ceil(10 * lo / step) / 10, step * floor(10 * hi / step) / 10 };
-    int most = 0;
-    for (int i = 0; i < 2; i++) {
-        double at = !a->log ? tic[i] : pow(10, i == 0 ? ceil(log10(lo)) : floor(log10(hi)));
-        most = (int)fmax(most, snprintf(NULL, 0, "%g", at));
-    }
-    return most;
+    return (script_extent){ ss_script_scaled(a->value[0], a->scale), ss_script_scaled(a->value[a->n - 1], a->scale) };
 }
-
-#define TICS_WIDE 24            /* letters of tics below the map, if they are long */
 
 /* gnuplot leaves out a tic at the very end of a logarithmic axis where rounding puts it beyond. */
 static void
@@ -197,8 +186,8 @@ write_axis(FILE *out, const char *name, const map_axis *a)
     ss_map_write_coordinate(out, a, lo, ':');
     ss_map_write_coordinate(out, a, hi, ']');
     putc('\n', out);
-    if (name[0] == 'x' && letters_of(a) > 4)
-        ss_script_write_tics(out, "xtics", (script_extent){ lo, hi }, (int)fmax(1, TICS_WIDE / letters_of(a)));
+    if (name[0] == 'x')
+        ss_map_write_x_tics(out, drawn_range(a));
 }
 
 static void
@@ -271,13 +260,10 @@ static ss_status
 write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t line,
           const ss_map_opts *map, const ss_plot_opts *opts, ss_error *err)
 {
-    ss_plot_opts titled = *opts;
-    const char *scene = ss_table_note(d->table, "scene");
-    script_label x_label = ss_map_label(d->column[0].label, 0, INFINITY);
-    script_label y_label = ss_map_label(d->column[1].label, 0, INFINITY);
-    script_label line_label = ss_map_label(d->column[line].label, 0, INFINITY);
-    if (titled.title == NULL)
-        titled.title = scene != NULL ? scene : "";
+    const ss_plot_opts titled = ss_map_titled(opts, d->table);
+    script_label x_label = ss_map_label(d->column[0].label, g->x.scale, INFINITY);
+    script_label y_label = ss_map_label(d->column[1].label, g->y.scale, INFINITY);
+    script_label line_label = ss_map_label(d->column[line].label, ss_script_power(0), INFINITY);
     ss_status st = ss_script_begin(out, &titled, 7, err);
     if (st != SS_OK)
         return st;
@@ -291,7 +277,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     if (st != SS_OK)
         return st;
     fprintf(out, "set lmargin at screen %g; set tmargin at screen %s; "
-            "set bmargin at screen 0.14\n", 0.14 + 0.025 * fmax(0, letters_of(&g->y) - 3),
+            "set bmargin at screen 0.14\n", 0.14 + 0.025 * fmax(0, ss_map_letters(drawn_range(&g->y), g->y.log) - 3),
             line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
     fprintf(out, "set rmargin at screen %s\n", r->n > 0 || r->missing ? "0.835" : "0.965");
     write_axis(out, "x", &g->x);

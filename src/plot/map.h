@@ -17,8 +17,18 @@ typedef struct map_column {
 /* Read column c of the rows, where "-" is NaN, and "aperiodic" a period of 0.  value is to be
  * freed even after a failure.  SS_EDATA: there is another word. */
 ss_status ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *err);
+/* Title and axes (map_axis.c). */
+
+/* These options, with the scene of the rows as their title if they have none. */
+ss_plot_opts ss_map_titled(const ss_plot_opts *opts, const ss_table *t);
 /* The label of a column: "base frequency / Hz" of base_frequency. */
-script_label ss_map_label(const ss_column *column, int exponent, double room);
+script_label ss_map_label(const ss_column *column, script_scale scale, double room);
+/* The scale of a linear axis with a range above 0: values as they are, unless their labels would be long. */
+script_scale ss_map_scale(script_extent of_values);
+/* The length of the longest label of the tics that gnuplot sets on an axis over this range. */
+int ss_map_letters(script_extent drawn, int log);
+/* Set fewer tics on a linear horizontal axis than gnuplot would if their labels are long. */
+void ss_map_write_x_tics(FILE *out, script_extent drawn);
 
 /* The different values of a column, ascending. */
 typedef struct map_axis {
@@ -26,6 +36,7 @@ typedef struct map_axis {
     double *value;
     size_t n;
     int log;                    /* 1: the axis is logarithmic */
+    script_scale scale;         /* of the coordinates that are written */
     int digits;                 /* enough to show a hundred-thousandth of the range */
 } map_axis;
 

@@ -39,16 +39,6 @@ ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *er
     return st;
 }
 
-script_label
-ss_map_label(const ss_column *column, int exponent, double room)
-{
-    script_label label;
-    ss_script_make_label(&label, column, ss_script_power(exponent), room);
-    for (size_t i = 0; i < strlen(column->name) && i < label.n; i++)
-        label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
-    return label;
-}
-
 /* Returns 1 if the ratios of neighbouring values vary less than their differences. */
 static int
 is_log(const map_axis *a)
@@ -85,6 +75,7 @@ make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
         return ss_fail(err, SS_EINVAL, "a map needs two values of %s at least", column->label->name);
     double lo = a->value[0], hi = a->value[a->n - 1];
     a->log = is_log(a);
+    a->scale = a->log ? ss_script_power(0) : ss_map_scale((script_extent){ lo, hi });
     a->digits = 6 + (int)fmax(0, floor(log10(fmax(fabs(lo), fabs(hi)) / (hi - lo))));
     return SS_OK;
 }
@@ -144,7 +135,7 @@ ss_map_along(const map_axis *a, double at)
 void
 ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind)
 {
-    fprintf(out, "%.*g%c", a->digits, x, behind);
+    fprintf(out, "%.*g%c", a->digits, ss_script_scaled(x, a->scale), behind);
 }
 
 void

@@ -206,8 +206,8 @@ choose_levels(double level[LEVELS_MAX], double *sorted, size_t n)
     }
     if (!(hi > lo))
         return 0;
-    double power = pow(10, floor(log10((hi - lo) / 8))), share = (hi - lo) / 8 / power;
-    double step = power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+    int decimals;
+    double step = ss_script_step(hi - lo, 8, &decimals);
     for (double k = ceil(lo / step); k * step <= hi && count < LEVELS_MAX; k++)
         level[count++] = k * step;
     return count;

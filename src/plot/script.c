@@ -126,9 +126,8 @@ ss_script_exponent(const double *x, size_t n)
     return 3 * (int)floor((log10(largest) + 1) / 3);
 }
 
-/* The step of tics: 1, 2 or 5 times a power of ten, *decimals of it. */
-static double
-tic_step(double range, int intervals, int *decimals)
+double
+ss_script_step(double range, int intervals, int *decimals)
 {
     double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
     *decimals = power < 1 ? (int)round(-log10(power)) : 0;
@@ -139,7 +138,7 @@ void
 ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals)
 {
     int decimals = ss_script_decimals(0), same = !(drawn.lo < drawn.hi);
-    double step = same ? 0 : tic_step(drawn.hi - drawn.lo, intervals, &decimals);
+    double step = same ? 0 : ss_script_step(drawn.hi - drawn.lo, intervals, &decimals);
     fprintf(out, "set %s %s", axis, same ? "(" : "");
     ss_script_write(out, same ? drawn.lo : step, decimals, same ? ")\n" : "\n");
 }
@@ -183,11 +182,12 @@ is_long(double lo, double hi)
 {
     int decimals;
     double largest = fmax(fabs(lo), fabs(hi));
-    tic_step(hi - lo, TIC_INTERVALS, &decimals);
+    ss_script_step(hi - lo, TIC_INTERVALS, &decimals);
     return 1 + (int)fmax(0, floor(log10(largest))) + (lo < 0) + decimals + (decimals > 0) > TIC_LETTERS;
 }
 
-/* The offset is the middle of the values, rounded to a power of ten above their range. */
+/* The offset is the middle of the values, or somewhat less, rounded to a power of ten above their range: so
+ * values from a round number on count from there. */
 script_scale
 ss_script_scale(script_extent e)
 {
@@ -195,7 +195,7 @@ ss_script_scale(script_extent e)
     double power = ceil(log10(e.hi - e.lo));
     if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled(e.lo, scale), ss_script_scaled(e.hi, scale)))
         return scale;
-    double middle = e.lo + (e.hi - e.lo) / 2, unit = pow(10, fabs(power));
+    double middle = e.lo + 0.49 * (e.hi - e.lo), unit = pow(10, fabs(power));
     double offset = power > 0 ? round(middle / unit) * unit : round(middle * unit) / unit;
     scale = ss_script_power(ss_script_exponent((double[]){ e.lo - offset, e.hi - offset }, 2));
     scale.offset = offset;

@@ -92,6 +92,9 @@ void ss_script_write_x_label(FILE *out, const script_label *label, const char *o
 void ss_script_write_side_label(FILE *out, int n, const script_label *label);
 
 script_extent ss_script_extent(const double *x, size_t n);      /* NaNs are left out */
+/* The smallest step of 1, 2 or 5 times a power of ten with at most so many intervals in a range; *decimals
+ * becomes the number of its decimals. */
+double ss_script_step(double range, int intervals, int *decimals);
 /* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all
  * are the same, one tic at that value. */
 void ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals);

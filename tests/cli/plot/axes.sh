@@ -36,6 +36,18 @@ awk 'BEGIN { print "time (s),F (N)"; for (i = 0; i < 99; i++) print i/1000 "," (
 ss-plot --gaps split holes.csv | grep -o 'label 1 "[^"]*"'
 ss-signal sine --duration 0.0005 | ss-plot | grep '^plot'
 
+# The axes of a map and of a diagram have short tics where a parameter varies little: what is drawn, plus the
+# offset, is what was varied.
+ss-sweep coulomb --vary friction=1.28:1.2801:3 --vary base_frequency=3:3.00001:3 --measure stops -o map.tsv
+ss-plot --map friction,base_frequency,stops map.tsv > map.gp
+grep -o -e '^set [xy]range.*' -e 'set xlabel "[^"]*"' -e 'set label 1 "[^"]*"' map.gp
+ss-sweep coulomb --vary friction=1.28:1.2801:3 --measure x_max -o diagram.tsv
+ss-plot --map friction,x_max diagram.tsv > diagram.gp
+grep -o -e '^set xrange [^;]*' -e 'set xlabel "[^"]*"' -e 'set label 1 "[^"]*"' diagram.gp
+offset=$(sed -n 's/.*set label 1 .* \\342\\210\\222 \([0-9.]*\) m.*/\1/p' diagram.gp)
+sed -n '/^\$panel1 /,/^EOD/p' diagram.gp | awk -v offset="$offset" 'NF == 2 { printf "%.7f %.9f\n", 1.28 + 1e-6 * $1, offset + 1e-6 * $2 }'
+awk '!/^#/ && NF > 2 { printf "%.7f %.9f\n", $2, $3 }' diagram.tsv
+
 # microseconds, as gnuplot writes them
 command -v gnuplot > /dev/null || exit 0
 { echo 'set terminal dumb 99,40'; cat fast.gp; } | gnuplot 2> /dev/null | grep -o 'time / .*s'
