@@ -109,6 +109,8 @@ static const char *
 read_descr(struct npy *a, const char *p)
 {
     char type[32] = "", name[sizeof a->field->name];
+    if (a->n_fields > 0)                        /* the key is there twice */
+        return NULL;
     if (!comes(p, '[')) {
         p = read_string(p, type, sizeof type);
         return p != NULL && type[1] != 'V' && add_field(a, "", type) ? p : NULL;
@@ -128,6 +130,8 @@ read_descr(struct npy *a, const char *p)
 static const char *
 read_shape(struct npy *a, const char *p)
 {
+    if (a->dimensions > 0)                      /* the key is there twice */
+        return NULL;
     for (p = expect(p, '('); p != NULL && !comes(p, ')');) {
         char *end;
         p += strspn(p, " ");
@@ -176,6 +180,7 @@ arrange(struct npy *a)
         columns = swap;
         a->fortran = !a->fortran;
     }
+    a->fortran = a->fortran && columns > 1;     /* records of fields have no other order */
     a->columns = a->named ? a->n_fields : (size_t)columns;
     a->rows = (size_t)rows;
     return columns <= MAX_COLUMNS && rows <= SIZE_MAX / sizeof(double) / 4 / a->columns;
@@ -338,7 +343,7 @@ fill_table(struct table *t, const struct npy *a, ss_error *err)
     if (st != SS_OK)
         return st;
     ss_delimited_begin_rows(t);
-    st = a->fortran && a->columns > 1 ? read_by_columns(t, a, err) : read_by_rows(t, a, err);
+    st = a->fortran ? read_by_columns(t, a, err) : read_by_rows(t, a, err);
     if (st == SS_OK)
         st = ss_input_need(in, 1, err);
     if (st == SS_OK && in->hi > in->lo)

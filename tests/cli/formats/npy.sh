@@ -68,6 +68,16 @@ refused ss-cat --rate 10 cut.npy
 refused ss-cat --rate 10 more.npy
 sed 's/}      /} + x()/' f8le.npy > code.npy
 refused ss-cat --rate 10 code.npy
+# A key twice; records in "Fortran order", which are what they are in the other.
+header() { printf '\223NUMPY\001\000\340\001%-479s\n' "$1"; }
+twice="'descr': '<f8', "
+{ header "{$twice$twice$twice$twice$twice$twice$twice'fortran_order': False, 'shape': (4,), }"; head -c 8000 /dev/zero; } > twice.npy
+refused ss-cat --rate 10 twice.npy
+{ header "{'descr': '<f8', 'fortran_order': False, 'shape': (1,), 'shape': (2,), }"; head -c 8000 /dev/zero; } > shape.npy
+refused ss-cat --rate 10 shape.npy
+sed 's/False/True /' fields.npy > fields-fortran.npy
+ss-cat fields-fortran.npy > f.tsv
+ss-cat fields.npy | cmp f.tsv -
 sed 's/(3, 2)/(99999999999, 2)/' f8le.npy > huge.npy
 # shellcheck disable=SC3045  # a limit where the shell has one
 ([ -n "$SAN" ] || ulimit -v 500000 2> /dev/null || true; refused ss-cat --rate 10 huge.npy)
