@@ -4,6 +4,7 @@
 #include <string.h>
 #include <stickslip.h>
 
+#include "new_signal.h"
 #include "unit.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
@@ -13,16 +14,12 @@ enum { N = 8009 };                      /* a prime */
 static ss_signal *
 some_signal(double size)
 {
-    ss_header *head = ss_header_new(2000, 1.5);
-    ss_signal *signal;
-    ss_header_add_column(head, "a", "m/s^2");
-    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
+    ss_signal *signal = new_signal(N, 2000, 1.5, "a", "m/s^2");
     for (int i = 0; i < N; i++)
         for (int m = 0; m < 6; m++) {
             double t = i / 2000., u = (t - 0.75 - 0.5 * m) / 0.12;
             signal->values[i] += size * exp(-u * u) * cos(2 * M_PI * (30 + 35 * m) * t + m);
         }
-    ss_header_free(head);
     return signal;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <stickslip.h>
 #include "contour_script.h"
+#include "new_signal.h"
 #include "plot/isoline.h"
 #include "unit.h"
 
@@ -105,17 +106,6 @@ a_flat_map_has_no_lines(void **state)
 }
 
 /* --- scripts ------------------------------------------------------------------------------- */
-
-static ss_signal *
-new_signal(size_t n, double rate, double start, const char *name, const char *unit)
-{
-    ss_signal *signal = NULL;
-    ss_header *head = ss_header_new(rate, start);
-    assert_int_equal(ss_header_add_column(head, name, unit), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
-    ss_header_free(head);
-    return signal;
-}
 
 static char *
 signal_script(const ss_signal *signal, const ss_plot_opts *opts)

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 #include <stickslip.h>
+#include "new_signal.h"
 #include "pull.h"
 #include "unit.h"
 
@@ -85,13 +86,9 @@ append_event(const ss_event *e, void *user)
 static record
 record_by(const ss_scene *scene, const char *method, double snr, unsigned long seed, double sign)
 {
-    record t = { .n = 0 };
-    ss_header *head = ss_header_new(scene->rate, 0);
+    record t = { .signal = new_signal(ss_scene_samples(scene), scene->rate, 0, "s", "N") };
     const ss_sim_opts opts = { .method = method, .tol = 1e-12, .samples = append_samples,
                                .events = append_event, .user = &t };
-    assert_int_equal(ss_header_add_column(head, "s", "N"), SS_OK);
-    assert_int_equal(ss_signal_new(&t.signal, head, ss_scene_samples(scene)), SS_OK);
-    ss_header_free(head);
     assert_int_equal(ss_sim_run(scene, &opts, NULL, NULL), SS_OK);
     double *x = t.signal->values;
     ss_noise_add_once(x, t.n, ss_noise_rms(x, t.n, snr), seed);
@@ -370,11 +367,7 @@ what_is_no_slip_has_no_friction(void **state)
     enum { KINDS = 3, RISE = 1000, FALL = 200, CYCLE = RISE + FALL, N = 20 * CYCLE };
     (void)state;
     for (int run = 0; run < 2 * KINDS; run++) {
-        ss_header *head = ss_header_new(RATE, 0);
-        ss_signal *signal = NULL;
-        assert_int_equal(ss_header_add_column(head, "s", "N"), SS_OK);
-        assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
-        ss_header_free(head);
+        ss_signal *signal = new_signal(N, RATE, 0, "s", "N");
         for (size_t i = 0; i < N; i++) {
             double rise = fmin(1, (double)(i % CYCLE) / RISE);
             signal->values[i] = 1 + relaxation(run / 2, rise, ((double)(i % CYCLE) / RISE - rise) * RISE / FALL);
@@ -399,12 +392,8 @@ what_falls_as_it_rises_does_not_slip(void **state)
     unsigned state_of = 1;
     (void)state;
     for (int kind = 0; kind < 3; kind++) {
-        ss_header *head = ss_header_new(RATE, 0);
-        ss_signal *signal = NULL;
+        ss_signal *signal = new_signal(N, RATE, 0, "s", "N");
         ss_features *f = NULL;
-        assert_int_equal(ss_header_add_column(head, "s", "N"), SS_OK);
-        assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
-        ss_header_free(head);
         double level = 1;
         for (size_t i = 0; i < N; i++) {
             double u = 2 * fabs((double)(i % PERIOD) / PERIOD - .5);

@@ -10,6 +10,7 @@
 #include <gsl/gsl_rng.h>
 #include <stickslip.h>
 
+#include "new_signal.h"
 #include "unit.h"
 
 enum { RATE = 1000, N = 6000, DRAWS = 100 };
@@ -178,12 +179,8 @@ correlation(const double *x, double lag)
 static ss_features *
 features_of(const double *x)
 {
-    ss_header *head = ss_header_new(RATE, 0);
-    ss_signal *signal = NULL;
+    ss_signal *signal = new_signal(N, RATE, 0, "signal", "");
     ss_features *f = NULL;
-    assert_int_equal(ss_header_add_column(head, "signal", ""), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
-    ss_header_free(head);
     for (size_t i = 0; i < N; i++)
         signal->values[i] = x[i];
     assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);

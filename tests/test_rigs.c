@@ -10,6 +10,7 @@
 
 #include "extremes/runs.h"
 #include "near.h"
+#include "new_signal.h"
 #include "oracle.h"
 #include "random_scene.h"
 #include "shipped.h"
@@ -212,16 +213,12 @@ typedef double course(double t);
 static ss_base *
 base_of(course *z, double from, double to, double rate)
 {
-    ss_header *head = ss_header_new(rate, from);
-    ss_signal *signal = NULL;
+    ss_signal *signal = new_signal((size_t)((to - from) * rate) + 1, rate, from, "z", "m");
     ss_base *base = NULL;
-    ss_header_add_column(head, "z", "m");
-    assert_int_equal(ss_signal_new(&signal, head, (size_t)((to - from) * rate) + 1), SS_OK);
     for (size_t i = 0; i < signal->n; i++)
         signal->values[i] = z(from + (double)i / rate);
     assert_int_equal(ss_base_new(&base, signal, 0, NULL), SS_OK);
     ss_signal_free(signal);
-    ss_header_free(head);
     return base;
 }
 

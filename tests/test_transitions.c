@@ -4,6 +4,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
+#include "new_signal.h"
 #include "shipped.h"
 #include "unit.h"
 
@@ -249,11 +250,7 @@ units_and_rates_do_not_matter(void **state)
 static ss_signal *
 plain(size_t n, double rms)
 {
-    ss_header *head = ss_header_new(1000, 0);
-    ss_signal *signal = NULL;
-    ss_header_add_column(head, "a", "");
-    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
-    ss_header_free(head);
+    ss_signal *signal = new_signal(n, 1000, 0, "a", "");
     ss_noise_add_once(signal->values, n, rms, 1);
     return signal;
 }

@@ -1,0 +1,21 @@
+/* new_signal.h -- a signal of one column, zero so far: for tests. */
+#ifndef NEW_SIGNAL_H
+#define NEW_SIGNAL_H
+
+#include <stickslip.h>
+
+#include "unit.h"
+
+/* n samples; to be freed with ss_signal_free. */
+static inline ss_signal *
+new_signal(size_t n, double rate, double start, const char *name, const char *unit)
+{
+    ss_signal *signal = NULL;
+    ss_header *head = ss_header_new(rate, start);
+    assert_int_equal(ss_header_add_column(head, name, unit), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header_free(head);
+    return signal;
+}
+
+#endif
