@@ -594,6 +594,36 @@ read_overlays(int variant)
     return st;
 }
 
+/* The spectrum of a signal that is read; or one column of it over another, which is drawn as it is, or is long. */
+static ss_status
+reductions(int variant)
+{
+    enum { LONG = (1 << 19) + 1, HEAD = 24 };
+    static char sound[HEAD + 2 * LONG] = ".snd\0\0\0\030\xff\xff\xff\xff\0\0\0\2\0\0\0\144\0\0\0\2";
+    const size_t column[] = { 0 };
+    size_t rows;
+    ss_reader *reader = NULL;
+    ss_spectrum *spectrum[1] = { NULL };
+    ss_signal *thin = NULL;
+    if (sound[sizeof sound - 1] == 0)
+        for (size_t i = HEAD; i < sizeof sound; i++)
+            sound[i] = (char)(1 + i / 10000);
+    FILE *in = variant < 2 ? fmemopen(text[1], length[1], "r") : fmemopen(sound, sizeof sound, "r");
+    ss_status st = ss_reader_new(&reader, in, "in", NULL, &err);
+    if (st == SS_OK)
+        st = ss_reader_keep(&reader, NULL, &err);
+    if (st == SS_OK)
+        st = variant == 0 ? ss_plot_spectra(spectrum, &rows, reader, column, 1, 0, &ss_plot_defaults, &err)
+            : ss_plot_path(&thin, &rows, reader, 0, 1, 0, &ss_plot_defaults, &err);
+    if (st == SS_OK && variant == 0)
+        st = ss_plot_spectrum(scrap, ss_reader_header(reader), column, 1, spectrum, 1, &ss_plot_defaults, &err);
+    ss_spectrum_free(spectrum[0]);
+    ss_signal_free(thin);
+    ss_reader_free(reader);
+    fclose(in);
+    return st;
+}
+
 static ss_status
 plots(int variant)
 {
@@ -606,8 +636,7 @@ plots(int variant)
     case 1: return ss_plot_xy(scrap, signal, 0, 1, &ss_plot_defaults, &err);
     case 2: return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
     case 3: return ss_plot_map(scrap, sweep, &map, &ss_plot_defaults, &err);
-    case 5: return ss_plot_spectrum(scrap, signal, NULL, 0, 0, 1, &ss_plot_defaults, &err);
-    case 6: contour.fill = contour.ridge = 1;
+    case 5: contour.fill = contour.ridge = 1;
             return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
     }
     return ss_plot_trade(scrap, trade, &ss_plot_defaults, &err);
@@ -715,7 +744,8 @@ static const struct row {
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
-    { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 7, 30 },
+    { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 6, 30 },
+    { "reductions", reductions, 3, 100 },
     { "overviews", overviews, 1, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
     { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },

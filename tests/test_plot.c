@@ -120,9 +120,10 @@ signal_script(const ss_signal *signal, const ss_plot_opts *opts)
     return text;
 }
 
-/* A signal as it comes through a file in AU, as it is drawn from opts->from to opts->to. */
+/* A signal as it comes through a file in AU, as it is drawn from opts->from to opts->to if it starts at start, over
+ * time or, with xy, its second column over its first. */
 static ss_signal *
-read_envelope(const ss_signal *signal, ss_plot_opts *opts)
+read_thin(const ss_signal *signal, int xy, double start, ss_plot_opts *opts)
 {
     FILE *file = tmpfile();
     ss_reader *reader = NULL;
@@ -132,7 +133,10 @@ read_envelope(const ss_signal *signal, ss_plot_opts *opts)
     assert_int_equal(ss_signal_write(signal, file, SS_AU, NULL), SS_OK);
     rewind(file);
     assert_int_equal(ss_reader_new(&reader, file, "file", NULL, NULL), SS_OK);
-    if (ss_plot_envelope(&thin, &rows, reader, (size_t[]){ 0 }, 1, opts, &err) != SS_OK)
+    if (xy)
+        assert_int_equal(ss_reader_keep(&reader, NULL, NULL), SS_OK);
+    if ((xy ? ss_plot_path(&thin, &rows, reader, 0, 1, start, opts, &err)
+         : ss_plot_envelope(&thin, &rows, reader, (size_t[]){ 0 }, 1, start, opts, &err)) != SS_OK)
         fail_msg("%s", err.text);
     assert_int_equal(rows, signal->n);
     ss_reader_free(reader);
@@ -154,7 +158,7 @@ an_envelope_has_the_extremes_of_each_block(void **state)
         ss_plot_opts opts = ss_plot_defaults;
         ss_noise_add_once(signal->values, n, 1, 1);
         opts.from = from[row], opts.to = to[row];
-        ss_signal *thin = read_envelope(signal, &opts);
+        ss_signal *thin = read_thin(signal, 0, 5, &opts);
         const double *x = signal->values, *pair = thin->values;
         size_t each = row < 3 ? 1 : (size_t)round(2 * signal->head->rate / thin->head->rate);
         size_t end = row < 3 ? n : 2395001;
@@ -174,6 +178,135 @@ an_envelope_has_the_extremes_of_each_block(void **state)
         ss_signal_free(thin);
         ss_signal_free(signal);
     }
+}
+
+/* --- long lines ------------------------------------------------------------------------------ */
+
+enum { LONG = 700000, APART = 345678 };
+
+/* A circle 700 times round, with a gap and one sample far from it; or noise. */
+static ss_signal *
+long_line(int noise)
+{
+    ss_signal *signal = NULL;
+    ss_header *head = ss_header_new(1000, 5);
+    assert_int_equal(ss_header_add_column(head, "x", ""), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "y", ""), SS_OK);
+    assert_int_equal(ss_header_note(head, "gaps", "8.25:8.5"), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, LONG), SS_OK);
+    ss_header_free(head);
+    double *x = signal->values, *y = x + LONG;
+    for (size_t i = 0; i < LONG; i++) {
+        x[i] = noise ? 0 : cos(2 * M_PI * (double)i / 1000.1);
+        y[i] = noise ? 0 : sin(2 * M_PI * (double)i / 1000.1);
+    }
+    if (noise)
+        ss_noise_add_once(x, 2 * LONG, 1, 4);
+    x[APART] = 1.5;
+    y[APART] = 1.2;
+    return signal;
+}
+
+/* The distance of a point from a part of a line. */
+static double
+distance(double px, double py, double ax, double ay, double bx, double by)
+{
+    double dx = bx - ax, dy = by - ay, square = dx * dx + dy * dy;
+    double part = square > 0 ? fmax(0, fmin(1, ((px - ax) * dx + (py - ay) * dy) / square)) : 0;
+    return hypot(px - ax - part * dx, py - ay - part * dy);
+}
+
+/* From the nearest part of the line that is drawn. */
+static double
+distance_from(const ss_signal *thin, const ss_span *gap, size_t n_gaps, double px, double py)
+{
+    const double *x = thin->values, *y = x + thin->n;
+    double least = INFINITY;
+    for (size_t i = 0; i + 1 < thin->n; i++)
+        if (!ss_gaps_near(gap, n_gaps, (double)i + 0.5, 0) && !ss_gaps_near(gap, n_gaps, (double)i + 1.5, 0))
+            least = fmin(least, distance(px, py, x[i], y[i], x[i + 1], y[i + 1]));
+    return least;
+}
+
+/* All of the line lies within the width of a line, two pixels of a thousand, from what is left of it. */
+static void
+a_long_path_looks_like_the_line(void **state)
+{
+    (void)state;
+    for (int noise = 0; noise < 2; noise++) {
+        ss_plot_opts opts = ss_plot_defaults;
+        ss_signal *signal = long_line(noise), *thin = read_thin(signal, 1, 5, &opts);
+        const double *x = signal->values, *y = x + LONG;
+        double range = noise ? 9.5 : 2.5;
+        ss_span *gap;
+        size_t n_gaps;
+        assert_int_equal(ss_header_gaps(&gap, &n_gaps, thin->head), SS_OK);
+        assert_true(thin->n < (noise ? 400000 : 10000));
+        for (size_t i = 100; i < LONG; i += noise ? 7919 : 997) {
+            int missing = i >= 3250 && i < 3501;
+            double px = (x[i] + x[i - 1]) / 2, py = (y[i] + y[i - 1]) / 2;
+            if (!missing && distance_from(thin, gap, n_gaps, px, py) > 2e-3 * range)
+                fail_msg("sample %zu, %g %g, is not drawn", i, px, py);
+        }
+        assert_true(distance_from(thin, gap, n_gaps, x[APART], y[APART]) <= 1e-3 * range);
+        for (size_t i = 0; i < thin->n && !noise; i++) {
+            double r = hypot(thin->values[i], thin->values[thin->n + i]);
+            assert_true(r > 1 - 2e-3 * range);
+            assert_true(r < 1 + 2e-3 * range || r > 1.8);       /* the ends of the way to the sample apart */
+        }
+        free(gap);
+        ss_signal_free(thin);
+        ss_signal_free(signal);
+    }
+}
+
+/* In the span to draw, of a signal drawn from another time on, and the sample at its end. */
+static void
+a_short_path_has_the_rows_of_its_span(void **state)
+{
+    ss_plot_opts opts = ss_plot_defaults;
+    ss_signal *signal = long_line(1);
+    (void)state;
+    opts.from = 107.25;
+    opts.to = 108;
+    ss_signal *thin = read_thin(signal, 1, 100, &opts);
+    assert_int_equal(thin->n, 751);
+    assert_true(thin->head->start == 5 + 7.25 && thin->head->rate == 1000);
+    for (size_t i = 0; i < thin->n; i++)
+        assert_true(thin->values[i] == signal->values[7250 + i]
+                    && thin->values[thin->n + i] == signal->values[LONG + 7250 + i]);
+    ss_signal_free(thin);
+    ss_signal_free(signal);
+}
+
+/* A long signal over another stands where it would if it were short. */
+static void
+a_long_signal_over_another_begins_with_it(void **state)
+{
+    enum { MANY = (1 << 20) + 1000 };
+    ss_signal *signal = new_signal(2000, 1, 50, "a", ""), *over = new_signal(MANY, 1000, 7, "b", "");
+    (void)state;
+    over->values[654321] = 3;
+    for (int part = 0; part < 2; part++) {
+        ss_plot_opts opts = ss_plot_defaults;
+        if (part) {
+            opts.from = 700;
+            opts.to = 710;
+        }
+        ss_plot_opts own = opts;
+        ss_signal *thin = read_thin(over, 0, 50, &own);
+        opts.over = thin;
+        opts.over_start = 50 + (thin->head->start - 7);
+        char *script = signal_script(signal, &opts), *at = strstr(script, " 3\n");
+        assert_non_null(at);
+        while (at > script && at[-1] != '\n')
+            at--;
+        assert_true(fabs(atof(at) - 704.321) <= (part ? 0.011 : 2));    /* a column of pixels */
+        free(script);
+        ss_signal_free(thin);
+    }
+    ss_signal_free(over);
+    ss_signal_free(signal);
 }
 
 static void
@@ -558,6 +691,9 @@ main(void)
         cmocka_unit_test(every_crossing_of_a_rough_map_is_passed_once),
         cmocka_unit_test(a_flat_map_has_no_lines),
         cmocka_unit_test(an_envelope_has_the_extremes_of_each_block),
+        cmocka_unit_test(a_long_path_looks_like_the_line),
+        cmocka_unit_test(a_short_path_has_the_rows_of_its_span),
+        cmocka_unit_test(a_long_signal_over_another_begins_with_it),
         cmocka_unit_test(a_spike_of_one_sample_in_a_million_is_drawn),
         cmocka_unit_test(text_of_files_stands_between_quotes),
         cmocka_unit_test(names_of_ten_thousand_characters_are_cut),

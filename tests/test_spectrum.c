@@ -1,6 +1,7 @@
 /* test_spectrum.c -- the power spectral density of what is known. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <stickslip.h>
 
 #include "unit.h"
@@ -109,6 +110,34 @@ lengths_follow_the_resolution(void **state)
     assert_int_equal(ss_spectrum_new(&s, x, 1000, RATE, 0, &err), SS_ERANGE);
 }
 
+/* Of pieces of any length; of a long record, whose segments nobody chose, at most 2^22 samples each. */
+static void
+a_spectrum_comes_from_pieces_too(void **state)
+{
+    static double x[N];
+    ss_welch *welch;
+    ss_spectrum *pieces;
+    ss_error err = { 0 };
+    (void)state;
+    assert_int_equal(ss_noise_add_once(x, N, 3, 1), SS_OK);
+    ss_spectrum *whole = spectrum_of(x, 60000, 0);
+    assert_int_equal(ss_welch_new(&welch, 60000, RATE, 0, &err), SS_OK);
+    for (size_t i = 0, n = 1; i < 60000; i += n, n = 3 * n % 7001)
+        assert_int_equal(ss_welch_add(welch, x + i, i + n < 60000 ? n : 60000 - i, &err), SS_OK);
+    assert_int_equal(ss_welch_end(&pieces, welch, &err), SS_OK);
+    assert_int_equal(pieces->n, whole->n);
+    assert_int_equal(pieces->segments, whole->segments);
+    for (size_t k = 0; k < whole->n; k++)
+        assert_true(pieces->density[k] == whole->density[k]);
+    ss_spectrum_free(pieces);
+    ss_spectrum_free(whole);
+    ss_welch_free(welch);
+    assert_int_equal(ss_welch_new(&welch, 1000000000, RATE, 0, &err), SS_OK);
+    assert_int_equal(ss_welch_end(&pieces, welch, &err), SS_EINVAL);
+    assert_non_null(strstr(err.text, " 4194304 at least"));
+    ss_welch_free(welch);
+}
+
 int
 main(void)
 {
@@ -117,6 +146,7 @@ main(void)
         cmocka_unit_test(a_sinusoid_has_its_power_at_its_frequency),
         cmocka_unit_test(one_segment_is_the_definition),
         cmocka_unit_test(lengths_follow_the_resolution),
+        cmocka_unit_test(a_spectrum_comes_from_pieces_too),
     };
     return cmocka_run_group_tests_name("spectrum", tests, NULL, NULL);
 }

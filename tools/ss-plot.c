@@ -31,11 +31,13 @@ TOOL_READING_USAGE
 "  -h, --help           show this text; --version: show the version\n";
 
 typedef struct drawing {
-    const ss_signal *signal;
+    const ss_header *head;      /* of the signal as it is read */
+    ss_signal *signal;          /* what is drawn of it */
     size_t *column, n;          /* panels; or with xy the two columns */
     int xy;
     int spectrum, decibels;
     double resolution;          /* [Hz]; 0: the default */
+    ss_spectrum **density;      /* of each column */
 } drawing;
 
 static ss_status
@@ -43,9 +45,9 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const drawing *d = user;
     if (d->xy)
-        return ss_plot_xy(out, d->signal, d->column[0], d->column[1], opts, err);
+        return ss_plot_xy(out, d->signal, 0, d->column[0] != d->column[1], opts, err);
     if (d->spectrum)
-        return ss_plot_spectrum(out, d->signal, d->column, d->n, d->resolution, d->decibels, opts, err);
+        return ss_plot_spectrum(out, d->head, d->column, d->n, d->density, d->decibels, opts, err);
     return ss_plot_signal(out, d->signal, d->column, d->n, opts, err);
 }
 
@@ -221,33 +223,46 @@ name_once(drawing *d, size_t of[])
     return n;
 }
 
-/* Columns over time, in constant memory. */
-static ss_signal *
-read_envelope(drawing *d, const char *path, const tool_texts *name, const ss_read_opts *reading,
-              ss_plot_opts *opts)
+/* A reader of a signal of any length. */
+static ss_reader *
+open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
 {
     ss_error err = { 0 };
-    ss_signal *signal;
-    size_t rows;
     ss_reader *reader = tool_read_rows(path, reading);
-    const ss_header *head = ss_reader_header(reader);
-    choose_columns(d, head, path, name);
-    size_t *column = tool_room(NULL, d->n + 1, sizeof *column), n = name_once(d, column);
-    tool_check(ss_plot_envelope(&signal, &rows, reader, column, n, opts, &err), &err);
-    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), rows, head->n_columns);
-    ss_reader_free(reader);
-    free(column);
-    return signal;
+    if (is_read_again)
+        tool_check(ss_reader_keep(&reader, getenv("TMPDIR"), &err), &err);
+    return reader;
 }
 
-static ss_signal *
-read_whole(drawing *d, const char *path, const tool_texts *name, const ss_read_opts *reading)
+/* Columns over time. */
+static size_t
+read_envelope(drawing *d, ss_reader *reader, ss_plot_opts *opts)
 {
-    ss_signal *signal = tool_read_signal(path, reading);
-    choose_columns(d, signal->head, path, name);
-    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), signal->n,
-              signal->head->n_columns);
-    return signal;
+    ss_error err = { 0 };
+    size_t rows, *column = tool_room(NULL, d->n + 1, sizeof *column), n = name_once(d, column);
+    tool_check(ss_plot_envelope(&d->signal, &rows, reader, column, n, ss_reader_header(reader)->start, opts, &err),
+               &err);
+    free(column);
+    return rows;
+}
+
+/* The signal of opts->over for the same form of drawing; opts as they were before the first was read. */
+static ss_signal *
+read_over(const drawing *d, const char *path, const ss_header *head, const size_t column[], ss_plot_opts *opts)
+{
+    ss_error err = { 0 };
+    ss_signal *other;
+    ss_plot_opts own = *opts;
+    size_t rows, of[2] = { 0, 0 };
+    ss_reader *reader = open_signal(path, NULL, d->xy);
+    const ss_header *over = ss_reader_header(reader);
+    if (d->xy)
+        tool_check(ss_plot_over_columns(of, over, head, column[0], column[1], &err), &err);
+    tool_check(d->xy ? ss_plot_path(&other, &rows, reader, of[0], of[1], head->start, &own, &err)
+               : ss_plot_envelope(&other, &rows, reader, of, 1, head->start, &own, &err), &err);
+    opts->over_start = head->start + (other->head->start - over->start);
+    ss_reader_free(reader);
+    return other;
 }
 
 /* Draw the named columns of a signal, or all, or one over another, in the form of d. */
@@ -255,18 +270,34 @@ static void
 draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *features,
             const char *output, const ss_read_opts *reading, ss_plot_opts *opts)
 {
-    int whole = d.xy || d.spectrum || over != NULL;
-    ss_signal *signal = whole ? read_whole(&d, path, name, reading)
-        : read_envelope(&d, path, name, reading, opts);
-    d.signal = signal;
-    ss_signal *other = over != NULL ? tool_read_signal(over, NULL) : NULL;
+    ss_error err = { 0 };
+    ss_signal *other = NULL;
+    ss_reader *reader = open_signal(path, reading, d.xy || d.spectrum);
+    size_t rows;
+    d.head = ss_reader_header(reader);
+    choose_columns(&d, d.head, path, name);
+    if (over != NULL)
+        opts->over = other = read_over(&d, over, d.head, d.column, opts);
+    if (d.xy)
+        tool_check(ss_plot_path(&d.signal, &rows, reader, d.column[0], d.column[1], d.head->start, opts, &err), &err);
+    else if (d.spectrum)
+        tool_check(ss_plot_spectra(d.density = tool_room(NULL, d.n, sizeof *d.density), &rows, reader, d.column, d.n,
+                                   d.resolution, opts, &err), &err);
+    else
+        rows = read_envelope(&d, reader, opts);
+    if (d.xy)
+        opts->from = opts->to = NAN;
+    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), rows, d.head->n_columns);
     ss_overlay *overlay = tool_read_features(features);
-    opts->over = other;
     opts->features = overlay;
     tool_draw(output, opts, write_script, &d);
     ss_overlay_free(overlay);
+    for (size_t i = 0; d.density != NULL && i < d.n; i++)
+        ss_spectrum_free(d.density[i]);
+    free(d.density);
     ss_signal_free(other);
-    ss_signal_free(signal);
+    ss_signal_free(d.signal);
+    ss_reader_free(reader);
     free(d.column);
 }
 

@@ -11,6 +11,7 @@
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/overlay.h>
+#include <stickslip/spectrum.h>
 #include <stickslip/table.h>
 #include <stickslip/trade.h>
 
@@ -29,30 +30,49 @@ typedef struct ss_plot_opts {
     double from, to;            /* [s] on the source's clock, the span to draw; NaN: all of it */
     ss_plot_style style;
     const ss_signal *over;      /* a second signal for ss_plot_signal and ss_plot_xy; NULL: none */
+    double over_start;          /* [s] when its first row is drawn; NaN: with the first of the signal */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;
 
 /* Draw the n columns of these indices over time, one panel each (figure 1); with n = 0 all columns.
- * The first column of opts->over is drawn over the first panel; both signals begin at the same
- * time. */
+ * The first column of opts->over is drawn over the first panel. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
 /* Read a signal of any length to its end and make a signal for ss_plot_signal, in memory that does
  * not grow.  *rows becomes the number of rows read.  Up to 2^20 values are kept as they are.  Of
  * more values, only the smallest and the largest of each of some 10^6 blocks between opts->from
- * and opts->to are kept; these two then become the span of the picture. */
+ * and opts->to are kept; these two then become the span of the picture.  On their clock the signal
+ * starts at start [s], which is that of its header unless it is drawn over another. */
 ss_status ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t column[],
-                           size_t n, ss_plot_opts *opts, ss_error *err);
+                           size_t n, double start, ss_plot_opts *opts, ss_error *err);
 /* Draw column y over column x: a phase plane or a friction loop.  If opts->over is not NULL, its
  * columns of the same names are drawn over it, or else its first two. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
-/* Draw the power spectral density of columns in the span to draw, one panel each; n = 0 and column
- * as for ss_plot_signal, resolution as for ss_spectrum_new.  decibels: 1: in dB re 1 unit^2/Hz. */
-ss_status ss_plot_spectrum(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
-                           double resolution, int decibels, const ss_plot_opts *opts, ss_error *err);
+/* Read a signal of any length, which can go back to its first row, and make a signal of its
+ * columns x and y (or one, if they are the same) for ss_plot_xy, of the rows between from and to, as above.  *rows becomes the
+ * number of rows read.  Up to 2^19 of them are kept as they are.  Of more, a part of the line is
+ * left out if it crosses no cell of half a pixel that the line has not crossed before; a gap of the
+ * signal then stands for such a part, and times have no meaning.  opts->from and to are for the
+ * reading only: the picture has all of the signal. */
+ss_status ss_plot_path(ss_signal **out, size_t *rows, ss_reader *reader, size_t x, size_t y, double start,
+                       const ss_plot_opts *opts, ss_error *err);
+/* The columns of opts->over that ss_plot_xy draws: those with the names of columns x and y of the
+ * signal, or else the first two.  SS_EINVAL: there is but one. */
+ss_status ss_plot_over_columns(size_t column[2], const ss_header *over, const ss_header *signal, size_t x,
+                               size_t y, ss_error *err);
+
+/* Estimate the spectra of n columns of a signal of any length, which can go back to its first row,
+ * in the span of opts; resolution as for ss_spectrum_new.  *rows becomes the number of rows read.
+ * The caller frees each spectrum, even after a failure. */
+ss_status ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const size_t column[],
+                          size_t n, double resolution, const ss_plot_opts *opts, ss_error *err);
+/* Draw these spectra of n columns, one panel each.  decibels: 1: in dB re 1 unit^2/Hz. */
+ss_status ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n,
+                           ss_spectrum *const spectrum[], int decibels, const ss_plot_opts *opts,
+                           ss_error *err);
 
 typedef struct ss_contour_opts {
     int levels;                 /* the number of contour lines */

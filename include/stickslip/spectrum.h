@@ -20,12 +20,20 @@ typedef struct ss_spectrum {
 } ss_spectrum;
 
 /* Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at
- * least resolution [Hz]; with 0 there are at least seven.  SS_EINVAL: a sample is not finite, or
+ * least resolution [Hz]; with 0 there are at least seven, of at most 2^22 samples.  SS_EINVAL: a sample is not finite, or
  * the resolution is not within 1.5 rate / n ... 1.5 rate / 16; SS_ERANGE: a density is not finite.
  */
 ss_status ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, double resolution,
                           ss_error *err);
 void ss_spectrum_free(ss_spectrum *spectrum);           /* NULL is allowed */
+
+/* The same for n samples that come in pieces: new, add for each piece, end, free.  It takes 16 bytes for
+ * each sample of a segment. */
+typedef struct ss_welch ss_welch;
+ss_status ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error *err);
+ss_status ss_welch_add(ss_welch *welch, const double *x, size_t n, ss_error *err);
+ss_status ss_welch_end(ss_spectrum **out, ss_welch *welch, ss_error *err);
+void ss_welch_free(ss_welch *welch);                    /* NULL is allowed */
 
 SS_END_DECLARATIONS
 #endif

@@ -14,7 +14,7 @@ enum {
 
 typedef struct envelope {
     ss_reader *reader;
-    const ss_header *head;      /* of the source */
+    ss_header head;             /* of the source, from its start in the picture on */
     const size_t *column;
     size_t n_columns;           /* of these */
     size_t room;                /* rows, and blocks */
@@ -29,7 +29,7 @@ read_start(envelope *e, ss_error *err)
 {
     ss_status st = SS_OK;
     for (size_t got = 1; st == SS_OK && got > 0 && e->n < e->room; e->n += got)
-        st = ss_reader_rows(e->reader, e->rows + e->n * e->head->n_columns, e->room - e->n, &got, err);
+        st = ss_reader_rows(e->reader, e->rows + e->n * e->head.n_columns, e->room - e->n, &got, err);
     return st;
 }
 
@@ -40,7 +40,7 @@ give_whole(const envelope *e, ss_header *head, ss_signal **out)
     ss_status st = ss_signal_new(out, head, e->n);
     for (size_t c = 0; st == SS_OK && c < e->n_columns; c++)
         for (size_t i = 0; i < e->n; i++)
-            (*out)->values[c * e->n + i] = e->rows[i * e->head->n_columns + e->column[c]];
+            (*out)->values[c * e->n + i] = e->rows[i * e->head.n_columns + e->column[c]];
     return st;
 }
 
@@ -55,7 +55,7 @@ add_rows(envelope *e, size_t at, size_t n)
         m = end - from < PIECE ? end - from : PIECE;
         for (size_t c = 0; c < e->n_columns; c++) {
             for (size_t i = 0; i < m; i++)
-                value[i] = e->rows[(from + i) * e->head->n_columns + e->column[c]];
+                value[i] = e->rows[(from + i) * e->head.n_columns + e->column[c]];
             ss_extremes_add(&e->part[c], value, m);
         }
     }
@@ -83,12 +83,12 @@ static ss_status
 give_blocks(const envelope *e, ss_header *head, ss_signal **out, ss_plot_opts *opts, ss_error *err)
 {
     script_span span;
-    ss_status st = ss_script_find_span(&span, e->head, e->n, opts, err);
+    ss_status st = ss_script_find_span(&span, &e->head, e->n, opts, err);
     if (st != SS_OK)
         return st;
     size_t n = ss_extremes_each(e->part) * ss_extremes_count(e->part);
-    head->start += (double)e->first / e->head->rate;
-    head->rate = ldexp((double)ss_extremes_each(e->part) * e->head->rate, -e->part->order);
+    head->start += (double)e->first / e->head.rate;
+    head->rate = ldexp((double)ss_extremes_each(e->part) * e->head.rate, -e->part->order);
     st = ss_signal_new(out, head, n);
     for (size_t c = 0; st == SS_OK && c < e->n_columns; c++)
         ss_extremes_give(&e->part[c], (*out)->values + c * n);
@@ -97,32 +97,23 @@ give_blocks(const envelope *e, ss_header *head, ss_signal **out, ss_plot_opts *o
     return st;
 }
 
-/* Rows that are drawn: one more on either side, as ss_script_find_span has it. */
-static void
-choose_rows(envelope *e, const ss_plot_opts *opts)
-{
-    double first = floor((opts->from - e->head->start) * e->head->rate);
-    double end = ceil((opts->to - e->head->start) * e->head->rate) + 1;
-    e->first = first > 0 ? first < 1e18 ? (size_t)first : SIZE_MAX : 0;
-    e->end = end >= 0 ? end < 1e18 ? (size_t)end : SIZE_MAX : isnan(end) ? SIZE_MAX : 0;
-}
-
 ss_status
 ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t column[], size_t n,
-                 ss_plot_opts *opts, ss_error *err)
+                 double start, ss_plot_opts *opts, ss_error *err)
 {
     if (out == NULL || rows == NULL || reader == NULL || column == NULL || n == 0 || opts == NULL)
         return SS_FAIL_NULL(err);
-    envelope e = { .reader = reader, .head = ss_reader_header(reader), .column = column, .n_columns = n };
-    size_t columns = e.head->n_columns;
+    envelope e = { .reader = reader, .head = *ss_reader_header(reader), .column = column, .n_columns = n };
+    size_t columns = e.head.n_columns;
     ss_header *head = NULL;
     e.room = PIECE;
     while (e.room * columns < KEPT)
         e.room *= 2;
     *out = NULL;
-    choose_rows(&e, opts);
+    e.head.start = start;
+    ss_script_find_rows(&e.first, &e.end, &e.head, opts);
     e.rows = malloc(e.room * columns * sizeof *e.rows);
-    ss_status st = e.rows != NULL ? ss_header_select(&head, e.head, column, n, 0) : SS_ENOMEM;
+    ss_status st = e.rows != NULL ? ss_header_select(&head, ss_reader_header(reader), column, n, 0) : SS_ENOMEM;
     st = st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st == SS_OK ? read_start(&e, err) : st;
     int whole = e.n < e.room;
     if (st == SS_OK)

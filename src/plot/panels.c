@@ -50,7 +50,7 @@ make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t 
     return SS_OK;
 }
 
-/* Find the part of opts->over to draw, as if it began at the same time as the signal. */
+/* Find the part of opts->over to draw, as if it began at this time. */
 static ss_status
 find_over_span(script_span *span, double start, const ss_plot_opts *opts, ss_error *err)
 {
@@ -65,6 +65,7 @@ make_over(script_clock *clock, script_span *span, double start, const ss_plot_op
 {
     if (opts->over == NULL)
         return SS_OK;
+    start = isnan(opts->over_start) ? start : opts->over_start;
     const ss_header *head = opts->over->head;
     ss_status st = find_over_span(span, start, opts, err);
     if (st == SS_OK)
@@ -195,19 +196,33 @@ make_path(path *p, const ss_signal *signal, const size_t column[2], const script
     return st == SS_OK ? ss_script_make_clock(&p->clock, signal->head, span, err) : st;
 }
 
-/* The columns of opts->over that have the names of the path's, else its first two, over as much time. */
+ss_status
+ss_plot_over_columns(size_t column[2], const ss_header *over, const ss_header *signal, size_t x, size_t y,
+                     ss_error *err)
+{
+    if (column == NULL || over == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    if (x >= signal->n_columns || y >= signal->n_columns)
+        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1, signal->n_columns);
+    const char *name[2] = { signal->column[x].name, signal->column[y].name };
+    int found[2] = { ss_header_column(over, name[0]), ss_header_column(over, name[1]) };
+    int named = found[0] >= 0 && found[1] >= 0;
+    for (int i = 0; i < 2; i++)
+        column[i] = (size_t)(named ? found[i] : i);
+    return named || over->n_columns >= 2 ? SS_OK
+        : ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", name[0], name[1]);
+}
+
+/* The columns of opts->over over as much time as the path has. */
 static ss_status
-make_over_path(path *over, const path *p, const ss_plot_opts *opts, ss_error *err)
+make_over_path(path *over, const path *p, const ss_header *head, size_t x, size_t y, const ss_plot_opts *opts,
+               ss_error *err)
 {
     script_span span;
-    const ss_header *head = opts->over->head;
-    const char *x = p->column[0]->name, *y = p->column[1]->name;
-    int found[2] = { ss_header_column(head, x), ss_header_column(head, y) };
-    int named = found[0] >= 0 && found[1] >= 0;
-    size_t column[2] = { named ? (size_t)found[0] : 0, named ? (size_t)found[1] : 1 };
-    if (head->n_columns < 2)
-        return ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", x, y);
-    ss_status st = find_over_span(&span, p->clock.start, opts, err);
+    size_t column[2];
+    ss_status st = ss_plot_over_columns(column, opts->over->head, head, x, y, err);
+    if (st == SS_OK)
+        st = find_over_span(&span, p->clock.start, opts, err);
     return st == SS_OK ? make_path(over, opts->over, column, &span, err) : st;
 }
 
@@ -296,7 +311,7 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     if (status == SS_OK)
         status = make_path(&p, signal, (const size_t[]){ x, y }, &span, err);
     if (status == SS_OK && opts->over != NULL)
-        status = make_over_path(&over, &p, opts, err);
+        status = make_over_path(&over, &p, head, x, y, opts, err);
     if (status == SS_OK)
         status = ss_script_begin(out, opts, 6.5, err);
     if (status == SS_OK) {

@@ -7,6 +7,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
@@ -17,7 +18,7 @@
 #define SCREEN 1.5              /* how much wider and higher on a screen */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
-const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
+const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER, .over_start = NAN };
 
 /* --- numbers and text ---------------------------------------------------------------------- */
 
@@ -305,6 +306,20 @@ ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss
     span->first = lo > 0 ? (size_t)lo : 0;
     span->n = (hi < (double)n ? (size_t)hi + 1 : n) - span->first;
     return SS_OK;
+}
+
+/* Of a number of rows that may be less than 0, or more than there are in any file; NaN: all. */
+static size_t
+row_number(double row)
+{
+    return row < 1e18 ? (size_t)fmax(row, 0) : SIZE_MAX;
+}
+
+void
+ss_script_find_rows(size_t *first, size_t *end, const ss_header *head, const ss_plot_opts *opts)
+{
+    *first = isnan(opts->from) ? 0 : row_number(floor((opts->from - head->start) * head->rate));
+    *end = row_number(ceil((opts->to - head->start) * head->rate) + 1);
 }
 
 ss_status

@@ -22,6 +22,9 @@ ss_status ss_script_find_span(script_span *span, const ss_header *head, size_t n
  * not all nearer to 0 than 1e-300. */
 ss_status ss_script_check(const char *column, const double *x, size_t n, ss_error *err);
 
+/* The rows [*first, *end) of that span while the number of rows is not known. */
+void ss_script_find_rows(size_t *first, size_t *end, const ss_header *head, const ss_plot_opts *opts);
+
 /* Top of the script: terminal and size, and the variable mark, a factor of the sizes of points; the title
  * and the caller's own variables follow. */
 ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err);

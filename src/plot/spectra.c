@@ -94,16 +94,90 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
         fputs("unset title\n", out);
 }
 
+/* --- a signal of any length ----------------------------------------------------------------- */
+
+enum { PIECE = 4096 };          /* values that are read at a time, or one row */
+
+/* The rows of a signal that are drawn. */
+typedef struct selection {
+    ss_reader *reader;
+    size_t columns, first, end; /* the row end is not drawn */
+    size_t rows;                /* that were read */
+    double *row;                /* some of them */
+} selection;
+
+/* Read all rows, and add those of a column that are drawn to welch, unless it is NULL. */
 static ss_status
-write_script(FILE *out, const ss_signal *signal, const size_t column[], size_t n, ss_spectrum *const *spectrum,
-             int decibels, const ss_plot_opts *opts, ss_error *err)
+read_column(selection *s, size_t column, ss_welch *welch, ss_error *err)
 {
+    ss_status st = ss_reader_rewind(s->reader, err);
+    size_t n = 1;
+    for (s->rows = 0; st == SS_OK && n > 0; s->rows += n) {
+        st = ss_reader_rows(s->reader, s->row, 1 + PIECE / s->columns, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n && welch != NULL; i++)
+            if (s->rows + i >= s->first && s->rows + i < s->end)
+                st = ss_welch_add(welch, &s->row[i * s->columns + column], 1, err);
+    }
+    return st;
+}
+
+static ss_status
+estimate(ss_spectrum **out, selection *s, size_t column, size_t n, double resolution, ss_error *err)
+{
+    ss_welch *welch = NULL;
+    ss_status st = ss_welch_new(&welch, n, ss_reader_header(s->reader)->rate, resolution, err);
+    if (st == SS_OK)
+        st = read_column(s, column, welch, err);
+    if (st == SS_OK)
+        st = ss_welch_end(out, welch, err);
+    ss_welch_free(welch);
+    return st;
+}
+
+ss_status
+ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const size_t column[], size_t n,
+                double resolution, const ss_plot_opts *opts, ss_error *err)
+{
+    if (spectrum == NULL || rows == NULL || reader == NULL || column == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    const ss_header *head = ss_reader_header(reader);
+    selection s = { .reader = reader, .columns = head->n_columns };
+    script_span span;
+    memset(spectrum, 0, n * sizeof *spectrum);
+    for (size_t i = 0; i < n; i++)
+        if (column[i] >= s.columns)
+            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1, s.columns);
+    s.row = malloc((PIECE + s.columns) * sizeof *s.row);
+    ss_status st = s.row != NULL ? read_column(&s, 0, NULL, err) : ss_fail_memory(err, NULL);
+    if (st == SS_OK)
+        st = ss_script_find_span(&span, head, s.rows, opts, err);
+    if (st == SS_OK) {
+        s.first = span.first;
+        s.end = span.first + span.n;
+    }
+    *rows = s.rows;
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        st = estimate(&spectrum[i], &s, column[i], span.n, resolution, err);
+    free(s.row);
+    return st;
+}
+
+/* --- the script ----------------------------------------------------------------------------- */
+
+ss_status
+ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
+                 int decibels, const ss_plot_opts *opts, ss_error *err)
+{
+    if (out == NULL || head == NULL || column == NULL || spectrum == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    if (n == 0)
+        return ss_fail(err, SS_EINVAL, "no columns to draw");
     double height = TITLE + BELOW + PANEL * (double)n;
     const ss_spectrum *s = spectrum[0];
     ss_status st = ss_script_begin(out, opts, height, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_title(out, opts, signal->head, NULL);
+    ss_script_write_title(out, opts, head, NULL);
     fprintf(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
             s->step, (double)(s->n - 1) * s->step, s->resolution, s->segments);
     fputs("colour = '#0072b2'\n", out);
@@ -114,43 +188,9 @@ write_script(FILE *out, const ss_signal *signal, const size_t column[], size_t n
     fputs(decibels ? "" : "set logscale y\n", out);
     for (size_t i = 1; i <= n; i++) {
         script_label label;
-        label_of(&label, &signal->head->column[column[i - 1]], decibels);
+        label_of(&label, &head->column[column[i - 1]], decibels);
         plot_panel(out, spectrum[i - 1], &label, i, n, decibels);
     }
     fputs("unset multiplot\n", out);
     return ss_script_end(out);
-}
-
-ss_status
-ss_plot_spectrum(FILE *out, const ss_signal *signal, const size_t column[], size_t n, double resolution,
-                 int decibels, const ss_plot_opts *opts, ss_error *err)
-{
-    if (out == NULL || signal == NULL || opts == NULL || (column == NULL && n > 0))
-        return SS_FAIL_NULL(err);
-    script_span span;
-    size_t panels = n > 0 ? n : signal->head->n_columns;
-    ss_status st = ss_script_find_span(&span, signal->head, signal->n, opts, err);
-    if (st != SS_OK)
-        return st;
-    if (panels == 0)
-        return ss_fail(err, SS_EINVAL, "no columns to draw");
-    size_t *of = malloc(panels * sizeof *of);
-    ss_spectrum **spectrum = calloc(panels, sizeof *spectrum);
-    if (of == NULL || spectrum == NULL)
-        st = ss_fail_memory(err, NULL);
-    for (size_t i = 0; st == SS_OK && i < panels; i++) {
-        of[i] = n > 0 ? column[i] : i;
-        if (of[i] >= signal->head->n_columns)
-            st = ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", of[i] + 1, signal->head->n_columns);
-        else
-            st = ss_spectrum_new(&spectrum[i], signal->values + of[i] * signal->n + span.first, span.n,
-                                 signal->head->rate, resolution, err);
-    }
-    if (st == SS_OK)
-        st = write_script(out, signal, of, panels, spectrum, decibels, opts, err);
-    for (size_t i = 0; spectrum != NULL && i < panels; i++)
-        ss_spectrum_free(spectrum[i]);
-    free(spectrum);
-    free(of);
-    return st;
 }

@@ -4,16 +4,27 @@
 #include <gsl/gsl_fft_real.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 
 #define BANDWIDTH 1.5           /* of a Hann window, in steps of frequency */
 enum { LEAST = 16 };            /* the shortest segment, in samples */
+#define LONGEST 0x1p22          /* and the longest, unless it is asked for */
+
+struct ss_welch {
+    size_t length;              /* of a segment, a power of 2 */
+    double rate;
+    double *segment;            /* a segment while its samples come, then what becomes of it */
+    double *half;               /* the second half of the segment before, which is the first of the next */
+    size_t n, at;               /* samples so far; of the segment */
+    ss_spectrum *sum;
+};
 
 /* The length of the segments, a power of 2; 0 if n samples cannot have this resolution. */
 static size_t
 length_of(size_t n, double rate, double resolution)
 {
-    double most = resolution > 0 ? BANDWIDTH * rate / resolution * (1 + 1e-9) : (double)(n / 4);
+    double most = resolution > 0 ? BANDWIDTH * rate / resolution * (1 + 1e-9) : fmin((double)(n / 4), LONGEST);
     size_t length = LEAST;
     if (resolution > 0 && (most > (double)n + 0.5 || most < LEAST - 0.5))
         return 0;
@@ -29,20 +40,24 @@ hann(size_t i, size_t length)
     return s * s;
 }
 
-/* Add |X|^2 of a segment to the density; part has room for one segment. */
+/* Add |X|^2 of the segment to the density. */
 static void
-add_segment(double *density, const double *x, double *part, size_t length)
+add_segment(ss_welch *w)
 {
-    double mean = x[0];         /* plus the mean of x - x[0], which is exactly 0 for a constant */
+    double *x = w->segment, *density = w->sum->density, first = x[0];
+    double mean = first;        /* plus the mean of x - first, which is exactly 0 for a constant */
+    size_t length = w->length;
+    memcpy(w->half, x + length / 2, length / 2 * sizeof *x);
     for (size_t i = 0; i < length; i++)
-        mean += (x[i] - x[0]) / (double)length;
+        mean += (x[i] - first) / (double)length;
     for (size_t i = 0; i < length; i++)
-        part[i] = (x[i] - mean) * hann(i, length);
-    gsl_fft_real_radix2_transform(part, 1, length);
-    density[0] += part[0] * part[0];
-    density[length / 2] += part[length / 2] * part[length / 2];
+        x[i] = (x[i] - mean) * hann(i, length);
+    gsl_fft_real_radix2_transform(x, 1, length);
+    density[0] += x[0] * x[0];
+    density[length / 2] += x[length / 2] * x[length / 2];
     for (size_t k = 1; k < length / 2; k++)
-        density[k] += part[k] * part[k] + part[length - k] * part[length - k];
+        density[k] += x[k] * x[k] + x[length - k] * x[length - k];
+    w->sum->segments++;
 }
 
 /* Divide the sum over the segments so that it becomes their mean density. */
@@ -62,37 +77,93 @@ finish(ss_spectrum *s, size_t length, double rate, ss_error *err)
 }
 
 ss_status
-ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, double resolution, ss_error *err)
+ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error *err)
 {
-    if (out == NULL || x == NULL)
+    if (out == NULL)
         return SS_FAIL_NULL(err);
+    *out = NULL;
     if (n < LEAST)
         return ss_fail(err, SS_EINVAL, "%zu samples have no spectrum, which needs %d at least", n, LEAST);
     size_t length = rate > 0 && resolution >= 0 ? length_of(n, rate, resolution) : 0;
     if (length == 0)
         return ss_fail(err, SS_EINVAL, "%zu samples at %g Hz have no spectrum of resolution %g Hz: it is %g to "
                        "%g Hz", n, rate, resolution, BANDWIDTH * rate / (double)n, BANDWIDTH * rate / LEAST);
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "sample %zu is not finite", i + 1);
-    ss_spectrum *s = calloc(1, sizeof *s);
-    double *part = malloc(length * sizeof *part);
-    ss_status st = SS_OK;
-    if (s == NULL || part == NULL || (s->density = calloc(length / 2 + 1, sizeof *s->density)) == NULL)
-        st = ss_fail_memory(err, NULL);
-    if (st == SS_OK) {
-        s->n = length / 2 + 1;
-        s->step = rate / (double)length;
-        s->resolution = BANDWIDTH * s->step;
-        for (size_t i = 0; i + length <= n; i += length / 2, s->segments++)
-            add_segment(s->density, x + i, part, length);
-        st = finish(s, length, rate, err);
+    ss_welch *w = calloc(1, sizeof *w);
+    ss_spectrum *s = w != NULL ? w->sum = calloc(1, sizeof *s) : NULL;
+    if (s == NULL || (w->segment = malloc(length * sizeof *w->segment)) == NULL
+        || (w->half = malloc(length / 2 * sizeof *w->half)) == NULL
+        || (s->density = calloc(length / 2 + 1, sizeof *s->density)) == NULL) {
+        ss_welch_free(w);
+        return ss_fail_memory(err, NULL);
     }
-    free(part);
+    w->length = length;
+    w->rate = rate;
+    s->n = length / 2 + 1;
+    s->step = rate / (double)length;
+    s->resolution = BANDWIDTH * s->step;
+    *out = w;
+    return SS_OK;
+}
+
+ss_status
+ss_welch_add(ss_welch *w, const double *x, size_t n, ss_error *err)
+{
+    if (w == NULL || x == NULL)
+        return SS_FAIL_NULL(err);
+    for (size_t i = 0; i < n; i++) {
+        w->n++;
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EINVAL, "sample %zu is not finite", w->n);
+        if (w->at == w->length) {
+            memcpy(w->segment, w->half, w->length / 2 * sizeof *x);
+            w->at = w->length / 2;
+        }
+        w->segment[w->at++] = x[i];
+        if (w->at == w->length)
+            add_segment(w);
+    }
+    return SS_OK;
+}
+
+ss_status
+ss_welch_end(ss_spectrum **out, ss_welch *w, ss_error *err)
+{
+    if (out == NULL || w == NULL || w->sum == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    if (w->sum->segments == 0)
+        return ss_fail(err, SS_EINVAL, "%zu samples have no spectrum, which needs %zu at least", w->n, w->length);
+    ss_status st = finish(w->sum, w->length, w->rate, err);
     if (st != SS_OK)
-        ss_spectrum_free(s);
-    else
-        *out = s;
+        return st;
+    *out = w->sum;
+    w->sum = NULL;
+    return SS_OK;
+}
+
+void
+ss_welch_free(ss_welch *w)
+{
+    if (w == NULL)
+        return;
+    ss_spectrum_free(w->sum);
+    free(w->segment);
+    free(w->half);
+    free(w);
+}
+
+ss_status
+ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, double resolution, ss_error *err)
+{
+    ss_welch *w;
+    if (out == NULL || x == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_welch_new(&w, n, rate, resolution, err);
+    if (st == SS_OK)
+        st = ss_welch_add(w, x, n, err);
+    if (st == SS_OK)
+        st = ss_welch_end(out, w, err);
+    ss_welch_free(w);
     return st;
 }
 
