@@ -350,6 +350,7 @@ long_labels_have_two_lines_and_smaller_letters(void **state)
         { "force_kip", "kip", "force / kip", 0 },
         { "slip_velocity_mm_s", "mm/s", "slip_velocity\\n(mm/s)", 1 },
         { "accel_m_s2", "m/s^2", "accel / (m/s\\302\\262)", 0 },
+        { "slip_mm", "\xc2\xb5m", "slip / \\302\\265m", 0 },
         { "napkip", "kip", "napkip / kip", 0 },
         { "_kip", "kip", "_kip / kip", 0 },
         { "a", "m/s", "a / (m/s)", 0 },

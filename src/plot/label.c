@@ -1,6 +1,7 @@
 /* label.c -- titles, labels of axes, and tics at powers of ten: names, units and superscripts as text
  * that fits its room in the picture. */
 #include "plot/script.h"
+#include "signal/header.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -99,9 +100,11 @@ name_length(const ss_column *column)
         if (i == 0)
             return name[at - 1] == '_' ? at - 1 : n;
         if (name[at - 1] != unit[i - 1] && !(name[at - 1] == '_' && strchr("/ *", unit[i - 1]) != NULL))
-            return n;
+            break;
         i--;
     }
+    if (*unit != '\0')
+        ss_unit_of_name(name, &n);              /* that of the file, before another was given */
     return n;
 }
 
@@ -258,17 +261,28 @@ ss_script_write_decade_range(FILE *out, double lo, double hi)
     ss_script_write_decades(out, "y", pow(10, first), pow(10, last));
 }
 
-void
-ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
-                      const script_label *lines)
+static const char *
+title_of(const ss_plot_opts *opts, const ss_header *head)
 {
     const char *title = opts->title;
     if (title == NULL && head != NULL)
         title = ss_header_find_note(head, "scene");
     if (title == NULL && head != NULL)
         title = ss_header_find_note(head, "model");
-    if (title == NULL)
-        title = "";
+    return title != NULL ? title : "";
+}
+
+double
+ss_script_title_height(const ss_plot_opts *opts, const ss_header *head)
+{
+    return title_of(opts, head)[0] != '\0' ? 0.6 : 0.15;
+}
+
+void
+ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
+                      const script_label *lines)
+{
+    const char *title = title_of(opts, head);
     script_label l = { .n = 0 };
     add(&l, title);
     mark_cut(&l);

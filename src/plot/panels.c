@@ -8,8 +8,7 @@
 #include "base/error.h"
 
 #define PANEL 2.1               /* height of one panel [cm] */
-#define TITLE 0.6               /* height above the panels [cm] */
-#define TIME 1.0                /* and below them */
+#define TIME 1.0                /* and below them [cm] */
 #define ROOM 8.2                /* for the label of a panel [ems] */
 #define XY_ROOM 17.0            /* and for those of one column over another */
 
@@ -29,6 +28,7 @@ typedef struct panel {
     const double *x;            /* of the whole record */
     script_extent drawn;        /* known, as the scale, when its trace is written */
     script_scale scale;
+    script_label label;
 } panel;
 
 /* Make a panel for each of n columns, or for all if column is NULL; to be freed even after a failure. */
@@ -45,7 +45,7 @@ make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t 
         size_t c = column != NULL ? column[i] : i;
         if (c >= head->n_columns)
             return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", c + 1, head->n_columns);
-        p[i] = (panel){ &head->column[c], signal->values + c * signal->n, SCRIPT_NO_EXTENT, ss_script_power(0) };
+        p[i] = (panel){ &head->column[c], signal->values + c * signal->n, SCRIPT_NO_EXTENT, ss_script_power(0), { .n = 0 } };
     }
     return SS_OK;
 }
@@ -91,6 +91,19 @@ write_traces(FILE *out, panel p[], size_t n, const script_clock *clock, const sc
     }
 }
 
+/* Labels of all panels, in the letters of the smallest. */
+static void
+make_labels(panel p[], size_t n)
+{
+    double font = 1;
+    for (size_t i = 0; i < n; i++) {
+        ss_script_make_label(&p[i].label, p[i].column, p[i].scale, ROOM);
+        font = fmin(font, p[i].label.font);
+    }
+    for (size_t i = 0; i < n; i++)
+        p[i].label.font = font;
+}
+
 /* Bands from the bottom of the panel to its top, which the second axis of y has at 0 and 1. */
 static size_t
 write_bands(FILE *out, const ss_overlay *features, const script_span *span)
@@ -107,14 +120,12 @@ static const char plot_bands[] = "$spans using 1:(0):1:2:(0):(1) axes x1y2 with 
 static void
 plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int bands, int over)
 {
-    script_label label;
     if (i == n)
         fputs(SCRIPT_TIME_LABELS, out);
     fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
             "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < n));
-    ss_script_make_label(&label, p->column, p->scale, ROOM);
     fputs("unset label 1; ", out);
-    ss_script_write_side_label(out, 1, &label);
+    ss_script_write_side_label(out, 1, &p->label);
     ss_script_write_tics(out, "ytics", p->drawn, 5);
     fprintf(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", bands ? plot_bands : "", i,
             samples > 1 ? "lines" : "points pt 7 ps 1", over ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
@@ -134,7 +145,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     panel *p = NULL;
     int over = opts->over != NULL;
     size_t panels = n > 0 ? n : head->n_columns, bands = 0;
-    double height = TITLE + TIME + PANEL * (double)panels;
+    double title = ss_script_title_height(opts, head), height = title + TIME + PANEL * (double)panels;
     ss_status status = make_panels(&p, signal, n > 0 ? column : NULL, panels, err);
     if (status == SS_OK)
         status = ss_script_find_span(&span, head, signal->n, opts, err);
@@ -155,11 +166,12 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         if (opts->features != NULL)
             bands = write_bands(out, opts->features, &span);
         write_traces(out, p, panels, &clock, &span);
+        make_labels(p, panels);
         if (over)
             ss_script_write_trace(out, "$over", opts->over->values, &over_clock, &over_span, p[0].scale,
                                   &p[0].drawn);
         fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
-                1 - TITLE / height, panels);
+                1 - title / height, panels);
         fputs(layout, out);
         for (size_t i = 1; i <= panels; i++)
             plot_panel(out, &p[i - 1], i, panels, span.n, bands > 0, over && i == 1);

@@ -89,6 +89,8 @@ void ss_script_make_label(script_label *label, const ss_column *column, script_s
  * "lines: " and the label, unless it is NULL.  A title too wide is broken near its middle and smaller. */
 void ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
                            const script_label *lines);
+/* The height above panels [cm], with room for that title if there is one. */
+double ss_script_title_height(const ss_plot_opts *opts, const ss_header *head);
 /* Set the label of the horizontal axis, so far below it: "0,0.3". */
 void ss_script_write_x_label(FILE *out, const script_label *label, const char *offset);
 /* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */

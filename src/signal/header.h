@@ -18,6 +18,10 @@ ss_status ss_header_read_line(ss_header *head, char *line, const char **reason);
 void ss_write_label(FILE *out, const char *name, const char *unit);
 /* A copy of a unit whose brackets match, so that a label can be read back, to be freed; "" for NULL. */
 char *ss_clean_unit(const char *unit);
+/* The unit at the end of a name, as in slip_velocity_mm_s; *before, unless it is NULL, becomes the length of the
+ * name before it.  Letters that end other words, too, are a unit only behind a word for its quantity, as in
+ * displacement_in and accel_g.  "": there is none, and *before stays. */
+const char *ss_unit_of_name(const char *name, size_t *before);
 /* Split "name", "name/unit" or "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);
 

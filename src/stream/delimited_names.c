@@ -109,47 +109,6 @@ bare_unit(char *cell)
     return ss_cell_trim(cell + 1);
 }
 
-/* --- units in names ------------------------------------------------------------------------- */
-
-/* Does a part of the name begin with one of the words? */
-static int
-has_word(const char *name, const char *const *word)
-{
-    for (; *word != NULL; word++)
-        for (const char *p = name; *p != '\0'; p += strcspn(p, "_ "), p += *p != '\0')
-            if (strncasecmp(p, *word, strlen(*word)) == 0)
-                return 1;
-    return 0;
-}
-
-/* The unit at the end of a name, as in slip_velocity_mm_s.  Letters that end other words, too, are a unit
- * only behind a word for its quantity, as in displacement_in and accel_g. */
-static const char *
-unit_of_name(const char *name)
-{
-    static const char *const lengths[] = { "disp", "pos", "slip", "stroke", "travel", "deflection", "extension",
-        "vel", "speed", "acc", NULL };
-    static const char *const accelerations[] = { "acc", NULL };
-    static const struct { const char *end, *unit; const char *const *word; } known[] = {
-        { "_m_s2", "m/s^2", NULL }, { "_mm_s2", "mm/s^2", NULL }, { "_in_s2", "in/s^2", NULL },
-        { "_m_s", "m/s", NULL }, { "_mm_s", "mm/s", NULL }, { "_um_s", "um/s", NULL }, { "_in_s", "in/s", lengths },
-        { "_ft_s", "ft/s", NULL }, { "_rad_s", "rad/s", NULL }, { "_deg_s", "deg/s", NULL },
-        { "_mm", "mm", NULL }, { "_um", "um", NULL }, { "_nm", "nm", lengths }, { "_cm", "cm", NULL },
-        { "_in", "in", lengths }, { "_ft", "ft", lengths }, { "_g", "g", accelerations },
-        { "_kN", "kN", NULL }, { "_mN", "mN", NULL }, { "_lbf", "lbf", NULL }, { "_kip", "kip", NULL },
-        { "_kPa", "kPa", NULL }, { "_MPa", "MPa", NULL }, { "_psi", "psi", NULL }, { "_mV", "mV", NULL },
-        { "_Hz", "Hz", NULL }, { "_kHz", "kHz", NULL }, { "_rad", "rad", NULL }, { "_deg", "deg", NULL },
-        { "_rpm", "rpm", NULL }, { NULL, NULL, NULL } };
-    size_t n = strlen(name);
-    for (int i = 0; known[i].end != NULL; i++) {
-        size_t length = strlen(known[i].end);
-        if (n > length && strcmp(name + n - length, known[i].end) == 0
-            && (known[i].word == NULL || has_word(name, known[i].word)))
-            return known[i].unit;
-    }
-    return "";
-}
-
 /* Name the columns by one line and give them the units of another.  Both lines are cut up; either may be
  * NULL. */
 static ss_status
@@ -174,7 +133,7 @@ name_columns(struct table *t, char *names, char *units)
         if (units != NULL)
             unit = bare_unit(unit_cell[i]);
         else if (*unit == '\0')
-            unit = (char *)unit_of_name(name);
+            unit = (char *)ss_unit_of_name(name, NULL);
         st = ss_header_add_column(t->names, *name != '\0' ? name : number, unit);
     }
     free(unit_cell);
