@@ -1,4 +1,4 @@
-/* stage.h -- the tables that blocks.c makes for windows.c. */
+/* stage.h -- the tables that blocks.c makes for windows.c and translations.c. */
 #ifndef STAGE_H
 #define STAGE_H
 
