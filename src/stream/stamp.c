@@ -37,7 +37,10 @@ day_number(long year, long month, long day)
 static long
 find_day(long year, long month, long day)
 {
-    return month >= 1 && month <= 12 && day >= 1 && day <= 31 ? day_number(year, month, day) : NO_DAY;
+    if (month < 1 || month > 12 || day < 1)
+        return NO_DAY;
+    long first = day_number(year, month, 1), next = day_number(year + month / 12, month % 12 + 1, 1);
+    return day <= next - first ? first + day - 1 : NO_DAY;
 }
 
 /* Read two digits or one, likewise. */
