@@ -118,7 +118,8 @@ read_time(const char *p, double *seconds)
     return p;
 }
 
-/* Read a zone at the end: "Z", "+01", "+01:00" or "+0100".  NULL if it is none of them. */
+/* Read a zone at the end: "Z", "+01", "+01:00" or "+0100".  NULL if it is none of them, or no part
+ * of a day. */
 static const char *
 read_zone(const char *p, double *ahead)
 {
@@ -131,7 +132,7 @@ read_zone(const char *p, double *ahead)
     if (p != NULL && *p != '\0')
         p = read_digits(p + (*p == ':'), 2, &m);
     *ahead = sign * (double)(3600 * h + 60 * m);
-    return p;
+    return h <= 23 && m <= 59 ? p : NULL;
 }
 
 time_stamp
