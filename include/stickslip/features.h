@@ -84,7 +84,7 @@ typedef struct ss_features {
     size_t n;
     ss_transition *transition;  /* in time order */
     ss_loading *loading;        /* one for each transition if these are falls of a force; else NULL */
-    ss_median slope, stiffness, drop, duration, recurrence, stick;  /* of the loadings */
+    ss_median slope, stiffness, drop, duration, recurrence, stick;  /* of the loadings; NaN: not known */
     ss_median static_friction, friction, k_over_m;
     int reverses;               /* 1: transitions are reversals of a force; friction is half of its step
                                    from one to the next, stiffness is this step over the displacement */

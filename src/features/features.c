@@ -178,6 +178,15 @@ is_doubtful(const search *s, size_t each)
 }
 
 static void
+forget_loadings(ss_features *out)
+{
+    free(out->loading);
+    out->loading = NULL;
+    out->slope = out->stiffness = out->drop = out->duration = out->recurrence = out->stick
+        = out->static_friction = out->friction = out->k_over_m = no_median;
+}
+
+static void
 forget_slips(ss_features *out, const char *why)
 {
     out->slips.value = NAN;
@@ -247,8 +256,7 @@ find_slip_rate(search *s)
     out->slip_rate = mean_rate(s);
     if (out->loading != NULL) {
         if (has_offset(s)) {
-            free(out->loading);
-            out->loading = NULL;
+            forget_loadings(out);
             out->n = 0;
             forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
             return;
@@ -489,6 +497,7 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
     s.out->slip_rate = s.out->repetition_frequency = s.out->frequency_raw = s.out->frequency
         = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
         = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
+    forget_loadings(s.out);
     s.out->why_ringing = "the recording is too short";
     ss_status st = s.n > 0 ? plan_map(&s, column, err) : SS_ESCALE;
     if (st == SS_OK && (st = find_before_map(&s)) != SS_OK)

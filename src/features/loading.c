@@ -126,21 +126,27 @@ add_error(ss_value *to, double variance)
     to->error = sqrt(to->error * to->error + variance);
 }
 
-/* Noise of 1/f has as much in each octave.  What is slower than an event, down to the whole record, is
- * not in the residual of its fit, but in the levels of the force; in their difference is that of an
- * octave, with either sign at the two ends.  It moves the times, too, at which the force passes 10 and
+/* Noise of 1/f has as much in each octave.  What is slower than an event, down to the whole record of n
+ * samples, is not in the residual of its fit, but in the levels of the force; in their difference is that of
+ * an octave, with either sign at the two ends.  It moves the times, too, at which the force passes 10 and
  * 90 % of the fall at 0.6 D w. */
 static void
-read_slip(ss_loading *l, const search *s, const ss_slip *fitted, double octave)
+add_wander(ss_slip *slip, size_t n, double octave)
 {
-    ss_slip with_noise = *fitted, *slip = &with_noise;
-    double slower = octave * fmax(0, log2((double)s->n / fitted->n));
+    double slower = octave * fmax(0, log2((double)n / slip->n));
+    double speed = 0.3 * slip->drop.value * sqrt(slip->k_over_m.value), time = 2 * octave / (speed * speed);
     add_error(&slip->top, slower);
     add_error(&slip->middle, slower);
     add_error(&slip->drop, 4 * octave);
-    double speed = 0.3 * slip->drop.value * sqrt(slip->k_over_m.value), time = 2 * octave / (speed * speed);
+    add_error(&slip->onset, time);
+    add_error(&slip->end, time);
     add_error(&slip->duration, time);
     add_error(&slip->k_over_m, time * pow(2 * slip->k_over_m.value / slip->duration.value, 2));
+}
+
+static void
+read_slip(ss_loading *l, const search *s, const ss_slip *slip)
+{
     l->drop = times(slip->drop, s->largest);
     l->duration = times(slip->duration, 1 / s->rate);
     if (!s->has_offset) {
@@ -153,11 +159,11 @@ read_slip(ss_loading *l, const search *s, const ss_slip *fitted, double octave)
     l->n = slip->n;
 }
 
-/* An end of a stick that its line puts elsewhere than the slip beside it. */
+/* An end of a stick that its line puts elsewhere than the slip beside it: by creep, or by noise that wanders. */
 static ss_value
 moved_to(ss_value end, double to)
 {
-    return (ss_value){ to, hypot(end.error, 0.5 * (to - end.value)) };
+    return (ss_value){ to, hypot(end.error, to - end.value) };
 }
 
 /* The samples of the rise, as far as they stay near the line. */
@@ -236,7 +242,6 @@ median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
 static void
 summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
 {
-    const ss_median none = { NAN, NAN, NAN };
     size_t slips = 0;
     double falling = 0;
     for (size_t i = 0; i < out->n; i++) {
@@ -245,10 +250,10 @@ summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
     }
     int is_typical = 2 * slips >= out->n;
     int is_short = out->n > 1 && falling <= SHORT * (drop[out->n - 1].end - drop[0].t);
-    out->slope = median_over(out, offsetof(ss_loading, slope), v, scratch);
-    out->stiffness = median_over(out, offsetof(ss_loading, stiffness), v, scratch);
-    if (!is_typical && !is_short)
-        out->slope = out->stiffness = none;
+    if (is_typical || is_short) {
+        out->slope = median_over(out, offsetof(ss_loading, slope), v, scratch);
+        out->stiffness = median_over(out, offsetof(ss_loading, stiffness), v, scratch);
+    }
     const struct { ss_median *to; size_t offset; } of_slips[] = {
         { &out->drop, offsetof(ss_loading, drop) },
         { &out->duration, offsetof(ss_loading, duration) },
@@ -258,8 +263,20 @@ summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
         { &out->friction, offsetof(ss_loading, friction) },
         { &out->k_over_m, offsetof(ss_loading, k_over_m) },
     };
-    for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
-        *of_slips[i].to = is_typical ? median_over(out, of_slips[i].offset, v, scratch) : none;
+    for (size_t i = 0; is_typical && i < sizeof of_slips / sizeof *of_slips; i++)
+        *of_slips[i].to = median_over(out, of_slips[i].offset, v, scratch);
+}
+
+/* Sticks that end before the slip do so in all cycles, so that the median is uncertain by as much. */
+static void
+add_creep(ss_features *out, const search *s, const fall *f, ss_value *v, double *scratch)
+{
+    for (size_t i = 0; i < out->n; i++) {
+        v[i] = unknown;
+        if (isfinite(out->loading[i].stick.value))
+            v[i] = times(difference(f[i].slip.onset, f[i - 1].slip.end), 1 / s->rate);
+    }
+    out->stick.error = hypot(out->stick.error, ss_median_of(v, out->n, scratch).value - out->stick.value);
 }
 
 /* Lines through the rises, and slips between them, by *loading, the median slope of these. */
@@ -343,7 +360,7 @@ read_loading(const search *s, const double *x, const ss_drop *drop, const fall *
     ss_loading l = { drop->t, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
                      unknown, 0, 0, 0 };
     if (f->is_slip)
-        read_slip(&l, s, &f->slip, octave);
+        read_slip(&l, s, &f->slip);
     if (before != NULL && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t),
                                        0.5 * (drop->t - drop[-1].t)))
         return l;
@@ -393,15 +410,18 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
     if (st == SS_OK)
         st = find_falls(f, s, y, drop, n, v, scratch);
     double octave = st == SS_OK ? octave_of(y, f, n) : 0;
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, octave);
-    for (size_t i = 0; st == SS_OK && i < n; i++)
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
         if (f[i].is_slip) {
+            add_wander(&f[i].slip, s->n, octave);
             out->transition[i].onset = f[i].slip.onset.value / s->rate;
             out->transition[i].end = f[i].slip.end.value / s->rate;
         }
-    if (st == SS_OK)
+        out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, octave);
+    }
+    if (st == SS_OK) {
         summarise(out, drop, v, scratch);
+        add_creep(out, s, f, v, scratch);
+    }
     free(f);
     free(v);
     free(y);

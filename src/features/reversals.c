@@ -109,7 +109,7 @@ static ss_median
 known_median(const ss_value *v, size_t n, double *scratch)
 {
     ss_median m = ss_median_of(v, n, scratch);
-    return 3 * m.error < m.value ? m : (ss_median){ NAN, NAN, NAN };
+    return 3 * m.error < m.value ? m : no_median;
 }
 
 ss_status
@@ -131,10 +131,9 @@ ss_reversals_measure(search *s, const double *x)
         measure(s, x, p, v, v + out->n);
         out->friction = known_median(v, out->n, copy);
         out->stiffness = known_median(v + out->n, out->n, copy);
-    } else if (st == SS_OK) {
-        out->friction = out->stiffness = (ss_median){ NAN, NAN, NAN };
-        out->why_slips = "between its reversals the force does not stay at a level, as friction does";
     }
+    if (st == SS_OK && isnan(out->friction.value))
+        out->why_slips = "between its reversals the force does not stay at a level, as friction does";
     free(p);
     free(v);
     free(copy);

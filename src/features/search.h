@@ -16,6 +16,7 @@ enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
 enum { CLIPPED = 8 };           /* samples at the largest or least value, one behind the other */
 
 static const ss_value unknown = { NAN, NAN };
+static const ss_median no_median = { NAN, NAN, NAN };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 typedef struct search {
