@@ -39,7 +39,8 @@ ss_delimited_line(struct table *t, char **line, int *comment, ss_error *err)
 
 /* --- cells of a row ------------------------------------------------------------------------ */
 
-/* Numbers of one file have one decimal mark: 1,234 beside 0.5 may be either of two numbers. */
+/* SS_EDATA if a number has another decimal mark than those before: beside 0.5, 1,234 may be either of two
+ * numbers. */
 static ss_status
 check_mark(struct table *t, size_t column, ss_error *err)
 {
@@ -67,8 +68,8 @@ ss_delimited_day(const struct table_column *c)
     return known ? (double)c->first[order_of(c)] : NAN;
 }
 
-/* Days since the first row.  The rows have day and month in one order: a day above 12 shows it, or else, where the
- * date changes, that the next day follows.  NaN: the date fits no order. */
+/* The days since the first row.  Day and month have the same order in all rows.  A day above 12 shows it, or
+ * else, where the date changes, the order in which the next day follows.  NaN: the date fits no order. */
 static double
 count_days(struct table_column *c, const long day[ORDERS])
 {
@@ -86,8 +87,7 @@ count_days(struct table_column *c, const long day[ORDERS])
     return c->fits[order] ? (double)(day[order] - c->first[order]) : NAN;
 }
 
-/* The seconds of a stamp: of the day without a date, and going on at midnight; else from the midnight
- * before the first row. */
+/* The seconds of a stamp since the midnight before the first row.  Times without a date go on at midnight. */
 static double
 read_stamp(struct table_column *c, const char *cell)
 {
@@ -97,10 +97,10 @@ read_stamp(struct table_column *c, const char *cell)
     if (c->parts & STAMP_DATE)
         return 86400 * count_days(c, s.day) + s.seconds;
     double days = isnan(c->last) ? 0 : floor((c->last - s.seconds) / 86400 + 0.5);
-    return c->last = s.seconds + 86400 * days;  /* the nearest to the row before */
+    return c->last = s.seconds + 86400 * days;  /* on the day that brings it nearest to the row before */
 }
 
-/* A column that nobody needs has no value here. */
+/* Give NaN as the value of a column that nobody needs. */
 static ss_status
 pass_over(struct table *t, size_t column, double *value)
 {
@@ -113,7 +113,7 @@ pass_over(struct table *t, size_t column, double *value)
     return SS_OK;
 }
 
-/* The value of one cell of the line that was split. */
+/* Read the value of one cell of the line that was split. */
 static ss_status
 read_cell(struct table *t, size_t i, double *value, ss_error *err)
 {
@@ -140,7 +140,7 @@ read_cell(struct table *t, size_t i, double *value, ss_error *err)
                    t->in->name, t->in->line, t->names->column[i].name, cell, what);
 }
 
-/* Read a row of nothing but plain numbers, as most are; 0: it must be looked at cell by cell. */
+/* Read a row of plain numbers only, as most are.  Returns 0 if the row must be read cell by cell. */
 static int
 read_plain(const struct table *t, char *p, double *row)
 {

@@ -9,7 +9,7 @@
 #include "base/list.h"
 #include "stream/kept.h"
 
-enum { PIECE = 1 << 18 };               /* numbers in memory, or one row */
+enum { PIECE = 1 << 18 };               /* so many numbers are in memory, or one row */
 
 static ss_status
 fail_file(const struct kept *k, ss_error *err)
@@ -19,7 +19,7 @@ fail_file(const struct kept *k, ss_error *err)
     return ss_fail_errno(err, name, errno);
 }
 
-/* A file that nobody else sees and that ends with us. */
+/* Open a file without a name, which nobody else sees and which ends with the process. */
 static FILE *
 open_nameless(const char *first)
 {
@@ -58,7 +58,7 @@ ss_kept_begin(struct kept *k, const char *name, const char *folder, size_t width
         rewind(k->file);
 }
 
-/* Empty the block. */
+/* Write the block to the file, and empty it. */
 static ss_status
 put_away(struct kept *k, ss_error *err)
 {
@@ -105,7 +105,7 @@ ss_kept_rewind(struct kept *k, ss_error *err)
     return fseeko(k->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(k, err);
 }
 
-/* The next piece into the block. */
+/* Read the next piece of the file into the block. */
 static ss_status
 fetch(struct kept *k, ss_error *err)
 {

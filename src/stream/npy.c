@@ -20,7 +20,7 @@ enum {
 struct field {
     char name[64];
     sample_type type;
-    size_t at;                  /* in the bytes of a record */
+    size_t at;                  /* its first byte in a record */
 };
 
 struct npy {
@@ -35,7 +35,7 @@ struct npy {
 
 /* --- the header ---------------------------------------------------------------------------- */
 
-/* The text after blanks and this character; NULL if another follows, or for NULL. */
+/* Skip blanks and this character.  Returns the text behind it; NULL if another follows, or p is NULL. */
 static const char *
 expect(const char *p, char c)
 {
@@ -51,7 +51,7 @@ comes(const char *p, char c)
     return expect(p, c) != NULL;
 }
 
-/* A string in single or double quotes without escapes. */
+/* Read a string in single or double quotes, without escapes.  Returns its end, or NULL. */
 static const char *
 read_string(const char *p, char *text, size_t size)
 {
@@ -65,7 +65,7 @@ read_string(const char *p, char *text, size_t size)
     return end + 1;
 }
 
-/* "<f8", ">i2", "|u1", or bytes that are left out, "|V4"; bytes = 0: a type that is not read. */
+/* The type of "<f8", ">i2" or "|u1", or of bytes that are left out, "|V4"; bytes is 0 if it cannot be read. */
 static sample_type
 type_of(const char *text)
 {
@@ -85,7 +85,7 @@ type_of(const char *text)
     return type;
 }
 
-/* Add a field of such a type; 0: it is not read, or there is no memory. */
+/* Add a field.  Returns 0 if its type cannot be read, or there is no memory. */
 static int
 add_field(struct npy *a, const char *name, const char *type)
 {
@@ -104,12 +104,12 @@ add_field(struct npy *a, const char *name, const char *type)
     return 1;
 }
 
-/* A type, or a list of (name, type). */
+/* Read a type, or a list of (name, type).  Returns its end, or NULL. */
 static const char *
 read_descr(struct npy *a, const char *p)
 {
     char type[32] = "", name[sizeof a->field->name];
-    if (a->n_fields > 0)                        /* the key is there twice */
+    if (a->n_fields > 0)                        /* the header has the key twice */
         return NULL;
     if (!comes(p, '[')) {
         p = read_string(p, type, sizeof type);
@@ -130,7 +130,7 @@ read_descr(struct npy *a, const char *p)
 static const char *
 read_shape(struct npy *a, const char *p)
 {
-    if (a->dimensions > 0)                      /* the key is there twice */
+    if (a->dimensions > 0)                      /* the header has the key twice */
         return NULL;
     for (p = expect(p, '('); p != NULL && !comes(p, ')');) {
         char *end;
@@ -167,14 +167,14 @@ read_dictionary(struct npy *a, const char *p)
     return p != NULL && p[strspn(p, " ")] == '\0' && a->n_fields > 0;
 }
 
-/* Rows and columns of what the header says; 0: it is no signal. */
+/* Find rows and columns of the array that the header describes.  Returns 0 if it is no signal. */
 static int
 arrange(struct npy *a)
 {
     uint64_t rows = a->shape[0], columns = a->dimensions == 2 ? a->shape[1] : 1;
     if (a->dimensions < 1 || (a->named && a->dimensions == 2) || rows == 0 || columns == 0)
         return 0;
-    if (rows < columns) {                       /* as if it were the transposed array in the other order */
+    if (rows < columns) {                       /* read it as the transposed array in the other order */
         uint64_t swap = rows;
         rows = columns;
         columns = swap;
@@ -186,7 +186,7 @@ arrange(struct npy *a)
     return columns <= MAX_COLUMNS && rows <= SIZE_MAX / sizeof(double) / 4 / a->columns;
 }
 
-/* The header as text, to be freed. */
+/* Read the header as text, to be freed. */
 static ss_status
 read_header(struct input *in, char **text, ss_error *err)
 {
@@ -220,7 +220,7 @@ read_header(struct input *in, char **text, ss_error *err)
 
 /* --- the numbers --------------------------------------------------------------------------- */
 
-/* The next value or, of named fields, record; at: the values before it. */
+/* Read the next value or, if there are named fields, the next record; `at` values precede it. */
 static ss_status
 read_record(struct input *in, const struct npy *a, uint64_t at, double *value, ss_error *err)
 {
@@ -236,7 +236,7 @@ read_record(struct input *in, const struct npy *a, uint64_t at, double *value, s
     return SS_OK;
 }
 
-/* The columns of the table. */
+/* Give the table its columns. */
 static ss_status
 name_columns(struct table *t, const struct npy *a, ss_error *err)
 {
@@ -290,7 +290,7 @@ read_by_rows(struct table *t, const struct npy *a, ss_error *err)
     return st;
 }
 
-/* Rows of columns that stand in the file one after the other, and are all kept. */
+/* Add the rows of an array whose columns follow each other in the file.  All its values are kept. */
 static ss_status
 add_rows(struct table *t, const struct npy *a, struct kept *value, ss_error *err)
 {

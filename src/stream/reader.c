@@ -10,7 +10,8 @@
 #include "stream/format.h"
 #include "stream/reader.h"
 
-/* In the format of its first bytes, after a word on files that are often tried. */
+/* Open the input in the format that its first bytes show.  Files of other programs that users often try are
+ * named. */
 static ss_status
 open_format(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 {
@@ -127,7 +128,7 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
         return SS_FAIL_NULL(err);
     ss_status st = SS_OK;
     size_t columns = reader->head->n_columns;
-    do {                                        /* rows before the first are left out */
+    do {                                        /* skip the rows before the first one wanted */
         uint64_t end = reader->passed < reader->first ? reader->first : reader->end_row;
         uint64_t left = end - reader->passed;
         *n = 0;
@@ -163,7 +164,7 @@ ss_reader_free(ss_reader *reader)
 
 /* --- whole signals ------------------------------------------------------------------------- */
 
-/* All rows that are left, one after the other, in an array to be freed. */
+/* Read all rows that are left into an array, to be freed. */
 static ss_status
 read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
 {
@@ -188,7 +189,7 @@ read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
     return SS_OK;
 }
 
-/* Rows to columns: n rows from the first one on. */
+/* Put n rows, from number `first` on, into the columns of a signal. */
 static void
 put_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
 {
@@ -198,7 +199,7 @@ put_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
             signal->values[c * signal->n + first + i] = rows[i * columns + c];
 }
 
-/* The rows of a signal that has room for all. */
+/* Read the rows of a signal that has room for all of them. */
 static ss_status
 read_into(ss_signal *signal, ss_reader *reader, ss_error *err)
 {

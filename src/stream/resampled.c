@@ -7,13 +7,13 @@
 #include "stream/reader.h"
 
 enum { PIECE = 4096 };          /* values that are read at a time, or one row */
-#define MOST 1e6                /* samples for each: a short file may not claim a full disk */
+#define MOST 1e6                /* samples for each row: a short file cannot fill a disk */
 
 struct inner {
     ss_reader *reader;
     resampler *resampler;
-    double *rows;               /* that were read */
-    size_t n, next;             /* of these; next: to be given */
+    double *rows;               /* the rows that were read */
+    size_t n, next;             /* their number; the next of them to be given */
     size_t row;                 /* rows given so far */
 };
 
