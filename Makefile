@@ -88,7 +88,7 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
-TOOL_OBJ := $(patsubst %,$(BUILD)/tools/%.o,common files options output reading)
+TOOL_OBJ := $(patsubst %,$(BUILD)/tools/%.o,common files input options output reading)
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)

@@ -1,0 +1,224 @@
+/* input.c -- open and read what the command line names, or die. */
+#include "common.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const char *
+tool_input(int argc, char *argv[], int first)
+{
+    if (argc - first > 1)
+        tool_usage("unexpected argument '%s'; -o FILE names the output", argv[first + 1]);
+    const char *path = "-";
+    if (argc > first)
+        path = argv[first];
+    return tool_reads(path);
+}
+
+const char *
+tool_input_name(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "<stdin>" : path;
+}
+
+/* 1 if a path that is read now stands for standard input. */
+static int
+is_stdin(const char *path)
+{
+    static int used;
+    if (strcmp(tool_reads(path), "-") != 0)
+        return 0;
+    if (used)
+        tool_usage("standard input can be read only once");
+    return used = 1;
+}
+
+FILE *
+tool_open(const char *path)
+{
+    if (is_stdin(path))
+        return stdin;
+    FILE *in = fopen(path, "rb");
+    struct stat st;
+    if (in != NULL && fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode)) {
+        fclose(in);
+        in = NULL;
+        errno = EISDIR;
+    }
+    if (in == NULL)
+        tool_die("%s: %s", path, strerror(errno));
+    return in;
+}
+
+/* 1 if a signal must still be resampled.  Delimited text that has the rate already has been. */
+static int
+is_resampled(const ss_header *head, const char *path, const ss_read_opts *opts)
+{
+    double own = head->rate, rate = opts != NULL ? opts->resample : 0;
+    if (!(rate > 0) || !(own < rate || own > rate))
+        return 0;
+    if (own > rate)
+        tool_warn("%s: frequencies above %g Hz fold down", tool_input_name(path), rate / 2);
+    return 1;
+}
+
+void
+tool_resample(ss_reader **reader, const char *path, const ss_read_opts *opts)
+{
+    ss_error err = { 0 };
+    if (is_resampled(ss_reader_header(*reader), path, opts))
+        tool_check(ss_reader_resample(reader, opts->resample, &err), &err);
+}
+
+ss_reader *
+tool_read_rows(const char *path, const ss_read_opts *opts)
+{
+    ss_reader *reader = NULL;
+    ss_error err = { 0 };
+    if (is_stdin(path))
+        tool_check(ss_reader_new(&reader, stdin, "<stdin>", opts, &err), &err);
+    else
+        tool_check(ss_reader_load(&reader, path, opts, &err), &err);
+    tool_resample(&reader, path, opts);
+    return reader;
+}
+
+size_t
+tool_rows(ss_reader *reader, double *rows, size_t max)
+{
+    size_t n;
+    ss_error err = { 0 };
+    tool_check(ss_reader_rows(reader, rows, max, &n, &err), &err);
+    return n;
+}
+
+ss_signal *
+tool_read_signal(const char *path, const ss_read_opts *opts)
+{
+    ss_signal *signal = NULL, *other;
+    ss_error err = { 0 };
+    if (is_stdin(path))
+        tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
+    else
+        tool_check(ss_signal_load(&signal, path, opts, &err), &err);
+    if (!is_resampled(signal->head, path, opts))
+        return signal;
+    if (signal->n < 2)
+        tool_die("%s: one row cannot be resampled", tool_input_name(path));
+    tool_check(ss_signal_resample(&other, signal, opts->resample, &err), &err);
+    ss_signal_free(signal);
+    return other;
+}
+
+ss_overlay *
+tool_read_features(const char *path)
+{
+    ss_overlay *features;
+    ss_error err = { 0 };
+    if (path == NULL)
+        return NULL;
+    FILE *in = tool_open(path);
+    tool_check(ss_overlay_read(&features, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
+    return features;
+}
+
+ss_coefficients *
+tool_read_coefficients(const char *path)
+{
+    ss_coefficients *coefficients = NULL;
+    ss_error err = { 0 };
+    if (tool_is_hdf5(tool_reads(path))) {
+        tool_check(ss_store_read_coefficients(&coefficients, path, &err), &err);
+        return coefficients;
+    }
+    FILE *in = tool_open(path);
+    tool_check(ss_coefficients_read(&coefficients, in, tool_input_name(path), &err), &err);
+    if (in != stdin)
+        fclose(in);
+    return coefficients;
+}
+
+void
+tool_check_base(ss_status status, const ss_error *err)
+{
+    const char *hint = tool_hint(status, err);
+    if (strncmp(hint, "; --", 4) == 0)
+        tool_die("%s; a base is read as it is, and ss-cat writes it anew: %s", err->text, hint + 2);
+    tool_check(status, err);
+}
+
+ss_scene
+tool_read_scene(const char *path, const tool_texts *settings)
+{
+    ss_scene scene;
+    ss_error err = { 0 };
+    ss_status st = is_stdin(path)
+                 ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings->text,
+                                     settings->n, &err)
+                 : ss_scene_load(&scene, path, settings->text, settings->n, &err);
+    if (st == SS_EINVAL)
+        tool_usage("--set: %s", err.text);
+    tool_check(st, &err);
+    static ss_base *base;               /* the scene points at it */
+    tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
+    return scene;
+}
+
+int
+tool_is_hdf5(const char *path)
+{
+    if (strcmp(path, "-") == 0)
+        return 0;
+    return ss_store_is_hdf5(path) || (access(path, F_OK) != 0 && strstr(path, ":/") != NULL);
+}
+
+char *
+tool_name_scene(const char *path, const tool_texts *settings)
+{
+    static const char *const of_record[] = { "settle", "duration", "rate" };
+    const char *slash = strrchr(path, '/'), *own = slash != NULL ? slash + 1 : tool_input_name(path);
+    size_t size = strlen(own) + 1;
+    for (size_t i = 0; i < settings->n; i++)
+        size += strlen(settings->text[i]) + 2;
+    char *name = tool_room(NULL, size, 1), *end = stpcpy(name, own);
+    for (size_t i = 0; i < settings->n; i++) {
+        int physical = 1;
+        for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
+            physical &= strncmp(settings->text[i], of_record[k], strlen(of_record[k])) != 0;
+        if (physical)
+            end = stpcpy(stpcpy(end, ", "), settings->text[i]);
+    }
+    return ss_printable(name);
+}
+
+void
+tool_list(char *list, size_t size, const char *word)
+{
+    size_t length = strlen(list);               /* invariant: there is room for the dots */
+    if (length >= 3 && strcmp(list + length - 3, "...") == 0)
+        return;
+    if (length + strlen(word) + sizeof ",  ..." > size)
+        strcpy(list + length, " ...");
+    else
+        stpcpy(stpcpy(list + length, length > 0 ? ", " : ""), word);
+}
+
+size_t
+tool_column(const ss_header *head, const char *path, const char *name)
+{
+    int c = ss_header_column(head, name != NULL ? name : "a");
+    if (c < 0 && name == NULL && head->n_columns == 1)
+        c = 0;
+    if (c >= 0)
+        return (size_t)c;
+    char list[512] = "";
+    for (size_t i = 0; i < head->n_columns; i++)
+        tool_list(list, sizeof list, head->column[i].name);
+    if (name == NULL)
+        tool_die("%s: choose a column with --column from %s", tool_input_name(path), list);
+    tool_die("%s: no column '%s', there are %s", tool_input_name(path), name, list);
+}
