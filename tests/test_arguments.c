@@ -615,6 +615,12 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_spectrum(out, &head, y, 1, NULL, 0, opts, &e), &e);
     assert_refused(ss_plot_spectrum(out, &head, y, 1, &spectrum, 0, NULL, &e), &e);
     assert_int_equal(ss_plot_spectrum(out, &head, y, 0, &spectrum, 0, opts, &e), SS_EINVAL);
+    assert_refused(ss_spectra_write(NULL, &head, y, 1, 0, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectra_write(&spectrum, NULL, y, 1, 0, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectra_write(&spectrum, &head, NULL, 1, 0, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectra_write(&spectrum, &head, y, 1, 0, NULL, SS_TSV, &e), &e);
+    assert_int_equal(ss_spectra_write(&spectrum, &head, y, 1, 0, out, SS_AU, &e), SS_EINVAL);
+    assert_int_equal(ss_spectra_write(&spectrum, &head, y, 0, 0, out, SS_TSV, &e), SS_EINVAL);
     assert_refused(ss_overview_new(NULL, &head, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_overview_new(&overview, NULL, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_overview_new(&overview, &head, 0, NULL, &e), &e);

@@ -25,10 +25,10 @@ static const char usage[] =
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
-"  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
-"                       default: the script on standard output\n"
-"  -q, --quiet          no warnings; -v, --verbose: report the input\n"
-"  -h, --help           show this text; --version: show the version\n";
+"  -o, --output=FILE    a gnuplot script (.gp, the default), a picture (.png,\n"
+"                       .svg, .pdf), or the numbers of a spectrum (.tsv, .csv)\n"
+"      --format=tsv|csv these numbers on standard output\n"
+"  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 typedef struct drawing {
     const ss_header *head;      /* of the signal as it is read */
@@ -36,6 +36,7 @@ typedef struct drawing {
     size_t *column, n;          /* panels; or with xy the two columns */
     int xy;
     int spectrum, decibels;
+    tool_kind kind;             /* of output */
     double resolution;          /* [Hz]; 0: the default */
     ss_spectrum **density;      /* of each column */
 } drawing;
@@ -290,7 +291,11 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
     tool_note("%s: %zu samples, %zu columns", tool_input_name(path), rows, d.head->n_columns);
     ss_overlay *overlay = tool_read_features(features);
     opts->features = overlay;
-    tool_draw(output, opts, write_script, &d);
+    if (d.kind >= TOOL_STREAM)
+        tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, d.decibels, tool_output(output),
+                                    tool_stream(d.kind), &err), &err);
+    else
+        tool_draw(output, opts, write_script, &d);
     ss_overlay_free(overlay);
     for (size_t i = 0; d.density != NULL && i < d.n; i++)
         ss_spectrum_free(d.density[i]);
@@ -308,21 +313,22 @@ main(int argc, char *argv[])
     tool_reading reading = { .rate_letter = 'r' };
     const char *output = NULL, *over = NULL, *features = NULL, *map = NULL, *line = NULL;
     tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
-    drawing d = { .signal = NULL };
+    drawing d = { .kind = TOOL_GP };
     const tool_option options[] = {
         TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &d.decibels),
         TOOL_NUMBER(0, "resolution", &d.resolution, ((ss_range){ 1e-300, 1e300 })),
         TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
         TOOL_VALUE(0, "over", set_over, &over), TOOL_TEXT(0, "features", &features),
         TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
-        TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output) };
+        TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output),
+        TOOL_FORMAT_OF_WORDS(&d.kind) };
 
     tool_begin(argv, "ss-plot", usage);
     int first = TOOL_PARSE(argc, argv, options, &reading);
     if (xy.n > 0 && wanted.n > 0)
         tool_usage("--xy and --column exclude each other");
     const char *path = tool_input(argc, argv, first);
-    tool_output_kind(output, TOOL_PICTURES, TOOL_GP);
+    d.kind = tool_output_kind(output, TOOL_PICTURES | (d.spectrum ? TOOL_WORDS : 0), d.kind);
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     tool_reading_needs(&reading, xy.n > 0 ? xy.text : wanted.text, xy.n + wanted.n);
     opts.from = reading.from;           /* so that lines reach the border */
@@ -339,8 +345,8 @@ main(int argc, char *argv[])
         tool_usage("standard input can be read only once");
     if (d.spectrum && (map != NULL || d.xy || over != NULL))
         tool_usage("--spectrum excludes --map, --xy and --over");
-    if ((d.decibels || d.resolution > 0) && !d.spectrum)
-        tool_usage("--db and --resolution need --spectrum");
+    if ((d.decibels || d.resolution > 0 || d.kind >= TOOL_STREAM) && !d.spectrum)
+        tool_usage("--db, --resolution and --format need --spectrum");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
     if (map != NULL) {

@@ -3,6 +3,7 @@
 #define STICKSLIP_SPECTRUM_H
 
 #include <stddef.h>
+#include <stdio.h>
 #include <stickslip/signal.h>
 #include <stickslip/status.h>
 
@@ -34,6 +35,12 @@ ss_status ss_welch_new(ss_welch **out, size_t n, double rate, double resolution,
 ss_status ss_welch_add(ss_welch *welch, const double *x, size_t n, ss_error *err);
 ss_status ss_welch_end(ss_spectrum **out, ss_welch *welch, ss_error *err);
 void ss_welch_free(ss_welch *welch);                    /* NULL is allowed */
+
+/* Write spectra of columns of one record, which are alike but for their densities, as text: notes of the
+ * header, resolution and segments, then a row for each frequency, with a column for each of n
+ * columns.  decibels: 1: in dB re 1 unit^2/Hz, - for 0.  SS_EINVAL: the format holds numbers only; SS_EIO. */
+ss_status ss_spectra_write(ss_spectrum *const spectrum[], const ss_header *head, const size_t column[],
+                           size_t n, int decibels, FILE *out, ss_format format, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -49,8 +49,8 @@ typedef enum ss_status {
  * writes. */
 typedef enum ss_kind {
     SS_KIND_UNKNOWN, SS_KIND_SIGNAL, SS_KIND_COEFFICIENTS, SS_KIND_FEATURES, SS_KIND_EVENTS,
-    SS_KIND_SWEEP, SS_KIND_RANKING, SS_KIND_TRADE, SS_KIND_SUMMARIES, SS_KIND_SCENE, SS_KIND_TABLE,
-    SS_KIND_AU, SS_KIND_HDF5
+    SS_KIND_SWEEP, SS_KIND_RANKING, SS_KIND_TRADE, SS_KIND_SPECTRUM, SS_KIND_SUMMARIES, SS_KIND_SCENE,
+    SS_KIND_TABLE, SS_KIND_AU, SS_KIND_HDF5
 } ss_kind;
 
 /* The reason of a failure, one line without a newline: "run.tsv:17: expected 4 columns, found 3".

@@ -7,10 +7,10 @@
 #include <string.h>
 #include <stickslip/spectrum.h>
 #include "base/error.h"
+#include "signal/header.h"
 
 #define PANEL 3.4               /* height of one panel [cm] */
-#define TITLE 0.6               /* height above the panels [cm] */
-#define BELOW 1.0               /* and below them */
+#define BELOW 1.0               /* and below them [cm] */
 #define ROOM 12.0               /* for the label of a panel [ems] */
 
 static const char layout[] =
@@ -20,15 +20,11 @@ static const char layout[] =
     "set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
     "set grid xtics lc rgb '#dddddd' lt 1\n";
 
-/* "unit^2/Hz", of the unit in brackets if it has an operator. */
 static void
 label_of(script_label *label, const ss_column *column, int decibels)
 {
-    char unit[256];
-    int brackets = strpbrk(column->unit, "/ *^") != NULL;
-    snprintf(unit, sizeof unit, "%s%s%.200s%s%s/Hz", decibels ? "dB re " : "", brackets ? "(" : "",
-             column->unit[0] != '\0' ? column->unit : "1", brackets ? ")" : "",
-             column->unit[0] != '\0' ? "^2" : "");
+    char unit[DENSITY_UNIT];
+    ss_density_unit(unit, column->unit, decibels);
     ss_script_make_label(label, &(ss_column){ column->name, unit }, ss_script_power(0), ROOM);
 }
 
@@ -172,7 +168,9 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
         return SS_FAIL_NULL(err);
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
-    double height = TITLE + BELOW + PANEL * (double)n;
+    double title = ss_script_title_height(opts, head), height = title + BELOW + PANEL * (double)n;
+    double font = 1;
+    script_label label;
     const ss_spectrum *s = spectrum[0];
     ss_status st = ss_script_begin(out, opts, height, err);
     if (st != SS_OK)
@@ -183,12 +181,16 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
     fputs("colour = '#0072b2'\n", out);
     for (size_t i = 0; i < n; i++)
         write_densities(out, i + 1, spectrum[i], decibels);
-    fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - TITLE / height, n);
+    fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - title / height, n);
     fputs(layout, out);
     fputs(decibels ? "" : "set logscale y\n", out);
+    for (size_t i = 0; i < n; i++) {
+        label_of(&label, &head->column[column[i]], decibels);
+        font = fmin(font, label.font);
+    }
     for (size_t i = 1; i <= n; i++) {
-        script_label label;
         label_of(&label, &head->column[column[i - 1]], decibels);
+        label.font = font;                      /* one for all panels */
         plot_panel(out, spectrum[i - 1], &label, i, n, decibels);
     }
     fputs("unset multiplot\n", out);

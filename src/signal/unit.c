@@ -1,4 +1,5 @@
-/* unit_name.c -- the unit at the end of a column's name. */
+/* unit.c -- the unit at the end of a column's name, and that of a spectral density. */
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include "signal/header.h"
@@ -41,4 +42,12 @@ ss_unit_of_name(const char *name, size_t *before)
         }
     }
     return "";
+}
+
+void
+ss_density_unit(char text[DENSITY_UNIT], const char *unit, int decibels)
+{
+    int brackets = strpbrk(unit, "/ *^") != NULL;
+    snprintf(text, DENSITY_UNIT, "%s%s%.200s%s%s/Hz", decibels ? "dB re " : "", brackets ? "(" : "",
+             unit[0] != '\0' ? unit : "1", brackets ? ")" : "", unit[0] != '\0' ? "^2" : "");
 }
