@@ -67,7 +67,7 @@ else ifneq ($(shell echo 'int main(void) { return 0; }' | $(CC) -O2 -Werror $(HA
 HARDEN_CFLAGS  :=
 HARDEN_LDFLAGS :=
 endif
-ALL_CFLAGS := -std=c11 -D_XOPEN_SOURCE=700 -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
+ALL_CFLAGS := -std=c11 -D_XOPEN_SOURCE=700 -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
 	$(INCLUDES) -fPIC -fvisibility=hidden $(HARDEN_CFLAGS) $(SANFLAGS) $(CPPFLAGS) $(CFLAGS)
 ALL_LDFLAGS := $(HARDEN_LDFLAGS) $(SANFLAGS) $(LDFLAGS)
 COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@

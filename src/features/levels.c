@@ -8,8 +8,6 @@
 #include "features/levels.h"
 #include "morlet/plan.h"
 
-enum { AT_ONCE = 1 << 14 };     /* coefficients */
-
 struct levels {
     ss_coefficients *grid;
     ss_morlet *plan;
@@ -29,13 +27,14 @@ typedef struct task {
 VERSIONS static void
 magnitudes_of(const double *restrict w, size_t n, double *restrict level)
 {
-    int ordinary = 1;
+    uint64_t others = 0;
     for (size_t k = 0; k < n; k++) {
         double square = w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1];
-        ordinary &= (square > SQUARE_LEAST) & (square < SQUARE_MOST);
+        others += square > SQUARE_LEAST ? 0 : 1;
+        others += square < SQUARE_MOST ? 0 : 1;
         level[k] = sqrt(square);
     }
-    for (size_t k = 0; k < n && !ordinary; k++)
+    for (size_t k = 0; k < n && others > 0; k++)
         level[k] = magnitude_of(w + 2 * k);
 }
 
@@ -44,8 +43,10 @@ compute_part(const levels *l, const level_part *part, double *scratch, double *w
 {
     ss_status st = SS_OK;
     double most = 0;
-    for (size_t k = 0; st == SS_OK && k < part->n; k += AT_ONCE) {
-        span now = { part->first + k, part->n - k < AT_ONCE ? part->n - k : AT_ONCE };
+    for (size_t k = 0, n; st == SS_OK && k < part->n; k += n) {
+        n = ss_morlet_part_length(l->plan, part->row, part->first + k);
+        n = n < part->n - k ? n : part->n - k;
+        span now = { part->first + k, n };
         st = ss_morlet_part(l->plan, part->row, &l->rec, &l->spectra, scratch, NULL, now, &most, w,
                             NULL);
         if (st == SS_OK)
@@ -59,7 +60,7 @@ fill_parts(void *user)
 {
     task *t = user;
     const levels *l = t->source->levels;
-    double *w = malloc(2 * AT_ONCE * sizeof *w), *scratch = NULL;
+    double *w = malloc(2 * ss_morlet_part_most(l->plan) * sizeof *w), *scratch = NULL;
     t->status = w != NULL ? ss_morlet_scratch(l->plan, &scratch) : SS_ENOMEM;
     for (size_t i = t->first; t->status == SS_OK && i < t->n; i += t->every)
         t->status = compute_part(l, &t->part[i], scratch, w);

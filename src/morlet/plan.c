@@ -6,6 +6,8 @@
 #include "morlet/fft/blocks.h"
 #include "morlet/plan.h"
 
+enum { PART = 1 << 14 };        /* coefficients by the definition, computed at a time */
+
 static ss_status
 fill_plan(ss_morlet *plan, ss_error *err)
 {
@@ -124,6 +126,22 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
     }
     return fits ? SS_OK
         : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
+}
+
+size_t
+ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k)
+{
+    return ss_blocks_covers(plan->blocks, i) ? ss_blocks_rest(plan->blocks, i, k) : PART;
+}
+
+size_t
+ss_morlet_part_most(const ss_morlet *plan)
+{
+    size_t most = PART;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        if (ss_blocks_covers(plan->blocks, i) && ss_blocks_most(plan->blocks, i) > most)
+            most = ss_blocks_most(plan->blocks, i);
+    return most;
 }
 
 ss_status

@@ -133,6 +133,10 @@ ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                          double *scratch, wavelet *wave, span part, double *most, double *w,
                          ss_error *err);
+/* The length of a part from translation k on of which no work is done again for the next, at most as many
+ * as the second returns. */
+size_t ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k);
+size_t ss_morlet_part_most(const ss_morlet *plan);
 /* The whole of scale i. */
 ss_status ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
                           double *scratch, double *w, ss_error *err);

@@ -27,6 +27,8 @@ void ss_blocks_scale(const struct blocks *blocks, size_t i, const spectra *s, do
 size_t ss_blocks_level(const struct blocks *blocks, size_t i);
 size_t ss_blocks_end(const struct blocks *blocks, size_t i, size_t window);
 size_t ss_blocks_most(const struct blocks *blocks, size_t i);
+/* Translations from k on up to the end of its window. */
+size_t ss_blocks_rest(const struct blocks *blocks, size_t i, size_t k);
 /* Less than so many samples of a stream come after a translation before its window is full. */
 double ss_blocks_delay(const struct blocks *blocks, size_t i);
 

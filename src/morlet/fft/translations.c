@@ -48,6 +48,12 @@ ss_blocks_most(const struct blocks *b, size_t i)
     return r->kind == BETWEEN ? (size_t)(start_of(b, r, 2) / step) + 2 : r->hop;
 }
 
+size_t
+ss_blocks_rest(const struct blocks *b, size_t i, size_t k)
+{
+    return ss_blocks_end(b, i, window_of(b, i, k)) - k;
+}
+
 /* Compute all points of a window, of which v[0] belongs to the window's first translation.  For kernels,
  * the points are continued before and after, as on a circle. */
 static void
