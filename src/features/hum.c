@@ -76,13 +76,20 @@ power(double complex z)
     return creal(z) * creal(z) + cimag(z) * cimag(z);
 }
 
-/* What a line of amplitude 1 leaves so many bins away. */
+/* What a line of amplitude 1 leaves x bins away is circle_of(x) / (x (1 - x^2)), and circle_of is the same
+ * for all bins. */
 static double complex
-shape(double x)
+circle_of(double x)
 {
-    double s = fabs(x) < 1e-6 ? 1 : fabs(fabs(x) - 1) < 1e-6 ? 0.5
-        : sin(M_PI * x) / (M_PI * x) / (1 - x * x);
-    return s * cexp(-I * M_PI * x);
+    return sin(M_PI * x) / M_PI * cexp(-I * M_PI * x);
+}
+
+static double complex
+shape(double x, double complex circle)
+{
+    if (fabs(x) < 1e-6 || fabs(fabs(x) - 1) < 1e-6)
+        return (fabs(x) < 0.5 ? 1 : 0.5) * cexp(-I * M_PI * x);
+    return circle / (x * (1 - x * x));
 }
 
 static size_t
@@ -294,11 +301,11 @@ strongest(const comb *c, double *most)
 static double
 explained(const comb *c, size_t i, double at, line *fitted)
 {
-    double complex sum = 0;
+    double complex sum = 0, circle = circle_of((double)(c->first + i) - at);
     double norm = 0;
     for (size_t k = i > REACH ? i - (size_t)REACH : 0; k < c->n && (double)k <= (double)i + REACH; k++)
         if (is_free(c, k)) {
-            double complex s = shape((double)(c->first + k) - at);
+            double complex s = shape((double)(c->first + k) - at, circle);
             sum += conj(s) * c->bin[k];
             norm += power(s);
         }
@@ -338,8 +345,9 @@ find_lines(comb *c)
     size_t at = strongest(c, &rest);
     while (n_free >= FREE && c->n_lines < LINES && at < c->n) {
         line found = c->line[c->n_lines++] = measure(c, at);
+        double complex circle = circle_of((double)(c->first + at) - found.at);
         for (size_t i = 0; i < c->n; i++)
-            c->bin[i] -= found.amplitude * shape((double)(c->first + i) - found.at);
+            c->bin[i] -= found.amplitude * shape((double)(c->first + i) - found.at, circle);
         weakest = fmin(weakest, rest);
         at = strongest(c, &rest);
         if (rest * ABOVE < weakest && weakest > least)

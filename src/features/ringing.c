@@ -273,30 +273,50 @@ power_behind(const search *s, const ss_scale *scale, const double *level)
     return 2 * used > out->n ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
 }
 
-/* Is it no less than that of the next scales but one, if there are some? */
+/* Every so many scales are a quarter of an octave apart.  The band of a sinusoid is wider: the nearest of
+ * these has three quarters of its power at least. */
+enum { EVERY = 4 };
+#define SEEN 0.7
+
+/* Is it more than 0, and no less than that of the scales EVERY before and after, if there are some? */
 static int
 is_peak(const double *power, size_t n, size_t i)
 {
-    return power[i] > 0 && !(i >= 2 && power[i - 2] > power[i]) && !(i + 2 < n && power[i + 2] > power[i]);
+    return power[i] > 0 && !(i >= EVERY && power[i - EVERY] > power[i])
+        && !(i + EVERY < n && power[i + EVERY] > power[i]);
 }
 
-/* The power behind the transitions at n scales: at every other one, as the wavelet's band is wider than
- * two of them, and at those beside a peak.  0: it is not known. */
+/* Is scale i beside a peak of at least this power? */
+static int
+is_beside(const double *power, size_t n, size_t i, double least)
+{
+    size_t before = i - i % EVERY, next = before + EVERY;
+    return (is_peak(power, n, before) && power[before] >= least)
+        || (next < n && is_peak(power, n, next) && power[next] >= least);
+}
+
+/* The power behind the transitions at n scales: at some of them, and at those beside peaks that may be
+ * the strongest band, which is no peak at the end of what is known.  0: it is not known. */
 static ss_status
 powers_behind(const search *s, double *power, size_t n)
 {
     const ss_scale *scale = s->map.grid->scale;
-    double *level = malloc((scale[n - 1].n + 1) * sizeof *level);
+    double *level = malloc((scale[n - 1].n + 1) * sizeof *level), most = 0;
     ss_status st = level != NULL ? SS_OK : SS_ENOMEM;
-    for (int odd = 0; odd < 2; odd++)
-        for (size_t i = (size_t)odd; st == SS_OK && i < n; i += 2) {
-            int is_beside = odd && (is_peak(power, n, i - 1) || (i + 1 < n && is_peak(power, n, i + 1)));
+    for (int fine = 0; fine < 2; fine++) {
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            if (fine == (i % EVERY == 0))
+                continue;
             power[i] = 0;
-            if (odd && !is_beside)
+            if (fine && !is_beside(power, n, i, SEEN * most))
                 continue;
             st = ss_levels_fill(&s->map, &(level_part){ i, 0, scale[i].n, level }, 1);
             power[i] = st == SS_OK ? power_behind(s, &scale[i], level) : 0;
         }
+        for (size_t i = EVERY; i + EVERY < n; i += EVERY)
+            if (is_peak(power, n, i) && power[i - EVERY] > 0 && power[i + EVERY] > 0)
+                most = fmax(most, power[i]);
+    }
     free(level);
     return st;
 }
