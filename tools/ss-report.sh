@@ -186,7 +186,10 @@ done
 # Neither an option nor, to awk, an assignment.
 case $dir in -*|[!/]*=*) dir=./$dir ;; esac
 [ ! -e "$dir" ] || die 1 "$dir: is there already; remove it, or name another folder"
-for file; do [ "$file" != - ] || die 2 "standard input can be read only once; name files"; done
+for file; do
+    case $file in -|/dev/stdin|/dev/fd/*|/proc/self/fd/*) die 2 "standard input can be read only once; name files" ;; esac
+    [ ! -p "$file" ] || die 2 "$file: a pipe can be read only once; name files"
+done
 
 new=$dir.new.$$ work=$dir.new.$$/work
 trap 'rm -rf "$new"' EXIT

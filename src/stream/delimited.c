@@ -103,9 +103,10 @@ find_kinds(struct table *t, const char *row, ss_error *err)
         && ss_delimited_split(t, copy, t->separator) != NONE ? SS_OK : ss_delimited_no_memory(t, err);
     for (size_t i = 0; st == SS_OK && i < t->n_columns; i++) {
         unsigned parts = ss_stamp_read(t->cell[i]).parts;
-        int text = shape[i] == 't' || (shape[i] == 'e' && !ss_delimited_may_lack(t));
-        t->column[i] = (struct table_column){ .kind = text ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS
-                                              : COLUMN_NUMBERS, .parts = parts, .fits = { 1, 1 }, .last = NAN };
+        int empty = shape[i] == 'e' && !ss_delimited_may_lack(t);
+        enum column_kind kind = shape[i] == 't' || empty ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
+        t->column[i] = (struct table_column){ .kind = kind, .begins_empty = empty && !t->labview, .parts = parts,
+                                              .fits = { 1, 1 }, .last = NAN };
     }
     free(shape);
     free(copy);
@@ -117,8 +118,8 @@ warn_of_text(const struct table *t, const char *row)
 {
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && !(t->labview && row[0] == '\t' && i == 0))
-            ss_delimited_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") holds text; it was skipped",
-                              t->in->name, t->in->line, i + 1, t->names->column[i].name);
+            ss_delimited_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->in->name, t->in->line,
+                              i + 1, t->names->column[i].name, t->column[i].begins_empty ? "is empty" : "holds text");
 }
 
 /* Begin a table with this row, below the lines that were kept. */

@@ -34,6 +34,7 @@ struct table_column {
     enum column_kind kind;
     int spare;                  /* is it a column of numbers that the caller does not need? */
     int incomplete;             /* has a cell of such a column no number? */
+    int begins_empty;           /* of text: is its first cell empty?  A number in it is then one too many */
     unsigned parts;             /* of stamps: a date, a time of day or both */
     int dated;                  /* have its rows a date? */
     int fits[ORDERS];           /* may their day and month stand in this order? */

@@ -72,7 +72,7 @@ kind_of_row(struct table *t, const char *line)
         return ROW_NO_MEMORY;
     if (n != t->n_columns)
         return ROW_OTHER;
-    if (units == n && empty < n && numbers < n)
+    if (units == n && empty + numbers < n)
         return ROW_UNITS;
     return numbers > 0 ? ROW_MIXED : ROW_NAMES;
 }
@@ -195,15 +195,18 @@ check_mixed(struct table *t, const char *line, enum row_kind before, ss_error *e
     double x;
     char *copy = strdup(line);
     size_t n = copy != NULL ? ss_delimited_split(t, copy, t->separator) : NONE, bad = n;
-    int begins = n != NONE && ss_cell_read(t->cell[0], t->separator, &x) != CELL_TEXT;
+    int has_words = 0, begins = n != NONE && ss_cell_read(t->cell[0], t->separator, &x) != CELL_TEXT;
     ss_status st = n != NONE ? SS_OK : ss_delimited_no_memory(t, err);
     for (size_t i = n; st == SS_OK && i-- > 0; )
-        if (ss_cell_read(t->cell[i], t->separator, &x) == CELL_TEXT)
+        if (ss_cell_read(t->cell[i], t->separator, &x) == CELL_TEXT) {
+            has_words |= t->cell[i][0] != '\0';
             bad = i;
+        }
     if (st == SS_OK && bad < n
-        && (begins || (before == ROW_NAMES && !ss_delimited_is_key(t->cell[0]))))
-        st = ss_fail(err, SS_EDATA, "%s:%lu: column %zu: '%.40s' is not a number", t->in->name,
-                     t->head[t->n_head - 1].number, bad + 1, t->cell[bad]);
+        && (begins || !has_words || (before == ROW_NAMES && !ss_delimited_is_key(t->cell[0]))))
+        st = ss_fail(err, t->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS,
+                     "%s:%lu: column %zu: '%.40s' is not a number", t->in->name, t->head[t->n_head - 1].number,
+                     bad + 1, t->cell[bad]);
     free(copy);
     return st;
 }

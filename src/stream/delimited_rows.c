@@ -113,6 +113,12 @@ pass_over(struct table *t, size_t column, double *value)
     return SS_OK;
 }
 
+static unsigned long
+first_line(const struct table *t)
+{
+    return (unsigned long)t->first[t->n_columns];
+}
+
 /* Read the value of one cell of the line that was split. */
 static ss_status
 read_cell(struct table *t, size_t i, double *value, ss_error *err)
@@ -120,9 +126,12 @@ read_cell(struct table *t, size_t i, double *value, ss_error *err)
     struct table_column *c = &t->column[i];
     char *cell = t->cell[i];
     *value = 0;
-    if (c->kind == COLUMN_TEXT)
+    if (c->kind == COLUMN_TEXT && !c->begins_empty)
         return SS_OK;
     enum cell_kind kind = ss_cell_read(cell, t->separator, value);
+    if (c->kind == COLUMN_TEXT)
+        return kind != CELL_NUMBER ? SS_OK : ss_fail(err, SS_EGAPS, "%s:%lu: column %s: '' is not a number",
+                                                     t->in->name, first_line(t), t->names->column[i].name);
     int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
     if (c->spare && kind != CELL_NUMBER)
         return pass_over(t, i, value);

@@ -17,7 +17,7 @@ may_separate(const struct table *t, const char *line, char separator)
     return separator == ' ' ? !t->labview : strchr(line, separator) != NULL;
 }
 
-/* The number of cells that belong to columns, if all of these hold numbers; else 0.  LabVIEW leaves the
+/* The number of cells that belong to columns, if all of these but the last hold numbers; else 0.  LabVIEW leaves the
  * cell of x empty, and writes comments behind some rows. */
 static size_t
 count_cells(const struct table *t, const char *line, const char *shape, size_t numbers)
@@ -26,7 +26,10 @@ count_cells(const struct table *t, const char *line, const char *shape, size_t n
     const char *wrong = ss_delimited_may_lack(t) ? "t" : "te";
     if (t->labview && n > 1 && shape[n - 1] == 't')
         n--;
-    return numbers > 0 && n > first && strcspn(shape + first, wrong) >= n - first ? n : 0;
+    size_t full = n;
+    while (full > 1 && shape[full - 1] == 'e')
+        full--;
+    return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
 }
 
 /* The number of cells of the line above, which may name the columns; 0 if there is none. */
@@ -44,7 +47,7 @@ count_names(struct table *t, char separator, size_t *n)
     return (last > 0 && copy == NULL) || *n == NONE ? SS_ENOMEM : SS_OK;
 }
 
-/* Where cells may be empty, those at the end of the row count if each has a name above. */
+/* Empty cells at the end of the row count if each has a name above. */
 ss_status
 ss_delimited_is_data(struct table *t, const char *line, int *yes)
 {
@@ -55,7 +58,7 @@ ss_delimited_is_data(struct table *t, const char *line, int *yes)
         size_t numbers;
         if (!may_separate(t, line, separator))
             continue;
-        if (ss_delimited_may_lack(t) && count_names(t, separator, &t->n_columns) != SS_OK)
+        if ((ss_delimited_may_lack(t) || !t->labview) && count_names(t, separator, &t->n_columns) != SS_OK)
             return SS_ENOMEM;
         char *shape = ss_delimited_shape(t, line, separator, &numbers);
         t->n_columns = columns;

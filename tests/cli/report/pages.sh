@@ -47,5 +47,8 @@ ss-report run.tsv || echo "status $?"
 ss-report --nope || echo "status $?"
 ss-report -o || echo "status $?"
 ss-report -o y - || echo "status $?"
+ss-report -o y /dev/stdin < run.tsv || echo "status $?"
+mkfifo pipe
+ss-report -o y pipe || echo "status $?"
 ss-report -o stopped run.tsv run.tsv run.tsv run.tsv run.tsv run.tsv run.tsv run.tsv & sleep 1; kill $! && wait $! || echo "status $?"
 ls -d bad* y* stopped* none* 2> /dev/null || echo "nothing left"
