@@ -91,6 +91,7 @@ static const struct table_case {
       "x[]", 2, 86399.5, 2 },
     { "a day above 12 behind the month", "when,x\n02-28-2024 23:59:59.5,1\n02-29-2024 00:00:00.0,2\n", NULL, 0, "x[]",
       2, 86399.5, 2 },
+    { "units behind quoted names", "\"t\" [s],\"x\" (N)\n\"0\",\"1\" \n\"0.5\",2\n", NULL, 0, "x[N]", 2, 0, 2 },
     { "words below the rows", "t,x\n0,1\n0.5,2\n\nEnd of data\n", NULL, 0, "x[]", 2, 0, 2 },
     { "12 o'clock", "Time,x\n11:59:59.5 AM,1\n12:00:00.0 PM,2\n12:00:00.5PM,3\n", NULL, 0, "x[]", 2, 43199.5, 3 },
     { "times of day over midnight", "Date,Time,x\n2024/02/28,23:59:59.5,1\n2024/02/29,00:00:00.0,2\n"

@@ -37,7 +37,7 @@ static const struct foreign {
     { "ID3\003", SOUND }, { "ID3\004", SOUND },
     { "\037\213", "a gzip file", "; gunzip unpacks it" },
     { "\377\376", UTF16 }, { "\376\377", UTF16 },
-    { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV" },
+    { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV, or an array of it by numpy.save" },
     { "\320\317\021\340", "a workbook", "; save its sheet as CSV" },
     { "MATLAB 5.0 MAT-file", "a MATLAB file older than v7.3",
       "; in MATLAB, save('FILE', 'x', '-v7.3') writes HDF5; in Python, "

@@ -67,11 +67,13 @@ ss_delimited_split(struct table *t, char *p, char separator)
             return NONE;
         t->cell = cell;
         p += separator == '\t' ? strspn(p, " ") : strspn(p, " \t");
-        char *begin = p, *end = *p == '"' ? unquote(p) : p;
-        end += separator == ' ' ? strcspn(end, " \t") : separator == '\0' ? strlen(end)
-             : strcspn(end, (char[]){ separator, '\0' });
+        char *begin = p, *rest = *p == '"' ? unquote(p) : p;
+        char *end = rest + (separator == ' ' ? strcspn(rest, " \t") : separator == '\0' ? strlen(rest)
+                            : strcspn(rest, (char[]){ separator, '\0' }));
         more = *end != '\0';
         *end = '\0';
+        if (rest > begin)                       /* what stands behind quotes belongs to the cell */
+            memmove(begin + strlen(begin), rest, strlen(rest) + 1);
         t->cell[n++] = ss_cell_trim(begin);
         p = end + more;
     }

@@ -33,3 +33,6 @@ done
 printf 'Date,Time,x\n03/05/2024,1:59:59.5 PM,1\n03/05/2024,2:00:00.0 PM,2\n' | ss-cat -q
 printf 'when;x\n5.3.2024 23:59:59,5;1\n6.3.2024 0:00:00,0;2\n' | ss-cat -q
 printf 'Time,x\n13:59:59.5 PM,1\n14:00:00.0 PM,2\n' | ss-cat || echo $?
+echo '-- quotes'
+printf '"t","x"\n"0,0","1,5"\n"0,5","2,5"\n' | ss-cat || echo $?
+printf 't,x\n0,1\n0.5,"2"5x\n' | ss-cat || echo $?
