@@ -14,8 +14,8 @@
  * - the drift of the waveform.  A change from cycle to cycle that doubles over two cycles is not noise
  *   and may shift the lags of all cycles alike, by its rms over the rms of the derivative;
  * - the difference of the median of the lags from their mean: lags from jump to jump are whole samples;
- * - the difference of half the lag over two cycles from the lag over one: a steady hum pulls every lag
- *   towards a multiple of its own period;
+ * - the largest difference of a half, a quarter or an eighth of the lag over two, four or eight cycles from
+ *   the lag over one: a steady hum pulls every lag towards a multiple of its own period;
  * - the error of the interpolation between samples, from the vertices of two parabolas.
  *
  * A signal does not repeat itself
@@ -60,9 +60,12 @@
 #define PARTS 16                /* cycles that may pass for one */
 #define FEWEST 16               /* cycles, for modulation to show */
 
+enum { LATER_LAGS = 3 };        /* over 2, 4 and 8 cycles */
+
 typedef struct cycle {
     unsigned parts;             /* bit p: so many parts of it repeat as well as it does itself, to a sample */
-    double lag, next;           /* in samples; NaN: no best one; half of the lag two cycles later */
+    double lag;                 /* in samples; NaN: no best one */
+    double later[LATER_LAGS];   /* half of the lag over two cycles, a quarter of that over four ... */
     double likeness, symmetry;
     double mean;
     double energy, slopes;      /* mean squares of the signal, less its mean, and of its differences */
@@ -219,13 +222,14 @@ lag_of_least(const view *v, size_t i, size_t m, size_t lag)
                                 relative(v, i, lag + 1, m), 1);
 }
 
-/* The lag of least difference over two cycles.  That of a hum may lie beside twice the lag over one. */
+/* The lag of least difference over twice as many cycles.  That of a hum may lie beside twice the lag, by up to
+ * reach. */
 static size_t
-lag_over_two(const view *v, size_t i, size_t m, size_t lag)
+lag_over_twice(const view *v, size_t i, size_t m, size_t lag, size_t reach)
 {
-    size_t step = lag / (8 * PULLED) + 1, best = 2 * lag;
+    size_t step = reach / 8 + 1, best = 2 * lag;
     double least = relative(v, i, best, m);
-    for (size_t at = 2 * lag - lag / PULLED; at <= 2 * lag + lag / PULLED && i + at + m + 4 < v->n; at += step) {
+    for (size_t at = 2 * lag - reach; at <= 2 * lag + reach && i + at + m + 4 < v->n; at += step) {
         double d = relative(v, i, at, m);
         if (d < least) {
             least = d;
@@ -235,10 +239,21 @@ lag_over_two(const view *v, size_t i, size_t m, size_t lag)
     return refine(v, i, m, best, step);
 }
 
+/* Lags over more cycles, as far as the record has them. */
+static void
+find_later(cycle *c, const view *v, size_t i, size_t m, size_t lag)
+{
+    size_t reach = lag / PULLED;
+    for (int k = 0; k < LATER_LAGS && i + 2 * lag + m + 4 < v->n; k++) {
+        lag = lag_over_twice(v, i, m, lag, reach);
+        c->later[k] = lag_of_least(v, i, m, lag) / (2 << k);
+    }
+}
+
 static cycle
 measure(const view *fine, const view *coarse, size_t q, size_t first, double period)
 {
-    cycle c = { .lag = NAN, .next = NAN };
+    cycle c = { .lag = NAN, .later = { NAN, NAN, NAN } };
     size_t i = first / q, m = (size_t)(period / (double)q), whole = (size_t)period;
     size_t lo = (size_t)(period * (1 - WIDTH) / (double)q);
     size_t hi = (size_t)(period * (1 + WIDTH) / (double)q) + 1;
@@ -268,8 +283,7 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
             c.parts |= 1u << p;
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.lag = (double)lag + near;
-    if (first + 2 * lag + whole + 4 < fine->n)
-        c.next = 0.5 * lag_of_least(fine, first, whole, lag_over_two(fine, first, whole, lag));
+    find_later(&c, fine, first, whole, lag);
     c.bend = fabs(near - far) / 3;
     c.change = difference(fine, first, lag, whole, &a, &b, &ab);
     c.slopes = difference(fine, first, 1, whole, &a, &b, &unit);
@@ -406,15 +420,22 @@ neighbours(const double *v, size_t n, double mean, double variance)
         : fmax(0, fmin(0.9, sum / ((double)(n - 1) * variance)));
 }
 
-/* By how much the lags over one cycle and over two disagree. */
+/* By how much the lag over one cycle and those over more disagree, if half of the cycles have these. */
 static double
 pull_of(const cycle *c, size_t n, double least, double *v)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < n; i++)
-        if (is_known(&c[i], least) && !isnan(c[i].next))
-            v[used++] = c[i].next - c[i].lag;
-    return used > 0 ? fabs(gsl_stats_median(v, 1, used)) : 0;
+    double most = 0;
+    for (int k = 0; k < LATER_LAGS; k++) {
+        size_t used = 0, known = 0;
+        for (size_t i = 0; i < n; i++) {
+            known += (size_t)is_known(&c[i], least);
+            if (is_known(&c[i], least) && !isnan(c[i].later[k]))
+                v[used++] = c[i].later[k] - c[i].lag;
+        }
+        if (used > 0 && 2 * used >= known)
+            most = fmax(most, fabs(gsl_stats_median(v, 1, used)));
+    }
+    return most;
 }
 
 /* Median and standard error of the frequencies of the cycles with energy. */
