@@ -70,17 +70,21 @@ for command in 'ss-cat --format au -' 'ss-morlet --stream --voices 2 --octaves=-
 done
 rm gaps.csv tables.csv long.npy
 
-# A picture over time, of files and through a pipe.
+# A picture of each form, of files and through a pipe.
 for file in long.csv long.h5; do
-    ss-plot -o long.gp $file &
-    most=$(high_water $!)
-    wait $!
-    [ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot $file: $most KiB"
+    for form in '' "--over $file" '--xy a,a' --spectrum; do
+        ss-plot $form -o long.gp $file &
+        most=$(high_water $!)
+        wait $!
+        [ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot $form $file: $most KiB"
+    done
 done
 mkfifo in
-ss-signal noise --rate 10000 --duration 10000 --format au > in &
-ss-plot -o long.gp < in &
-most=$(high_water $!)
-wait
-[ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot of 10^8 samples: $most KiB"
+for form in '' '--xy a,a' --spectrum; do
+    ss-signal noise --rate 10000 --duration 10000 --format au > in &
+    ss-plot $form -o long.gp < in &
+    most=$(high_water $!)
+    wait
+    [ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot $form of 10^8 samples: $most KiB"
+done
 rm in long.gp long.csv comma.csv long.h5
