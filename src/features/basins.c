@@ -294,7 +294,8 @@ find_ways(map *m, size_t row)
 static size_t
 new_peak(map *m, size_t row, size_t k, double level)
 {
-    peak *list = ss_list_room(m->out->peak, &m->peak_room, m->out->n_peaks, sizeof *list);
+    peak *list = m->out->n_peaks > UINT32_MAX ? NULL    /* borders have no larger numbers */
+        : ss_list_room(m->out->peak, &m->peak_room, m->out->n_peaks, sizeof *list);
     if (list == NULL) {
         m->failed = 1;
         return DRY;
@@ -377,8 +378,8 @@ keep_border(map *m, border b)
 static void
 add_border(map *m, size_t p, size_t q, double level)
 {
-    border found = { 0, (p < q ? p : q) - PEAK, (p < q ? q : p) - PEAK };
-    border *slot = &m->recent[(found.p * 31 + found.q) % RECENT];
+    border found = { 0, (uint32_t)((p < q ? p : q) - PEAK), (uint32_t)((p < q ? q : p) - PEAK) };
+    border *slot = &m->recent[((size_t)found.p * 31 + found.q) % RECENT];
     memcpy(&found.key, &level, sizeof level);
     if (slot->p == found.p && slot->q == found.q) {
         slot->key = slot->key > found.key ? slot->key : found.key;

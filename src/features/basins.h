@@ -16,7 +16,7 @@ typedef struct peak {
 /* Between the basins of peaks p < q.  Of several between the same two, the highest counts. */
 typedef struct border {
     uint64_t key;               /* |W| > 0, as its bits, which are ordered as the numbers are */
-    size_t p, q;
+    uint32_t p, q;
 } border;
 
 typedef struct basins {

@@ -146,7 +146,7 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
         while (loud != NULL && i < loud->n && loud->spike[i].t + quiet < at)
             i++;
         if ((loud != NULL && i < loud->n && loud->spike[i].t - quiet <= at)
-            || ss_gaps_near(source->gap, source->n_gaps, at, ROW_REACH * a))
+            || (source->n_gaps > 0 && ss_gaps_near(source->gap, source->n_gaps, at, ROW_REACH * a)))
             continue;
         double swap = level[left];
         level[left++] = level[k];
