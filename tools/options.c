@@ -202,15 +202,15 @@ tool_given_others(const char *const names[])
 }
 
 /* The rows of all options, and what getopt_long needs to know of them. */
-typedef struct table {
+typedef struct option_rows {
     tool_option row[OPTIONS_MOST];
     size_t n;
     struct option names[OPTIONS_MOST + 1];
     char letters[2 * OPTIONS_MOST + 1];
-} table;
+} option_rows;
 
 static void
-append(table *t, const tool_option option[], size_t n)
+append(option_rows *t, const tool_option option[], size_t n)
 {
     for (size_t i = 0; i < n && t->n < OPTIONS_MOST; i++, t->n++) {
         int value = option[i].has_value ? required_argument : no_argument;
@@ -223,7 +223,7 @@ append(table *t, const tool_option option[], size_t n)
 
 /* The row of the option that getopt_long has found; NULL: it has written an error. */
 static const tool_option *
-find_row(const table *t, int c)
+find_row(const option_rows *t, int c)
 {
     if (c >= LONG)
         return &t->row[c - LONG];
@@ -254,7 +254,7 @@ tool_parse(int argc, char *argv[], const tool_option option[], size_t n, tool_re
         TOOL_CALL('q', "quiet", set_quiet, NULL), TOOL_CALL('v', "verbose", set_verbose, NULL),
         TOOL_CALL('h', "help", show_help, NULL), TOOL_CALL(0, "version", show_version, NULL) };
     tool_option of_reading[TOOL_READING_OPTIONS];
-    table t = { .n = 0 };
+    option_rows t = { .n = 0 };
     append(&t, option, n);
     if (reading != NULL) {
         tool_reading_options(reading, of_reading);

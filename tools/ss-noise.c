@@ -60,7 +60,7 @@ convert(double *x, size_t n)
 
 /* Write the value of the note on clipping.  Returns 0 if nothing was clipped. */
 static int
-tell_clipped(char *text, size_t size)
+note_clipped(char *text, size_t size)
 {
     if (n_clipped == 0)
         return 0;
@@ -120,7 +120,7 @@ add_band(tool_kind kind, ss_noise *noise)
             convert(x, n);
     }
     add_notes(signal->head);
-    if (tell_clipped(text, sizeof text))
+    if (note_clipped(text, sizeof text))
         tool_check(ss_header_note(signal->head, "clipped", text), NULL);
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
@@ -175,7 +175,7 @@ change_rows(tool_kind kind, ss_noise *noise)
                 convert(&rows[i], step);
         tool_signal_rows(out, rows, n);
     }
-    if (tell_clipped(text, sizeof text))
+    if (note_clipped(text, sizeof text))
         tool_signal_note(out, "clipped", text);
     tool_signal_end(out);
     ss_header_free(head);

@@ -112,9 +112,9 @@ add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, doubl
     ss_noise_level_add(o->noise, i, level, (step - first % step) % step, n, step);
 }
 
-/* A sink. */
+/* The sink of the stream: add coefficients of a scale to the picture. */
 static int
-take_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
+add_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
     ss_overview *o = user;
     double level[PIECE];
@@ -143,7 +143,7 @@ ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const s
         return ss_fail_memory(err, NULL);
     o->column = column;
     o->opts = *opts;
-    ss_status st = ss_stream_new(&o->stream, head->rate, opts, take_rows, o, err);
+    ss_status st = ss_stream_new(&o->stream, head->rate, opts, add_rows, o, err);
     size_t scales = st == SS_OK ? ss_stream_scales(o->stream) : 0;
     if (st == SS_OK)
         st = ss_header_gaps(&o->gap, &o->n_gaps, head);

@@ -92,7 +92,7 @@ largest_distance(const clock_fit *f, struct line l)
 
 /* --- stamps that are read several times ----------------------------------------------------- */
 
-struct walk {
+struct pass {
     const struct stamps *of;
     double stamp, before;       /* before: the previous stamp */
     unsigned long line;
@@ -101,42 +101,42 @@ struct walk {
     ss_error *err;
 };
 
-static struct walk
+static struct pass
 start(const struct stamps *s, ss_error *err)
 {
-    return (struct walk){ .of = s, .status = s->rewind(s->source, err), .err = err };
+    return (struct pass){ .of = s, .status = s->rewind(s->source, err), .err = err };
 }
 
 /* Go to the next stamp.  Returns 0 if there is none, or it cannot be read. */
 static int
-step(struct walk *w)
+step(struct pass *p)
 {
     int there = 0;
-    w->before = w->stamp;
-    if (w->status == SS_OK)
-        w->status = w->of->next(w->of->source, &there, &w->stamp, &w->line, w->err);
-    w->n += (size_t)there;
-    return w->status == SS_OK && there;
+    p->before = p->stamp;
+    if (p->status == SS_OK)
+        p->status = p->of->next(p->of->source, &there, &p->stamp, &p->line, p->err);
+    p->n += (size_t)there;
+    return p->status == SS_OK && there;
 }
 
 static ss_status
 check_stamps(const struct stamps *s, size_t *n, ss_error *err)
 {
     double first = 0;
-    struct walk w = start(s, err);
-    while (step(&w))
-        if (w.n == 1)
-            first = w.stamp;
-        else if (!(w.stamp > w.before))
-            return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps do not ascend", s->file, w.line);
-    *n = w.n;
-    if (w.status != SS_OK)
-        return w.status;
-    if (w.n < 2)
+    struct pass p = start(s, err);
+    while (step(&p))
+        if (p.n == 1)
+            first = p.stamp;
+        else if (!(p.stamp > p.before))
+            return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps do not ascend", s->file, p.line);
+    *n = p.n;
+    if (p.status != SS_OK)
+        return p.status;
+    if (p.n < 2)
         return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", s->file);
-    if (!isfinite(w.stamp - first))
+    if (!isfinite(p.stamp - first))
         return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", s->file, first,
-                       w.stamp);
+                       p.stamp);
     return SS_OK;
 }
 
@@ -156,17 +156,17 @@ static ss_status
 next_digit(const struct stamps *s, size_t *count, int below, uint64_t *known, size_t *rank, ss_error *err)
 {
     memset(count, 0, ((size_t)1 << DIGIT) * sizeof *count);
-    struct walk w = start(s, err);
-    while (step(&w)) {
-        uint64_t bits = bits_of(w.stamp - w.before) >> below;
-        if (w.n > 1 && bits >> DIGIT == *known)
+    struct pass p = start(s, err);
+    while (step(&p)) {
+        uint64_t bits = bits_of(p.stamp - p.before) >> below;
+        if (p.n > 1 && bits >> DIGIT == *known)
             count[bits & ((1 << DIGIT) - 1)]++;
     }
     uint64_t digit = 0;
     for (; digit < (1 << DIGIT) - 1 && *rank >= count[digit]; digit++)
         *rank -= count[digit];
     *known = *known << DIGIT | digit;
-    return w.status;
+    return p.status;
 }
 
 ss_status
@@ -213,27 +213,27 @@ farthest_from(struct line l, const struct stamps *s, double usual, struct off *w
     struct sample_count count = { .usual = usual };
     double most = 0;
     *worst = (struct off){ .by = NAN };
-    struct walk w = start(s, err);
-    while (step(&w)) {
-        double off = distance(l, (struct clock_point){ (double)ss_clock_sample(&count, w.stamp), w.stamp });
-        if (w.n > 1 && off <= most * (1 + 1e-9))
+    struct pass p = start(s, err);
+    while (step(&p)) {
+        double off = distance(l, (struct clock_point){ (double)ss_clock_sample(&count, p.stamp), p.stamp });
+        if (p.n > 1 && off <= most * (1 + 1e-9))
             continue;
         most = off;
-        *worst = (struct off){ off, w.stamp, w.before, w.line };
+        *worst = (struct off){ off, p.stamp, p.before, p.line };
     }
-    return w.status;
+    return p.status;
 }
 
 /* Find the stamp whose step from the one before differs most from the usual step. */
 static ss_status
 farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error *err)
 {
-    struct walk w = start(s, err);
+    struct pass p = start(s, err);
     *worst = (struct off){ .by = 0 };
-    while (step(&w))
-        if (w.n > 1 && fabs(w.stamp - w.before - usual) > worst->by)
-            *worst = (struct off){ fabs(w.stamp - w.before - usual), w.stamp, w.before, w.line };
-    return w.status;
+    while (step(&p))
+        if (p.n > 1 && fabs(p.stamp - p.before - usual) > worst->by)
+            *worst = (struct off){ fabs(p.stamp - p.before - usual), p.stamp, p.before, p.line };
+    return p.status;
 }
 
 /* The error names the row at fault: the one whose step from the row before differs most from the usual
@@ -320,14 +320,14 @@ ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate
     ss_status st = check_stamps(s, &n, err);
     if (st != SS_OK)
         return st;
-    struct walk w = start(s, err);
-    while (step(&w))
-        if (!ss_clock_add(fit, (double)ss_clock_sample(&count, w.stamp), w.stamp))
+    struct pass p = start(s, err);
+    while (step(&p))
+        if (!ss_clock_add(fit, (double)ss_clock_sample(&count, p.stamp), p.stamp))
             return ss_fail_memory(err, s->file);
-    if (w.status == SS_OK)
+    if (p.status == SS_OK)
         st = ss_clock_rate(fit, s->file, rate, err);
     else
-        st = w.status;
+        st = p.status;
     return st == SS_EUNEVEN ? refuse(s, usual, line_of(fit), err) : st;
 }
 

@@ -54,7 +54,7 @@ refuse(const coefficient_reader *r, const char *format, ...)
 
 /* Check that the columns are those of coefficients, and copy the rest of the stream's header. */
 static ss_status
-take_header(coefficient_reader *r)
+copy_header(coefficient_reader *r)
 {
     const ss_header *head = r->in.head;
     int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
@@ -337,7 +337,7 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
     r->coef = calloc(1, sizeof *r->coef);
     if (r->coef == NULL)
         return SS_ENOMEM;
-    if ((st = take_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
+    if ((st = copy_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
         || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
         return st;
     r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);

@@ -230,7 +230,7 @@ is_footer(struct table *t, int *yes, ss_error *err)
 /* Keep the lines from a heading on, up to the first row of another table, which becomes *row.  If none
  * follows, the heading is a footer or a malformed row. */
 static ss_status
-look_below(struct table *t, const char *heading, char **row, ss_error *err)
+read_heading(struct table *t, const char *heading, char **row, ss_error *err)
 {
     unsigned long number = t->in->line;
     size_t columns = t->n_columns;
@@ -265,7 +265,7 @@ read_body(struct table *t, char **row, ss_error *err)
         if (!comment)
             st = is_heading(t, line, &heading, err);
         if (st == SS_OK && heading)
-            return look_below(t, line, row, err);
+            return read_heading(t, line, row, err);
         if (st == SS_OK && !comment)
             st = append_row(t, line, err);
         if (st != SS_OK)

@@ -129,7 +129,7 @@ label_columns(struct table *t, const char *const *word, size_t first, size_t ste
 
 /* Column 0 becomes the column of times, in seconds. */
 static ss_status
-take_first(struct table *t, ss_error *err)
+name_first_time(struct table *t, ss_error *err)
 {
     ss_header *head = ss_header_new(0, 0);
     ss_status st = head != NULL ? ss_header_add_column(head, "X_Value", "s") : SS_ENOMEM;
@@ -248,7 +248,7 @@ ss_delimited_check_labview(struct table *t, ss_error *err)
         t->counted.origin = t->first[0];
     } else if (from_numbers > 1e-6) {           /* nor does it number the rows */
         t->counted = (struct counted){ 0, 0, 0 };
-        return take_first(t, err);
+        return name_first_time(t, err);
     }
     t->column[0].kind = COLUMN_TEXT;
     return SS_OK;

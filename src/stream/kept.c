@@ -60,7 +60,7 @@ ss_kept_begin(struct kept *k, const char *name, const char *folder, size_t width
 
 /* Write the block to the file, and empty it. */
 static ss_status
-put_away(struct kept *k, ss_error *err)
+write_block(struct kept *k, ss_error *err)
 {
     if (k->file == NULL && (k->file = open_nameless(k->folder)) == NULL)
         return fail_file(k, err);
@@ -74,7 +74,7 @@ put_away(struct kept *k, ss_error *err)
 ss_status
 ss_kept_new(struct kept *k, double **row, ss_error *err)
 {
-    ss_status st = k->held == rows_in_piece(k) ? put_away(k, err) : SS_OK;
+    ss_status st = k->held == rows_in_piece(k) ? write_block(k, err) : SS_OK;
     if (st != SS_OK)
         return st;
     double *more = ss_list_grow(k->block, &k->room, (k->held + 1) * k->width, sizeof *more);
@@ -88,7 +88,7 @@ ss_kept_new(struct kept *k, double **row, ss_error *err)
 ss_status
 ss_kept_end(struct kept *k, ss_error *err)
 {
-    ss_status st = k->is_away ? put_away(k, err) : SS_OK;
+    ss_status st = k->is_away ? write_block(k, err) : SS_OK;
     if (st == SS_OK && k->is_away && fflush(k->file) != 0)
         return fail_file(k, err);
     return st;

@@ -46,7 +46,7 @@ expect(const char *p, char c)
 }
 
 static int
-comes(const char *p, char c)
+is_next(const char *p, char c)
 {
     return expect(p, c) != NULL;
 }
@@ -55,7 +55,7 @@ comes(const char *p, char c)
 static const char *
 read_string(const char *p, char *text, size_t size)
 {
-    char quote = comes(p, '"') ? '"' : '\'';
+    char quote = is_next(p, '"') ? '"' : '\'';
     p = expect(p, quote);
     const char *end = p != NULL ? strchr(p, quote) : NULL;
     if (end == NULL || (size_t)(end - p) >= size || memchr(p, '\\', (size_t)(end - p)) != NULL)
@@ -111,18 +111,18 @@ read_descr(struct npy *a, const char *p)
     char type[32] = "", name[sizeof a->field->name];
     if (a->n_fields > 0)                        /* the header has the key twice */
         return NULL;
-    if (!comes(p, '[')) {
+    if (!is_next(p, '[')) {
         p = read_string(p, type, sizeof type);
         return p != NULL && type[1] != 'V' && add_field(a, "", type) ? p : NULL;
     }
     a->named = 1;
-    for (p = expect(p, '['); p != NULL && !comes(p, ']');) {
+    for (p = expect(p, '['); p != NULL && !is_next(p, ']');) {
         p = expect(p, '(');
         p = p != NULL ? expect(read_string(p, name, sizeof name), ',') : NULL;
         p = p != NULL ? expect(read_string(p, type, sizeof type), ')') : NULL;
         if (p == NULL || !add_field(a, name, type))
             return NULL;
-        p = comes(p, ',') ? expect(p, ',') : p;
+        p = is_next(p, ',') ? expect(p, ',') : p;
     }
     return expect(p, ']');
 }
@@ -132,13 +132,13 @@ read_shape(struct npy *a, const char *p)
 {
     if (a->dimensions > 0)                      /* the header has the key twice */
         return NULL;
-    for (p = expect(p, '('); p != NULL && !comes(p, ')');) {
+    for (p = expect(p, '('); p != NULL && !is_next(p, ')');) {
         char *end;
         p += strspn(p, " ");
         if (*p < '0' || *p > '9' || a->dimensions == 2)
             return NULL;
         a->shape[a->dimensions++] = strtoull(p, &end, 10);
-        p = comes(end, ',') ? expect(end, ',') : end;
+        p = is_next(end, ',') ? expect(end, ',') : end;
     }
     return expect(p, ')');
 }
@@ -155,13 +155,13 @@ static int
 read_dictionary(struct npy *a, const char *p)
 {
     char key[32];
-    for (p = expect(p, '{'); p != NULL && !comes(p, '}');) {
+    for (p = expect(p, '{'); p != NULL && !is_next(p, '}');) {
         p = expect(read_string(p, key, sizeof key), ':');
         if (p == NULL)
             return 0;
         p = strcmp(key, "descr") == 0 ? read_descr(a, p) : strcmp(key, "shape") == 0 ? read_shape(a, p)
             : strcmp(key, "fortran_order") == 0 ? read_flag(a, p) : NULL;
-        p = comes(p, ',') ? expect(p, ',') : p;
+        p = is_next(p, ',') ? expect(p, ',') : p;
     }
     p = expect(p, '}');
     return p != NULL && p[strspn(p, " ")] == '\0' && a->n_fields > 0;

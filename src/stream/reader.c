@@ -191,7 +191,7 @@ read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
 
 /* Put n rows, from number `first` on, into the columns of a signal. */
 static void
-put_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
+copy_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
 {
     size_t columns = signal->head->n_columns;
     for (size_t i = 0; i < n; i++)
@@ -210,7 +210,7 @@ read_into(ss_signal *signal, ss_reader *reader, ss_error *err)
     ss_status st;
     do {
         st = ss_reader_rows(reader, rows, piece, &got, err);
-        put_rows(signal, done, rows, got);
+        copy_rows(signal, done, rows, got);
         done += got;
     } while (st == SS_OK && got > 0);
     free(rows);
@@ -233,7 +233,7 @@ ss_reader_all(ss_signal **out, ss_reader *reader, ss_error *err)
     if (st == SS_OK && known)
         st = read_into(signal, reader, err);
     else if (st == SS_OK)
-        put_rows(signal, 0, rows, n);
+        copy_rows(signal, 0, rows, n);
     free(rows);
     if (st == SS_OK)
         *out = signal;

@@ -53,7 +53,7 @@ find_period(const finder *f)
 /* Simulate the cycles that the options give.  Then find the period: the number of cycles after which the
  * motion returns to the same state. */
 static ss_status
-settle_and_look(finder *f, int *period)
+settle_as_asked(finder *f, int *period)
 {
     ss_status st = SS_OK;
     for (unsigned long i = 0; st == SS_OK && i < f->opts->settle; i++)
@@ -122,7 +122,7 @@ ss_status
 ss_finder_settle(finder *f, int may_shoot, ss_steady *out)
 {
     int period = 0, measured = 0, asked = f->opts->settle > 0;
-    ss_status st = asked ? settle_and_look(f, &period) : settle(f, may_shoot, &period, &measured, out);
+    ss_status st = asked ? settle_as_asked(f, &period) : settle(f, may_shoot, &period, &measured, out);
     if (st != SS_OK || measured)
         return st;
     double cycles = asked ? (double)f->opts->settle : (double)(f->recorded - 1);

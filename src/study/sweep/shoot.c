@@ -218,7 +218,7 @@ measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
 }
 
 static ss_status
-look(finder *f, int approached, int *period, ss_steady *out)
+find_periodic(finder *f, int approached, int *period, ss_steady *out)
 {
     tangent t = { 0 };
     const motion from = f->w.m;
@@ -236,7 +236,7 @@ look(finder *f, int approached, int *period, ss_steady *out)
 ss_status
 ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
 {
-    ss_status st = look(f, approached, period, out);
+    ss_status st = find_periodic(f, approached, period, out);
     f->multiplier = 0;
     ss_finder_keep(f, 0);
     if (st != SS_EDATA)
