@@ -1,6 +1,7 @@
 /* contour.c -- draw contours of |W| in decibels over time and frequency, below the signal: the
  * script, its axes and the cone of influence. */
 #include "plot/contour_marks.h"
+#include "plot/style.h"
 
 #include <float.h>
 #include <math.h>
@@ -269,12 +270,12 @@ write_variables(FILE *out, const drawing *d)
     ss_script_write(out, fmin, ss_contour_decimals(fmin), "    # Hz\nfmax = ");
     ss_script_write(out, fmax, ss_contour_decimals(fmax), "  # Hz\n");
     if (contour->palette == NULL && !contour->fill)
-        fputs("colours = \"0 '#7ad151', 0.3 '#22a884', 0.55 '#2a788e', 0.8 '#414487', 1 '#440154'\"\n", out);
+        fputs("colours = \"" LEVEL_COLOURS "\"\n", out);
     else
         ss_palette_write(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
-    fputs("cone_colour = '#e4e4e4'; event_colour = '#d55e00'\n", out);
+    fputs("cone_colour = '" CONE_COLOUR "'; event_colour = '" VERMILION "'\n", out);
     if (contour->fill)
-        fputs("line_colour = '#444444'\n", out);
+        fputs("line_colour = '" LEVEL_COLOUR "'\n", out);
 }
 
 static ss_status
@@ -292,7 +293,7 @@ write_script(FILE *out, drawing *d, const ss_plot_opts *opts, ss_error *err)
     write_cone(out, d->c, d->map->span_of_time, (const double[2]){ d->map->f[0], d->map->f[d->map->rows - 1] });
     d->marks = ss_contour_write_marks(out, d->map, d->contour);
     if (d->contour->ridge) {
-        fputs("ridge_colour = '#cc3311'\n", out);
+        fputs("ridge_colour = '" MARK_COLOUR "'\n", out);
         d->ridge = ss_contour_write_ridge(out, d->map, d->c);
     }
     status = ss_contour_write_lines(out, d->map, d->contour->levels, &d->lines);

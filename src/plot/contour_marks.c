@@ -2,6 +2,7 @@
  * arrows at its border, one arrow for all of a kind that lie beyond the same place of the border.
  */
 #include "plot/contour_marks.h"
+#include "plot/style.h"
 
 #include <math.h>
 #include "base/error.h"
@@ -170,7 +171,7 @@ ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts 
         fputs(seen.event_arrows > 0 ? rim : "", out);
         return seen;
     }
-    fprintf(out, "feature_colour = '#cc3311'; %s", rim);
+    fprintf(out, "feature_colour = '" MARK_COLOUR "'; %s", rim);
     write_features(out, map, contour->overlay, &seen);
     seen.feature_arrows = write_feature_arrows(out, map, contour->overlay);
     return seen;

@@ -4,6 +4,7 @@
  * points (a bifurcation diagram), else as a line. */
 #include "plot/map.h"
 #include "plot/script.h"
+#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -67,7 +68,7 @@ write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, si
     ss_script_write_tics(out, "ytics", (script_extent){ ss_script_scaled(e.lo, of_y), ss_script_scaled(e.hi, of_y) },
                          i == 1 ? 6 : 4);
     fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
-            line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '#999999' lw 0.7, " : "", i,
+            line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '" ZERO_COLOUR "' lw 0.7, " : "", i,
             line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
 }
 
@@ -88,10 +89,10 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, &titled, NULL, NULL);
-    fprintf(out, "colour = '#0072b2'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
+    fprintf(out, "colour = '" BLUE "'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
             "set border lw 0.8; set lmargin at screen 0.175; set rmargin at screen 0.965\n"
             "set xrange [%.9g:%.9g]%s; set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
-            "set grid xtics lc rgb '#dddddd' lt 1; set xtics format ''\n", log ? x.lo * (1 - 1e-8) : x.lo,
+            "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set xtics format ''\n", log ? x.lo * (1 - 1e-8) : x.lo,
             log ? x.hi * (1 + 1e-8) : x.hi, log ? "; set logscale x" : "");
     if (!log)
         ss_map_write_x_tics(out, x);

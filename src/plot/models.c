@@ -1,13 +1,14 @@
 /* models.c -- draw the errors of simpler scenes over their times: each scene has a colour, each
  * quantity a kind of point.  An error of 0 is left out, as the axis is logarithmic. */
 #include "plot/script.h"
+#include "plot/style.h"
 
 #include <math.h>
 #include <string.h>
 #include "base/error.h"
 
 /* Okabe and Ito's colours, which differ for all kinds of colour vision. */
-static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9" };
+static const char *const colour[] = { BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY_BLUE };
 enum { COLOURS = sizeof colour / sizeof *colour };
 
 /* The errors drawn in the upper panel, of which each has its point; and in the lower one. */
@@ -88,7 +89,7 @@ write_key(FILE *out, const ss_models *models)
 {
     size_t rows = (count_scenes(models) + 1) / 2;
     for (size_t k = 0; k < DRAWN; k++)
-        write_entry(out, drawn[k].name, rows, k, drawn[k].point, "#000000");
+        write_entry(out, drawn[k].name, rows, k, drawn[k].point, BLACK);
     for (size_t i = 1, n = 0; i < models->n; i++)
         if (models->row[i].status == SS_OK) {
             write_entry(out, models->row[i].name, rows - 1 - n / 2, 3 * (n % 2), 5,
@@ -160,7 +161,7 @@ ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_
     fprintf(out, "set multiplot\nset logscale x; set xrange [%.3g:%.3g]\n", least / 1.6, most * 1.6);
     fprintf(out, "set xtics nomirror scale 0.6%s; set ytics nomirror scale 0.6; set border lw 0.8; unset key\n",
             most / least > 30 ? "" : " (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)");
-    fputs("set grid xtics ytics lc rgb '#dddddd' lt 1\n"
+    fputs("set grid xtics ytics lc rgb '" GRID_COLOUR "' lt 1\n"
           "set arrow 1 from 1,graph 0 to 1,graph 1 nohead lc rgb '#888888' dt 2\n", out);
     write_upper(out, models);
     write_lower(out, models);

@@ -1,6 +1,7 @@
 /* panels.c -- draw a signal over time with a panel for each column, or one column over another. */
 #include "plot/contour_marks.h"
 #include "plot/script.h"
+#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ static const char layout[] =
     "set lmargin at screen 0.175; set rmargin at screen letters < 5 ? 0.965 : 1 - 0.0095*letters\n"
     "set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06\n"
     "set autoscale yfix; set tics nomirror out scale 0.6; set xtics format ''\n"
-    "set grid xtics lc rgb '#dddddd' lt 1; set border lw 0.8\n"
+    "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set border lw 0.8\n"
     "unset key\n";
 
 typedef struct panel {
@@ -109,7 +110,7 @@ static size_t
 write_bands(FILE *out, const ss_overlay *features, const script_span *span)
 {
     size_t n = ss_contour_write_spans(out, span, features);
-    fputs(n > 0 ? "feature_colour = '#f2ccc4'; set y2range [0:1]\n" : "", out);
+    fputs(n > 0 ? "feature_colour = '" SHADE_COLOUR "'; set y2range [0:1]\n" : "", out);
     return n;
 }
 
@@ -162,7 +163,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     if (status == SS_OK) {
         ss_script_write_title(out, opts, head, NULL);
         ss_script_write_span(out, &span);
-        fprintf(out, "colour = '#0072b2'\n%s", over ? "over = '#d55e00'\n" : "");
+        fprintf(out, "colour = '" BLUE "'\n%s", over ? "over = '" VERMILION "'\n" : "");
         if (opts->features != NULL)
             bands = write_bands(out, opts->features, &span);
         write_traces(out, p, panels, &clock, &span);
@@ -289,12 +290,12 @@ write_xy(FILE *out, const path *p, const path *over)
     }
     ss_script_write_x_label(out, &label[0], "0,0.3");
     ss_script_write_side_label(out, 1, &label[1]);
-    fputs("colour = '#0072b2'\n", out);
+    fputs("colour = '" BLUE "'\n", out);
     ss_script_write_tics(out, "xtics", drawn[0], 6);
     ss_script_write_tics(out, "ytics", drawn[1], 6);
     write_path(out, "$path", p, scale);
     if (over != NULL) {
-        fputs("over = '#d55e00'\n", out);
+        fputs("over = '" VERMILION "'\n", out);
         write_path(out, "$over", over, scale);
     }
     fputs("unset key\n"

@@ -1,6 +1,7 @@
 /* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel
  * each. */
 #include "plot/script.h"
+#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static const char layout[] =
     "set lmargin at screen 0.2; set rmargin at screen 0.95\n"
     "set logscale x; set xrange [from:to]; set format x ''\n"
     "set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
-    "set grid xtics lc rgb '#dddddd' lt 1\n";
+    "set grid xtics lc rgb '" GRID_COLOUR "' lt 1\n";
 
 static void
 label_of(script_label *label, const ss_column *column, int decibels)
@@ -178,7 +179,7 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
     ss_script_write_title(out, opts, head, NULL);
     fprintf(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
             s->step, (double)(s->n - 1) * s->step, s->resolution, s->segments);
-    fputs("colour = '#0072b2'\n", out);
+    fputs("colour = '" BLUE "'\n", out);
     for (size_t i = 0; i < n; i++)
         write_densities(out, i + 1, spectrum[i], decibels);
     fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - title / height, n);

@@ -1,5 +1,6 @@
 /* trade.c -- the work-precision diagram: error over CPU time, one line a method. */
 #include "plot/script.h"
+#include "plot/style.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,8 +8,7 @@
 
 /* Okabe and Ito's colours, which differ for all kinds of colour vision; point types and dashes
  * distinguish methods that share a colour. */
-static const char *const colour[] = { "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                      "#e69f00", "#56b4e9" };
+static const char *const colour[] = { BLACK, BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY_BLUE };
 static const int point[] = { 7, 5, 9, 13, 4 };
 enum { COLOURS = sizeof colour / sizeof *colour, POINTS = sizeof point / sizeof *point };
 
@@ -43,7 +43,7 @@ next_method(const ss_trade *trade, size_t i)
 static void
 write_plot(FILE *out, const ss_trade *trade)
 {
-    fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '#000000' title 'frontier'", out);
+    fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '" BLACK "' title 'frontier'", out);
     for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
         if (trade->row[i].status == SS_OK) {
             fprintf(out, ", \\\n     $method%zu using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
@@ -91,7 +91,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "set xlabel 'CPU time / '.sprintf('%.2g ms', 1000*fastest) noenhanced offset 0,0.3\n"
           "set bmargin at screen 0.38; set tmargin at screen 0.93\n"
           "set xtics nomirror scale 0.6; set ytics nomirror scale 0.6; set border lw 0.8\n"
-          "set grid xtics ytics lc rgb '#dddddd' lt 1\n"
+          "set grid xtics ytics lc rgb '" GRID_COLOUR "' lt 1\n"
           "set key at screen 0.54,screen 0.265 center top horizontal maxcols 3 samplen 2 "
           "noenhanced\n", out);
     ss_script_write_decade_range(out, least, most);
