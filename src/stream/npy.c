@@ -94,7 +94,7 @@ add_field(struct npy *a, const char *name, const char *type)
     if (more != NULL)
         a->field = more;
     a->no_memory = more == NULL;
-    if (more == NULL || f.type.bytes == 0 || a->record > RECORD_MOST || a->n_fields > MAX_COLUMNS)
+    if (more == NULL || f.type.bytes == 0 || a->record > RECORD_MOST || a->n_fields == MAX_COLUMNS)
         return 0;
     a->record += f.type.bytes;
     if (type[1] == 'V')

@@ -16,6 +16,8 @@ np.save("flags.npy", np.array([True, False]))
 for version in (1, 2, 3):
     with open(f"version{version}.npy", "wb") as out:
         np.lib.format.write_array(out, a.astype("f8"), version=(version, 0))
+with open("many.npy", "wb") as out:
+    np.lib.format.write_array(out, np.zeros(2, [(f"c{i}", "<f8") for i in range(32769)]), version=(2, 0))
 fields = np.zeros(4, [("t", "<f8"), ("force", ">f4"), ("count", "<i2")])
 fields["t"] = np.arange(4) / 1000
 fields["force"] = [1.5, 2.5, -3.5, 4.5]
@@ -60,7 +62,7 @@ ss-cat --rate 5 -c force padded.npy | tail -n 4
 ss-cat --time 2 --gaps split i1le.npy > none || echo $?
 refused ss-cat --rate 10 nan.npy
 ss-cat --rate 10 --gaps interpolate nan.npy | tail -n 2
-for file in vector complex half cube empty single nested objects; do refused ss-cat $file.npy; done
+for file in vector complex half cube empty single nested objects many; do refused ss-cat $file.npy; done
 # Headers that lie: never more memory than the file has bytes for.
 head -c 150 f8le.npy > cut.npy
 refused ss-cat --rate 10 cut.npy
