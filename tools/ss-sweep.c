@@ -225,10 +225,8 @@ read_scene(const request *req)
 {
     enum { LONGEST = 80 };
     int sets_model = 0;
-    tool_texts all = { malloc((req->settings.n + req->opts.n_axes + 1) * sizeof *all.text), 0 };
-    char (*first)[LONGEST] = malloc((req->opts.n_axes + 1) * sizeof *first);
-    if (all.text == NULL || first == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    tool_texts all = { tool_room(NULL, req->settings.n + req->opts.n_axes, sizeof *all.text), 0 };
+    char (*first)[LONGEST] = tool_room(NULL, req->opts.n_axes, sizeof *first);
     for (; all.n < req->settings.n; all.n++) {
         all.text[all.n] = req->settings.text[all.n];
         sets_model |= strncmp(all.text[all.n], "model", strlen("model")) == 0;
