@@ -231,7 +231,7 @@ open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
     ss_error err = { 0 };
     ss_reader *reader = tool_read_rows(path, reading);
     if (is_read_again)
-        tool_check(ss_reader_keep(&reader, getenv("TMPDIR"), &err), &err);
+        tool_check(ss_reader_keep(&reader, reading->folder, &err), &err);
     return reader;
 }
 
@@ -249,16 +249,17 @@ read_envelope(drawing *d, ss_reader *reader, ss_plot_opts *opts)
 
 /* The signal of opts->over for the same form of drawing; opts as they were before the first was read. */
 static ss_signal *
-read_over(const drawing *d, const char *path, const ss_header *head, const size_t column[], ss_plot_opts *opts)
+read_over(const drawing *d, const char *path, const ss_header *head, const char *folder, ss_plot_opts *opts)
 {
+    const ss_read_opts reading = { .folder = folder };
     ss_error err = { 0 };
     ss_signal *other;
     ss_plot_opts own = *opts;
     size_t rows, of[2] = { 0, 0 };
-    ss_reader *reader = open_signal(path, NULL, d->xy);
+    ss_reader *reader = open_signal(path, &reading, d->xy);
     const ss_header *over = ss_reader_header(reader);
     if (d->xy)
-        tool_check(ss_plot_over_columns(of, over, head, column[0], column[1], &err), &err);
+        tool_check(ss_plot_over_columns(of, over, head, d->column[0], d->column[1], &err), &err);
     tool_check(d->xy ? ss_plot_path(&other, &rows, reader, of[0], of[1], head->start, &own, &err)
                : ss_plot_envelope(&other, &rows, reader, of, 1, head->start, &own, &err), &err);
     opts->over_start = head->start + (other->head->start - over->start);
@@ -278,7 +279,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
     d.head = ss_reader_header(reader);
     choose_columns(&d, d.head, path, name);
     if (over != NULL)
-        opts->over = other = read_over(&d, over, d.head, d.column, opts);
+        opts->over = other = read_over(&d, over, d.head, reading->folder, opts);
     if (d.xy)
         tool_check(ss_plot_path(&d.signal, &rows, reader, d.column[0], d.column[1], d.head->start, opts, &err), &err);
     else if (d.spectrum)
