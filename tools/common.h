@@ -75,6 +75,8 @@ ss_overlay *tool_read_features(const char *path);
 /* Read a scene from a path, the name of a shipped scene, or "-"; then settings "key=value" replace
  * its values.  Dies if that fails; a wrong setting is wrong usage. */
 ss_scene tool_read_scene(const char *path, const tool_texts *settings);
+/* The same with settings by these options, for messages: "--set or --vary". */
+ss_scene tool_read_scene_by(const char *path, const tool_texts *settings, const char *options);
 /* The name of a scene without directories, and the settings that change its physics, in one line;
  * to be freed. */
 char *tool_name_scene(const char *path, const tool_texts *settings);

@@ -152,7 +152,7 @@ tool_check_base(ss_status status, const ss_error *err)
 }
 
 ss_scene
-tool_read_scene(const char *path, const tool_texts *settings)
+tool_read_scene_by(const char *path, const tool_texts *settings, const char *options)
 {
     ss_scene scene;
     ss_error err = { 0 };
@@ -161,11 +161,17 @@ tool_read_scene(const char *path, const tool_texts *settings)
                                      settings->n, &err)
                  : ss_scene_load(&scene, path, settings->text, settings->n, &err);
     if (st == SS_EINVAL)
-        tool_usage("--set: %s", err.text);
+        tool_usage("%s: %s", options, err.text);
     tool_check(st, &err);
     static ss_base *base;               /* the scene points at it */
     tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
     return scene;
+}
+
+ss_scene
+tool_read_scene(const char *path, const tool_texts *settings)
+{
+    return tool_read_scene_by(path, settings, "--set");
 }
 
 int

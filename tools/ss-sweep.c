@@ -235,7 +235,8 @@ read_scene(const request *req)
         snprintf(first[i], LONGEST, "%s=%.17g", req->axis[i].key, req->axis[i].from);
         all.text[all.n++] = first[i];
     }
-    const ss_scene scene = tool_read_scene(req->scene_path, &all);
+    const ss_scene scene = tool_read_scene_by(req->scene_path, &all,
+                                              all.n > req->settings.n ? "--set or --vary" : "--set");
     free(first);
     free(all.text);
     return scene;

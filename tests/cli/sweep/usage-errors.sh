@@ -12,6 +12,7 @@ try --vary mas=1:2:3 coulomb
 try --vary alpha=1:2:3 coulomb
 try --vary model=1:2:3 coulomb
 try --vary rate=1:2:3 coulomb
+try -s model=stribeck --vary stribeck_velocit=1:2:3 coulomb
 try $vary $vary coulomb
 try $vary --measure speed coulomb
 try $vary --measure stops,stops coulomb
