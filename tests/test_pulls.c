@@ -693,7 +693,7 @@ check_keys(const ss_signal *signal, const ss_scene *truth, const ss_scene *start
     assert_int_equal(ss_pull_fit(&p, signal, 0, &from, &opts, NULL), SS_OK);
     size_t found = p->verdict == SS_NAMED;
     for (size_t i = 0; found && i < p->n_keys; i++) {
-        const ss_pull_key *k = &p->key[i];
+        const ss_fitted *k = &p->key[i];
         const double errors = fabs(k->found.value - *ss_scene_number(&of, k->name, NULL, NULL)) / k->found.error;
         if (!(errors <= 5))
             fail_msg("%s: %g errors", k->name, errors);

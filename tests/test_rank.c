@@ -400,13 +400,13 @@ finds_the_parameters_of_a_compliant_signal(void **state)
         start.base_amplitude = 0.001;
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(fit.conclusive);
-        if (!(fabs(fit.friction.value / truth.friction - 1) <= row[k].force))
+        if (!(fabs(fit.scene.friction / truth.friction - 1) <= row[k].force))
             fail_msg("%s at %g dB: f_k %.3g off", ss_shipped_scenes[row[k].scene].name, row[k].snr,
-                     fit.friction.value / truth.friction - 1);
-        assert_true(fabs(fit.base_amplitude.value / truth.base_amplitude - 1) <= row[k].force);
-        assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1)
+                     fit.scene.friction / truth.friction - 1);
+        assert_true(fabs(fit.scene.base_amplitude / truth.base_amplitude - 1) <= row[k].force);
+        assert_true(fabs(fit.scene.contact_stiffness / truth.contact_stiffness - 1)
                     <= row[k].stiffness);
-        assert_true(fabs(fit.contact_damping.value / truth.contact_damping - 1) <= row[k].damping);
+        assert_true(fabs(fit.scene.contact_damping / truth.contact_damping - 1) <= row[k].damping);
         /* all that is left is the noise */
         assert_true(fit.residual_started <= 1.02 * pow(10, -row[k].snr / 20) + 1e-8);
         assert_true(fit.scene.rate == truth.rate && fit.scene.duration == truth.duration);
@@ -436,8 +436,8 @@ gaps_do_not_matter(void **state)
         ss_ranking_free(r);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &truth, NULL, NULL), SS_OK);
         assert_true(fit.conclusive && fit.residual_started <= 1e-8);
-        assert_true(fabs(fit.contact_stiffness.value / truth.contact_stiffness - 1) <= 1e-8);
-        assert_true(fabs(fit.friction.value / truth.friction - 1) <= 1e-8);
+        assert_true(fabs(fit.scene.contact_stiffness / truth.contact_stiffness - 1) <= 1e-8);
+        assert_true(fabs(fit.scene.friction / truth.friction - 1) <= 1e-8);
         ss_signal_free(signal);
     }
 }
@@ -522,7 +522,7 @@ does_not_fit_what_is_not_compliant(void **state)
         }
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(!fit.conclusive && fit.why[0] != '\0');
-        assert_true(isnan(fit.friction.value) && isnan(fit.contact_stiffness.value));
+        assert_true(isnan(fit.key[0].found.value) && isnan(fit.key[0].found.error));
         assert_true(fit.scene.friction == start.friction && fit.scene.phase == start.phase);
         ss_signal_free(signal);
     }

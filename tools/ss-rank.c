@@ -210,17 +210,13 @@ fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene
     tool_check(ss_scene_fit(&f, signal, column, start, &j->opts, &err), &err);
     if (!f.conclusive)
         tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);
-    const struct { const char *key; ss_value v; } found[] = {
-        { "friction", f.friction }, { "base_amplitude", f.base_amplitude },
-        { "base_frequency", f.base_frequency }, { "contact_stiffness", f.contact_stiffness },
-        { "contact_damping", f.contact_damping } };
     FILE *out = tool_output(j->output);
     fprintf(out, "# Compliant contact fitted to %s, column %s.  Mass, stiffness, damping,\n"
             "# static_friction / friction and release rule are those given; standard errors:\n",
             j->signal_name,
             signal->head->column[column].name);
-    for (size_t i = 0; i < sizeof found / sizeof *found; i++)
-        fprintf(out, "#   %-17s %.2g %%\n", found[i].key, 100 * found[i].v.error / found[i].v.value);
+    for (size_t i = 0; i < SS_FIT_KEYS; i++)
+        fprintf(out, "#   %-17s %.2g %%\n", f.key[i].name, 100 * f.key[i].found.error / f.key[i].found.value);
     fprintf(out, "# Left of the signal: %.3g %%, and %.3g %% if the motion need not be settled; its noise\n"
             "# is %.3g %%.\n", 100 * f.residual, 100 * f.residual_started, 100 * f.noise);
     if (ss_scene_write(&f.scene, out) != SS_OK)
@@ -289,7 +285,7 @@ write_common(FILE *out, const ss_pull *p)
             p->n_slips, p->features->n, p->scene.surface_velocity != 0 && p->scene.base_velocity != 0
             ? " and the belt's speed are" : " is", 100 * p->left, p->excess);
     for (size_t i = 0; i < p->n_keys; i++) {
-        const ss_pull_key *k = &p->key[i];
+        const ss_fitted *k = &p->key[i];
         fprintf(out, "#   %-17s %.4g +- %.2g %s; given: %.4g, %+.0f %%\n", k->name, k->found.value,
                 k->found.error, k->unit, k->given, 100 * (k->found.value / k->given - 1));
     }

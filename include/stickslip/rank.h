@@ -124,13 +124,20 @@ ss_status ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *abo
 
 /* --- the scene that fits ------------------------------------------------------------------- */
 
+/* A number of a scene that a fit has adjusted. */
+typedef struct ss_fitted {
+    const char *name, *unit;    /* of the scene's key */
+    ss_value found;             /* with its standard error; NaN if the fit is not conclusive */
+    double given;               /* in the scene that the fit began with */
+} ss_fitted;
+enum { SS_FIT_KEYS = 5 };       /* at most */
+
 typedef struct ss_fit {
     int conclusive;             /* 0: the parameters are not determined, and scene is the one given */
     char why[256];              /* the reason if the fit is not conclusive, else empty */
     ss_scene scene;             /* settled; its motion has the phase of the record */
-    ss_value friction, base_amplitude;      /* with standard errors; NaN if not conclusive */
-    ss_value contact_stiffness, contact_damping;
-    ss_value base_frequency;
+    ss_fitted key[SS_FIT_KEYS];     /* friction, base_amplitude, base_frequency, contact_stiffness,
+                                       contact_damping */
     double residual;            /* rms of record minus scene, over the rms of the record about its mean */
     double residual_started;    /* the same if the motion may start from any state; if this residual is
                                    more than noise, the model does not fit */
@@ -154,14 +161,6 @@ ss_status ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, cons
 
 /* --- a slider pulled at constant speed ------------------------------------------------------ */
 
-/* A number of the scene that all slips have in common. */
-typedef struct ss_pull_key {
-    const char *name, *unit;
-    ss_value found;             /* by the fit */
-    double given;               /* in the scene */
-} ss_pull_key;
-enum { SS_PULL_KEYS = 5 };
-
 /* left, excess and noise are NaN if there is no slip. */
 typedef struct ss_pull {
     ss_verdict verdict;         /* SS_NAMED: the scene explains three of four falls, and at least five */
@@ -175,7 +174,7 @@ typedef struct ss_pull {
     ss_features *features;      /* its loadings are the slips [N], their medians the scene's numbers */
     ss_median static_friction, friction;        /* [N] of the slips */
     size_t n_keys;              /* 0: the model is Coulomb's without damping, all is in features */
-    ss_pull_key key[SS_PULL_KEYS];
+    ss_fitted key[SS_FIT_KEYS];     /* what all slips have in common */
 } ss_pull;
 
 /* Fit a scene that only a pull or a belt moves to the force of its spring [N].

@@ -37,7 +37,7 @@ typedef struct falls_key {
     double own, change, error;      /* the scene's as given (of a speed, that of the pull over the
                                        surface); the logarithm of its factor in the fit */
 } falls_key;
-enum { FALLS_KEYS = SS_PULL_KEYS };
+enum { FALLS_KEYS = SS_FIT_KEYS };
 
 typedef struct falls_fit {
     int slips;                      /* 0: the scene does not stick and slip, and nothing else is set */

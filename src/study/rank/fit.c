@@ -31,6 +31,8 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 #define LOW 0.1                         /* of f_k / (k Z_e): below, sticks are too short to fit */
 #define SHORT 0.25                      /* periods of the contact */
 #define VAGUE 0.3                       /* a parameter of a larger standard error is not determined */
+#define HELD 16.                        /* a gain that refutes a term held: four standard errors, as what
+                                           hides a lag puts the other numbers farther off */
 
 typedef struct fitting {
     const double *x;                    /* the column, of n samples */
@@ -135,10 +137,24 @@ match_all(fitting *w, const ss_stretch *progress)
 
 /* --- the scene ----------------------------------------------------------------------------- */
 
-static ss_value
-scaled(double value, double variance)
+/* The numbers that are adjusted, and the unknowns of a match whose product each of them is. */
+static const struct {
+    const char *name;
+    size_t n, unknown[2];
+} fitted[SS_FIT_KEYS] = {
+    { "friction", 2, { CANDIDATE_RATIO, MATCH_SIZE } }, { "base_amplitude", 1, { MATCH_SIZE } },
+    { "base_frequency", 1, { MATCH_FREQUENCY } }, { "contact_stiffness", 1, { CANDIDATE_OWN } },
+    { "contact_damping", 1, { CANDIDATE_OWN + 1 } } };
+
+/* The standard error of a number, as a logarithm. */
+static double
+error_of(const match *m, size_t key)
 {
-    return (ss_value){ value, value * sqrt(variance) };
+    double sum = 0;
+    for (size_t i = 0; i < fitted[key].n; i++)
+        for (size_t k = 0; k < fitted[key].n; k++)
+            sum += m->covariance[fitted[key].unknown[i]][fitted[key].unknown[k]];
+    return sqrt(m->left * sum);
 }
 
 /* The scene from rest, settled and in step with the whole record. */
@@ -157,19 +173,11 @@ static void
 report(ss_fit *fit, const fitting *w)
 {
     const match *m = &w->best;
-    const ss_scene *s = &fit->scene;
-    double ratio = m->covariance[CANDIDATE_RATIO][CANDIDATE_RATIO];
-    double size = m->covariance[MATCH_SIZE][MATCH_SIZE];
-    double both = m->covariance[CANDIDATE_RATIO][MATCH_SIZE];
     fit->scene = settled_scene(w);
-    fit->friction = scaled(s->friction, m->left * (ratio + size + 2 * both));
-    fit->base_amplitude = scaled(s->base_amplitude, m->left * size);
-    fit->contact_stiffness = scaled(s->contact_stiffness,
-                                    m->left * m->covariance[CANDIDATE_OWN][CANDIDATE_OWN]);
-    fit->contact_damping = scaled(s->contact_damping,
-                                  m->left * m->covariance[CANDIDATE_OWN + 1][CANDIDATE_OWN + 1]);
-    fit->base_frequency = scaled(s->base_frequency,
-                                 m->left * m->covariance[MATCH_FREQUENCY][MATCH_FREQUENCY]);
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        double value = *ss_scene_number(&fit->scene, fitted[i].name, NULL, NULL);
+        fit->key[i].found = (ss_value){ value, value * error_of(m, i) };
+    }
     fit->residual_started = sqrt(m->left / m->power);
     fit->noise = sqrt(fmin(w->record.noise, m->white) / m->power);
 }
@@ -224,41 +232,38 @@ find_longest_stick(double *periods, const ss_scene *scene)
 static const char *
 vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *error)
 {
-    const struct { const char *what; ss_value v; int key; } known[] = {
-        { "friction", fit->friction, CANDIDATE_RATIO },
-        { "base_amplitude", fit->base_amplitude, -1 },
-        { "contact_stiffness", fit->contact_stiffness, CANDIDATE_OWN },
-        { "contact_damping", fit->contact_damping, CANDIDATE_OWN + 1 } };
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        int k = known[i].key;
-        int ends = k >= 0 && (w->best.p[k] <= w->c.lo[k] || w->best.p[k] >= w->c.hi[k]);
-        *value = known[i].v.value;
-        *error = ends ? INFINITY : known[i].v.error;
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        size_t k = fitted[i].unknown[0];
+        int ends = k < CANDIDATE_KEYS && (w->best.p[k] <= w->c.lo[k] || w->best.p[k] >= w->c.hi[k]);
+        *value = fit->key[i].found.value;
+        *error = ends ? INFINITY : fit->key[i].found.error;
         if (!(*error <= VAGUE * *value))
-            return known[i].what;
+            return fit->key[i].name;
     }
     return NULL;
 }
 
-/* Say which term the signal contradicts as the scene has it: then the other numbers are off, too. */
+/* Say which term the signal contradicts: then the other numbers are off, too. */
 static ss_status
 judge_held(ss_fit *fit, const fitting *w)
 {
     const ss_stretch silent = { { NULL, NULL }, 0, 1 };
-    double most = MATCH_DECISIVE, gain;
+    double most = HELD, gain, nearer;
     ss_status st = SS_OK;
     for (match_term term = 0; st == SS_OK && term < MATCH_TERMS; term++) {
-        ss_scene s;
-        st = ss_match_held(&gain, &s, term, &w->c, &w->best, &w->record, &silent);
+        st = ss_match_held(&gain, &nearer, term, &w->c, &w->best, &w->record, &silent);
         if (st != SS_OK || !(gain > most))
             continue;
         most = gain;
         if (term == MATCH_DAMPING)
             snprintf(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
-                     s.damping);
-        else
+                     nearer);
+        else if (term == MATCH_STATIC)
             snprintf(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
-                     "be %.4g times friction", s.static_friction / s.friction);
+                     "be %.4g times friction", nearer);
+        else
+            snprintf(fit->why, sizeof fit->why, "the sensor seems to lag behind the motion: its bandwidth is "
+                     "too low to tell the contact");
     }
     return st;
 }
@@ -296,14 +301,24 @@ judge(ss_fit *fit, const fitting *w)
     return st;
 }
 
+static void
+list_keys(ss_fit *fit, const ss_scene *start)
+{
+    ss_scene given = *start;
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        ss_fitted *k = &fit->key[i];
+        k->name = fitted[i].name;
+        k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
+        k->found = (ss_value){ NAN, NAN };
+    }
+}
+
 /* Numbers that are not determined are not given. */
 static void
 withdraw(ss_fit *fit, const ss_scene *start)
 {
-    const ss_value none = { NAN, NAN };
     fit->scene = *start;
-    fit->friction = fit->base_amplitude = fit->base_frequency = none;
-    fit->contact_stiffness = fit->contact_damping = none;
+    list_keys(fit, start);
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
@@ -385,6 +400,7 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     char *missing = NULL;
     fitting *w = malloc(sizeof *w);
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN, .noise = NAN };
+    list_keys(fit, start);
     if (w == NULL)
         return ss_fail_memory(err, NULL);
     *w = (fitting){ .x = signal->values + column * signal->n, .n = signal->n, .rate = signal->head->rate };

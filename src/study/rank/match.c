@@ -606,37 +606,84 @@ find_gain(const matching *w, const point *at, double step[UNKNOWNS])
     return ss_normal_gain(&e, step);
 }
 
-static void
+/* The term is found from its slope, which is the last. */
+static double
+find_held(matching *w, const point *at, double *slope, double *step_of_term)
+{
+    double step[UNKNOWNS], held = find_gain(w, at, step);
+    w->slope[w->n_moved++] = slope;
+    double gain = find_gain(w, at, step) - held;
+    *step_of_term = step[--w->n_moved];
+    return gain;
+}
+
+static double
 change_term(ss_scene *s, match_term term, double by)
 {
     if (term == MATCH_DAMPING)
-        s->damping += by * sqrt(s->stiffness * s->mass);
-    else
-        s->static_friction = fmax(s->static_friction, s->friction) + by * s->friction;
+        return s->damping += by * sqrt(s->stiffness * s->mass);
+    s->static_friction = fmax(s->static_friction, s->friction) + by * s->friction;
+    return s->static_friction / s->friction;
+}
+
+/* The gain by a term of the scene, w->c's, at a point with slopes. */
+static double
+gain_by_scene(matching *w, const point *at, match_term term, double *nearer)
+{
+    const ss_scene scene = w->c->scene;
+    double *slope = w->tried.motion, h = step_of(w, 0), step;
+    change_term(&w->c->scene, term, h);
+    int runs = run(w, at->p, slope, w->tried.clear);
+    w->c->scene = scene;
+    if (!runs)
+        return 0;
+    for (size_t i = 0; i < w->r->n; i++)
+        slope[i] = (slope[i] - w->here.motion[i]) / h;
+    double gain = find_held(w, at, slope, &step);
+    *nearer = change_term(&w->c->scene, term, step);
+    return gain;
+}
+
+/* What a lag of so many samples changes in the motion, which is straight between samples. */
+static void
+lag_behind(const matching *w, double samples, double *change)
+{
+    const double *x = w->here.motion, keep = exp(-1 / samples), part = samples * (1 - keep);
+    double y = x[0];
+    change[0] = 0;
+    for (size_t i = 1; i < w->r->n; i++) {
+        y = keep * y + (1 - part) * x[i] + (part - keep) * x[i - 1];
+        change[i] = y - x[i];
+    }
+}
+
+/* The gain by a lag of the sensor.  Longer lags leave more than noise. */
+static double
+gain_by_lag(matching *w, const point *at)
+{
+    double most = 0, unused;
+    for (double samples = 0.125; samples <= 8; samples *= 2) {
+        lag_behind(w, samples, w->tried.motion);
+        most = fmax(most, find_held(w, at, w->tried.motion, &unused));
+    }
+    return most;
 }
 
 ss_status
-ss_match_held(double *gain, ss_scene *nearer, match_term term, const candidate *c, const match *m,
+ss_match_held(double *gain, double *nearer, match_term term, const candidate *c, const match *m,
               const rank_record *record, const ss_stretch *progress)
 {
     candidate changed = *c;
     matching w = { .c = &changed, .r = record, .progress = progress, .wide = 1 };
     point at = { .left = INFINITY };
-    double *room = prepare(&w), step[UNKNOWNS], h = step_of(&w, 0), *slope = w.tried.motion;
+    double *room = prepare(&w);
     if (room == NULL)
         return SS_ENOMEM;
-    *gain = 0;
-    *nearer = c->scene;
-    int runs = resume(&w, &at, m) && find_slopes(&w, &at);
-    change_term(&changed.scene, term, h);
-    if (runs && run(&w, at.p, slope, w.tried.clear)) {
+    *gain = *nearer = 0;
+    if (resume(&w, &at, m) && find_slopes(&w, &at)) {
         compare(&w, &w.here, &at);
-        double held = find_gain(&w, &at, step);
-        for (size_t i = 0; i < record->n; i++)
-            slope[i] = (slope[i] - w.here.motion[i]) / h;
-        w.slope[w.n_moved++] = slope;
-        *gain = (find_gain(&w, &at, step) - held) / fmax(at.left, MATCH_QUIET * m->power);
-        change_term(nearer, term, step[w.n_moved - 1]);
+        *gain = term == MATCH_LAG ? gain_by_lag(&w, &at) : gain_by_scene(&w, &at, term, nearer);
+        *gain /= fmax(at.left, MATCH_QUIET * m->power);
     }
     free(room);
     return w.status;

@@ -57,11 +57,13 @@ ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, do
 ss_status ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
                          const ss_stretch *progress);
 
-/* The terms of the mass that a match holds as the scene has them: its damping, and f_s / f_k. */
-typedef enum match_term { MATCH_DAMPING, MATCH_STATIC, MATCH_TERMS } match_term;
+/* What a match holds: the damping of the mass and f_s / f_k, which are the scene's, and the lag of the
+ * sensor, which is none. */
+typedef enum match_term { MATCH_DAMPING, MATCH_STATIC, MATCH_LAG, MATCH_TERMS } match_term;
 /* By how many times the variance left, at least MATCH_QUIET of the power, a match would lessen the sum of
- * squares if it adjusted the term too, and the candidate's scene with the term so: by the slopes there. */
-ss_status ss_match_held(double *gain, ss_scene *nearer, match_term term, const candidate *c,
+ * squares if it adjusted the term too, and the damping [N s/m] or f_s / f_k that it would find: by the
+ * slopes there.  The lag is that of a sensor of first order, or its opposite; its size is not found. */
+ss_status ss_match_held(double *gain, double *nearer, match_term term, const candidate *c,
                         const match *m, const rank_record *record, const ss_stretch *progress);
 
 /* Do two matches have the same keys, within MATCH_DECISIVE of the errors of the first? */

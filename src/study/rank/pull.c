@@ -193,7 +193,7 @@ report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, 
     p->n_keys = fit->n_keys;
     for (size_t i = 0; i < fit->n_keys; i++) {
         ss_scene found = fit->scene, given = *start;
-        ss_pull_key *k = &p->key[i];
+        ss_fitted *k = &p->key[i];
         k->name = name_of(start, &fit->key[i]);
         k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
         k->found.value = *ss_scene_number(&found, k->name, NULL, NULL);
@@ -212,7 +212,7 @@ rings_on(const ss_scene *s)
 }
 
 /* The first key that the falls do not tell; NULL: none. */
-static const ss_pull_key *
+static const ss_fitted *
 vague_key(const ss_pull *p)
 {
     for (size_t i = 0; i < p->n_keys; i++)
@@ -224,7 +224,7 @@ vague_key(const ss_pull *p)
 static void
 judge_fit(ss_pull *p, const falls_fit *fit)
 {
-    const ss_pull_key *vague = vague_key(p);
+    const ss_fitted *vague = vague_key(p);
     if (!fit->slips)
         snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
                  "a fit");

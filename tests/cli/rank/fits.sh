@@ -32,3 +32,9 @@ for scene in compliant-light compliant-heavy; do
     awk '/contact_stiffness +[0-9.e-]+ %/ { error = $3 } $1 == "contact_stiffness" { off = 100 * ($3 / 209900 - 1) }
          END { print error == "" || off^2 < 9 * error^2 }' fitted
 done
+# a sensor of 300 Hz shows a contact of 47 Hz with other numbers, or none
+ss-sim -s rate=16000 -c t,a compliant-light | awk -v OFS='\t' '
+    /^# rate/ { print "# rate: 2000"; next }
+    /^#/ { print; next }
+    n++ % 8 == 0 { print $1, y + 0 }
+    { y += ($2 - y) * (1 - exp(-2 * 3.14159265 * 300 / 16000)) }' | ss-noise --snr 40 | ss-rank --fit || echo $?
