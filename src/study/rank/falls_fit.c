@@ -358,7 +358,8 @@ height_of(problem *f, size_t i, const double change[])
 }
 
 /* Start a fall where it begins, with f_s by the force there and the f_k that lets the scene fall as far as
- * the force does. */
+ * the force does.  A scene may slide on without falls if f_s is little more than f_k, and fall too far as
+ * soon as it has any: then the least fall that it has will do. */
 static void
 start_fall(problem *f, size_t i, const double change[])
 {
@@ -367,17 +368,23 @@ start_fall(problem *f, size_t i, const double change[])
     const fall *w = &f->r->fall[i];
     const double fallen = 2 * (w->top - w->middle), top = w->top - fabs(s.damping * s.surface_velocity)
                                                          * sign(s.surface_velocity * pull_of(&s));
-    double *local = f->start[i];
+    double *local = f->start[i], half = 0.5 * fallen, slides = 0, slips = INFINITY;
     local[ONSET] = w->onset;
-    local[HALF] = 0.5 * fallen;
     for (int pass = 0; pass < PASSES; pass++) {
-        local[MIDDLE] = top - local[HALF];
+        local[HALF] = half;
+        local[MIDDLE] = top - half;
         double height = height_of(f, i, change);
-        double ratio = isnan(height) ? 2 : fmax(fmin(fallen / height, 2), 0.5);
-        if (fabs(ratio - 1) < NEARLY)
+        if (fabs(fallen / height - 1) < NEARLY)
             return;
-        local[HALF] *= ratio;
+        if (isnan(height)) {
+            slides = half;
+            half = isinf(slips) ? 2 * half : sqrt(half * slips);
+        } else {
+            slips = half;
+            half = fmax(half * fmax(fmin(fallen / height, 2), 0.5), sqrt(slides * half));
+        }
     }
+    local[HALF] = isinf(slips) ? half : slips;
     local[MIDDLE] = top - local[HALF];
 }
 

@@ -34,7 +34,6 @@ enum { FITTED = 4 };            /* parameters of a slip */
 #define EXPLAINED 0.98          /* of the power of the falls: less is another motion */
 #define FIT_BUDGET 2e7          /* integration steps of a fit, and of one scene of a ranking */
 #define BUDGET 1e7
-#define RINGS 3                 /* e-folds of decay in a stick: a contact that rings on has less */
 
 static ss_status
 check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
@@ -201,14 +200,16 @@ report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, 
     }
 }
 
-/* The phase of what rings at a release depends on the frictions and the contact's frequency so much
- * that a fit may end far from the best. */
+/* Does the contact still ring, above the noise, when the next slip begins?  The phase of what rings at a
+ * release depends on the frictions and the contact's frequency so much that a fit may end far from the best,
+ * and the falls need not be settled, which a fit takes them for. */
 static int
-rings_on(const ss_scene *s)
+rings_on(const ss_scene *s, const falls *r)
 {
     double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
     double decay = (s->contact_damping + s->damping) / (2 * s->mass);
-    return ss_model_of(s)->has_contact && decay * stick < RINGS;
+    double noise = fmax(r->noise, MATCH_QUIET * r->power);
+    return ss_model_of(s)->has_contact && decay * stick < 0.5 * log(r->power / noise);
 }
 
 /* The first key that the falls do not tell; NULL: none. */
@@ -405,7 +406,7 @@ try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, dou
     t->match = match_of(r, &t->fit);
     t->explains = ss_match_explains(&t->match, r->noise);
     t->unfinished = steps > BUDGET && !t->explains;
-    t->rings = t->fit.slips && !t->explains && rings_on(&t->fit.scene);
+    t->rings = !t->explains && rings_on(t->fit.slips ? &t->fit.scene : scene, r);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));
     t->distance = NAN;

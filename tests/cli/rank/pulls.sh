@@ -75,3 +75,21 @@ ss-rank falling.tsv own.scene coulomb law.scene | sed -n '/^# does not fit/p; /^
 answer pull.tsv own.scene own.scene
 ss-rank pull.tsv stiff.scene own.scene | tail -n 2 | cut -f 1,2
 ss-rank -v pull.tsv own.scene 2>&1 > /dev/null | grep -c 'own.scene: total .* leaves .* power, [01][.0-9]* times the noise$'
+# with so much damping it slides on when f_s is a little less: its own scene is fitted all the same, from either side
+cat > hardly.scene <<'EOF'
+model = coulomb
+mass = 0.1178
+stiffness = 2898
+static_friction = 1.339e-3
+friction = 8.59e-4
+surface_velocity = -1.665e-5
+v0 = -1.665e-5
+settle = 0.1
+duration = 0.47
+rate = 2182
+EOF
+ss-sim -c t,s -s damping=3.3 hardly.scene | ss-noise --snr 20 > hardly.tsv
+for damping in 3.1 3.3 3.7; do
+    { cat hardly.scene; echo damping = $damping; } > own.scene
+    answer hardly.tsv own.scene hardly.scene
+done
