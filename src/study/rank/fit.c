@@ -31,8 +31,8 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 #define LOW 0.1                         /* of f_k / (k Z_e): below, sticks are too short to fit */
 #define SHORT 0.25                      /* periods of the contact */
 #define VAGUE 0.3                       /* a parameter of a larger standard error is not determined */
-#define HELD 16.                        /* a gain that refutes a term held: four standard errors, as what
-                                           hides a lag puts the other numbers farther off */
+#define HELD 9.                         /* a gain that refutes a term held: three standard errors, as a lag
+                                           puts the other numbers off by more than it can be seen itself */
 
 typedef struct fitting {
     const double *x;                    /* the column, of n samples */

@@ -8,12 +8,7 @@
  * scene has the medians.  Its stiffness is that given: the force shows only k U and k/m, so mass
  * and speed follow from it and can be compared with those given.  With damping, or with another
  * model, slips have no closed form, or none with so few unknowns.  The scene is then simulated and
- * fitted to some slips together (falls.c).
- *
- * In a ranking a scene represents all rigs within the spread of its parameters.  Each scene is
- * fitted to the same samples by simulation, whatever its model, so that their residuals can be
- * compared.  Of all masses, stiffnesses and speeds with the same motion, those with the least
- * change are chosen. */
+ * fitted to some slips together (falls.c). */
 #include "study/rank/pull.h"
 
 #include <math.h>
@@ -27,17 +22,15 @@
 #include "study/rank/match.h"
 #include "study/rank/record.h"
 
-enum { FEWEST = 5 };            /* slips whose median and scatter are given */
 enum { FITTED = 4 };            /* parameters of a slip */
 #define MOST 0.75               /* of the falls must be such slips */
 #define VAGUE 0.3               /* a number of a larger standard error is not determined */
 #define EXPLAINED 0.98          /* of the power of the falls: less is another motion */
-#define FIT_BUDGET 2e7          /* integration steps of a fit, and of one scene of a ranking */
-#define BUDGET 1e7
+#define BUDGET 2e7              /* integration steps */
 
-static ss_status
-check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
-      ss_error *err)
+ss_status
+ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
+              ss_error *err)
 {
     ss_status st = ss_column_check(signal, column, opts, err);
     if (st == SS_OK)
@@ -115,10 +108,9 @@ find_excess(ss_pull *p, const ss_signal *signal, size_t column)
     return st;
 }
 
-/* Why the falls cannot be read, or they are too few; 0: they can be. */
-static int
-lacks_falls(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
-            const ss_scene *scene)
+int
+ss_pull_lacks_falls(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
+                    const ss_scene *scene)
 {
     if (f->loading == NULL || f->n == 0)
         snprintf(why, room, "%s", f->why_slips != NULL ? f->why_slips
@@ -126,7 +118,7 @@ lacks_falls(char *why, size_t room, const ss_features *f, const ss_signal *signa
     else if (sum_of(signal, column) * pull_of(scene) < 0)
         snprintf(why, room, "the force has the opposite sign of %s",
                  scene->base_velocity != 0 ? "base_velocity" : "a belt's");
-    else if (f->n < FEWEST || isnan(f->slope.error))
+    else if (f->n < PULL_FEWEST || isnan(f->slope.error))
         snprintf(why, room, "%zu slips are too few for a median and its scatter", f->n);
     else
         return 0;
@@ -145,12 +137,12 @@ judge_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *
     p->static_friction = f->static_friction;
     p->friction = f->friction;
     if (f->loading == NULL || f->n == 0 || sum_of(signal, column) * pull_of(start) < 0)
-        lacks_falls(p->why, sizeof p->why, f, signal, column, start);
+        ss_pull_lacks_falls(p->why, sizeof p->why, f, signal, column, start);
     else if ((double)p->n_slips < MOST * (double)f->n) {
         snprintf(p->why, sizeof p->why, "%zu of %zu falls are no slips of a pulled Coulomb slider",
                  f->n - p->n_slips, f->n);
         p->verdict = SS_NONE_FITS;
-    } else if (p->n_slips < FEWEST || isnan(f->slope.error))
+    } else if (p->n_slips < PULL_FEWEST || isnan(f->slope.error))
         snprintf(p->why, sizeof p->why, "%zu slips are too few for a median and its scatter",
                  p->n_slips);
     else {
@@ -162,15 +154,15 @@ judge_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *
 
 /* --- any scene ----------------------------------------------------------------------------- */
 
-static match
-match_of(const falls *r, const falls_fit *fit)
+match
+ss_pull_match(const falls *r, const falls_fit *fit)
 {
     return (match){ .left = fit->slips ? fit->left : r->power, .white = r->noise, .power = r->power,
                     .compared = fit->slips ? fit->compared : 0 };
 }
 
-static const char *
-name_of(const ss_scene *scene, const falls_key *key)
+const char *
+ss_pull_key_name(const ss_scene *scene, const falls_key *key)
 {
     return ss_key_of_field(ss_model_of(scene), key->offset)->name;
 }
@@ -178,7 +170,7 @@ name_of(const ss_scene *scene, const falls_key *key)
 static void
 report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, const ss_signal *signal)
 {
-    const match m = match_of(r, fit);
+    const match m = ss_pull_match(r, fit);
     p->left = m.left / m.power;
     p->noise = r->noise / m.power;
     p->excess = ss_match_excess(&m, r->noise);
@@ -193,23 +185,11 @@ report(ss_pull *p, const falls *r, const falls_fit *fit, const ss_scene *start, 
     for (size_t i = 0; i < fit->n_keys; i++) {
         ss_scene found = fit->scene, given = *start;
         ss_fitted *k = &p->key[i];
-        k->name = name_of(start, &fit->key[i]);
+        k->name = ss_pull_key_name(start, &fit->key[i]);
         k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
         k->found.value = *ss_scene_number(&found, k->name, NULL, NULL);
         k->found.error = fit->key[i].error * fabs(k->found.value);
     }
-}
-
-/* Does the contact still ring, above the noise, when the next slip begins?  The phase of what rings at a
- * release depends on the frictions and the contact's frequency so much that a fit may end far from the best,
- * and the falls need not be settled, which a fit takes them for. */
-static int
-rings_on(const ss_scene *s, const falls *r)
-{
-    double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
-    double decay = (s->contact_damping + s->damping) / (2 * s->mass);
-    double noise = fmax(r->noise, MATCH_QUIET * r->power);
-    return ss_model_of(s)->has_contact && decay * stick < 0.5 * log(r->power / noise);
 }
 
 /* The first key that the falls do not tell; NULL: none. */
@@ -248,13 +228,13 @@ judge_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *
     falls_fit fit;
     falls r;
     double steps = 0;
-    if (lacks_falls(p->why, sizeof p->why, p->features, signal, column, start))
+    if (ss_pull_lacks_falls(p->why, sizeof p->why, p->features, signal, column, start))
         return SS_OK;
     ss_status st = ss_falls_gather(&r, p->features, signal, column, sign(pull_of(start)));
-    if (st == SS_OK && r.n < FEWEST)
+    if (st == SS_OK && r.n < PULL_FEWEST)
         snprintf(p->why, sizeof p->why, "%zu falls that are whole are too few", r.n);
     else if (st == SS_OK) {
-        st = ss_falls_fit(&fit, &r, start, INFINITY, FIT_BUDGET, &steps, &all);
+        st = ss_falls_fit(&fit, &r, start, INFINITY, BUDGET, &steps, &all);
         if (st == SS_OK && fit.slips)
             report(p, &r, &fit, start, signal);
         if (st == SS_OK)
@@ -272,7 +252,7 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
         return SS_FAIL_NULL(err);
     if (opts == NULL)
         opts = &ss_rank_defaults;
-    ss_status st = check(signal, column, start, opts, err);
+    ss_status st = ss_pull_check(signal, column, start, opts, err);
     if (st == SS_OK && ss_model_of(start)->has_contact)
         return ss_fail(err, SS_EINVAL, "an elastic contact is not fitted to a pull: many contacts explain "
                        "the same falls");
@@ -295,274 +275,6 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
         *out = p;
     else
         ss_pull_free(p);
-    return st;
-}
-
-/* --- a ranking ----------------------------------------------------------------------------- */
-
-/* A scene and its fit to the falls. */
-typedef struct trial {
-    falls_fit fit;
-    match match;
-    double distance, error;     /* rms change of its numbers, and the error of that */
-    double beyond;              /* the spread is the number `most_name`, in errors; it has changed by */
-    double most;                /* so much, as a logarithm, by the falls alone */
-    const char *most_name;
-    int explains, near;         /* the falls; is it within the spread? */
-    int unfinished;             /* it explains less than it may: its fit took too many steps, */
-    int rings;                  /* or its contact still rings when the next slip begins */
-} trial;
-
-enum { CHANGES = FALLS_KEYS + 3 };
-
-typedef struct change {
-    const char *name;
-    double by, error;           /* logarithms */
-    double data, data_error;    /* the same by the falls alone, without what the scene says of it */
-    int power;                  /* see falls_key */
-} change;
-
-static change
-change_of_key(const falls_key *k, const ss_scene *scene, double known)
-{
-    double precision = 1 / (k->error * k->error), data = precision - 1 / (known * known);
-    double by = data > 0 ? k->change * precision / data : 0, error = data > 0 ? 1 / sqrt(data) : INFINITY;
-    return (change){ name_of(scene, k), k->change, k->error, by, error, k->power };
-}
-
-static change
-change_of(const char *name, double found, double error, double given)
-{
-    double by = found > 0 && given > 0 ? log(found / given) : found == given ? 0 : INFINITY;
-    return (change){ name, by, error / found, by, error / found, 0 };
-}
-
-/* What the fit changes in the scene, which knows its keys to within `known`; how many numbers. */
-static size_t
-list_changes(change c[CHANGES], const falls_fit *fit, const ss_scene *scene, double known)
-{
-    const ss_median *f = &fit->friction, *top = &fit->static_friction;
-    size_t n = 0;
-    for (; n < fit->n_keys; n++)
-        c[n] = change_of_key(&fit->key[n], scene, known);
-    c[n++] = (change){ "stiffness", 0, 0, 0, 0, 1 };
-    c[n++] = change_of("friction", f->value, f->error, scene->friction);
-    c[n++] = change_of("static_friction", top->value, top->error, static_friction(scene));
-    return n;
-}
-
-/* Of all rigs that move as the fit does, each so many times stiffer, the one that changes least. */
-static void
-measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, double limit)
-{
-    change c[CHANGES];
-    double sum = 0, powers = 0, squares = 0, errors = 0;
-    size_t n = list_changes(c, &t->fit, scene, known);
-    for (size_t i = 0; i < n; i++) {
-        sum += c[i].power * c[i].by;
-        powers += c[i].power * c[i].power;
-    }
-    const double stiffer = -sum / powers;
-    for (size_t i = 0; i < n; i++) {
-        double by = c[i].by + c[i].power * stiffer, data = c[i].data + c[i].power * stiffer;
-        double beyond = (fabs(data) - limit) / fmax(c[i].data_error, 1e-9);
-        squares += by * by;
-        errors += c[i].error * c[i].error;
-        if (beyond > t->beyond) {
-            t->beyond = beyond;
-            t->most = data;
-            t->most_name = c[i].name;
-        }
-    }
-    t->distance = sqrt(squares / (double)n);
-    t->error = sqrt(errors / (double)n);
-    t->near = t->beyond <= sqrt(MATCH_DECISIVE);
-    row->adjusted = t->fit.scene;
-    row->adjusted.x0 = 0;
-    row->adjusted.stiffness *= exp(stiffer);
-    for (size_t i = 0; i < t->fit.n_keys; i++)
-        *ss_scene_number(&row->adjusted, c[i].name, NULL, NULL) *= exp(c[i].power * stiffer);
-}
-
-static void
-fill_row(ss_rank_row *row, const trial *t, double noise, double spread)
-{
-    for (size_t i = 0; i < SS_CRITERIA; i++)
-        row->value[i] = NAN;
-    row->explained = 1 - t->match.left / t->match.power;
-    row->excess = ss_match_excess(&t->match, noise);
-    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(t->match.left / t->match.power, 1e-12));
-    row->value[SS_BY_ADJUSTMENT] = t->distance;
-    row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? t->distance / log(1 + spread) : 0;
-}
-
-static ss_status
-try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, double spread,
-          const ss_stretch *progress, ss_error *err)
-{
-    const double known = fmax(log(1 + spread), 1e-6);
-    double steps = 0;
-    ss_status st = ss_falls_fit(&t->fit, r, scene, known, BUDGET, &steps, progress);
-    t->match = match_of(r, &t->fit);
-    t->explains = ss_match_explains(&t->match, r->noise);
-    t->unfinished = steps > BUDGET && !t->explains;
-    t->rings = !t->explains && rings_on(t->fit.slips ? &t->fit.scene : scene, r);
-    if (st != SS_OK)
-        return ss_fail(err, st, "%s", ss_strerror(st));
-    t->distance = NAN;
-    row->adjusted = *scene;
-    if (t->fit.slips)
-        measure_change(t, row, scene, known, log((1 + spread) / (1 - spread)));
-    fill_row(row, t, r->noise, spread);
-    return SS_OK;
-}
-
-static int
-is_same_law(const trial *a, const trial *b)
-{
-    return a->fit.scene.model == b->fit.scene.model && a->fit.n_keys == b->fit.n_keys;
-}
-
-/* Is what a leaves no more than what b does, to within its error? */
-static int
-leaves_as_little(const trial *a, const trial *b, double noise)
-{
-    return (double)a->match.compared * (ss_match_excess(&a->match, noise) - ss_match_excess(&b->match, noise))
-        < MATCH_DECISIVE;
-}
-
-/* Say why none of the scenes that explain the falls is named, or that none does. */
-static void
-refuse(ss_ranking *r, const trial *t, double noise)
-{
-    const trial *best = &t[0];
-    r->verdict = SS_NONE_FITS;
-    for (size_t i = 1; i < r->n; i++)
-        best = t[i].explains > best->explains || (t[i].explains == best->explains
-                                                  && t[i].match.left < best->match.left) ? &t[i] : best;
-    if (!best->fit.slips)
-        snprintf(r->why, sizeof r->why, "none of the scenes sticks and slips");
-    else if (!best->explains)
-        snprintf(r->why, sizeof r->why, "within the spread each scene leaves at least %.3g %% of the power of "
-                 "the falls, %.3g times the noise", 100 * best->match.left / best->match.power,
-                 ss_match_excess(&best->match, noise));
-    else
-        snprintf(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need %.3g "
-                 "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
-}
-
-/* Is it not known whether a scene explains the falls?  Then it may be that none of the others is to be
- * named. */
-static int
-leaves_open(ss_ranking *r, const trial *t)
-{
-    for (size_t i = 0; i < r->n; i++) {
-        const char *model = ss_model_name(r->row[i].adjusted.model);
-        if (t[i].rings)
-            snprintf(r->why, sizeof r->why, "the contact of a scene with %s friction rings from slip to slip, "
-                     "and has many fits: whether it explains the falls is not known", model);
-        else if (t[i].unfinished)
-            snprintf(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
-                     "integration steps to be adjusted", model, BUDGET);
-        if (t[i].rings || t[i].unfinished)
-            return 1;
-    }
-    return 0;
-}
-
-/* The scene that is named; r->n: none, and why. */
-static size_t
-name_scene(ss_ranking *r, const trial *t, double noise)
-{
-    size_t least = r->n, nearest;
-    if (leaves_open(r, t))
-        return r->n;
-    for (size_t i = 0; i < r->n; i++)
-        if (t[i].explains && t[i].near && (least == r->n || t[i].match.left < t[least].match.left))
-            least = i;
-    if (least == r->n) {
-        refuse(r, t, noise);
-        return r->n;
-    }
-    nearest = least;
-    for (size_t i = 0; i < r->n; i++)
-        if (t[i].explains && t[i].near && leaves_as_little(&t[i], &t[least], noise)) {
-            if (!is_same_law(&t[i], &t[least])) {
-                snprintf(r->why, sizeof r->why, "%s and %s friction%s explain the falls equally well",
-                         ss_model_name(t[least].fit.scene.model), ss_model_name(t[i].fit.scene.model),
-                         t[i].fit.scene.damping > 0 ? ", with damping," : "");
-                return r->n;
-            }
-            nearest = t[i].distance < t[nearest].distance ? i : nearest;
-        }
-    for (size_t i = 0; i < r->n; i++)
-        if (i != nearest && t[i].explains && t[i].near && leaves_as_little(&t[i], &t[least], noise)
-            && t[i].distance - t[nearest].distance < sqrt(MATCH_DECISIVE) * t[nearest].error) {
-            snprintf(r->why, sizeof r->why, "two scenes are equally near to the slips, within their errors");
-            return r->n;
-        }
-    r->verdict = SS_NAMED;
-    return nearest;
-}
-
-static ss_status
-check_scenes(const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
-             const ss_rank_opts *opts, ss_error *err)
-{
-    for (size_t i = 0; i < n; i++) {
-        ss_status st = check(signal, column, &scene[i], opts, err);
-        if (st != SS_OK)
-            return st;
-        if (pull_of(&scene[i]) * pull_of(&scene[0]) < 0)
-            return ss_fail(err, SS_EINVAL, "scenes that are pulled to either side are not compared");
-    }
-    return SS_OK;
-}
-
-static ss_status
-compare_all(ss_ranking *r, size_t *named, const falls *f, const ss_scene *scene, const ss_rank_opts *opts,
-            ss_error *err)
-{
-    trial *t = calloc(r->n, sizeof *t);
-    double least = INFINITY;
-    ss_status st = t != NULL ? SS_OK : ss_fail_memory(err, NULL);
-    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
-        const ss_stretch part = { opts->progress, (double)i / (double)r->n, (double)(i + 1) / (double)r->n };
-        st = try_scene(&t[i], &r->row[i], f, &scene[i], opts->spread, &part, err);
-        least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
-    }
-    for (size_t i = 0; st == SS_OK && i < r->n; i++)
-        r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
-    if (st == SS_OK)
-        *named = name_scene(r, t, f->noise);
-    free(t);
-    return st;
-}
-
-ss_status
-ss_pull_compare(ss_ranking *r, size_t *named, const ss_signal *signal, size_t column,
-                const ss_scene *scene, const ss_rank_opts *opts, ss_error *err)
-{
-    ss_features *features = NULL;
-    falls f = { .y = NULL };
-    *named = r->n;
-    ss_status st = check_scenes(signal, column, scene, r->n, opts, err);
-    if (st == SS_OK)
-        st = ss_features_find(&features, signal, column, NULL, err);
-    if (st != SS_OK)
-        return st;
-    if (!lacks_falls(r->why, sizeof r->why, features, signal, column, &scene[0])) {
-        st = ss_falls_gather(&f, features, signal, column, sign(pull_of(&scene[0])));
-        r->noise = f.noise / f.power;
-        if (st != SS_OK)
-            ss_fail(err, st, "%s", ss_strerror(st));
-        else if (f.n < FEWEST)
-            snprintf(r->why, sizeof r->why, "%zu falls that are whole are too few", f.n);
-        else
-            st = compare_all(r, named, &f, scene, opts, err);
-    }
-    ss_falls_free(&f);
-    ss_features_free(features);
     return st;
 }
 
