@@ -11,7 +11,7 @@ typedef struct kaiser_band {
     double reach, center, second;
 } kaiser_band;
 
-enum { KAISER_TAPS_MAX = 24, KAISER_PARTS = 32, KAISER_NODES = 7 };
+enum { KAISER_TAPS_MAX = 16, KAISER_PARTS = 32, KAISER_NODES = 7 };
 
 typedef struct kaiser {
     int taps;                   /* even */

@@ -1,6 +1,6 @@
 /* places.c -- compute coefficients at any translations from the points of an oversampled series.
  *
- * Between points the series is a sum of PLACES_TAPS points with the weights of a kernel
+ * Between points the series is a sum of KAISER_TAPS_MAX points with the weights of a kernel
  * (kaiser.c), which are polynomials of the place.  This sum is then multiplied by the carrier.  A
  * place is kept as a whole number of points and a rest, so that the phase of the carrier is right
  * to the last bit. */
@@ -26,7 +26,7 @@ void
 ss_places_kernel(kaiser *out, double reach, double center, double second, double bound)
 {
     kaiser_band band = { .edge = 0.4, .reach = reach, .center = center, .second = second };
-    while (!ss_kaiser_choose(out, &band, bound) || out->taps > PLACES_TAPS)
+    while (!ss_kaiser_choose(out, &band, bound))
         band.edge *= 0.95;
 }
 

@@ -6,9 +6,8 @@
 #include "morlet/plan.h"
 
 enum {
-    PLACES_TAPS = 16,           /* of a kernel, at most */
-    PLACES_MARGIN = PLACES_TAPS /* points before point 0, and after the last that is asked for, which
-                                   are read, too */
+    PLACES_MARGIN = KAISER_TAPS_MAX     /* points before point 0, and after the last that is asked for,
+                                           which are read, too */
 };
 
 /* Point p of a series, which its carrier turns by so many turns a point, is sample start + samples p;
@@ -18,7 +17,7 @@ typedef struct point_series {
     double start, samples, turns;
 } point_series;
 
-/* *out is the kernel of PLACES_TAPS for the widest band, in cycles a point; to be prepared. */
+/* *out is the kernel of KAISER_TAPS_MAX taps for the widest band, in cycles a point; to be prepared. */
 void ss_places_kernel(kaiser *out, double reach, double center, double second, double bound);
 
 /* A part of a scale, times factor; its translations are not fractions of samples (ss_scale_parts). */
