@@ -28,7 +28,6 @@ run_by(const ss_scene *scene, const char *method)
     return r;
 }
 
-
 /* --- a slider pulled at constant speed ----------------------------------------------------- */
 
 static ss_scene

@@ -191,7 +191,6 @@ keeps_the_accuracy_on_shipped_scenes(void **state)
     }
 }
 
-/* 64-bit linear congruence (Knuth); uniform in [0, 1). */
 static double
 about(uint64_t *seed, double x)         /* log-uniform within a factor of 3 */
 {

@@ -6,7 +6,6 @@
  * limit.  Shooting may replace the last part of the approach. */
 #include "study/sweep/finder.h"
 
-
 static void
 record_section(finder *f)
 {
