@@ -1,10 +1,10 @@
 #!/bin/sh
 # coverage.sh: which lines of src/ the tests in $BUILD ran, file by file and in all; at least 95 %.
 #
-# Of the rest most are in morlet/fft/fft.c and kaiser.c, whose inner loops are compiled for several
-# processors (VERSIONS) and counted once for each, while one machine runs one of them.  Others are
-# failures of GSL, FFTW and HDF5 on memory of their own, which nothing here can bring about, words for
-# statuses that always come with a text, and guards against sizes beyond what a machine has.
+# Of the rest most are inner loops that are compiled for several processors (base/versions.h) and counted
+# once for each, while one machine runs one of them.  Others are failures of GSL, FFTW and HDF5 on memory
+# of their own, which nothing here can bring about, words for statuses that always come with a text, and
+# guards against sizes beyond what a machine has.
 set -eu
 cd "$(dirname "$0")/.."
 BUILD=$(cd "$BUILD" && pwd)

@@ -24,7 +24,8 @@
  *
  * The errors are, in units of a^1/2 max|x|, of which every accuracy allows 16 eps:
  *   - the cut of the series at |v| > CUT: at most 2.4 exp(-CUT^2/2) (1 + log(1 + L/(2 CUT a))), a in
- *     samples (fft/plan.c), below 3 eps for L/a = 1000, for a step in the signal at the worst phase;
+ *     samples, from the size of the kernel's error near b and its decay, 1/|u|, away from it; below
+ *     3 eps for L/a = 1000, for a step in the signal at the worst phase;
  *   - images, between points: twice IMAGES in place of the exponential, below 5 eps for L/a = 1000;
  *   - wavelets that reach around the circle: tail(REACH) of quadrature.c, below 1e-16;
  *   - the filter: below w = BAND/2, 1 - F is at most erfc(FILTER_CUT/sqrt 2)/2 = 5e-17, and so is
