@@ -19,8 +19,9 @@ static size_t
 window_of(const struct blocks *b, size_t i, size_t k)
 {
     const block_scale *r = &b->scale[i];
-    double sample = r->kind == BETWEEN ? ss_scale_spot(&b->grid[i], k, b->rate).c : 0;
-    return 1 + (r->kind == BETWEEN ? (size_t)(sample / start_of(b, r, 2)) : k / r->hop);
+    if (r->kind != BETWEEN)
+        return 1 + k / r->hop;
+    return 1 + (size_t)(ss_scale_spot(&b->grid[i], k, b->rate).c / start_of(b, r, 2));
 }
 
 size_t
