@@ -412,6 +412,43 @@ what_is_no_slip_has_no_friction(void **state)
     }
 }
 
+/* The force of 20 cycles, D = 1 about 3: loaded at 5 a second, then a slip by the closed form of slip.c, whose w is
+ * 60 (1 + way) and 60 (1 - way) in turns. */
+static ss_signal *
+slips_of_two_rigs(double way)
+{
+    enum { CYCLES = 20 };
+    const double loading = 5, stick = 2 / loading;
+    double begun = 0;
+    ss_signal *signal = new_signal((size_t)(CYCLES * .46 * RATE), RATE, 0, "s", "N");
+    for (size_t i = 0, cycle = 0; i < signal->n; i++) {
+        double w = 60 * (1 + (cycle % 2 ? way : -way)), length = 2 * (M_PI - atan(w / loading)) / w;
+        double u = (double)i / RATE - begun - stick;
+        signal->values[i] = 3 + (u < 0 ? 1 + loading * u : cos(w * u) + loading / w * sin(w * u));
+        if (u + 1. / RATE >= length) {
+            begun += stick + length;
+            cycle++;
+        }
+    }
+    ss_noise_add_once(signal->values, signal->n, .005, 1);
+    return signal;
+}
+
+static void
+slips_that_disagree_on_the_rig_leave_it_open(void **state)
+{
+    (void)state;
+    for (int apart = 0; apart < 2; apart++) {
+        ss_signal *signal = slips_of_two_rigs(apart ? .2 : 0);
+        ss_features *f = features_of(signal);
+        double off = fabs(f->k_over_m.value / (60 * 60) - 1), error = f->k_over_m.error / (60 * 60);
+        if (!(f->n >= 18 && off <= 3 * error && (apart ? error >= .3 : error <= .01)))
+            fail_msg("%zu slips, k/m off by %g, error %g", f->n, off, error);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
 /* A force that falls as it rises has no slips: a sine, a triangle and a random telegraph, of one sign. */
 static void
 what_falls_as_it_rises_does_not_slip(void **state)
@@ -777,6 +814,7 @@ main(void)
         cmocka_unit_test(a_pull_without_its_mean_does_not_reverse),
         cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
         cmocka_unit_test(what_is_no_slip_has_no_friction),
+        cmocka_unit_test(slips_that_disagree_on_the_rig_leave_it_open),
         cmocka_unit_test(what_falls_as_it_rises_does_not_slip),
         cmocka_unit_test(fits_of_pulls_cover),
     };

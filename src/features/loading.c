@@ -27,6 +27,7 @@
 
 #define NEAR 3.0                /* standard deviations about the line */
 #define AWAY 4                  /* samples in a row beyond that end it */
+#define DEVIATION_SD 1.17       /* relative, of a median deviation, x the root of the number of values */
 #define SHORT 0.2               /* of the time, for falls: all else may be stick */
 
 typedef struct line {
@@ -237,6 +238,22 @@ median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
     return ss_median_of(v, out->n, scratch);
 }
 
+/* k/m is a property of the rig.  Slips that disagree on it by more than their errors, not by chance at
+ * three standard deviations, are not quite those of the model, whose misfit may shift them all alike. */
+static void
+add_misfit(ss_median *k_over_m, const ss_loading *loading, size_t n, double *scratch)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(loading[i].k_over_m.value) && isfinite(loading[i].k_over_m.error))
+            scratch[used++] = loading[i].k_over_m.error;
+    if (used < 2)
+        return;
+    double error = gsl_stats_median(scratch, 1, used), scatter = k_over_m->scatter;
+    if (scatter > error * (1 + 3 * DEVIATION_SD / sqrt((double)used)))
+        k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
+}
+
 /* Where fewer than half of the falls are slips of a pulled slider, these are not typical of the others;
  * and if falls take long, too, it may be sliding that is behind and before them. */
 static void
@@ -265,6 +282,8 @@ summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
     };
     for (size_t i = 0; is_typical && i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, v, scratch);
+    if (is_typical)
+        add_misfit(&out->k_over_m, out->loading, out->n, scratch);
 }
 
 /* Sticks that end before the slip do so in all cycles, so that the median is uncertain by as much. */
