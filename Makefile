@@ -88,7 +88,8 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
-TOOL_OBJ := $(patsubst %,$(BUILD)/tools/%.o,common files input options output reading)
+TOOL_PARTS := common files input options output reading
+TOOL_OBJ := $(TOOL_PARTS:%=$(BUILD)/tools/%.o)
 
 STATIC  := $(BUILD)/libstickslip.a
 ifeq ($(shell uname),Darwin)
@@ -238,7 +239,7 @@ THIS_MAKE = $(MAKE)
 run-tests: all $(TESTS:%=$(BUILD)/tests/%) $(REPLAYS:%=$(BUILD)/tests/%)
 	@CC=$(call quote,$(CC)) CCLD=$(call quote,$(CC) $(SANFLAGS) $(CFLAGS) $(LDFLAGS)) \
 		MAKE=$(call quote,$(THIS_MAKE)) BUILD=$(call quote,$(BUILD)) SAN=$(SAN) LONG=$(LONG) \
-		ONLY=$(call quote,$(ONLY)) \
+		ONLY=$(call quote,$(ONLY)) TOOL_PARTS='$(TOOL_PARTS)' \
 		LIBS=$(call quote,$(LIBS)) INCLUDES=$(call quote,$(INCLUDES)) sh tests/run.sh $(TESTS)
 
 draw-paper: all $(BUILD)/bin/paper-table

@@ -4,8 +4,9 @@
 # Tests are the CMocka programs named, from $BUILD/tests, and the scripts below tests/cli and
 # tests/build, with LONG=1 also tests/long.  A script is run by sh -eu in an empty
 # directory, with the tools in PATH and $SRC, $BUILD, $CC, $CCLD (compiler with flags for linking),
-# $LIBS, $INCLUDES, $MAKE and $SAN set.  It must give what NAME.out, NAME.err and NAME.exit beside it
-# hold (nothing, nothing and 0 if they are absent).  Exit 77 skips it, its first line saying why.
+# $LIBS, $INCLUDES, $TOOL_PARTS (objects that tools share), $MAKE and $SAN set.  It must give what
+# NAME.out, NAME.err and NAME.exit beside it hold (nothing, nothing and 0 if they are absent).  Exit 77
+# skips it, its first line saying why.
 # ONLY='test_store cli/features/rows' runs these alone.
 set -u
 SRC=$(cd "$(dirname "$0")/.." && pwd)
@@ -95,7 +96,7 @@ LC_ALL=C
 ASAN_OPTIONS=detect_stack_use_after_return=1
 [ "$(uname)" = Darwin ] || ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=1
 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-export SRC WORK BUILD PATH HOME LC_ALL ASAN_OPTIONS UBSAN_OPTIONS LIMIT CC CCLD LIBS INCLUDES MAKE SAN
+export SRC WORK BUILD PATH HOME LC_ALL ASAN_OPTIONS UBSAN_OPTIONS LIMIT CC CCLD LIBS INCLUDES TOOL_PARTS MAKE SAN
 unset CDPATH GNUTERM DISPLAY
 
 cd "$SRC" || exit 1

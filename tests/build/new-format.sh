@@ -77,9 +77,11 @@ for file in "$SRC"/src/stream/*.c src/stream/fish.c; do
     # shellcheck disable=SC2086  # flags are a list
     $CC -std=c11 -D_XOPEN_SOURCE=700 -Isrc -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$file"
 done
+# shellcheck disable=SC2086  # a list
+parts=$(printf "$BUILD/tools/%s.o " $TOOL_PARTS)
 for tool in cat features morlet plot noise rank trade sim signal sweep; do
     # shellcheck disable=SC2086
-    $CCLD -o "bin/ss-$tool" "$BUILD/tools/ss-$tool.o" "$BUILD/tools/common.o" "$BUILD/tools/files.o" "$BUILD/tools/options.o" "$BUILD/tools/output.o" "$BUILD/tools/reading.o" ./*.o "$BUILD/libstickslip.a" $LIBS
+    $CCLD -o "bin/ss-$tool" "$BUILD/tools/ss-$tool.o" $parts ./*.o "$BUILD/libstickslip.a" $LIBS
 done
 PATH=$PWD/bin:$PATH
 

@@ -14,9 +14,11 @@ done
 $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" $INCLUDES -c steady.c meter.c \
     "$SRC/src/study/sweep/sweep.c" "$SRC/tools/ss-sweep.c"
 $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" -c -o rows.o "$SRC/src/stream/sweep.c"
+# shellcheck disable=SC2086  # a list
+parts=$(printf "$BUILD/tools/%s.o " $TOOL_PARTS)
 # what is linked first takes the place of the library's own
 # shellcheck disable=SC2086
-$CCLD -o ss-sweep ./*.o "$BUILD/tools/common.o" "$BUILD/tools/files.o" "$BUILD/tools/options.o" "$BUILD/tools/output.o" "$BUILD/tools/reading.o" "$BUILD/libstickslip.a" $LIBS
+$CCLD -o ss-sweep ./*.o $parts "$BUILD/libstickslip.a" $LIBS
 ./ss-sweep --vary friction=0.5:1:2 --measure stick,slip coulomb | awk -F '\t' '!/^#/ { print ($3 > 0), $3 + $4 }'
 ./ss-sweep --vary friction=0.5:1:2 --measure slip coulomb | grep '^# columns'
 ./ss-sweep --vary friction=0.5:1:2 --measure slip state-variable || echo "exit $?"

@@ -7,14 +7,14 @@ ss-plot -c a --from 1 --to 2 run.tsv > a.gp
 mkdir squeal
 for f in 1200 2345; do
     ss-signal sine --frequency $f --rate 25600 --duration 1 | ss-noise --snr 20 |
-        awk '/^#/ { next } !n++ { print "t_s,accel (g)" } { print $1 "," $2 }' > squeal/$f.csv
+        awk '/^#/ { next } !n++ { print "t_s,a (g)" } { print $1 "," $2 }' > squeal/$f.csv
 done
 cd squeal
 for f in *.csv; do
-    ss-plot --spectrum --resolution 10 --format tsv -c accel $f |
+    ss-plot --spectrum --resolution 10 --format tsv -c a $f |
         awk -v file=$f '!/^#/ && $1 > 900 && $2 > most { most = $2; f = $1 }
             END { print file, f, most }'
-    ss-contour -c accel --fmin 900 --ridge $f -o ${f%.csv}.png
+    ss-contour -c a --fmin 900 --ridge $f -o ${f%.csv}.png
 done | awk '{ printf "%s %g %.4f\n", $1, $2, $3 }'
 ls; cd ..
 ss-sweep --shoot --vary mass=1:9:41 \

@@ -25,7 +25,7 @@ chmod +x bin/*
 PATH=$PWD/bin:$PATH
 
 # The recordings that they name.
-ss-sim --columns t,x,a,f compliant-light --set duration=6 --set settle=0 |
+ss-sim --columns t,x,a,f compliant-light --set duration=6 --set settle=0 --set rate=4000 |
     awk 'BEGIN { print "t,x,a,f,force" } !/^#/ { gsub("\t", ","); print $0 "," $0 }' |
     awk -F, '{ print $1 "," $2 "," $3 "," $4 "," (NR == 1 ? $5 : $4) }' > recording
 awk 'BEGIN { print "t,x"; for (i = 0; i < 500; i++) if (i < 100 || i > 160)
