@@ -206,12 +206,23 @@ read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const
                          s->largest);
 }
 
+/* The median of the errors that are known, of *known values; 0 if there is none. */
+static double
+median_error(size_t *known, const ss_value *v, size_t n, double *scratch)
+{
+    *known = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(v[i].value) && isfinite(v[i].error))
+            scratch[(*known)++] = v[i].error;
+    return *known > 0 ? gsl_stats_median(scratch, 1, *known) : 0;
+}
+
 /* Errors that are larger than the scatter are not by chance: all have that part in common, and it
  * does not become less with their number. */
 ss_median
 ss_median_of(const ss_value *v, size_t n, double *scratch)
 {
-    size_t used = 0, known = 0;
+    size_t used = 0, known;
     for (size_t i = 0; i < n; i++)
         if (isfinite(v[i].value))
             scratch[used++] = v[i].value;
@@ -221,10 +232,7 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
     for (size_t i = 0; i < used; i++)
         scratch[i] = fabs(scratch[i] - median);
     double scatter = gsl_stats_median(scratch, 1, used) / GAUSS_MEDIAN;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(v[i].value) && isfinite(v[i].error))
-            scratch[known++] = v[i].error;
-    double error = known > 0 ? gsl_stats_median(scratch, 1, known) : 0;
+    double error = median_error(&known, v, n, scratch);
     double common = sqrt(fmax(0, error * error - scatter * scatter));
     return (ss_median){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter };
 }
@@ -241,16 +249,11 @@ median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
 /* k/m is a property of the rig.  Slips that disagree on it by more than their errors, not by chance at
  * three standard deviations, are not quite those of the model, whose misfit may shift them all alike. */
 static void
-add_misfit(ss_median *k_over_m, const ss_loading *loading, size_t n, double *scratch)
+add_misfit(ss_median *k_over_m, const ss_value *v, size_t n, double *scratch)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(loading[i].k_over_m.value) && isfinite(loading[i].k_over_m.error))
-            scratch[used++] = loading[i].k_over_m.error;
-    if (used < 2)
-        return;
-    double error = gsl_stats_median(scratch, 1, used), scatter = k_over_m->scatter;
-    if (scatter > error * (1 + 3 * DEVIATION_SD / sqrt((double)used)))
+    size_t known;
+    double error = median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
+    if (known > 1 && scatter > error * (1 + 3 * DEVIATION_SD / sqrt((double)known)))
         k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
 }
 
@@ -278,12 +281,13 @@ summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
         { &out->stick, offsetof(ss_loading, stick) },
         { &out->static_friction, offsetof(ss_loading, static_friction) },
         { &out->friction, offsetof(ss_loading, friction) },
-        { &out->k_over_m, offsetof(ss_loading, k_over_m) },
     };
     for (size_t i = 0; is_typical && i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, v, scratch);
-    if (is_typical)
-        add_misfit(&out->k_over_m, out->loading, out->n, scratch);
+    if (is_typical) {
+        out->k_over_m = median_over(out, offsetof(ss_loading, k_over_m), v, scratch);
+        add_misfit(&out->k_over_m, v, out->n, scratch);
+    }
 }
 
 /* Sticks that end before the slip do so in all cycles, so that the median is uncertain by as much. */
