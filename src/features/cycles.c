@@ -83,22 +83,36 @@ typedef struct sums {
     double p, q, pp, qq, pq;
 } sums;
 
-static sums
+/* In lanes, which do not wait for each other. */
+enum { LANES = 8 };
+
+VERSIONS static sums
 sums_of(const double *p, const double *q, size_t m)
 {
     sums s = { 0, 0, 0, 0, 0 };
-    for (size_t k = 0; k < m; k++) {
+    double lane[5][LANES] = { { 0 } };
+    size_t k = 0;
+    for (; k + LANES <= m; k += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            double a = p[k + l], b = q[k + l];
+            lane[0][l] += a, lane[1][l] += b;
+            lane[2][l] += a * a, lane[3][l] += b * b, lane[4][l] += a * b;
+        }
+    for (size_t l = 0; l < LANES; l++) {
+        s.p += lane[0][l], s.q += lane[1][l];
+        s.pp += lane[2][l], s.qq += lane[3][l], s.pq += lane[4][l];
+    }
+    for (; k < m; k++) {
         s.p += p[k], s.q += q[k];
         s.pp += p[k] * p[k], s.qq += q[k] * q[k], s.pq += p[k] * q[k];
     }
     return s;
 }
 
-/* Their sum of products alone.  In lanes, which do not wait for each other. */
+/* Their sum of products alone. */
 VERSIONS static double
 product(const double *p, const double *q, size_t m)
 {
-    enum { LANES = 16 };
     double lane[LANES] = { 0 }, sum = 0;
     size_t k = 0;
     for (; k + LANES <= m; k += LANES)
