@@ -19,6 +19,7 @@
 #include "scene/model.h"
 #include "signal/gaps.h"
 #include "study/rank/candidate.h"
+#include "study/rank/held.h"
 #include "study/rank/match.h"
 #include "study/rank/samples.h"
 
@@ -31,7 +32,7 @@ enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
 #define LOW 0.1                         /* of f_k / (k Z_e): below, sticks are too short to fit */
 #define SHORT 0.25                      /* periods of the contact */
 #define VAGUE 0.3                       /* a parameter of a larger standard error is not determined */
-#define HELD 9.                         /* a gain that refutes a term held: three standard errors, as a lag
+#define REFUTED 9.                      /* a gain that refutes a term held: three standard errors, as a lag
                                            puts the other numbers off by more than it can be seen itself */
 
 typedef struct fitting {
@@ -247,25 +248,25 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
 static ss_status
 judge_held(ss_fit *fit, const fitting *w)
 {
-    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
-    double most = HELD, gain, nearer;
-    ss_status st = SS_OK;
-    for (match_term term = 0; st == SS_OK && term < MATCH_TERMS; term++) {
-        st = ss_match_held(&gain, &nearer, term, &w->c, &w->best, &w->record, &silent);
-        if (st != SS_OK || !(gain > most))
-            continue;
-        most = gain;
-        if (term == MATCH_DAMPING)
-            snprintf(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
-                     nearer);
-        else if (term == MATCH_STATIC)
-            snprintf(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
-                     "be %.4g times friction", nearer);
-        else
-            snprintf(fit->why, sizeof fit->why, "the sensor seems to lag behind the motion: its bandwidth is "
-                     "too low to tell the contact");
-    }
-    return st;
+    held of[HELD_TERMS];
+    held_term most = 0;
+    ss_status st = ss_held_ask(of, &w->c, &w->best, &w->record);
+    if (st != SS_OK)
+        return st;
+    for (held_term term = 1; term < HELD_TERMS; term++)
+        most = of[term].gain > of[most].gain ? term : most;
+    if (!(of[most].gain > REFUTED))
+        return SS_OK;
+    if (most == HELD_DAMPING)
+        snprintf(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
+                 of[most].nearer);
+    else if (most == HELD_STATIC)
+        snprintf(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
+                 "be %.4g times friction", of[most].nearer);
+    else
+        snprintf(fit->why, sizeof fit->why, "the sensor seems to lag behind the motion: its bandwidth is "
+                 "too low to tell the contact");
+    return SS_OK;
 }
 
 static ss_status

@@ -57,15 +57,6 @@ ss_status ss_match_find(match *m, candidate *c, const candidate_start *start, do
 ss_status ss_match_other(match *m, candidate *c, const match *from, const rank_record *record,
                          const ss_stretch *progress);
 
-/* What a match holds: the damping of the mass and f_s / f_k, which are the scene's, and the lag of the
- * sensor, which is none. */
-typedef enum match_term { MATCH_DAMPING, MATCH_STATIC, MATCH_LAG, MATCH_TERMS } match_term;
-/* By how many times the variance left, at least MATCH_QUIET of the power, a match would lessen the sum of
- * squares if it adjusted the term too, and the damping [N s/m] or f_s / f_k that it would find: by the
- * slopes there.  The lag is that of a sensor of first order, or its opposite; its size is not found. */
-ss_status ss_match_held(double *gain, double *nearer, match_term term, const candidate *c,
-                        const match *m, const rank_record *record, const ss_stretch *progress);
-
 /* Do two matches have the same keys, within MATCH_DECISIVE of the errors of the first? */
 int ss_match_same(const match *a, const match *b);
 /* The residual of a match over noise of this variance, or of less if the residual is not white. */
