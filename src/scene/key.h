@@ -23,6 +23,13 @@ typedef struct scene_key {
     const char *(*word)(int i);
 } scene_key;
 
+/* The number of a scene at an offset. */
+static inline double *
+number_at(ss_scene *scene, size_t offset)
+{
+    return (double *)(void *)((char *)scene + offset);
+}
+
 #define KEY_NUMBER(field, required, range, unit) \
     { #field, required, range, offsetof(ss_scene, field), unit, 0, NULL }
 #define KEY_STATIC_FRICTION KEY_NUMBER(static_friction, TERM, NOT_NEGATIVE, "N")
@@ -45,6 +52,11 @@ const scene_key *ss_key_at(const struct model *model, size_t i);
 /* The key of this name, or of this field, that the model has; NULL if none. */
 const scene_key *ss_key_named(const struct model *model, const char *name);
 const scene_key *ss_key_of_field(const struct model *model, size_t offset);
+/* The key of this name that some model has; NULL if none. */
+const scene_key *ss_key_of_any(const char *name);
+/* What is wrong with a name that no model has, with the key that is probably meant; returns text. */
+enum { KEY_UNKNOWN_ROOM = 160 };
+const char *ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name);
 int ss_key_is_named(const ss_scene *scene, const scene_key *k);    /* has it this TERM? */
 /* The first TERM that a scene has; NULL if none. */
 const char *ss_scene_term(const ss_scene *scene);

@@ -1,4 +1,7 @@
-/* keys.c -- the keys that scenes of every model have; those of the model stand between them. */
+/* keys.c -- the keys that scenes of every model have, those of the model between them, and how a name is
+ * found among the keys. */
+#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 #include "scene/model.h"
 
@@ -89,4 +92,69 @@ ss_key_is_of_record(const char *name)
         if (strcmp(name, of_record[i].name) == 0)
             return 1;
     return 0;
+}
+
+/* --- a name among the keys of all models ----------------------------------------------------- */
+
+const scene_key *
+ss_key_of_any(const char *name)
+{
+    const scene_key *k = NULL;
+    const struct model *model;
+    for (size_t i = 0; k == NULL && (model = ss_model_at(i)) != NULL; i++)
+        k = ss_key_named(model, name);
+    return k;
+}
+
+/* The number of letters to insert, delete or replace between two words (Levenshtein 1966). */
+static size_t
+distance(const char *a, const char *b)
+{
+    enum { LONGEST = 64 };
+    size_t row[LONGEST + 1], n = strlen(b);
+    if (strlen(a) > LONGEST || n > LONGEST)
+        return SIZE_MAX;
+    for (size_t j = 0; j <= n; j++)
+        row[j] = j;
+    for (size_t i = 1; a[i - 1] != '\0'; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= n; j++) {
+            size_t best = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            if (row[j] + 1 < best)
+                best = row[j] + 1;
+            if (row[j - 1] + 1 < best)
+                best = row[j - 1] + 1;
+            row[j] = best;
+        }
+    }
+    return row[n];
+}
+
+static const char *
+nearest_key(const char *name)
+{
+    const struct model *model;
+    const char *best = "model";
+    for (size_t i = 0; (model = ss_model_at(i)) != NULL; i++) {
+        const scene_key *k;
+        for (size_t j = 0; (k = ss_key_at(model, j)) != NULL; j++)
+            if (distance(name, k->name) < distance(name, best))
+                best = k->name;
+    }
+    return best;
+}
+
+/* A name that differs from a key in few letters is probably mistyped. */
+const char *
+ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name)
+{
+    const char *best = nearest_key(name);
+    size_t length = strlen(name), off = distance(name, best);
+    if (off < length && off <= (length / 3 > 2 ? length / 3 : 2))
+        snprintf(text, KEY_UNKNOWN_ROOM, "unknown key '%.64s'; the nearest is '%s'", name, best);
+    else
+        snprintf(text, KEY_UNKNOWN_ROOM, "unknown key '%.64s'", name);
+    return text;
 }

@@ -12,7 +12,7 @@ enum { OF_EVERY = sizeof of_every / sizeof *of_every };
 static int
 vanishes(ss_scene *scene, size_t offset)
 {
-    double *number = (double *)(void *)((char *)scene + offset);
+    double *number = number_at(scene, offset);
     int there = *number != 0 && ss_key_of_field(ss_model_of(scene), offset) != NULL;
     *number = 0;
     return there;

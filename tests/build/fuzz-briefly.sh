@@ -7,7 +7,7 @@ mkdir -p tests/fuzz
 # shellcheck disable=SC2086  # flags are lists
 set -- -std=c11 -D_XOPEN_SOURCE=700 -I"$SRC/include" -I"$SRC/src" -I"$BUILD" $INCLUDES -O1
 # shellcheck disable=SC2086
-clang "$@" -fsanitize=fuzzer-no-link -c "$SRC"/src/base/number.c "$SRC"/src/scene/scene.c "$SRC"/src/signal/*.c \
+clang "$@" -fsanitize=fuzzer-no-link -c "$SRC"/src/base/number.c "$SRC"/src/scene/lines.c "$SRC"/src/signal/*.c \
     "$SRC"/src/stream/*.c "$SRC"/src/store/h5.c "$SRC"/src/store/read.c "$SRC"/src/store/*_reader.c \
     "$SRC"/src/store/foreign.c "$SRC"/src/plot/map*.c "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
 names=

@@ -24,10 +24,11 @@ enum { STARTS_MOST = 256 };
 #define SMALL 0.01              /* of a simplex: a match goes on from there, and faster */
 #define SAME 0.02               /* of a key: one descent reaches the same from both */
 
+/* Parameter i of the model. */
 static double *
 own(const candidate *c, ss_scene *s, size_t i)
 {
-    return (double *)(void *)((char *)s + c->model->parameter[i].offset);
+    return number_at(s, c->model->parameter[i].offset);
 }
 
 static double

@@ -150,12 +150,6 @@ typedef struct problem {
     ss_status status;
 } problem;
 
-static double *
-number(ss_scene *s, size_t offset)
-{
-    return (double *)(void *)((char *)s + offset);
-}
-
 static void
 add_key(falls_fit *out, size_t offset, int power, double own)
 {
@@ -178,8 +172,8 @@ list_keys(falls_fit *out, const ss_scene *scene)
         add_key(out, offsetof(ss_scene, damping), 1, s.damping);
     for (size_t i = 0; i < model->n_parameters; i++) {
         const parameter *p = &model->parameter[i];
-        if (*number(&s, p->offset) > 0)
-            add_key(out, p->offset, p->by_mass + p->by_speed, *number(&s, p->offset));
+        if (*number_at(&s, p->offset) > 0)
+            add_key(out, p->offset, p->by_mass + p->by_speed, *number_at(&s, p->offset));
     }
 }
 
@@ -190,7 +184,7 @@ scene_of(const problem *f, const double change[])
     ss_scene s = *f->scene;
     for (size_t i = 0; i < f->out->n_keys; i++)
         if (i != SPEED)
-            *number(&s, f->out->key[i].offset) = f->out->key[i].own * exp(change[i]);
+            *number_at(&s, f->out->key[i].offset) = f->out->key[i].own * exp(change[i]);
     double speed = f->out->key[SPEED].own * exp(change[SPEED]) * sign(pull_of(f->scene));
     if (f->scene->base_velocity != 0)
         s.base_velocity = s.surface_velocity + speed;
