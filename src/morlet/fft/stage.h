@@ -1,4 +1,4 @@
-/* stage.h -- the tables that blocks.c makes for windows.c and translations.c. */
+/* stage.h -- the tables and plans that blocks.c and plans.c make for windows.c and translations.c. */
 #ifndef STAGE_H
 #define STAGE_H
 
@@ -46,6 +46,10 @@ struct blocks {
     block_scale *scale;
     stage stage[LEVELS];
 };
+
+/* plans.c: make the plans of all levels and scales that are used here; free them, made or not. */
+ss_status ss_blocks_plans_make(struct blocks *b, ss_planner planner);
+void ss_blocks_plans_free(struct blocks *b);
 
 /* Windows that hold n samples' coefficients. */
 static inline size_t
