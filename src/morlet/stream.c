@@ -57,23 +57,34 @@ exponent_of(double x_max)
     return x_max > 0 ? FAR * (ilogb(x_max) / FAR) : 0;
 }
 
+/* Divide the samples that are there so that they suit x_max; `held` are in s->x. */
+static void
+follow_exponent(ss_stream *s, size_t held)
+{
+    int more = exponent_of(s->x_max) - s->exponent;
+    double most = ldexp(s->x_max, -s->exponent);
+    if (more == 0)
+        return;
+    ss_morlet_divide(s->x, held, more, most);
+    if (s->cascade != NULL)
+        ss_cascade_divide(s->cascade, more, most);
+    s->exponent += more;
+}
+
 static ss_status
 append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
     double most;
     size_t good = ss_morlet_finite(x, n, &most);
     s->x_max = fmax(most, s->x_max);
-    int exponent = exponent_of(s->x_max);
     make_room(s, good);
     size_t held = (size_t)((ptrdiff_t)s->samples - s->origin);
     double *to = s->x + held;
-    if (exponent != s->exponent)
-        ss_morlet_divide(s->x, held, exponent - s->exponent, ldexp(s->x_max, -s->exponent));
-    s->exponent = exponent;
+    follow_exponent(s, held);
     memcpy(to, x, good * sizeof *x);
-    ss_morlet_divide(to, good, exponent, s->x_max);
+    ss_morlet_divide(to, good, s->exponent, s->x_max);
     if (s->cascade != NULL)
-        ss_cascade_append(s->cascade, to, good, exponent);
+        ss_cascade_append(s->cascade, to, good);
     s->samples += good;
     ss_status st = s->samples == s->full ? transform_full(s, err) : SS_OK;
     return st == SS_OK && good < n ? ss_morlet_not_finite(err, s->samples + 1, x[good]) : st;

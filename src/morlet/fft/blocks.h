@@ -38,10 +38,12 @@ typedef struct cascade cascade;
 typedef ss_status window_sink(size_t level, size_t window, double *spectrum, void *user);
 cascade *ss_cascade_new(const struct blocks *blocks);
 void ss_cascade_free(cascade *c);                      /* NULL is allowed */
-/* Samples that the first level's window lacks, >= 1; at most so many more, that are divided by 2^exponent,
- * as those become that are there; then the windows that are full now. */
+/* Divide all samples that are there: see ss_morlet_divide. */
+void ss_cascade_divide(cascade *c, int exponent, double most);
+/* Samples that the first level's window lacks, >= 1; at most so many more; then the windows that are full
+ * now. */
 size_t ss_cascade_room(const cascade *c);
-void ss_cascade_append(cascade *c, const double *x, size_t n, int exponent);
+void ss_cascade_append(cascade *c, const double *x, size_t n);
 ss_status ss_cascade_run(cascade *c, window_sink *sink, void *user);
 /* All windows of what is there, n samples so far, as if the signal ended here, and then going on with
  * it is still possible.  SS_ENOMEM. */

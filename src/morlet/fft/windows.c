@@ -199,7 +199,6 @@ typedef struct filling {
 
 struct cascade {
     const struct blocks *b;
-    int exponent;               /* the samples are x 2^exponent */
     double *v;                  /* window_room doubles */
     filling level[LEVELS];
 };
@@ -313,12 +312,15 @@ ss_cascade_room(const cascade *c)
 }
 
 void
-ss_cascade_append(cascade *c, const double *x, size_t n, int exponent)
+ss_cascade_divide(cascade *c, int exponent, double most)
 {
-    for (size_t l = 0; exponent != c->exponent && l < c->b->levels; l++)
-        for (size_t i = 0; i < c->level[l].have; i++)
-            c->level[l].x[i] = ldexp(c->level[l].x[i], c->exponent - exponent);
-    c->exponent = exponent;
+    for (size_t l = 0; l < c->b->levels; l++)
+        ss_morlet_divide(c->level[l].x, c->level[l].have, exponent, most);
+}
+
+void
+ss_cascade_append(cascade *c, const double *x, size_t n)
+{
     memcpy(c->level[0].x + c->level[0].have, x, n * sizeof *x);
     c->level[0].have += n;
 }
