@@ -30,8 +30,12 @@ ss-sim --columns t,x,a,f compliant-light --set duration=6 --set settle=0 --set r
     awk -F, '{ print $1 "," $2 "," $3 "," $4 "," (NR == 1 ? $5 : $4) }' > recording
 awk 'BEGIN { print "t,x"; for (i = 0; i < 500; i++) if (i < 100 || i > 160)
     print (i + 0.3 * sin(i)) / 1000 "," i }' > log.csv
-ss-signal chirp -r 44100 --format au | sox -t au - run.wav 2> /dev/null || :
-[ -s run.wav ] || : > run.wav
+# A second of sound, 8 bits at 44.1 kHz: 44 bytes of header and 44100 samples.
+{
+    printf 'RIFF\150\254\000\000WAVEfmt \020\000\000\000\001\000\001\000'
+    printf '\104\254\000\000\104\254\000\000\001\000\010\000data\104\254\000\000'
+    awk 'BEGIN { for (i = 0; i < 44100; i++) printf "%c", 80 + int(40 * sin(i * (0.01 + i / 1e6))) }'
+} > run.wav
 cp run.wav bass.wav
 
 try() {         # NAME: the commands on standard input, in a directory of their own
