@@ -76,7 +76,7 @@ typedef struct ss_loading {
 /* The median of many values and its standard error.  scatter is the standard deviation of the
  * values, estimated by their median deviation.  error is that of the scatter, or of the errors of
  * the values if these are larger; that of k_over_m has the part of the scatter in it that these errors
- * do not explain, too. */
+ * do not explain, too.  The errors of slips have in them what the fits of all slips leave alike. */
 typedef struct ss_median {
     double value, error, scatter;
 } ss_median;

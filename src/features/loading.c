@@ -145,6 +145,49 @@ add_wander(ss_slip *slip, size_t n, double octave)
     add_error(&slip->k_over_m, time * pow(2 * slip->k_over_m.value / slip->duration.value, 2));
 }
 
+/* What a slow sensor or another law of friction does to a slip it does to all, so that it may be far
+ * below the noise of one slip and still be in the median.  The mean residual of all slips has it, beyond
+ * what their scatter makes of such a mean.  A smooth misfit hides in the parameters: twice as much of it
+ * is taken to lie along each of them as is seen.  The result is the variance of a number by this, over
+ * that by noise. */
+static double
+common_misfit(const fall *f, size_t n)
+{
+    const double hidden = 2;
+    double power = 0, samples = 0, slips = 0;
+    for (size_t k = 0; k < SLIP_PARTS; k++) {
+        double m = 0, sum = 0, squares = 0;
+        for (size_t i = 0; i < n; i++) {
+            if (!f[i].is_slip || !isfinite(f[i].slip.residual[k]))
+                continue;
+            m++;
+            sum += f[i].slip.residual[k];
+            squares += pow(f[i].slip.residual[k], 2);
+        }
+        if (m > 1)
+            power += (pow(sum / m, 2) - (squares / m - pow(sum / m, 2)) / (m - 1)) / SLIP_PARTS;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (!f[i].is_slip)
+            continue;
+        slips++;
+        samples += f[i].slip.n * pow(f[i].slip.drop.value, 2) / f[i].slip.variance;
+    }
+    return power > 0 ? hidden * hidden * power * samples / slips : 0;
+}
+
+/* By so much more variance.  A shift of all onsets is in no time between two of them, but in the sticks: there
+ * it is counted with the ends. */
+static void
+add_common(ss_slip *slip, double more)
+{
+    ss_value *const v[] = { &slip->end, &slip->drop, &slip->duration, &slip->top, &slip->middle,
+                            &slip->k_over_m };
+    for (size_t i = 0; i < sizeof v / sizeof *v; i++)
+        v[i]->error *= sqrt(1 + more);
+    add_error(&slip->end, more * pow(slip->onset.error, 2));
+}
+
 static void
 read_slip(ss_loading *l, const search *s, const ss_slip *slip)
 {
@@ -237,22 +280,27 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
     return (ss_median){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter };
 }
 
-/* The median of one number of all loadings, which stands offset bytes behind their starts. */
+/* The median of one number of all loadings, which stands offset bytes behind their starts; so much of
+ * the variance of each is common to all. */
 static ss_median
-median_over(const ss_features *out, size_t offset, ss_value *v, double *scratch)
+median_over(const ss_features *out, size_t offset, double common, ss_value *v, double *scratch)
 {
+    size_t known;
     for (size_t i = 0; i < out->n; i++)
         memcpy(&v[i], (const char *)&out->loading[i] + offset, sizeof *v);
-    return ss_median_of(v, out->n, scratch);
+    ss_median m = ss_median_of(v, out->n, scratch);
+    m.error = fmax(m.error, sqrt(common) * median_error(&known, v, out->n, scratch));
+    return m;
 }
 
 /* k/m is a property of the rig.  Slips that disagree on it by more than their errors, not by chance at
- * three standard deviations, are not quite those of the model, whose misfit may shift them all alike. */
+ * three standard deviations, are not quite those of the model, whose misfit may shift them all alike.
+ * What is common to them is not in their scatter. */
 static void
-add_misfit(ss_median *k_over_m, const ss_value *v, size_t n, double *scratch)
+add_misfit(ss_median *k_over_m, double common, const ss_value *v, size_t n, double *scratch)
 {
     size_t known;
-    double error = median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
+    double error = sqrt(1 - common) * median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
     if (known > 1 && scatter > error * (1 + 3 * DEVIATION_SD / sqrt((double)known)))
         k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
 }
@@ -260,7 +308,7 @@ add_misfit(ss_median *k_over_m, const ss_value *v, size_t n, double *scratch)
 /* Where fewer than half of the falls are slips of a pulled slider, these are not typical of the others;
  * and if falls take long, too, it may be sliding that is behind and before them. */
 static void
-summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
+summarise(ss_features *out, const ss_drop *drop, double common, ss_value *v, double *scratch)
 {
     size_t slips = 0;
     double falling = 0;
@@ -271,23 +319,23 @@ summarise(ss_features *out, const ss_drop *drop, ss_value *v, double *scratch)
     int is_typical = 2 * slips >= out->n;
     int is_short = out->n > 1 && falling <= SHORT * (drop[out->n - 1].end - drop[0].t);
     if (is_typical || is_short) {
-        out->slope = median_over(out, offsetof(ss_loading, slope), v, scratch);
-        out->stiffness = median_over(out, offsetof(ss_loading, stiffness), v, scratch);
+        out->slope = median_over(out, offsetof(ss_loading, slope), 0, v, scratch);
+        out->stiffness = median_over(out, offsetof(ss_loading, stiffness), 0, v, scratch);
     }
-    const struct { ss_median *to; size_t offset; } of_slips[] = {
-        { &out->drop, offsetof(ss_loading, drop) },
-        { &out->duration, offsetof(ss_loading, duration) },
-        { &out->recurrence, offsetof(ss_loading, recurrence) },
-        { &out->stick, offsetof(ss_loading, stick) },
-        { &out->static_friction, offsetof(ss_loading, static_friction) },
-        { &out->friction, offsetof(ss_loading, friction) },
+    if (!is_typical)
+        return;
+    const struct { ss_median *to; size_t offset; double common; } of_slips[] = {
+        { &out->drop, offsetof(ss_loading, drop), common },
+        { &out->duration, offsetof(ss_loading, duration), common },
+        { &out->recurrence, offsetof(ss_loading, recurrence), 0 },
+        { &out->stick, offsetof(ss_loading, stick), common },
+        { &out->static_friction, offsetof(ss_loading, static_friction), common },
+        { &out->friction, offsetof(ss_loading, friction), common },
+        { &out->k_over_m, offsetof(ss_loading, k_over_m), common },
     };
-    for (size_t i = 0; is_typical && i < sizeof of_slips / sizeof *of_slips; i++)
-        *of_slips[i].to = median_over(out, of_slips[i].offset, v, scratch);
-    if (is_typical) {
-        out->k_over_m = median_over(out, offsetof(ss_loading, k_over_m), v, scratch);
-        add_misfit(&out->k_over_m, v, out->n, scratch);
-    }
+    for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
+        *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
+    add_misfit(&out->k_over_m, common, v, out->n, scratch);     /* v: still of k/m */
 }
 
 /* Sticks that end before the slip do so in all cycles, so that the median is uncertain by as much. */
@@ -433,8 +481,10 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
     if (st == SS_OK)
         st = find_falls(f, s, y, drop, n, v, scratch);
     double octave = st == SS_OK ? octave_of(y, f, n) : 0;
+    double more = st == SS_OK ? common_misfit(f, n) : 0;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         if (f[i].is_slip) {
+            add_common(&f[i].slip, more);
             add_wander(&f[i].slip, s->n, octave);
             out->transition[i].onset = f[i].slip.onset.value / s->rate;
             out->transition[i].end = f[i].slip.end.value / s->rate;
@@ -442,7 +492,7 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
         out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, octave);
     }
     if (st == SS_OK) {
-        summarise(out, drop, v, scratch);
+        summarise(out, drop, more / (1 + more), v, scratch);
         add_creep(out, s, f, v, scratch);
     }
     free(f);

@@ -132,16 +132,16 @@ start(problem *f, double p[FITTED], ss_window room, size_t high, size_t low)
     return f->used.end >= f->used.first + FEWEST;
 }
 
-/* Is what is left small enough?  *inflation: of variances, by its correlation. */
+/* Is what is left small enough? */
 static int
-explains(const problem *f, const gsl_vector *left, ss_slip *out, double *inflation)
+explains(const problem *f, const gsl_vector *left, ss_slip *out)
 {
     size_t n = ss_window_length(f->used);
     double squares = 0;
     out->power = gsl_stats_tss(f->x + f->used.first, 1, n);
     for (size_t i = 0; i < n; i++)
         squares += gsl_vector_get(left, i) * gsl_vector_get(left, i);
-    *inflation = squares / (double)(n - FITTED) * ss_colour(left->data, NULL, n, 0);
+    out->variance = squares / (double)(n - FITTED) * ss_colour(left->data, NULL, n, 0);
     out->left = squares;
     out->n = (double)n;
     return squares <= (1 - EXPLAINED) * out->power;
@@ -162,7 +162,7 @@ describe(const double p[FITTED], double loading, double number[OF_SLIP])
 
 /* With the errors that the covariance of the parameters gives them. */
 static void
-fill(ss_slip *s, const problem *f, const double p[FITTED], const gsl_matrix *covariance, double inflation)
+fill(ss_slip *s, const problem *f, const double p[FITTED], const gsl_matrix *covariance)
 {
     const double step = 1e-4;                   /* of a unit */
     double value[OF_SLIP], slope[FITTED][OF_SLIP], below[OF_SLIP], moved[FITTED];
@@ -183,10 +183,26 @@ fill(ss_slip *s, const problem *f, const double p[FITTED], const gsl_matrix *cov
         for (size_t k = 0; k < FITTED; k++)
             for (size_t l = 0; l < FITTED; l++)
                 variance += slope[k][i] * slope[l][i] * gsl_matrix_get(covariance, k, l);
-        v[i] = (ss_value){ value[i], sqrt(inflation * fmax(variance, 0)) };
+        v[i] = (ss_value){ value[i], sqrt(s->variance * fmax(variance, 0)) };
     }
     s->onset = v[0], s->end = v[1], s->drop = v[2], s->duration = v[3];
     s->top = v[4], s->middle = v[5], s->k_over_m = v[6];
+}
+
+/* left: model less sample. */
+static void
+fill_residual(ss_slip *s, const problem *f, const gsl_vector *left)
+{
+    double length = s->end.value - s->onset.value, samples[SLIP_PARTS] = { 0 };
+    for (size_t i = 0; i < left->size; i++) {
+        double at = (double)(f->used.first + i) - s->onset.value, part = SLIP_PARTS * (at / length + 1) / 3;
+        if (!(part >= 0 && part < SLIP_PARTS))
+            continue;
+        s->residual[(size_t)part] -= gsl_vector_get(left, i);
+        samples[(size_t)part]++;
+    }
+    for (size_t k = 0; k < SLIP_PARTS; k++)
+        s->residual[k] /= samples[k] * s->drop.value;
 }
 
 static int
@@ -202,9 +218,9 @@ ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t
             double loading)
 {
     problem f = { .x = x, .loading = loading };
-    double p[FITTED], first[FITTED], inflation;
+    double p[FITTED], first[FITTED];
     const ss_value none = { NAN, NAN };
-    *out = (ss_slip){ none, none, none, none, none, none, none, NAN, NAN, 0 };
+    *out = (ss_slip){ none, none, none, none, none, none, none, NAN, NAN, 0, NAN, { 0 } };
     ss_slip found = *out;
     *is_found = 0;
     if (!(loading > 0) || low < high + FEWEST || !start(&f, p, room, high, low))
@@ -224,10 +240,11 @@ ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t
     if (ended == GSL_SUCCESS)
         ended = gsl_multifit_nlinear_driver(STEPS, 1e-8, 0, 0, NULL, NULL, &info, space);
     if ((ended == GSL_SUCCESS || ended == GSL_ENOPROG)
-        && explains(&f, gsl_multifit_nlinear_residual(space), &found, &inflation)
+        && explains(&f, gsl_multifit_nlinear_residual(space), &found)
         && gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(space), 0, covariance) == GSL_SUCCESS) {
         parameters_of(&f, gsl_multifit_nlinear_position(space), p);
-        fill(&found, &f, p, covariance, inflation);
+        fill(&found, &f, p, covariance);
+        fill_residual(&found, &f, gsl_multifit_nlinear_residual(space));
         *is_found = is_sound(&found, f.used);
         *out = *is_found ? found : *out;
     }

@@ -5,6 +5,8 @@
 #include <stickslip/features.h>
 #include "features/window.h"
 
+enum { SLIP_PARTS = 24 };       /* of the time from a length of the slip before it to one behind it */
+
 /* Times in samples, forces in the unit of the samples. */
 typedef struct ss_slip {
     ss_value onset, end;        /* the stick before it ends, and the next one begins */
@@ -13,6 +15,8 @@ typedef struct ss_slip {
     ss_value k_over_m;          /* [rad^2/sample^2] */
     double left, power;         /* sums of squares of the samples: what the fit leaves, and about the mean */
     double n;                   /* of them; 0: not fitted */
+    double variance;            /* of a sample, from which the errors come */
+    double residual[SLIP_PARTS];        /* the mean of each part over the drop; NaN: no sample lies in it */
 } ss_slip;
 
 /* Fit a slip to the fall of x from sample high to sample low, between loadings of so much a sample > 0;
