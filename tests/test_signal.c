@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <time.h>
+#include <stickslip/morlet.h>
 #include "signal_text.h"
 
 /* --- headers, columns and rows -------------------------------------------------------------- */
@@ -64,6 +65,8 @@ blanks_control_characters(void **state)
     assert_string_equal(head->column[0].unit, " m  \302\265");
     assert_string_equal(head->column[1].name, "b__2J");
     assert_string_equal(ss_header_find_note(head, "note"), " ]0;t  \tu  v ");
+    ss_header_note(head, "\200start", "\201");
+    assert_string_equal(head->note[1], "??start:   ");
     ss_header_free(head);
 }
 
@@ -114,6 +117,92 @@ replaces_a_note_of_the_same_key(void **state)
     assert_int_equal(ss_header_note(head, "a:b", "1"), SS_EINVAL);
     assert_int_equal(ss_header_note(head, "", "1"), SS_EINVAL);
     ss_header_free(head);
+}
+
+static void
+has_at_most_4096_notes(void **state)
+{
+    ss_header *head = ss_header_new(1, 0), *coefficients;
+    char key[24];
+    (void)state;
+    ss_header_add_column(head, "x", "");
+    for (int i = 0; i < 4096; i++) {
+        snprintf(key, sizeof key, "note %d", i);
+        assert_int_equal(ss_header_note(head, key, ""), SS_OK);
+    }
+    assert_int_equal(ss_header_note(head, "one more", ""), SS_EDATA);
+    assert_int_equal(ss_header_note(head, "note 5", "changed"), SS_OK);
+    assert_int_equal(head->n_notes, 4096);
+    assert_int_equal(ss_coefficients_header(&coefficients, head, 0, 10, &ss_morlet_defaults), SS_EDATA);
+    ss_header_free(head);
+}
+
+/* A line of a header in which there are words that mean something to a reader, and bytes that may. */
+static void
+random_text(char *text, size_t size, unsigned *state)
+{
+    static const char *const part[] = {
+        "rate", "start", "columns", "t", "s", "a", "\302\265", "stickslip signal 1", "# ", " ", "\t", ":", ": ",
+        "/", "(", ")", ",", "\200", "\377", "\302\205", "\302", "\001", "\033", "\177", "\r", "1", "-", ".",
+    };
+    *text = '\0';
+    do {
+        *state = *state * 1664525u + 1013904223u;
+        strncat(text, part[(*state >> 8) % (sizeof part / sizeof *part)], size - strlen(text) - 1);
+    } while (*state >> 24 > 40);
+}
+
+/* The signal in the form in which ss_signal_write gives it. */
+static ss_signal *
+read_again(const ss_signal *s, ss_format format)
+{
+    char *text;
+    size_t n;
+    FILE *out = open_memstream(&text, &n);
+    ss_signal *again;
+    ss_error err = { 0 };
+    assert_int_equal(ss_signal_write(s, out, format, NULL), SS_OK);
+    fclose(out);
+    if (read_bytes(&again, text, n, NULL, &err) != SS_OK)
+        fail_msg("%s\n%s", err.text, text);
+    free(text);
+    return again;
+}
+
+/* A header that was read can be written, and read again with the same names, units, notes and clock. */
+static void
+reads_what_it_writes(void **state)
+{
+    enum { TRIALS = 20000 };
+    unsigned seed = 1;
+    int readable = 0;
+    (void)state;
+    for (int i = 0; i < TRIALS; i++) {
+        char key[64], value[64], column[64], text[400];
+        ss_signal *s;
+        random_text(key, sizeof key, &seed);
+        random_text(value, sizeof value, &seed);
+        random_text(column, sizeof column, &seed);
+        snprintf(text, sizeof text, "# stickslip signal 1\n# rate: 10\n# %s: %s\n# columns: t/s %s\n0\t1\n.1\t2\n",
+                 key, value, column);
+        if (read_bytes(&s, text, strlen(text), NULL, NULL) != SS_OK)
+            continue;
+        ss_signal *back = read_again(s, i % 2 ? SS_AU : SS_TSV);
+        const ss_header *a = s->head, *b = back->head;
+        assert_true(b->rate == a->rate && b->start == a->start && back->n == s->n);
+        assert_int_equal(b->n_columns, a->n_columns);
+        for (size_t c = 0; c < a->n_columns; c++) {
+            assert_string_equal(b->column[c].name, a->column[c].name);
+            assert_string_equal(b->column[c].unit, a->column[c].unit);
+        }
+        assert_int_equal(b->n_notes, a->n_notes);
+        for (size_t k = 0; k < a->n_notes; k++)
+            assert_int_equal(strcspn(b->note[k], ":"), strcspn(a->note[k], ":"));
+        ss_signal_free(back);
+        ss_signal_free(s);
+        readable++;
+    }
+    assert_true(readable > TRIALS / 4);
 }
 
 static void
@@ -240,6 +329,8 @@ main(void)
         cmocka_unit_test(numbers_the_same_name_by_what_is_free),
         cmocka_unit_test(names_thousands_of_columns_alike),
         cmocka_unit_test(replaces_a_note_of_the_same_key),
+        cmocka_unit_test(has_at_most_4096_notes),
+        cmocka_unit_test(reads_what_it_writes),
         cmocka_unit_test(finds_the_row_of_a_time),
         cmocka_unit_test(selects_columns_and_rows),
         cmocka_unit_test(resamples_a_signal_at_its_own_samples),

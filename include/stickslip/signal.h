@@ -34,8 +34,9 @@ ss_header *ss_header_copy(const ss_header *head);
 /* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
  * "_2", "_3", ...; unit may be NULL or "".  SS_EINVAL: there is no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
-/* Append a note; it replaces a note with the same key.  Control characters but tabs become blanks.
- * SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or contains a colon. */
+/* Append a note; it replaces a note with the same key.  Control characters but tabs become blanks, in
+ * the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or
+ * contains a colon; SS_EDATA: there are 4096 notes, and readers refuse more. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 /* The value of the note with this key, owned by head; NULL if there is none. */
 const char *ss_header_find_note(const ss_header *head, const char *key);

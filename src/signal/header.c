@@ -122,15 +122,16 @@ is_blank(char c)
     return (unsigned char)c <= ' ' || c == 127;
 }
 
-/* What drives a terminal becomes blanks, but for tabs. */
+/* What drives a terminal becomes blanks, but for tabs; in the first bytes of text, its key, question marks: a
+ * key that begins with a blank would be read as another. */
 static char *
-blank_controls(char *text)
+blank_controls(char *text, size_t key)
 {
     int is_control;
     for (char *p = text; p != NULL && *p != '\0';) {
         size_t n = ss_utf8_next(p, &is_control);
         if (is_control && *p != '\t')
-            memset(p, ' ', n);
+            memset(p, p < text + key ? '?' : ' ', n);
         p += n;
     }
     return text;
@@ -179,7 +180,7 @@ free_suffix(const ss_header *head, const char *name)
 static char *
 clean_name(const ss_header *head, const char *name)
 {
-    char *clean = blank_controls(ss_utf8_text(name));
+    char *clean = blank_controls(ss_utf8_text(name), 0);
     if (clean == NULL)
         return NULL;
     for (char *p = clean; *p != '\0'; p++)
@@ -198,7 +199,7 @@ clean_name(const ss_header *head, const char *name)
 char *
 ss_clean_unit(const char *unit)
 {
-    char *clean = blank_controls(ss_utf8_text(unit != NULL ? unit : ""));
+    char *clean = blank_controls(ss_utf8_text(unit != NULL ? unit : ""), 0);
     int depth = 0, lowest = 0;
     if (clean == NULL)
         return NULL;
@@ -316,16 +317,18 @@ ss_header_note(ss_header *head, const char *key, const char *value)
     if (raw == NULL)
         return SS_ENOMEM;
     sprintf(raw, "%s: %s", key, value);
-    char *note = blank_controls(ss_utf8_text(raw));
+    char *note = ss_utf8_text(raw);
     free(raw);
     if (note == NULL)
         return SS_ENOMEM;
-    size_t i = find_note(head, note, strcspn(note, ":"), &old);
+    size_t length = strcspn(note, ":"), i;
+    blank_controls(note, length);
+    i = find_note(head, note, length, &old);
     if (i == head->n_notes) {
-        char **more = realloc(head->note, (i + 1) * sizeof *more);
+        char **more = i < MAX_NOTES ? realloc(head->note, (i + 1) * sizeof *more) : NULL;
         if (more == NULL) {
             free(note);
-            return SS_ENOMEM;
+            return i < MAX_NOTES ? SS_ENOMEM : SS_EDATA;
         }
         head->note = more;
         head->note[head->n_notes++] = NULL;
@@ -450,7 +453,5 @@ ss_header_read_line(ss_header *head, char *line, const char **reason)
         return head->n_columns > 0 ? SS_EDATA : read_columns(head, value, reason);
     }
     *reason = "more than 4096 notes";
-    if (head->n_notes == MAX_NOTES)
-        return SS_EDATA;
     return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
 }
