@@ -57,7 +57,7 @@ awk -F , 'NR % 1000 != 7' long.csv > gaps.csv
 for command in 'ss-cat --format au -' 'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au' \
         'ss-cat --format au --gaps=interpolate gaps.csv' 'ss-cat --format au --resample 9000 gaps.csv' \
         'ss-cat --format au --gaps=split --resample 12000 gaps.csv' 'ss-cat --format au --table 1 tables.csv' \
-        'ss-cat --format au --gaps=split long.h5' 'ss-noise --rms 1 --format au --resample 9000 long.h5' \
+        'ss-cat --format au --gaps=split long.h5' 'ss-noise -q --rms 1 --format au --resample 9000 long.h5' \
         'ss-noise --snr 9 --format au' 'ss-cat --rate 1e4 --format au long.npy'; do
     mkfifo in
     cat long.csv > in &
