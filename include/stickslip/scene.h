@@ -63,7 +63,7 @@ typedef struct ss_scene {
 
     double settle;              /* [s] >= 0  this much motion comes before the record */
     double duration;            /* [s] >= 0  length of the record */
-    double rate;                /* [Hz] > 0  samples per second */
+    double rate;                /* [Hz] 1e-300 ... 1e300  samples per second */
 } ss_scene;
 
 /* duration 10 s, rate 2000 Hz, 0 elsewhere.  A caller copies it and then sets fields. */

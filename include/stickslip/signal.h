@@ -18,7 +18,7 @@ typedef struct ss_column {
 } ss_column;
 
 typedef struct ss_header {
-    double rate;                /* [Hz] > 0 */
+    double rate;                /* [Hz] > 0; files have 1e-300 ... 1e300 */
     double start;               /* [s] time of row 0 on the source's clock */
     int has_time;               /* 1: the text has a column of time, t/s, as its first */
     size_t n_columns;           /* columns without the one of time */
@@ -219,7 +219,7 @@ typedef enum ss_wave {
 } ss_wave;
 
 typedef struct ss_wave_opts {
-    double rate;                /* [Hz] > 0 */
+    double rate;                /* [Hz] 1e-300 ... 1e300 */
     double duration;            /* [s] >= 0: round(duration * rate) samples */
     double amplitude;           /* A */
     double frequency;           /* f [Hz] >= 0; of a ringdown the damped one, w = 2 pi f */

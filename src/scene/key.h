@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stickslip/scene.h>
 
-enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE };       /* ranges of numbers; all are finite */
+enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RATE };  /* ranges of numbers; all are finite */
 enum { ANY_TEXT, PATH };                           /* of texts; a PATH does not leave its folder */
 /* TERM: a term of the equation of motion that most scenes do not have; it is 0 if the key is left
  * out, and a scene is then written without it.  FORCING: either all these keys are left out, or

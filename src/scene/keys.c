@@ -33,7 +33,7 @@ enum { OF_MOTION = sizeof of_motion / sizeof *of_motion };
 static const scene_key of_record[] = {
     KEY_NUMBER(settle, OPTIONAL, NOT_NEGATIVE, "s"),
     KEY_NUMBER(duration, OPTIONAL, NOT_NEGATIVE, "s"),
-    KEY_NUMBER(rate, OPTIONAL, POSITIVE, "Hz"),
+    KEY_NUMBER(rate, OPTIONAL, RATE, "Hz"),
 };
 enum { OF_RECORD = sizeof of_record / sizeof *of_record };
 

@@ -1,5 +1,6 @@
 /* value.c -- what the value of a key may be. */
 #include "scene/value.h"
+#include "signal/header.h"
 
 #include <math.h>
 #include "base/utf8.h"
@@ -7,6 +8,8 @@
 int
 ss_value_in_range(const scene_key *k, double x)
 {
+    if (k->range == RATE)
+        return x >= RATE_MIN && x <= RATE_MAX;
     return isfinite(x) && (k->range == ANY_NUMBER || x > 0 || (k->range == NOT_NEGATIVE && x == 0));
 }
 
@@ -22,7 +25,10 @@ ss_value_is_word(const scene_key *k, int word)
 const char *
 ss_value_range(const scene_key *k)
 {
-    return k->range == POSITIVE ? "> 0" : k->range == NOT_NEGATIVE ? ">= 0" : "finite";
+    static const char *const text[] = {
+        [ANY_NUMBER] = "finite", [NOT_NEGATIVE] = ">= 0", [POSITIVE] = "> 0", [RATE] = "in " RATE_RANGE,
+    };
+    return text[k->range];
 }
 
 const char *

@@ -10,6 +10,12 @@
  * hostile input. */
 enum { MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
 
+/* The rates of clocks [Hz] and the largest size of their starts [s]: times beyond would over- or underflow. */
+#define RATE_MIN 1e-300
+#define RATE_MAX 1e300
+#define START_MAX 1e300
+#define RATE_RANGE "1e-300 ... 1e300"
+
 /* The lines of a header, to be freed, or NULL if there is no memory. */
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 /* Read a "# key: value" line, which is changed; reason is set if the status is SS_EDATA. */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
+#include "signal/header.h"
 
 const ss_wave_opts ss_wave_defaults = {
     .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,
@@ -94,8 +95,8 @@ refuse_opts(ss_wave wave, const ss_wave_opts *o)
 {
     if ((unsigned)wave > SS_NOISE)
         return "no such kind of signal";
-    if (!(o->rate > 0 && isfinite(o->rate)))
-        return "rate must be above 0";
+    if (!(o->rate >= RATE_MIN && o->rate <= RATE_MAX))
+        return "rate must be in " RATE_RANGE;
     if (!(o->duration >= 0 && o->duration * o->rate < (double)(SIZE_MAX / 64)))
         return "duration must be at least 0, and duration x rate a number of samples that fits";
     if (!isfinite(o->amplitude) || !isfinite(o->at))

@@ -400,8 +400,8 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
 {
     double rate, start, has_time;
     ss_status status;
-    if ((status = ss_h5_need_number(file, group, "rate", 1e-300, 1e300, &rate)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "start", -1e300, 1e300, &start)) != SS_OK
+    if ((status = ss_h5_need_number(file, group, "rate", RATE_MIN, RATE_MAX, &rate)) != SS_OK
+        || (status = ss_h5_need_number(file, group, "start", -START_MAX, START_MAX, &start)) != SS_OK
         || (status = ss_h5_need_number(file, group, "has_time", 0, 1, &has_time)) != SS_OK)
         return status;
     *head = ss_header_new(rate, start);

@@ -10,6 +10,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/list.h"
+#include "signal/header.h"
 #include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* a stamp may be off by so many sample periods */
@@ -266,10 +267,10 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
 ss_status
 ss_refuse_range(const char *name, double rate, double start, ss_error *err)
 {
-    if (rate >= 1e-300 && rate <= 1e300 && fabs(start) <= 1e300)
+    if (rate >= RATE_MIN && rate <= RATE_MAX && fabs(start) <= START_MAX)
         return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s: a clock of %.3g Hz that starts at %.3g s is out of range: 1e-300 "
-                   "... 1e300 Hz, -1e300 ... 1e300 s", name, rate, start);
+    return ss_fail(err, SS_EDATA, "%s: a clock of %.3g Hz that starts at %.3g s is out of range: "
+                   RATE_RANGE " Hz, -1e300 ... 1e300 s", name, rate, start);
 }
 
 /* The decimal number with the fewest digits in [lo, hi]; *digits becomes their number. */

@@ -14,7 +14,7 @@ ss-signal sine --amplitude 1e308 > huge.tsv
 try ss-noise --snr 10 huge.tsv
 try ss-noise --rms 1e308 huge.tsv
 try ss-noise --rms 1e308 --band 1:1000 -o x.h5 huge.tsv
-try ss-signal chirp --rate 1e308 --duration 1e-307
+try ss-signal chirp --to 1e100 --rate 1e300 --duration 2e-300
 awk 'BEGIN { print "# stickslip signal 1\n# rate: 10\n# columns: t/s a"
     for (i = 0; i < 20; i++) print i / 10 "\t" (i % 2 ? "" : "-") "1.7e308" }' > jumps.tsv
 try ss-cat --resample 20 jumps.tsv
