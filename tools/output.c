@@ -250,7 +250,7 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
 {
     int fd[2];
     if (pipe(fd) != 0)
-        tool_die("%s", strerror(errno));
+        tool_die("gnuplot cannot be started: %s", strerror(errno));
     pid_t child = fork();
     if (child == 0) {
         dup2(fileno(script), STDIN_FILENO);
@@ -265,7 +265,7 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
     close(fd[1]);
     *picture = child > 0 ? fdopen(fd[0], "rb") : NULL;
     if (*picture == NULL)
-        tool_die("%s", strerror(errno));
+        tool_die("gnuplot cannot be started: %s", strerror(errno));
     return child;
 }
 
@@ -306,7 +306,7 @@ run_gnuplot(FILE *script, FILE *out)
     size_t n;
     int status;
     if (words == NULL)
-        tool_die("%s", strerror(errno));
+        tool_die("gnuplot cannot be started: %s", strerror(errno));
     pid_t child = start_gnuplot(script, words, &picture);
     char *drawn = read_all(picture, &n);
     fclose(picture);
@@ -331,7 +331,7 @@ tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void 
     tool_kind kind = tool_output_kind(path, TOOL_PICTURES, TOOL_GP);
     FILE *out = tool_output(path), *script = kind == TOOL_GP ? out : tmpfile();
     if (script == NULL)
-        tool_die("%s", strerror(errno));
+        tool_die("gnuplot cannot be started: %s", strerror(errno));
     if (kind != TOOL_GP)
         opts->format = ending[kind];
     ss_status status = write_script(script, opts, user, &err);

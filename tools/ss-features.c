@@ -112,7 +112,8 @@ start_job(job *j, const request *req, const char *path)
     j->summary = tmpfile();
     j->words = tmpfile();
     if (j->summary == NULL || j->words == NULL || (j->pid = fork()) < 0)
-        tool_die("%s", strerror(errno));
+        tool_die("%s: no process could be started for it: %s%s", path, strerror(errno),
+                 req->jobs > 1 ? "; a smaller --jobs may do" : "");
     if (j->pid > 0)
         return;
     dup2(fileno(j->words), STDERR_FILENO);

@@ -1,9 +1,9 @@
 /* value.c -- what the value of a key may be. */
 #include "scene/value.h"
-#include "signal/header.h"
 
 #include <math.h>
 #include "base/utf8.h"
+#include "signal/header.h"
 
 int
 ss_value_in_range(const scene_key *k, double x)
