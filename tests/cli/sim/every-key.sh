@@ -40,7 +40,7 @@ for clock in "5e-324 0" "1e-320 0" "9e-301 0" "1e-300 0" "1e-300 1e300" "1e300 0
             cat err
             break
         }
-        ss-cat clock.$form > read || echo "$clock $form"
+        ss-cat clock.$form > again || echo "$clock $form"
     done
 done 2>&1
 
