@@ -34,6 +34,40 @@ typedef struct grid {
     double complex *z;          /* row by row */
 } grid;
 
+/* Has n no prime factor above 5, so that its FFT is fast? */
+static int
+is_smooth(size_t n)
+{
+    static const size_t prime[] = { 2, 3, 5 };
+    for (int i = 0; i < 3; i++)
+        while (n % prime[i] == 0)
+            n /= prime[i];
+    return n == 1;
+}
+
+/* The least grid of more than n places, about a square.  Columns are an odd number of cache lines apart: in a
+ * power of two, terms of one column would all take the same places of the cache. */
+static void
+choose_size(size_t n, size_t *rows, size_t *columns)
+{
+    enum { LINE = 4 };          /* complex numbers in a line */
+    const size_t root = (size_t)sqrt((double)n);
+    size_t least = SIZE_MAX;
+    *rows = *columns = 0;
+    for (size_t lines = root / (2 * LINE) | 1; lines <= root / LINE * 2 + 1; lines += 2) {
+        size_t down = n / (LINE * lines) + 1;
+        if (!is_smooth(lines))
+            continue;
+        while (!is_smooth(down))
+            down++;
+        if (down * LINE * lines < least) {
+            *rows = down;
+            *columns = LINE * lines;
+            least = *rows * *columns;
+        }
+    }
+}
+
 /* exp(-2 pi i k / n). */
 static double complex
 turn(double k, double n)
@@ -83,7 +117,7 @@ compress_all(const grid *g)
     }
 }
 
-/* x to its autocorrelation, compressed, at lags 0 ... rows columns - 1, 1 at 0.  x has n samples less
+/* x to its autocorrelation, compressed, at lags 0 ... n - 1, 1 at 0.  x has n samples less
  * their mean, then zeros up to 2 rows columns. */
 static ss_status
 autocorrelation(double *x, size_t n, size_t rows, size_t columns)
@@ -99,9 +133,9 @@ autocorrelation(double *x, size_t n, size_t rows, size_t columns)
     twist(&g, 1);
     if (st == SS_OK)
         st = ss_complex_fft(g.z, rows, columns, columns, 1);
-    double first = x[0];
-    for (size_t i = 0; st == SS_OK && i < rows * columns; i++)
-        x[i] = first > 0 ? x[i] / first * (double)n / (double)(n > i ? n - i : 1) : 0;
+    double factor = x[0] > 0 ? (double)n / x[0] : 0;
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        x[i] *= factor / (double)(n - i);
     return st;
 }
 
@@ -194,15 +228,14 @@ first_peak(const double *r, size_t last, double least)
 ss_status
 ss_period_find(const double *x, size_t n, ss_value *period)
 {
-    size_t rows = 1, columns = 1;
+    size_t rows, columns;
     double height;
     *period = (ss_value){ NAN, NAN };
     if (n < 8)
         return SS_OK;
-    if (n > SIZE_MAX / 4 / sizeof *x)
+    if (n > SIZE_MAX / 8 / sizeof *x)
         return SS_ENOMEM;
-    while (rows * columns < n)
-        *(rows < columns ? &rows : &columns) *= 2;
+    choose_size(n + n / 4, &rows, &columns);    /* what is compressed ends nowhere: it wraps where it is low */
     double *r = centred(x, n, 2 * rows * columns);
     ss_status st = r != NULL ? autocorrelation(r, n, rows, columns) : SS_ENOMEM;
     size_t peak = st != SS_OK ? 0 : first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
