@@ -26,8 +26,7 @@ typedef struct piece {
     double x[SAMPLES];          /* samples first ... first + n - 1, brought into [0, 1] */
     size_t n;
     double first;
-    size_t split;               /* samples left of the break, whose sides these are; 0: none yet */
-    side side[2];
+    side side[SAMPLES][2];      /* of each number of samples left of the break; n: 0 if not fitted yet */
 } piece;
 
 /* The polynomials at s from the middle of n equidistant points (Gram's). */
@@ -46,16 +45,17 @@ static side
 fit_side(const double *x, size_t first, size_t n)
 {
     side f = { .middle = (double)first + 0.5 * (double)(n - 1), .n = n };
-    double p[DEGREE + 1];
+    double p[DEGREE + 1], nn = (double)n * (double)n, norm = (double)n;
     for (size_t i = first; i < first + n; i++) {
         polynomials(n, (double)i - f.middle, p);
-        for (size_t k = 0; k <= DEGREE; k++) {
+        for (size_t k = 0; k <= DEGREE; k++)
             f.c[k] += p[k] * x[i];
-            f.norm[k] += p[k] * p[k];
-        }
     }
-    for (size_t k = 0; k <= DEGREE; k++)
-        f.c[k] /= f.norm[k];
+    for (int k = 0; k <= DEGREE; k++) {
+        norm *= k > 0 ? k * k * (nn - k * k) / (4 * (4 * k * k - 1)) : 1;
+        f.norm[k] = norm;
+        f.c[k] /= norm;
+    }
     for (size_t i = first; i < first + n; i++) {
         polynomials(n, (double)i - f.middle, p);
         double r = x[i] - f.c[0] - f.c[1] * p[1] - f.c[2] * p[2] - f.c[3] * p[3];
@@ -84,15 +84,15 @@ residual(piece *p, double at, int is_kink)
 {
     double u, v;
     size_t split = (size_t)ceil(at - p->first);
-    if (split != p->split) {
-        p->split = split;
-        p->side[0] = fit_side(p->x, 0, split);
-        p->side[1] = fit_side(p->x, split, p->n - split);
+    side *before = &p->side[split][0], *behind = &p->side[split][1];
+    if (before->n == 0) {
+        *before = fit_side(p->x, 0, split);
+        *behind = fit_side(p->x, split, p->n - split);
     }
-    double sum = p->side[0].left + p->side[1].left;
+    double sum = before->left + behind->left;
     if (!is_kink)
         return sum;
-    double d = value_at(&p->side[0], at - p->first, &u) - value_at(&p->side[1], at - p->first, &v);
+    double d = value_at(before, at - p->first, &u) - value_at(behind, at - p->first, &v);
     return sum + d * d / (u + v);
 }
 
