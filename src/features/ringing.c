@@ -236,6 +236,8 @@ ss_ringing_find(search *s, double prominence)
 #define SETTLED 1.0             /* periods behind the onset that are not looked at: its own jump */
 #define LOOKED 5.0              /* periods behind it up to which the band is looked for */
 #define LEFT 2.0                /* periods before the end that are not looked at */
+/* The band is looked for behind so many transitions, one behind the other, at so many places of the record. */
+enum { STRETCH = 64, STRETCHES = 16 };
 
 /* Where it may ring behind a transition: behind the last spike of those that are known by spikes. */
 static void
@@ -248,29 +250,78 @@ span_behind(const search *s, size_t i, double period, double *from, double *to, 
     *last = s->spiked ? next - LEFT / 4 * period : tr->end - LEFT * period;
 }
 
+static size_t
+stretch_first(const search *s, size_t stretch)
+{
+    return s->out->n * stretch / STRETCHES;
+}
+
+static size_t
+stretch_end(const search *s, size_t stretch)
+{
+    size_t next = stretch_first(s, stretch + 1), end = stretch_first(s, stretch) + STRETCH;
+    return end < next ? end : next;
+}
+
+static size_t
+point_at(const ss_scale *scale, double t)
+{
+    return (size_t)ceil(t / (scale->b_num / scale->b_den));
+}
+
+/* The levels of a scale at the stretches. */
+static ss_status
+fill_behind(const search *s, size_t index, double *level)
+{
+    const ss_scale *scale = &s->map.grid->scale[index];
+    level_part part[STRETCHES];
+    size_t n = 0, end = 0;
+    double from, to, ignored;
+    for (size_t i = 0; i < STRETCHES; i++) {
+        if (stretch_first(s, i) == stretch_end(s, i))
+            continue;
+        span_behind(s, stretch_end(s, i) - 1, 1 / scale->f, &from, &to, &ignored);
+        size_t behind = (size_t)fmin(point_at(scale, to) + 1., (double)scale->n);
+        span_behind(s, stretch_first(s, i), 1 / scale->f, &from, &to, &ignored);
+        size_t first = point_at(scale, from) > end ? point_at(scale, from) : end;
+        if (first >= behind)
+            continue;
+        part[n++] = (level_part){ index, first, behind - first, level + first };
+        end = behind;
+    }
+    return ss_levels_fill(&s->map, part, n);
+}
+
+/* The mean square of |W| behind a transition; 0: it does not last so long. */
+static double
+power_of(const search *s, size_t transition, const ss_scale *scale, const double *level)
+{
+    double from, to, last, sum = 0;
+    span_behind(s, transition, 1 / scale->f, &from, &to, &last);
+    size_t first = point_at(scale, from), k = first;
+    if (to > last || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
+                                  0.5 * (to - from) + ROW_REACH * scale->a))
+        return 0;
+    for (; k < scale->n && ss_scale_b(scale, k) <= to; k++)
+        sum += level[k] * level[k];
+    return k > first ? sum / (double)(k - first) : 0;
+}
+
 /* The mean square of |W| over the root of the scale, which is that of the amplitude, over LOOKED less
  * SETTLED periods behind the onsets; 0: fewer than half of the transitions last so long. */
 static double
 power_behind(const search *s, const ss_scale *scale, const double *level)
 {
-    const ss_features *out = s->out;
-    double sum = 0, period = 1 / scale->f;
-    size_t used = 0;
-    for (size_t i = 0; i < out->n; i++) {
-        double from, to, last, one = 0;
-        span_behind(s, i, period, &from, &to, &last);
-        size_t first = (size_t)ceil(from / (scale->b_num / scale->b_den)), k = first;
-        if (to > last || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to),
-                                                         0.5 * (to - from) + ROW_REACH * scale->a))
-            continue;
-        for (; k < scale->n && ss_scale_b(scale, k) <= to; k++)
-            one += level[k] * level[k];
-        if (k == first)
-            continue;
-        sum += one / (double)(k - first);
-        used++;
-    }
-    return 2 * used > out->n ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
+    double sum = 0;
+    size_t used = 0, all = 0;
+    for (size_t stretch = 0; stretch < STRETCHES; stretch++)
+        for (size_t i = stretch_first(s, stretch); i < stretch_end(s, stretch); i++) {
+            double one = power_of(s, i, scale, level);
+            sum += one;
+            used += one > 0;
+            all++;
+        }
+    return 2 * used > all ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
 }
 
 /* Every so many scales are a quarter of an octave apart.  The band of a sinusoid is wider: the nearest of
@@ -310,7 +361,7 @@ powers_behind(const search *s, double *power, size_t n)
             power[i] = 0;
             if (fine && !is_beside(power, n, i, SEEN * most))
                 continue;
-            st = ss_levels_fill(&s->map, &(level_part){ i, 0, scale[i].n, level }, 1);
+            st = fill_behind(s, i, level);
             power[i] = st == SS_OK ? power_behind(s, &scale[i], level) : 0;
         }
         for (size_t i = EVERY; i + EVERY < n; i += EVERY)
