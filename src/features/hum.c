@@ -10,7 +10,8 @@
  * The band about the frequency is first shifted to zero and thinned, so that a bin costs little.  The
  * error of the period, over all m periods, must be a small part of an oscillation; so the period is
  * sought as the one that gives the strongest harmonics most power.  Long records are treated in
- * parts, because a hum may drift. */
+ * parts, because a hum may drift.  What none of some parts has, here and there, is not steady, and is not
+ * looked for in the others. */
 #include "features/hum.h"
 
 #include <gsl/gsl_min.h>
@@ -30,6 +31,7 @@
 #define FAINT 1e-3              /* of the strongest harmonic: a line that is no more disturbs no fit */
 enum { LINES = 3, FEWEST = 6, FREE = 16, BATCH = 16, STRONGEST = BATCH };
 enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
+enum { ENOUGH = 16 };           /* parts without a hum, for there to be none */
 
 typedef struct zoomed {         /* x = Re z exp(i center t) in the band, at t = 0, step, 2 step ... */
     double complex *z;          /* under the window */
@@ -394,6 +396,17 @@ subtract_zoomed(zoomed *zoom, double *x, size_t n, double f, double period, ss_h
     return SS_OK;
 }
 
+static ss_status
+subtract_part(double *x, size_t n, double f, double period, ss_hum *found)
+{
+    zoomed zoom = { .cycles = (size_t)((double)n / period) };
+    ss_status st = zoom_in(&zoom, x, n, f);
+    if (st == SS_OK)
+        st = subtract_zoomed(&zoom, x, n, f, period, found);
+    free(zoom.z);
+    return st;
+}
+
 ss_status
 ss_hum_subtract(double *x, size_t n, double f, double period, ss_hum *found)
 {
@@ -407,14 +420,13 @@ ss_hum_subtract(double *x, size_t n, double f, double period, ss_hum *found)
     }
     if ((double)each * period * f > LONGEST)
         return SS_OK;
-    for (size_t i = 0; i < parts && st == SS_OK; i++) {
-        size_t first = (size_t)((double)(i * each) * period);
-        size_t end = i + 1 < parts ? (size_t)((double)((i + 1) * each) * period) : n;
-        zoomed zoom = { .cycles = (size_t)((double)(end - first) / period) };
-        st = zoom_in(&zoom, x + first, end - first, f);
-        if (st == SS_OK)
-            st = subtract_zoomed(&zoom, x + first, end - first, f, period, found);
-        free(zoom.z);
-    }
+    size_t every = 1 + parts / ENOUGH;
+    for (int others = 0; others < 2 && !(others && *found == SS_HUM_NONE); others++)
+        for (size_t i = 0; i < parts && st == SS_OK; i++) {
+            size_t first = (size_t)((double)(i * each) * period);
+            size_t end = i + 1 < parts ? (size_t)((double)((i + 1) * each) * period) : n;
+            if ((i % every > 0) == others)
+                st = subtract_part(x + first, end - first, f, period, found);
+        }
     return st;
 }
