@@ -18,24 +18,46 @@ stronger_first(const void *a, const void *b)
     return (p < q) - (p > q);
 }
 
-/* The clearest row, left in *best; rows: how many there are. */
+static double
+label_of(const row_source *source, size_t i)
+{
+    return ROW_HIGHEST * source->rate / 2 * exp2(-(double)i / ROW_VOICES);
+}
+
+/* Take the row, and what it has, if it is clearer than the best. */
+static void
+keep_clearer(row *best, row *r)
+{
+    if (!(r->n > 0 && r->top / r->rms > best->top / best->rms)) {
+        free(r->peak);
+        return;
+    }
+    free(best->peak);
+    *best = *r;
+}
+
+/* The clearest row, left in *best; rows: how many there are.  The heads come first. */
 static ss_status
 find_clearest(row *best, row_source *source, size_t rows, ss_error *err)
 {
-    double f = ROW_HIGHEST * source->rate / 2;
+    ss_status st = SS_OK;
     *best = (row){ .rms = 1 };
     for (size_t i = 0; i < rows; i++) {
-        row r = { 0 };
-        ss_status st = ss_row_new(&r, source, f * exp2(-(double)i / ROW_VOICES), NULL, err);
-        if (st != SS_OK)
-            return st;
-        if (r.n > 0 && r.top / r.rms > best->top / best->rms) {
-            free(best->peak);
-            *best = r;
-        } else
-            free(r.peak);
+        const row *head = ss_row_head(source, label_of(source, i));
+        if (head != NULL)
+            keep_clearer(best, &(row){ .f = head->f, .rms = head->rms, .top = head->top, .n = head->n });
     }
-    return SS_OK;
+    if (best->n > 0)
+        st = ss_row_new(best, source, best->f, NULL, err);
+    for (size_t i = 0; st == SS_OK && i < rows; i++) {
+        row r = { 0 };
+        if (ss_row_head(source, label_of(source, i)) != NULL)
+            continue;
+        st = ss_row_new(&r, source, label_of(source, i), NULL, err);
+        if (st == SS_OK)
+            keep_clearer(best, &r);
+    }
+    return st;
 }
 
 /* The peaks of the row above the threshold, those within range. */
@@ -70,25 +92,32 @@ ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, const ss
     if (out == NULL || x == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     row_source source;
-    row best = { .rms = 1 };
     if (!(opts->range >= 0))
         return ss_fail(err, SS_EINVAL, "range: 0 dB or more are needed");
     ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, opts->gap,
                                       opts->n_gaps, err);
     if (st != SS_OK)
         return st;
-    double length = (double)(n - 1) / rate, shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * rate);
-    double octaves = source.constant ? -1 : log2(length / (LONGEST * shortest));
+    return ss_bursts_in(out, &source, opts->range, err);
+}
+
+ss_status
+ss_bursts_in(ss_bursts **out, row_source *source, double range, ss_error *err)
+{
+    row best = { .rms = 1 };
+    double length = (double)(source->n - 1) / source->rate;
+    double shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * source->rate);
+    double octaves = source->constant ? -1 : log2(length / (LONGEST * shortest));
     size_t rows = octaves >= 0 ? (size_t)(octaves * ROW_VOICES) + 1 : 0;
     ss_bursts *found = calloc(1, sizeof *found);
     if (found == NULL)
         return SS_ENOMEM;
-    st = find_clearest(&best, &source, rows, err);
+    ss_status st = find_clearest(&best, source, rows, err);
     if (st == SS_OK)
         st = collect_bursts(found, &best,
                             ss_row_threshold(length, shortest, rows, ss_spike_defaults.false_alarms),
-                            opts->range);
-    ss_row_source_free(&source);
+                            range);
+    ss_row_source_free(source);
     free(best.peak);
     if (st != SS_OK) {
         ss_bursts_free(found);

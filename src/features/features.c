@@ -421,10 +421,10 @@ find_before_map(search *s)
     ss_status st = find_repetition(s);
     if (st != SS_OK)
         return st;
-    ss_spike_opts sharp = ss_spike_defaults;
-    sharp.gap = s->gap;
-    sharp.n_gaps = s->n_gaps;
-    return ss_spikes_find(&s->out->spikes, s->x, s->n, s->rate, &sharp, NULL);
+    st = ss_row_source_init(s->rows, s->x, s->n, s->rate, ss_spike_defaults.precision, s->gap, s->n_gaps,
+                            NULL);
+    s->rows->keeps_heads = isnan(s->out->repetition_frequency.value);   /* single events may be sought */
+    return st == SS_OK ? ss_spikes_in(&s->out->spikes, s->rows, &ss_spike_defaults, NULL) : st;
 }
 
 static ss_status
@@ -482,7 +482,7 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
      const ss_features_opts *opts, double **cleaned, ss_error *err)
 {
     search s = { .signal = signal, .opts = opts, .n = signal->n, .rate = signal->head->rate,
-                 .is_cleaned = cleaned == NULL };
+                 .rows = &(row_source){ 0 }, .is_cleaned = cleaned == NULL };
     s.x = normalised(x, s.n, &s.largest);
     s.out = calloc(1, sizeof *s.out);
     if (s.out == NULL || s.x == NULL

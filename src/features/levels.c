@@ -97,7 +97,7 @@ digit_of(double level, int shift, size_t mask)
 }
 
 /* Digit by digit of their bits, which are ordered as the numbers are: those that have not the digit
- * of the middle one are left out. */
+ * of the middle one are moved behind the others. */
 double
 ss_levels_middle(double *level, size_t n)
 {
@@ -111,8 +111,10 @@ ss_levels_middle(double *level, size_t n)
         for (; place >= count[digit]; digit++)
             place -= count[digit];
         for (size_t i = 0; i < n; i++) {
-            level[left] = level[i];
-            left += digit_of(level[i], low, DIGITS - 1) == digit;
+            double here = level[i];
+            level[i] = level[left];
+            level[left] = here;
+            left += digit_of(here, low, DIGITS - 1) == digit;
         }
         n = left;
     }

@@ -45,7 +45,7 @@ const ss_scale *ss_levels_scale(const map_source *source, size_t row);
 void ss_levels_free(map_source *source);
 
 ss_status ss_levels_fill(const map_source *source, const level_part *part, size_t n);
-/* The one of n >= 1 levels, all >= 0, that n / 2 others are not above; the levels are lost. */
+/* The one of n >= 1 levels, all >= 0, that n / 2 others are not above; the levels change places. */
 double ss_levels_middle(double *level, size_t n);
 /* How much of the work on a map is done, 0 to 1; SS_STOP if that was asked for. */
 ss_status ss_levels_progress(const map_source *source, double done);

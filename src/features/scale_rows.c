@@ -131,7 +131,14 @@ summit(const double *level, double t, double step)
     return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
 }
 
-/* The rms of |W| in the n levels, which are lost, one every step from t on, by the median of
+/* The rms of |W| that is not the signal's, from its median. */
+static double
+rms_of(const row_source *source, double middle)
+{
+    return hypot(middle / sqrt(M_LN2), source->rounding);
+}
+
+/* The rms of |W| in the n levels, which change places, one every step from t on, by the median of
  * those that are farther than QUIET scales from all spikes found so far and out of the reach of
  * gaps: all that there are, if these are less than LEAST of them. */
 static double
@@ -154,13 +161,13 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     }
     if (all || (double)left < LEAST * (double)n)
         left = n;
-    return ss_levels_middle(level, left) / sqrt(M_LN2);
+    return rms_of(source, ss_levels_middle(level, left));
 }
 
 /* source->level holds |W| of the row, of which those before t = 0 and behind the record are not its
  * own. */
 static ss_status
-fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale *scale,
+fill_row(row *r, row_source *source, const ss_spikes *loud, const ss_scale *scale,
          double margin)
 {
     double *level = source->level;
@@ -182,6 +189,13 @@ fill_row(row *r, const row_source *source, const ss_spikes *loud, const ss_scale
     }
     r->rms = noise_of(source, loud, level + first, last - first + 1,
                       ss_scale_b(scale, first) - margin, step, r->a);
+    if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
+        row *head = &source->head[source->n_heads++];
+        *head = *r;
+        head->peak = NULL;
+        if (loud != NULL && loud->n > 0)
+            head->rms = rms_of(source, ss_levels_middle(level + first, last - first + 1));
+    }
     return SS_OK;
 }
 
@@ -216,10 +230,17 @@ make_room(row_source *source, size_t n)
     return source->level != NULL ? SS_OK : SS_ENOMEM;
 }
 
+/* The scale is 2^(this / ROW_VOICES) s. */
+static double
+number_of(double f)
+{
+    return round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f)));
+}
+
 ss_status
 ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
 {
-    double j = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))), octave = floor(j / ROW_VOICES);
+    double j = number_of(f), octave = floor(j / ROW_VOICES);
     ss_status st = SS_OK;
     if (source->rows.levels == NULL || octave < source->octave || octave >= source->end)
         st = open_octaves(source, octave, err);
@@ -231,16 +252,23 @@ ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error
         return st;
     *r = (row){ .a = scale->a, .f = scale->f };
     st = ss_levels_fill(&source->rows, &(level_part){ index, 0, scale->n, source->level }, 1);
-    if (st == SS_OK)
-        st = fill_row(r, source, loud, scale, (double)source->margin / source->rate);
-    r->rms = hypot(r->rms, source->rounding);
-    return st;
+    return st == SS_OK ? fill_row(r, source, loud, scale, (double)source->margin / source->rate) : st;
+}
+
+const row *
+ss_row_head(const row_source *source, double f)
+{
+    for (size_t i = 0; i < source->n_heads; i++)
+        if (number_of(source->head[i].f) == number_of(f))
+            return &source->head[i];
+    return NULL;
 }
 
 void
 ss_row_source_free(row_source *source)
 {
     ss_levels_free(&source->rows);
+    source->rows.levels = NULL;
     free(source->level);
     source->level = NULL;
     source->room = 0;

@@ -12,6 +12,20 @@
 /* Scales by which a wavelet reaches: it is 1.5e-8 of its height there. */
 #define ROW_REACH 6.0
 
+typedef struct peak {
+    double t, level;            /* [s], |W| */
+} peak;
+
+typedef struct row {
+    double a, f;
+    double rms, top;            /* of the noise; the largest peak's level */
+    size_t n;
+    peak *peak;                 /* all maxima outside the cone of influence and out of the
+                                   reach of gaps, in time order */
+} row;
+
+enum { ROW_HEADS = 32 };
+
 typedef struct row_source {
     const double *x;
     size_t n;
@@ -27,30 +41,30 @@ typedef struct row_source {
     size_t margin;
     double *level;              /* room for so many of a row */
     size_t room;
+    int keeps_heads;            /* 1: the first rows are known when their peaks are gone */
+    row head[ROW_HEADS];        /* these; the noise is that of everywhere, the peaks are not there */
+    size_t n_heads;
 } row_source;
 
 /* Checks the samples and the rate.  precision: of a sample, re the largest change. */
 ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate,
                              double precision, const ss_span *gap, size_t n_gaps, ss_error *err);
+/* Its memory; it can be used again, and its heads stay. */
 void ss_row_source_free(row_source *source);
-
-typedef struct peak {
-    double t, level;            /* [s], |W| */
-} peak;
-
-typedef struct row {
-    double a, f;
-    double rms, top;            /* of the noise; the largest peak's level */
-    size_t n;
-    peak *peak;                 /* all maxima outside the cone of influence and out of the
-                                   reach of gaps, in time order */
-} row;
 
 /* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
  * for from short to long scales, as some octaves share spectra.  The noise is read where no spike
  * of loud is near; NULL: everywhere.  r->peak is to be freed with free(). */
 ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
+
+/* The head of the row nearest to f; NULL: it is not known. */
+const row *ss_row_head(const row_source *source, double f);
+
+/* ss_spikes_find and ss_bursts_find in a source, whose precision and gaps count; its memory is freed, but
+ * both may use it, one after the other. */
+ss_status ss_spikes_in(ss_spikes **out, row_source *source, const ss_spike_opts *opts, ss_error *err);
+ss_status ss_bursts_in(ss_bursts **out, row_source *source, double range, ss_error *err);
 
 /* The level, in units of the noise's rms, that Gaussian noise is expected to reach false_alarms
  * times in so many rows, the first of scale shortest, of a record of that length [s]. */

@@ -30,6 +30,7 @@ typedef struct search {
     const ss_features_opts *opts;
     map_source map;             /* |W| */
     double top;                 /* its largest outside the cone of influence */
+    struct row_source *rows;    /* of x (scale_rows.h) */
     ss_maximum *found;          /* maxima, slight ones too */
     size_t n_found;
     column_quantity quantity;

@@ -25,7 +25,7 @@
 const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7, NULL, 0 };
 
 typedef struct spike_search {
-    row_source source;
+    row_source *source;
     const ss_spike_opts *opts;
     size_t n_rows;
     row *row;
@@ -154,7 +154,7 @@ is_clear(const ss_spikes *found, size_t n, double t, double distance)
 static int
 sees_gap(const spike_search *s, const row *r, double t)
 {
-    const row_source *source = &s->source;
+    const row_source *source = s->source;
     return ss_gaps_near(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
 }
 
@@ -180,7 +180,7 @@ add_row_spikes(spike_search *s, size_t i)
 static ss_status
 search_rows(spike_search *s, double f, ss_error *err)
 {
-    row_source *src = &s->source;
+    row_source *src = s->source;
     double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
     double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
     if (!(octaves > 0))
@@ -213,16 +213,16 @@ refined(const spike_search *s, size_t i)
 {
     const ss_spikes *found = s->found;
     const ss_spike *spike = &found->spike[i];
-    double rate = s->source.rate;
+    double rate = s->source->rate;
     double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
-    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->source.n - 1));
+    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->source->n - 1));
     if (spike->kind == SS_SPIKE_BEND || spike->kind == SS_SPIKE_GLITCH)
         return spike->t;
     if (i > 0)
         lo = fmax(lo, found->spike[i - 1].t * rate + 1);
     if (i + 1 < found->n)
         hi = fmin(hi, found->spike[i + 1].t * rate - 1);
-    return ss_breakpoint(s->source.x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
+    return ss_breakpoint(s->source->x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
 }
 
 static void
@@ -272,19 +272,24 @@ ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
 {
     if (out == NULL || x == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    spike_search s = { .opts = opts };
+    row_source source;
     ss_status st = check(rate, opts, err);
     if (st == SS_OK)
-        st = ss_row_source_init(&s.source, x, n, rate, opts->precision, opts->gap, opts->n_gaps,
-                                err);
-    if (st != SS_OK)
-        return st;
+        st = ss_row_source_init(&source, x, n, rate, opts->precision, opts->gap, opts->n_gaps, err);
+    return st == SS_OK ? ss_spikes_in(out, &source, opts, err) : st;
+}
+
+ss_status
+ss_spikes_in(ss_spikes **out, row_source *source, const ss_spike_opts *opts, ss_error *err)
+{
+    spike_search s = { .source = source, .opts = opts };
     s.found = calloc(1, sizeof *s.found);
     if (s.found == NULL)
         return SS_ENOMEM;
-    if (!s.source.constant)
-        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * rate / 2, err);
-    ss_row_source_free(&s.source);
+    ss_status st = SS_OK;
+    if (!source->constant)
+        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * source->rate / 2, err);
+    ss_row_source_free(source);
     if (st == SS_OK)
         finish(&s);
     for (size_t i = 0; i < s.n_rows; i++)

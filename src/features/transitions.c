@@ -113,8 +113,7 @@ find_single(search *s)
     ss_bursts *found = NULL;
     ss_levels_free(&s->map);
     s->map = (map_source){ NULL, NULL };
-    ss_status st = ss_bursts_find(&found, s->x, s->n, s->rate,
-                                  &(ss_burst_opts){ CLEAR, s->gap, s->n_gaps }, NULL);
+    ss_status st = ss_bursts_in(&found, s->rows, CLEAR, NULL);
     if (st == SS_OK && is_clipped_between(s, found))
         s->out->why_slips = "two events may be one that is clipped: it stands still at an extreme between them";
     else if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
