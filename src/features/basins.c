@@ -23,7 +23,7 @@
 enum {
     RECENT = 1 << 12,           /* borders that are kept at hand while they may be met higher up */
     HALO = 3,                   /* neighbours of a point in a row beside it are within so many */
-    STRIP = 1 << 21             /* points of a strip, about */
+    STRIP = 1 << 20             /* points of a strip, about */
 };
 
 /* Points of a row from the end of the hill before on. */
@@ -47,6 +47,7 @@ typedef struct map {
     line *line;                 /* of row first and on */
     size_t room;                /* points */
     double *level;              /* of a strip's points; 0: dry */
+    size_t *turn;               /* of a row, see find_turns */
     size_t n_hills, hill_room;
     hill *hill;                 /* of a strip, row by row */
     size_t peak_room, border_room;
@@ -61,6 +62,7 @@ map_free(map *m)
         return;
     free(m->line);
     free(m->level);
+    free(m->turn);
     free(m->hill);
     free(m);
 }
@@ -97,8 +99,10 @@ make_room(map *m, size_t n)
     if (n <= m->room)
         return SS_OK;
     free(m->level);
+    free(m->turn);
     m->level = malloc(n * sizeof *m->level);
-    m->room = m->level != NULL ? n : 0;
+    m->turn = malloc((n + 1) * sizeof *m->turn);
+    m->room = m->level != NULL && m->turn != NULL ? n : 0;
     return m->room > 0 ? SS_OK : SS_ENOMEM;
 }
 
@@ -213,6 +217,22 @@ add_hill(map *m, size_t top, size_t end, size_t way)
     m->hill[m->n_hills++] = (hill){ top, end, way };
 }
 
+/* The points from k on, before n, from which on levels rise no more, and then rise again, by turns; the last
+ * point is the end of both.  Returns their number, which is even.  No branch, as none could be foreseen. */
+static size_t
+find_turns(const double *level, size_t k, size_t n, size_t *turn)
+{
+    size_t count = 0, rose = 1;
+    for (; k + 1 < n; k++) {
+        size_t rises = level[k + 1] > level[k];
+        turn[count] = k;
+        count += rises != rose;
+        rose = rises;
+    }
+    turn[count] = turn[count + rose] = n - 1;
+    return count + 1 + rose;
+}
+
 /* The hills of a row: a top is the first of equals. */
 static void
 find_hills(map *m, size_t row)
@@ -220,17 +240,13 @@ find_hills(map *m, size_t row)
     line *l = &m->line[row - m->out->first];
     const double *level = m->level + l->at;
     size_t n = l->end - l->lo, k = l->from - l->lo;
+    size_t turns = k < n ? find_turns(level, k, n, m->turn) : 0;
     l->hill = m->n_hills;
     for (size_t i = l->lo; i < l->from; i++)
         add_hill(m, i, i + 1, l->before[l->from - 1 - i]);
-    while (k < n) {
-        size_t top = k;
-        while (top + 1 < n && level[top + 1] > level[top])
-            top++;
-        for (k = top + 1; k < n && level[k] <= level[k - 1];)
-            k++;
-        add_hill(m, l->lo + top, l->lo + k, level[top] > 0 ? m->n_hills : DRY);
-    }
+    for (size_t i = 0; i < turns; i += 2)
+        add_hill(m, l->lo + m->turn[i], l->lo + m->turn[i + 1] + 1,
+                 level[m->turn[i]] > 0 ? m->n_hills : DRY);
     l->hill_end = m->n_hills;
 }
 
@@ -403,7 +419,7 @@ find_borders_along(map *m, const line *l)
     const double *level = m->level + l->at;
     for (size_t i = l->hill; i + 1 < l->hill_end; i++) {
         size_t k = m->hill[i].end - l->lo, p = m->hill[i].way, q = m->hill[i + 1].way;
-        double low = fmin(level[k - 1], level[k]);
+        double low = level[k - 1] < level[k] ? level[k - 1] : level[k];
         if (is_border(p, q) && low > 0)
             add_border(m, p, q, low);
     }
