@@ -108,9 +108,9 @@ ss_inertia_sign(int *sign, const double *x, ss_window room, const ss_slip *slip,
     *sign = 0;
     fill(&f, x, room, slip);
     f.lead = atan(loading / (half * w));
+    if (f.n <= PARAMETERS)
+        return SS_OK;
     for (f.relaxes = 0; f.relaxes < 2; f.relaxes++) {
-        if (f.n <= PARAMETERS)
-            return SS_OK;
         ss_status st = fit(&f, slope, &left[f.relaxes]);
         if (st != SS_OK)
             return st;

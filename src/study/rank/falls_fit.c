@@ -19,13 +19,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <stickslip/sim.h>
 #include "features/loading.h"
 #include "scene/model.h"
+#include "study/rank/fall_run.h"
 
 enum { LOCAL = FALL_UNKNOWNS, ONSET = 0, MIDDLE, HALF };
 enum { STEPS = 60 };            /* of a stage of the fit */
-enum { LONGEST = 1000000 };     /* integration steps of a run */
 #define LEAST 2                 /* f_k over f_s - f_k in a simulation: see fill_rows */
 #define BENT 0.01               /* the part of the slope of loading that other slips may change it by */
 #define FAR 5                   /* times its spread no key changes more: such a scene is another, */
@@ -35,101 +34,7 @@ enum { LONGEST = 1000000 };     /* integration steps of a run */
 #define NEARLY 0.05             /* so much of its height a fall may be off to start from */
 #define HELD 0.01               /* a change of a key that is held that would cost all of the power */
 #define DIFFERENCE 1e-4         /* of an unknown, for its slopes */
-#define SHORT 0.1               /* of the time of loading 2 (f_s - f_k), and of a period of k/m: no stick
-                                   before a fall is shorter than both, but those of a contact that rings */
-enum { SETTLED = 2, SETTLED_CONTACT = 4 };      /* the fall that is settled: a contact may ring for long */
-#define PATIENCE 8              /* times as long as a fall should take, for these to come */
 #define HOPELESS 1e3            /* rms of what a scene leaves that does not slip, re the fall's */
-
-/* --- a fall of a scene --------------------------------------------------------------------- */
-
-typedef struct waiting {
-    double since, least, t;     /* of the last stick's begin, NAN in slip; a stick; of the fall [s] */
-    int falls, settled;         /* so far; of a settled motion */
-} waiting;
-
-static int
-wait_for_fall(const ss_event *e, void *user)
-{
-    waiting *w = user;
-    if (e->kind == SS_SLIP && e->t - w->since >= w->least && ++w->falls == w->settled) {
-        w->t = e->t;
-        return 1;
-    }
-    w->since = e->kind == SS_STICK ? e->t : NAN;
-    return 0;
-}
-
-static ss_sim_opts
-how_to_run(const ss_scene *s)
-{
-    return (ss_sim_opts){ .method = ss_model_is_linear(s->model) ? "exact" : NULL, .tol = 1e-10 };
-}
-
-/* A run that is stopped, or fails, has an outcome; one without memory has none. */
-static void
-note_memory(ss_status *status, ss_status st)
-{
-    if (st == SS_ENOMEM)
-        *status = st;
-}
-
-/* The time of the scene's first settled fall; NAN: it has none. */
-static double
-find_fall(const ss_scene *scene, double *steps, ss_status *status)
-{
-    const double loading = fabs(scene->stiffness * pull_of(scene));
-    const double half = scene->static_friction - scene->friction;
-    ss_scene s = *scene;
-    waiting w = { 0, SHORT * fmin(2 * half / loading, 2 * M_PI / own_frequency(scene)), NAN, 0,
-                  ss_model_of(scene)->has_contact ? SETTLED_CONTACT : SETTLED };
-    ss_sim_stats stats = { .steps = 0 };
-    ss_sim_opts opts = how_to_run(&s);
-    opts.events = wait_for_fall;
-    opts.user = &w;
-    opts.max_steps = LONGEST;
-    s.settle = 0;
-    s.duration = 2 * s.static_friction / loading
-                 + PATIENCE * (2 * half / loading + 2 * M_PI / own_frequency(&s));
-    s.rate = 1 / s.duration;
-    note_memory(status, ss_sim_run(&s, &opts, &stats, NULL));
-    *steps += (double)stats.steps;
-    return w.t;
-}
-
-typedef struct sampled {
-    double *y, direction;
-    size_t n, room;
-} sampled;
-
-static int
-append_samples(const ss_sample *s, size_t n, void *user)
-{
-    sampled *t = user;
-    for (size_t i = 0; i < n && t->n < t->room; i++)
-        t->y[t->n++] = t->direction * s[i].s;
-    return 0;
-}
-
-/* The samples of a fall at `time`; 0 if they cannot be had. */
-static int
-sample_fall(double *y, const ss_scene *scene, double time, double onset, const fall *w, double rate,
-            double *steps, ss_status *status)
-{
-    ss_scene s = *scene;
-    sampled t = { y, pull_of(scene) > 0 ? 1 : -1, 0, w->n };
-    ss_sim_stats stats = { .steps = 0 };
-    ss_sim_opts opts = how_to_run(&s);
-    opts.samples = append_samples;
-    opts.user = &t;
-    s.settle = time - (onset - (double)w->first) / rate;
-    s.rate = rate / (double)w->step;
-    s.duration = (double)w->n / s.rate;
-    ss_status st = s.settle >= 0 ? ss_sim_run(&s, &opts, &stats, NULL) : SS_EINVAL;
-    note_memory(status, st);
-    *steps += (double)stats.steps + (double)w->n / 4;
-    return st == SS_OK && t.n == w->n;
-}
 
 /* --- unknowns ------------------------------------------------------------------------------ */
 
@@ -226,9 +131,9 @@ fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL]
     for (size_t k = 0; k < f->out->n_keys; k++)
         valid = valid && fabs(change[k]) <= f->farthest;
     if (valid && isnan(*time))
-        *time = find_fall(&s, f->steps, &f->status);
+        *time = ss_fall_find(&s, f->steps, &f->status);
     if (!valid || isnan(*time)
-        || !sample_fall(row, &s, *time, local[ONSET], w, f->r->rate, f->steps, &f->status)) {
+        || !ss_fall_sample(row, &s, *time, local[ONSET], w, f->r->rate, f->steps, &f->status)) {
         for (size_t k = 0; k < rows_of(w); k++)
             row[k] = HOPELESS * sqrt(f->r->power) / f->size;
         return;
@@ -470,7 +375,7 @@ report(problem *f, const gsl_multifit_nlinear_workspace *space, gsl_matrix *cova
     o->scene = scene_of(f, at->data);
     o->scene.friction = o->friction.value;
     o->scene.static_friction = o->static_friction.value;
-    o->scene.settle = find_fall(&o->scene, f->steps, &f->status) - f->r->first;
+    o->scene.settle = ss_fall_find(&o->scene, f->steps, &f->status) - f->r->first;
     o->scene.duration = o->scene.rate = 1;
     o->slips = o->scene.settle >= 0 && ss_scene_check(&o->scene, NULL) == SS_OK
                && o->left < f->r->power;

@@ -49,9 +49,10 @@ typedef struct fitting {
 
 /* --- matches ------------------------------------------------------------------------------- */
 
-/* Stiffness and damping about those of the transitions, if they show them: 1. */
+/* Narrow the ranges of the contact's stiffness and damping to those about the values that the transitions show;
+ * *is_narrow becomes 0 if they show neither. */
 static ss_status
-narrow(candidate *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
+narrow_ranges(candidate *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts = ss_features_defaults;
@@ -72,9 +73,9 @@ narrow(candidate *c, int *is_narrow, const ss_signal *signal, size_t column, ss_
     return SS_OK;
 }
 
-/* All is free but k, which is known. */
+/* The candidate of the fit: all keys are free but k, which is known. */
 static candidate
-wide(const ss_scene *start, ss_quantity quantity)
+candidate_of(const ss_scene *start, ss_quantity quantity)
 {
     candidate c = ss_candidate_of(start, (int)quantity, FAR);
     c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
@@ -93,7 +94,7 @@ search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stret
     const ss_stretch second = ss_stretch_part(progress, 0.5, 1);
     candidate near = w->c;
     int is_narrow = 0;
-    ss_status st = narrow(&near, &is_narrow, signal, column, err);
+    ss_status st = narrow_ranges(&near, &is_narrow, signal, column, err);
     if (st == SS_OK && is_narrow)
         st = ss_candidate_search(&near, &w->goal, STARTS, KEEP / 2, STEPS, &first);
     w->c.steps = near.steps;
@@ -351,7 +352,7 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
            ss_error *err)
 {
     const ss_stretch whole = { opts->progress, 0, 1 };
-    w->c = wide(&fit->scene, opts->quantity);
+    w->c = candidate_of(&fit->scene, opts->quantity);
     w->record = fitted_part(w);
     double split = search_share(w);
     const ss_stretch searching = ss_stretch_part(&whole, 0, split);

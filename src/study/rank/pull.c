@@ -108,9 +108,10 @@ find_excess(ss_pull *p, const ss_signal *signal, size_t column)
     return st;
 }
 
-int
-ss_pull_lacks_falls(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
-                    const ss_scene *scene)
+/* Is the record no pull, or one to the other side?  Then `why` says so. */
+static int
+is_no_pull(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
+           const ss_scene *scene)
 {
     if (f->loading == NULL || f->n == 0)
         snprintf(why, room, "%s", f->why_slips != NULL ? f->why_slips
@@ -118,16 +119,48 @@ ss_pull_lacks_falls(char *why, size_t room, const ss_features *f, const ss_signa
     else if (sum_of(signal, column) * pull_of(scene) < 0)
         snprintf(why, room, "the force has the opposite sign of %s",
                  scene->base_velocity != 0 ? "base_velocity" : "a belt's");
-    else if (f->n < PULL_FEWEST || isnan(f->slope.error))
-        snprintf(why, room, "%zu slips are too few for a median and its scatter", f->n);
     else
         return 0;
     return 1;
 }
 
-/* By the slips that have a closed form. */
+/* Are so many slips too few?  Then `why` says so. */
+static int
+are_too_few(char *why, size_t room, size_t slips, const ss_features *f)
+{
+    if (slips >= PULL_FEWEST && !isnan(f->slope.error))
+        return 0;
+    snprintf(why, room, "%zu slips are too few for a median and its scatter", slips);
+    return 1;
+}
+
+int
+ss_pull_lacks_falls(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
+                    const ss_scene *scene)
+{
+    return is_no_pull(why, room, f, signal, column, scene) || are_too_few(why, room, f->n, f);
+}
+
+/* The verdict by the slips, of which `first` is the first. */
+static void
+judge_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start, size_t first)
+{
+    const ss_features *f = p->features;
+    if (is_no_pull(p->why, sizeof p->why, f, signal, column, start))
+        return;
+    if ((double)p->n_slips < MOST * (double)f->n) {
+        snprintf(p->why, sizeof p->why, "%zu of %zu falls are no slips of a pulled Coulomb slider",
+                 f->n - p->n_slips, f->n);
+        p->verdict = SS_NONE_FITS;
+    } else if (!are_too_few(p->why, sizeof p->why, p->n_slips, f)) {
+        p->verdict = SS_NAMED;
+        p->scene = scene_of(start, f, first, signal);
+    }
+}
+
+/* Fit by the slips, which have a closed form. */
 static ss_status
-judge_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start)
+fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start)
 {
     const ss_features *f = p->features;
     size_t first = 0;
@@ -136,19 +169,7 @@ judge_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *
             first = i, p->n_slips++;
     p->static_friction = f->static_friction;
     p->friction = f->friction;
-    if (f->loading == NULL || f->n == 0 || sum_of(signal, column) * pull_of(start) < 0)
-        ss_pull_lacks_falls(p->why, sizeof p->why, f, signal, column, start);
-    else if ((double)p->n_slips < MOST * (double)f->n) {
-        snprintf(p->why, sizeof p->why, "%zu of %zu falls are no slips of a pulled Coulomb slider",
-                 f->n - p->n_slips, f->n);
-        p->verdict = SS_NONE_FITS;
-    } else if (p->n_slips < PULL_FEWEST || isnan(f->slope.error))
-        snprintf(p->why, sizeof p->why, "%zu slips are too few for a median and its scatter",
-                 p->n_slips);
-    else {
-        p->verdict = SS_NAMED;
-        p->scene = scene_of(start, f, first, signal);
-    }
+    judge_slips(p, signal, column, start, first);
     return p->n_slips > 0 ? find_excess(p, signal, column) : SS_OK;
 }
 
@@ -220,9 +241,10 @@ judge_fit(ss_pull *p, const falls_fit *fit)
         p->verdict = SS_NAMED;
 }
 
+/* Fit by simulation to the falls. */
 static ss_status
-judge_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start,
-            const ss_rank_opts *opts)
+fit_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start,
+          const ss_rank_opts *opts)
 {
     const ss_stretch all = { opts->progress, 0, 1 };
     falls_fit fit;
@@ -266,8 +288,8 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
     *p = (ss_pull){ .verdict = SS_UNDECIDED, .scene = *start, .left = NAN, .excess = NAN, .noise = NAN };
     st = ss_features_find(&p->features, signal, column, &how, err);
     if (st == SS_OK) {
-        st = is_plain(start) ? judge_slips(p, signal, column, start)
-                             : judge_falls(p, signal, column, start, opts);
+        st = is_plain(start) ? fit_slips(p, signal, column, start)
+                             : fit_falls(p, signal, column, start, opts);
         if (st != SS_OK)
             ss_fail(err, st, "%s", ss_strerror(st));
     }

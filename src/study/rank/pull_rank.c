@@ -197,33 +197,58 @@ leaves_open(ss_ranking *r, const trial *t)
     return 0;
 }
 
+/* Does a scene within the spread explain the falls, and leave as little as `least` does? */
+static int
+is_equal(const trial *t, const trial *least, double noise)
+{
+    return t->explains && t->near && leaves_as_little(t, least, noise);
+}
+
+/* Of the scenes within the spread that explain the falls, the one that leaves least; n: none does. */
+static size_t
+find_least(const trial *t, size_t n)
+{
+    size_t least = n;
+    for (size_t i = 0; i < n; i++)
+        if (t[i].explains && t[i].near && (least == n || t[i].match.left < t[least].match.left))
+            least = i;
+    return least;
+}
+
+/* Does another law explain the falls as well as scene `least`?  Then r->why says so. */
+static int
+has_rival(ss_ranking *r, const trial *t, size_t least, double noise)
+{
+    size_t i = 0;
+    while (i < r->n && (!is_equal(&t[i], &t[least], noise) || is_same_law(&t[i], &t[least])))
+        i++;
+    if (i == r->n)
+        return 0;
+    snprintf(r->why, sizeof r->why, "%s and %s friction%s explain the falls equally well",
+             ss_model_name(t[least].fit.scene.model), ss_model_name(t[i].fit.scene.model),
+             t[i].fit.scene.damping > 0 ? ", with damping," : "");
+    return 1;
+}
+
 /* The scene that is named; r->n: none, and why. */
 static size_t
 name_scene(ss_ranking *r, const trial *t, double noise)
 {
-    size_t least = r->n, nearest;
     if (leaves_open(r, t))
         return r->n;
-    for (size_t i = 0; i < r->n; i++)
-        if (t[i].explains && t[i].near && (least == r->n || t[i].match.left < t[least].match.left))
-            least = i;
+    const size_t least = find_least(t, r->n);
     if (least == r->n) {
         refuse(r, t, noise);
         return r->n;
     }
-    nearest = least;
+    if (has_rival(r, t, least, noise))
+        return r->n;
+    size_t nearest = least;
     for (size_t i = 0; i < r->n; i++)
-        if (t[i].explains && t[i].near && leaves_as_little(&t[i], &t[least], noise)) {
-            if (!is_same_law(&t[i], &t[least])) {
-                snprintf(r->why, sizeof r->why, "%s and %s friction%s explain the falls equally well",
-                         ss_model_name(t[least].fit.scene.model), ss_model_name(t[i].fit.scene.model),
-                         t[i].fit.scene.damping > 0 ? ", with damping," : "");
-                return r->n;
-            }
-            nearest = t[i].distance < t[nearest].distance ? i : nearest;
-        }
+        if (is_equal(&t[i], &t[least], noise) && t[i].distance < t[nearest].distance)
+            nearest = i;
     for (size_t i = 0; i < r->n; i++)
-        if (i != nearest && t[i].explains && t[i].near && leaves_as_little(&t[i], &t[least], noise)
+        if (i != nearest && is_equal(&t[i], &t[least], noise)
             && t[i].distance - t[nearest].distance < sqrt(MATCH_DECISIVE) * t[nearest].error) {
             snprintf(r->why, sizeof r->why, "two scenes are equally near to the slips, within their errors");
             return r->n;

@@ -114,7 +114,7 @@ last_row(size_t i, const ss_scene *scene)
 /* The verdict is that of the scenes of the signal's kind, whose rows come first.  Those of the other kind
  * do not fit, and have no values. */
 static void
-take_over(ss_ranking *r, const ss_ranking *of, const ss_scene *scene)
+copy_answer(ss_ranking *r, const ss_ranking *of, const ss_scene *scene)
 {
     const size_t n = r->n;
     const int pulled = ss_scene_is_pulled(&scene[of->row[0].scene]);
@@ -137,7 +137,7 @@ rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene 
     if (st == SS_OK)
         st = rank_kind(&pulled, 1, signal, column, scene, r->n, opts, err);
     if (st == SS_OK)
-        take_over(r, is_pull(forced, pulled) ? pulled : forced, scene);
+        copy_answer(r, is_pull(forced, pulled) ? pulled : forced, scene);
     if (st == SS_OK && forced->verdict == SS_NAMED && pulled != NULL && pulled->verdict == SS_NAMED) {
         r->verdict = SS_UNDECIDED;
         snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");

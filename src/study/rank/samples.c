@@ -16,7 +16,6 @@
 #include "scene/model.h"
 
 enum { STEPS_MOST = 1000000 };          /* of one run */
-enum { SAMPLES_A_STEP = 4 };            /* so many cost what a step does, about */
 
 typedef struct sampled {
     int pick;

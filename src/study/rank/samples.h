@@ -7,6 +7,7 @@
 #include <stickslip/status.h>
 
 enum { SAMPLES_REACH = 18 };        /* samples */
+enum { SAMPLES_A_STEP = 4 };        /* samples that cost about as much as an integration step */
 #define SAMPLES_FINE 1e-7           /* tolerances: for differences of two motions, and for their sizes */
 #define SAMPLES_COARSE 1e-5
 
