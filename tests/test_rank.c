@@ -8,6 +8,7 @@
 #include "shipped.h"
 #include "study/rank/candidate.h"
 #include "study/rank/cycle.h"
+#include "study/rank/held.h"
 #include "study/rank/samples.h"
 #include "unit.h"
 
@@ -415,6 +416,92 @@ finds_the_parameters_of_a_compliant_signal(void **state)
     }
 }
 
+/* What a sensor of first order shows that is so many samples late, of a motion that is straight between
+ * samples: the closed form of its response to a ramp. */
+static void
+lag(double *x, size_t n, double samples)
+{
+    const double keep = exp(-1 / samples), part = samples * (1 - keep);
+    double before = x[0];
+    for (size_t i = 1; i < n; i++) {
+        double now = x[i];
+        x[i] = keep * x[i - 1] + (1 - part) * now + (part - keep) * before;
+        before = now;
+    }
+}
+
+/* Match the light scene to a record at 40 dB of a rig that differs from it in terms that a match holds.  *part
+ * becomes what is left of the power. */
+static void
+ask(held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_samples)
+{
+    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
+    const ss_scene scene = shipped(LIGHT);
+    const double period = 1 / scene.base_frequency;
+    ss_signal *signal = record_of(rig, 300);
+    candidate c = ss_candidate_of(&scene, SS_ACCELERATION, 2);
+    candidate_start start = { .size = 1, .shift = remainder(-scene.settle / period, 1) };
+    rank_record r = { .x = signal->values, .n = signal->n, .rate = scene.rate };
+    match m;
+    memcpy(start.key, c.own, sizeof start.key);
+    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
+    if (lag_samples > 0)
+        lag(signal->values, signal->n, lag_samples);
+    ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5);
+    assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
+    assert_int_equal(ss_match_find(&m, &c, &start, period, &r, NULL, 0, &silent), SS_OK);
+    assert_int_equal(ss_held_ask(of, &c, &m, &r), SS_OK);
+    assert_true(m.compared > 0);
+    *part = m.left / m.power;
+    ss_signal_free(signal);
+}
+
+/* Damping and f_s / f_k that the scene lacks come back within three standard errors, where the gain is the
+ * square of the change in standard errors.  Without them no gain is significant. */
+static void
+terms_that_a_match_holds_come_back(void **state)
+{
+    static const struct { double damping, ratio; } row[] = {
+        { 0, 1 }, { 0.1, 1 }, { 0.5, 1 }, { 2, 1 }, { 8, 1 }, { 0, 1.01 }, { 0, 1.03 }, { 0, 1.1 } };
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        ss_scene rig = shipped(LIGHT);
+        held of[HELD_TERMS];
+        double part;
+        rig.damping = row[k].damping;
+        rig.static_friction = row[k].ratio > 1 ? row[k].ratio * rig.friction : 0;
+        ask(of, &part, &rig, 0);
+        const held *damping = &of[HELD_DAMPING], *ratio = &of[HELD_STATIC];
+        if (row[k].ratio == 1 && !(fabs(damping->nearer - rig.damping) * sqrt(damping->gain) <= 3 * damping->nearer))
+            fail_msg("damping %g: %g", rig.damping, damping->nearer);
+        if (row[k].damping == 0
+            && !(fabs(ratio->nearer - row[k].ratio) * sqrt(ratio->gain) <= 3 * fabs(ratio->nearer - 1)))
+            fail_msg("f_s / f_k %g: %g", row[k].ratio, ratio->nearer);
+        if (row[k].ratio == 1)
+            assert_true((damping->gain > 9) == (row[k].damping > 0));
+        assert_true(k > 0 || (ratio->gain <= 9 && of[HELD_LAG].gain <= 9));
+    }
+}
+
+/* The gain by a lag is what a match to the same record leaves less if the sensor has none.  The noise in the
+ * record moves the gain by 2 sqrt(gain) for each standard error; two are allowed. */
+static void
+a_lag_of_the_sensor_is_seen(void **state)
+{
+    const ss_scene rig = shipped(LIGHT);
+    held of[HELD_TERMS];
+    double without, part;
+    (void)state;
+    ask(of, &without, &rig, 0);
+    for (double samples = 0.25; samples <= 2; samples *= 2) {
+        ask(of, &part, &rig, samples);
+        double gain = of[HELD_LAG].gain, less = (1 - without / part) * (double)ss_scene_samples(&rig);
+        assert_true(gain > 9 && gain > of[HELD_DAMPING].gain && gain > of[HELD_STATIC].gain);
+        if (!(fabs(gain - less) <= 4 * sqrt(gain)))
+            fail_msg("%g samples: the gain is %g, but %g is left less", samples, gain, less);
+    }
+}
+
 /* A gap in a stick, filled with a line or with zeros: the models rank as without, and all samples
  * that are left fit the scene to the last digits. */
 static void
@@ -556,6 +643,8 @@ main(void)
         cmocka_unit_test(scores_are_distances_over_thresholds_up_to_three),
         cmocka_unit_test(a_threshold_that_moves_can_change_the_order),
         cmocka_unit_test(finds_the_parameters_of_a_compliant_signal),
+        cmocka_unit_test(terms_that_a_match_holds_come_back),
+        cmocka_unit_test(a_lag_of_the_sensor_is_seen),
         cmocka_unit_test(gaps_do_not_matter),
         cmocka_unit_test(progress_goes_on_to_the_end_or_stops),
         cmocka_unit_test(progress_of_a_fit_counts_down),
