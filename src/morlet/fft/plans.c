@@ -50,9 +50,8 @@ plan_all(struct blocks *b, double *v, unsigned how)
 }
 
 ss_status
-ss_blocks_plans_make(struct blocks *b, ss_planner planner)
+ss_blocks_plans_make(struct blocks *b, ss_planner planner, size_t room)
 {
-    size_t room = ss_blocks_room(b);
     for (size_t l = 0; l < b->levels; l++)
         room = 2 * b->stage[l].stride > room ? 2 * b->stage[l].stride : room;
     double *v = fftw_malloc(room * sizeof *v);

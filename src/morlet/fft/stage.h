@@ -47,8 +47,9 @@ struct blocks {
     stage stage[LEVELS];
 };
 
-/* plans.c: make the plans of all levels and scales that are used here; free them, made or not. */
-ss_status ss_blocks_plans_make(struct blocks *b, ss_planner planner);
+/* plans.c: make the plans of all levels and scales that are used here, for a scratch of so many doubles; free
+ * them, made or not. */
+ss_status ss_blocks_plans_make(struct blocks *b, ss_planner planner, size_t room);
 void ss_blocks_plans_free(struct blocks *b);
 
 /* Windows that hold n samples' coefficients. */
