@@ -83,8 +83,8 @@ typedef struct sums {
     double p, q, pp, qq, pq;
 } sums;
 
-/* In lanes, which do not wait for each other. */
-enum { LANES = 8 };
+/* In lanes, which do not wait for each other: of 8, gcc makes none. */
+enum { LANES = 16 };
 
 VERSIONS static sums
 sums_of(const double *p, const double *q, size_t m)
