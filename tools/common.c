@@ -192,6 +192,12 @@ tool_hint(ss_status status, const ss_error *err)
     }
 }
 
+const char *
+tool_s(size_t n)
+{
+    return n == 1 ? "" : "s";
+}
+
 void
 tool_check(ss_status status, const ss_error *err)
 {

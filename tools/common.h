@@ -26,6 +26,7 @@ void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
+const char *tool_s(size_t n);                   /* the ending of a noun of which there are n: "" or "s" */
 /* The same for the file of a base; the hint names no option, as the file is read without options. */
 void tool_check_base(ss_status status, const ss_error *err);
 /* Returns room for n entries of size bytes each, with what the list had (NULL: a new one), or

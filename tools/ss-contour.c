@@ -254,9 +254,9 @@ note_contents(const drawing *d)
 {
     static const ss_overlay none;
     const ss_overlay *o = d->overlay != NULL ? d->overlay : &none;
-    tool_note("%s: %zu scales of %zu samples, %zu events; %zu transitions, %zu maxima, "
-              "%zu spikes", tool_input_name(d->path), d->coefficients->n_scales, d->coefficients->n,
-              d->opts.n_events, o->n_spans, o->n_maxima, o->n_spikes);
+    tool_note("%s: %zu scale%s of %zu samples; events: %zu, transitions: %zu, maxima: %zu, spikes: %zu",
+              tool_input_name(d->path), d->coefficients->n_scales, tool_s(d->coefficients->n_scales),
+              d->coefficients->n, d->opts.n_events, o->n_spans, o->n_maxima, o->n_spikes);
 }
 
 int

@@ -72,7 +72,7 @@ find_features(const request *req, const char *path)
     ss_status st = ss_features_find(&f.features, f.signal, f.column, &f.opts, &err);
     if (st != SS_OK)
         tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
-    tool_note("noise of rms %.3g, %zu local maxima, %zu spikes, %s", f.features->noise,
+    tool_note("noise of rms %.3g, local maxima: %zu, spikes: %zu, %s", f.features->noise,
               f.features->n_maxima, f.features->spikes->n, ss_spikes_verdict(f.features->spikes));
     if (f.opts.stiffness > f.features->total_stiffness.value)
         tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "

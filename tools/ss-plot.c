@@ -191,7 +191,7 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
         tool_usage("--line needs a map over two keys");
     d.map = (ss_map_opts){ .x = d.column[0], .y = d.column[1], .z = { d.column[2], d.column[3] },
                            .n_z = d.n - 2, .curve = curve, .n_curve = d.map.n_curve };
-    tool_note("%s: %zu points", tool_input_name(path), d.table->n);
+    tool_note("%s: %zu point%s", tool_input_name(path), d.table->n, tool_s(d.table->n));
     tool_draw(output, opts, write_map, &d);
     ss_table_free(d.table);
     free(curve);
@@ -289,7 +289,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
         rows = read_envelope(&d, reader, opts);
     if (d.xy)
         opts->from = opts->to = NAN;
-    tool_note("%s: %zu samples, %zu columns", tool_input_name(path), rows, d.head->n_columns);
+    tool_note("%s: %zu sample%s, columns: %zu", tool_input_name(path), rows, tool_s(rows), d.head->n_columns);
     ss_overlay *overlay = tool_read_features(features);
     opts->features = overlay;
     if (d.kind >= TOOL_STREAM)

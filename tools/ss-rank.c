@@ -165,7 +165,7 @@ note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
     if (!isnan(r->forcing_frequency))
         tool_note("base at %.4g Hz, %s; %zu scene%s adjusted to the signal within %.3g %%",
               r->forcing_frequency, opts->forcing_frequency > 0 ? "as given" : "found", r->n,
-              r->n == 1 ? "" : "s", 100 * opts->spread);
+              tool_s(r->n), 100 * opts->spread);
     for (size_t i = 0; i < r->n && !isnan(r->row[i].total); i++)
         tool_note("%s: total %.4g, leaves %.3g %% of the signal's power, %.3g times the noise",
                   name[r->row[i].scene], r->row[i].total,

@@ -91,7 +91,7 @@ main(int argc, char *argv[])
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
 
     tool_check(ss_wave_new(&signal, wave, &opts, &err), &err);
-    tool_note("%s: %zu samples", kinds[wave], signal->n);
+    tool_note("%s: %zu sample%s", kinds[wave], signal->n, tool_s(signal->n));
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
     tool_end();

@@ -271,7 +271,7 @@ simulate(request *req, const ss_scene *scene, output *o)
     if (st == SS_STOP && !tool_stopping())
         tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
-    tool_note("%s at tol %g: %lu steps, %lu right-hand sides, %lu events", req->opts.method,
+    tool_note("%s at tol %g: steps: %lu, right-hand sides: %lu, events: %lu", req->opts.method,
               req->opts.tol, stats.steps, stats.rhs, stats.events);
     if (stats.unresolved > 0 && req->accuracy == 0)     /* an accuracy was checked by two methods */
         tool_warn("slips and touches of the limit smaller than the error of x: %lu; x is right, "

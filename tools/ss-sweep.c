@@ -196,7 +196,7 @@ open_rows(request *req)
         tool_check(ss_sweep_resume(&req->text, req->out, req->resume, &req->opts.first, &end, &err),
                    &err);
         tool_cut(req->out, end);
-        tool_note("%s: %zu rows are there", req->resume, req->opts.first);
+        tool_note("%s: rows that are there: %zu", req->resume, req->opts.first);
     }
     tool_check(ss_sweep_header(&header, &req->text), NULL);
     if (end == 0)
@@ -270,7 +270,7 @@ main(int argc, char *argv[])
     if (st == SS_STOP && !tool_stopping())
         tool_die("write error: %s", strerror(errno));
     tool_check(st, &err);
-    tool_note("%zu points, %zu of them incomplete", req.rows, req.failed);
+    tool_note("%zu point%s, incomplete: %zu", req.rows, tool_s(req.rows), req.failed);
     free(name);
     free(req.settings.text);
     free(req.axis);

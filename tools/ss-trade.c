@@ -134,8 +134,8 @@ measure_scene(request *req)
     ss_scene scene = tool_read_scene(req->path, &req->settings);
     req->name = tool_name_scene(req->path, &req->settings);
     tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
-    tool_note("%zu rows against %s, whose x is known within %.2g of its maximum", trade->n,
-              trade->reference, trade->known_x);
+    tool_note("%zu row%s against %s, whose x is known within %.2g of its maximum", trade->n,
+              tool_s(trade->n), trade->reference, trade->known_x);
     return trade;
 }
 
@@ -153,7 +153,8 @@ measure_signal(request *req)
     grid.dense = req->dense;
     tool_check(ss_trade_transform(&trade, signal->values + column * signal->n, signal->n,
                                   signal->head->rate, &grid, &req->opts, &err), &err);
-    tool_note("%zu rows, %zu coefficients of each compared", trade->n, trade->samples);
+    tool_note("%zu row%s, coefficients of each that are compared: %zu", trade->n,
+              tool_s(trade->n), trade->samples);
     ss_signal_free(signal);
     return trade;
 }
@@ -197,7 +198,8 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
     opts.progress.function = tool_progress;
     tool_check(ss_models_measure(&models, &scene, &opts, &err), &err);
-    tool_note("%zu scenes, %zu samples of each compared", models->n, models->samples);
+    tool_note("%zu scene%s, samples of each that are compared: %zu", models->n, tool_s(models->n),
+              models->samples);
     if (kind < TOOL_STREAM)
         tool_draw(req->output, plot, draw_models, models);
     else if (req->n_needs > 0 && req->output == NULL)

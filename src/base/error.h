@@ -12,6 +12,9 @@
 #define SS_PRINTF(text, first)
 #endif
 
+/* The ending of a noun of which there are n: "%zu sample%s", n, PLURAL(n). */
+#define PLURAL(n) ((n) == 1 ? "" : "s")
+
 /* Write the text to *err, unless err is NULL, and return the status: return ss_fail(...). */
 SS_PRINTF(3, 4)
 ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);

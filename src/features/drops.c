@@ -247,7 +247,7 @@ ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double 
     drop_list list = { 0, 0, NULL };
     double height = opts->height, reload = opts->reload > 0 ? opts->reload : DROPS_RELOAD * height;
     if (n == 0 || n > SIZE_MAX / 64)
-        return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
+        return ss_fail(err, SS_EINVAL, "a record of %zu samples is out of range 1 ... %zu", n, SIZE_MAX / 64);
     if (!(rate >= 1e-100 && rate <= 1e100))
         return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
     if (!(height > 0 && isfinite(height)))

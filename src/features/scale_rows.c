@@ -82,7 +82,7 @@ ss_row_source_init(row_source *source, const double *x, size_t n, double rate, d
 {
     double lo = INFINITY, hi = -INFINITY;
     if (n == 0 || n > SIZE_MAX / 64)
-        return ss_fail(err, SS_EINVAL, "a record of %zu samples", n);
+        return ss_fail(err, SS_EINVAL, "a record of %zu samples is out of range 1 ... %zu", n, SIZE_MAX / 64);
     if (!(rate >= 1e-100 && rate <= 1e100))
         return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
     *source = (row_source){ .x = x, .n = n, .rate = rate, .gap = gap, .n_gaps = n_gaps };

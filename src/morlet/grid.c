@@ -93,7 +93,7 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
         double need = ceil(2 * sqrt(2) * rate * exp2(use.lo / opts->voices));
         return ss_fail(err, SS_ESCALE, "a record of %zu sample%s at %g Hz is too short for any "
                        "scale that its sampling resolves within accuracy %g; %.0f samples are "
-                       "needed%s", n, n == 1 ? "" : "s", rate, opts->accuracy, need,
+                       "needed%s", n, PLURAL(n), rate, opts->accuracy, need,
                        opts->force ? ", or both limits of frequency" : "");
     }
     if (!opts->force && n == 0 && ask.lo < use.lo)

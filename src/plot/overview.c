@@ -235,7 +235,7 @@ ss_overview_end(ss_overview *o, ss_error *err)
     o->noise_begins = ss_noise_level(o->noise, ss_stream_scale(o->stream, 0));
     st = make_coefficients(o);
     if (st == SS_EDATA)
-        return ss_fail(err, SS_EDATA, "%zu samples are too few: less than two scales have translations outside "
+        return ss_fail(err, SS_EDATA, "too few samples, %zu: less than two scales have translations outside "
                        "the cone of influence", ss_stream_samples(o->stream));
     if (st == SS_OK)
         st = make_signal(o);

@@ -36,7 +36,7 @@ ss_base_new(ss_base **out, const ss_signal *signal, size_t column, ss_error *err
     if (*c->unit != '\0' && strcmp(c->unit, "m") != 0)
         return ss_fail(err, SS_EDATA, "column %s is in %s, but a base must be in m", c->name, c->unit);
     if (signal->n < 3)
-        return ss_fail(err, SS_EDATA, "%zu samples are no base: a spline needs 3", signal->n);
+        return ss_fail(err, SS_EDATA, "a base needs at least 3 samples for a spline, not %zu", signal->n);
     ss_base *b = calloc(1, sizeof *b);
     if (b == NULL)
         return ss_fail_memory(err, NULL);

@@ -88,8 +88,8 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
         return SS_ENOMEM;
     if (fill_band(noise, y, m, rate, lo, hi) == 0) {
         free(y);
-        return ss_fail(err, SS_EINVAL, "band %g to %g Hz: a record of %zu samples at %g Hz has no "
-                       "frequency in it", lo, hi, n, rate);
+        return ss_fail(err, SS_EINVAL, "band %g to %g Hz: a record of %zu sample%s at %g Hz has "
+                       "no frequency in it", lo, hi, n, PLURAL(n), rate);
     }
     gsl_fft_halfcomplex_radix2_inverse(y, 1, m);
     for (size_t i = 0; i < n; i++)

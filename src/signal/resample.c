@@ -251,7 +251,7 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_err
     *out = NULL;
     if (n < 2 || !(rate > 0) || !isfinite(rate))
         return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n,
-                       n == 1 ? "" : "s", rate);
+                       PLURAL(n), rate);
     double last = head->start + (double)(n - 1) / head->rate, samples = ss_resample_count(head->start, last, rate);
     ss_header *new_head = ss_header_copy(head);
     int fits = samples < (double)(SIZE_MAX / sizeof last / (head->n_columns + 1) / 2);

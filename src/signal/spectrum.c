@@ -83,7 +83,7 @@ ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error 
         return SS_FAIL_NULL(err);
     *out = NULL;
     if (n < LEAST)
-        return ss_fail(err, SS_EINVAL, "%zu samples have no spectrum, which needs %d at least", n, LEAST);
+        return ss_fail(err, SS_EINVAL, "a spectrum needs at least %d samples, not %zu", LEAST, n);
     size_t length = rate > 0 && resolution >= 0 ? length_of(n, rate, resolution) : 0;
     if (length == 0)
         return ss_fail(err, SS_EINVAL, "%zu samples at %g Hz have no spectrum of resolution %g Hz: it is %g to "
@@ -132,7 +132,7 @@ ss_welch_end(ss_spectrum **out, ss_welch *w, ss_error *err)
         return SS_FAIL_NULL(err);
     *out = NULL;
     if (w->sum->segments == 0)
-        return ss_fail(err, SS_EINVAL, "%zu samples have no spectrum, which needs %zu at least", w->n, w->length);
+        return ss_fail(err, SS_EINVAL, "a spectrum needs at least %zu samples, not %zu", w->length, w->n);
     ss_status st = finish(w->sum, w->length, w->rate, err);
     if (st != SS_OK)
         return st;

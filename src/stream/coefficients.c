@@ -162,8 +162,8 @@ find_part(coefficient_reader *r, const double number[])
     if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
         || !(fabs(a / exp2(m) - 1) < 1e-12)
         || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
-        return refuse(r, "m, a and f are not those of a scale with center %g and %d voices",
-                      r->opts.center, r->opts.voices);
+        return refuse(r, "m, a and f are not those of a scale with center %g and %d voice%s",
+                      r->opts.center, r->opts.voices, PLURAL(r->opts.voices));
     size_t *known = &r->part_of[(int)j + LARGEST_M * r->opts.voices];
     if (*known == 0) {
         ss_status st = new_part(r, (int)j, number);
@@ -215,7 +215,8 @@ append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
         return st;
     part *p = &r->part[r->last];
     if (p->n == p->scale.n)
-        return refuse(r, "scale %g has %zu coefficients, this is one more", p->scale.m, p->n);
+        return refuse(r, "scale %g has %zu coefficient%s, this is one more", p->scale.m, p->n,
+                      PLURAL(p->n));
     double b = ss_scale_b(&p->scale, p->n);
     if (!(fabs(number[2] - b) <= 1e-12 * b))
         return refuse(r, "b is %.9g s where the grid has %.9g s", number[2], b);
@@ -236,7 +237,7 @@ check_tail(coefficient_reader *r, part *p)
     if (ss_morlet_scale_at(sc, sc->j, sc->a, n, rate, &r->opts, &why) != SS_OK)
         return refuse(r, "%s", why.text);
     if (p->n > sc->n)
-        return refuse(r, "scale %g has %zu coefficients, not %zu", sc->m, sc->n, p->n);
+        return refuse(r, "scale %g has %zu coefficient%s, not %zu", sc->m, sc->n, PLURAL(sc->n), p->n);
     if ((p->tail < p->n && !known_edge(r, p, p->tail, n))
         || (p->tail > 0 && known_edge(r, p, p->tail - 1, n)
             != known_edge(r, p, p->tail - 1, SIZE_MAX)))

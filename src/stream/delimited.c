@@ -299,8 +299,8 @@ static void
 list_table(const struct table *t, size_t number, char *list, size_t size)
 {
     size_t n = strlen(list);
-    int more = snprintf(list + n, size - n, "%s%zu from line %.0f, %llu rows of", number > 1 ? "; " : "",
-                        number, t->first[t->n_columns], (unsigned long long)t->rows.n);
+    int more = snprintf(list + n, size - n, "%s%zu from line %.0f, %llu row%s of", number > 1 ? "; " : "",
+                        number, t->first[t->n_columns], (unsigned long long)t->rows.n, PLURAL(t->rows.n));
     for (size_t c = 0; c < t->n_columns && more >= 0 && n + (size_t)more < size; c++) {
         n += (size_t)more;
         more = snprintf(list + n, size - n, " %s", t->names->column[c].name);
@@ -326,7 +326,7 @@ read_table(struct table *t, ss_error *err)
     if (st != SS_OK || number == wanted || (number == 1 && wanted == 0))
         return st;
     list_table(t, number, list, sizeof list);
-    return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", t->in->name, number, number > 1 ? "s" : "", list);
+    return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", t->in->name, number, PLURAL(number), list);
 }
 
 /* --- as a reader --------------------------------------------------------------------------- */

@@ -179,8 +179,8 @@ parse_row(struct table *t, char *text, double *row, ss_error *err)
     if (n == NONE)
         return ss_delimited_no_memory(t, err);
     if (n != t->n_columns && !(n == t->n_columns + 1 && (t->comments || t->labview)))
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", t->in->name,
-                       t->in->line, t->n_columns, n);
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", t->in->name,
+                       t->in->line, t->n_columns, PLURAL(t->n_columns), n);
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i < t->n_columns; i++)
         st = read_cell(t, i, &row[i], err);

@@ -82,9 +82,9 @@ names_chunk(const char *name)
 static ss_status
 refuse_rest(const ss_reader *reader, ss_error *err)
 {
-    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu rows that its header gives; head -c %llu "
+    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu row%s that its header gives; head -c %llu "
                    "cuts it there", reader->in.name, (unsigned long long)reader->row,
-                   (unsigned long long)reader->end);
+                   PLURAL(reader->row), (unsigned long long)reader->end);
 }
 
 /* Skip chunks up to the end of the file.  Each has four letters, a length and so many bytes, as samples

@@ -80,8 +80,8 @@ read_row(table_reader *r, const char *line, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->in.name,
                        r->in.line);
     if (found != t->n_columns)
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", r->in.name,
-                       r->in.line, t->n_columns, found);
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", r->in.name,
+                       r->in.line, t->n_columns, PLURAL(t->n_columns), found);
     char **more = ss_list_room(t->cell, &r->cells, t->n, t->n_columns * sizeof *more);
     char *copy = more != NULL ? strdup(line) : NULL;
     t->cell = more != NULL ? more : t->cell;

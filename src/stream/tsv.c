@@ -42,8 +42,8 @@ refuse_row(const ss_reader *reader, const char *line, ss_error *err)
         }
     }
     if (found != n_cells(head))
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu columns, found %zu", name,
-                       reader->in.line, n_cells(head), found);
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", name,
+                       reader->in.line, n_cells(head), PLURAL(n_cells(head)), found);
     if (bad == NULL)
         return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte in text", name, reader->in.line);
     return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.*s' is not a finite number", name,

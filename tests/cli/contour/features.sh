@@ -10,7 +10,7 @@ ss-signal ringdown --duration 1 | ss-morlet --dyadic -o run.h5
     echo '# spikes: counted'
 } > features
 echo '# stickslip features 1' > nothing
-ss-contour -v --features features run.h5 -o all.gp 2>&1 | sed -e 's/.*events; //' -e '/of CPU/d'
+ss-contour -v --features features run.h5 -o all.gp 2>&1 | sed -e 's/.*events: [0-9]*, //' -e '/of CPU/d'
 awk '/^\$(spans|spikes|maxima) <</, /^EOD/' all.gp
 grep -c 'feature_colour' all.gp
 ss-contour --features nothing run.h5 -o none.gp
