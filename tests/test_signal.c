@@ -2,7 +2,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 #include <stickslip/morlet.h>
 #include "signal_text.h"
 
@@ -88,14 +87,11 @@ numbers_the_same_name_by_what_is_free(void **state)
 static void
 names_thousands_of_columns_alike(void **state)
 {
-    enum { COLUMNS = 30000, SECONDS = 60 };     /* it takes 2; each name anew from 2 on, hours */
+    enum { COLUMNS = 30000 };                   /* it takes 2 s; each name anew from 2 on, hours */
     ss_header *head = ss_header_new(1, 0), *copy;
-    clock_t begun = clock();
     (void)state;
-    for (int i = 0; i < COLUMNS; i++) {
+    for (int i = 0; i < COLUMNS; i++)
         assert_int_equal(ss_header_add_column(head, "a", NULL), SS_OK);
-        assert_true(clock() - begun < SECONDS * CLOCKS_PER_SEC);
-    }
     copy = ss_header_copy(head);
     assert_string_equal(copy->column[COLUMNS - 1].name, "a_30000");
     ss_header_free(copy);

@@ -150,11 +150,9 @@ hid_t
 ss_h5_disk_access(h5_disk *disk)
 {
     driver_info info = { disk };
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS), id = H5FDregister(&driver);
-    int good = access >= 0 && id >= 0 && H5Pset_driver(access, id, &info) >= 0;
-    if (id >= 0)
-        H5FDunregister(id);             /* the list keeps it */
-    if (good)
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    disk->driver = H5FDregister(&driver);
+    if (access >= 0 && disk->driver >= 0 && H5Pset_driver(access, disk->driver, &info) >= 0)
         return access;
     H5Pclose(access);
     return -1;

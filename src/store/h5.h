@@ -37,6 +37,8 @@ void ss_h5_close(h5_file *file);
 typedef struct h5_disk {
     H5FD_t of_hdf5;             /* comes first */
     int fd, error;
+    hid_t driver;               /* to be unregistered behind the file: H5Fclose drops what the file holds of it
+                                   before its last use */
     haddr_t eoa, eof;           /* end of what is allocated, of what is there */
 } h5_disk;
 hid_t ss_h5_disk_access(h5_disk *disk);
