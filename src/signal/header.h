@@ -16,6 +16,13 @@ enum { MAX_COLUMNS = 1 << 15, MAX_NOTES = 4096 };
 #define START_MAX 1e300
 #define RATE_RANGE "1e-300 ... 1e300"
 
+/* What no name has: a blank or a control character. */
+static inline int
+is_blank(char c)
+{
+    return (unsigned char)c <= ' ' || c == 127;
+}
+
 /* The lines of a header, to be freed, or NULL if there is no memory. */
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 /* Read a "# key: value" line, which is changed; reason is set if the status is SS_EDATA. */

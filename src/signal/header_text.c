@@ -1,0 +1,121 @@
+/* header_text.c -- a header as lines "# key: value", and back. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "signal/header.h"
+
+void
+ss_write_label(FILE *out, const char *name, const char *unit)
+{
+    if (*unit == '\0')
+        fprintf(out, " %s", name);
+    else if (strpbrk(unit, "/ (") != NULL)
+        fprintf(out, " %s/(%s)", name, unit);
+    else
+        fprintf(out, " %s/%s", name, unit);
+}
+
+char *
+ss_header_text(const ss_header *head, const char *magic, size_t *length)
+{
+    char *text = NULL, number[SS_NUMBER_MAX];
+    FILE *out = open_memstream(&text, length);
+    if (out == NULL)
+        return NULL;
+    fprintf(out, "%s\n", magic);
+    for (size_t i = 0; i < head->n_notes; i++)
+        fprintf(out, "# %s\n", head->note[i]);
+    ss_number_format(number, head->rate);
+    fprintf(out, "# rate: %s\n", number);
+    ss_number_format(number, head->start);
+    fprintf(out, "# start: %s\n# columns:", number);
+    if (head->has_time)
+        fputs(" t/s", out);
+    for (size_t i = 0; i < head->n_columns; i++)
+        ss_write_label(out, head->column[i].name, head->column[i].unit);
+    fputc('\n', out);
+    int failed = ferror(out);
+    if (fclose(out) == 0 && !failed)
+        return text;
+    free(text);
+    return NULL;
+}
+
+void
+ss_split_label(char *label, char **name, char **unit)
+{
+    char *slash = strchr(label, '/');
+    *name = label;
+    *unit = label + strlen(label);
+    if (slash == NULL)
+        return;
+    *slash = '\0';
+    size_t n = strlen(slash + 1);
+    if (slash[1] == '(' && slash[n] == ')') {
+        slash[n] = '\0';
+        slash++;
+    }
+    *unit = slash + 1;
+}
+
+static ss_status
+read_columns(ss_header *head, char *p, const char **reason)
+{
+    head->has_time = 0;
+    for (int first = 1; *(p += strspn(p, " \t")) != '\0'; first = 0) {
+        char *label = p, *name, *unit;
+        int depth = 0, more;
+        p += strcspn(p, "/ \t");
+        p += *p == '/';
+        for (; *p != '\0' && (depth > 0 || (*p != ' ' && *p != '\t')); p++)
+            depth += (*p == '(') - (*p == ')' && depth > 0);
+        more = *p != '\0';
+        *p = '\0';
+        p += more;
+        ss_split_label(label, &name, &unit);
+        if (first && strcmp(name, "t") == 0 && strcmp(unit, "s") == 0) {
+            head->has_time = 1;
+            continue;
+        }
+        if (head->n_columns == MAX_COLUMNS) {
+            *reason = "more than 32768 columns";
+            return SS_EDATA;
+        }
+        ss_status st = ss_header_add_column(head, name, unit);
+        *reason = "a column without a name";
+        if (st != SS_OK)
+            return st == SS_EINVAL ? SS_EDATA : st;
+    }
+    *reason = "no column but time";
+    return head->n_columns > 0 ? SS_OK : SS_EDATA;
+}
+
+ss_status
+ss_header_read_line(ss_header *head, char *line, const char **reason)
+{
+    char *key = line + 1, *colon = strchr(line, ':'), *end;
+    if (colon == NULL)
+        return SS_OK;
+    *colon = '\0';
+    while (*key != '\0' && is_blank(*key))
+        key++;
+    char *value = colon + 1 + strspn(colon + 1, " \t");
+    double x = ss_number_parse(value, &end);
+    int number = end > value && *end == '\0' && isfinite(x);
+    if (strcmp(key, "rate") == 0) {
+        *reason = "the rate is not a number above 0";
+        head->rate = x;
+        return number && x > 0 ? SS_OK : SS_EDATA;
+    }
+    if (strcmp(key, "start") == 0) {
+        *reason = "the start is not a number";
+        head->start = x;
+        return number ? SS_OK : SS_EDATA;
+    }
+    if (strcmp(key, "columns") == 0) {
+        *reason = "columns are named twice";
+        return head->n_columns > 0 ? SS_EDATA : read_columns(head, value, reason);
+    }
+    *reason = "more than 4096 notes";
+    return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
+}
