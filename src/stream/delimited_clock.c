@@ -347,6 +347,38 @@ ss_delimited_time(const struct table *t)
     return time;
 }
 
+static int
+is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/* Does a line have this word with a digit somewhere behind it?  A longer word that begins so counts if the word has
+ * more than four letters. */
+static int
+has_number_of(const char *line, const char *word)
+{
+    size_t n = strlen(word);
+    for (const char *p = line; *p != '\0'; p++)
+        if ((p == line || !is_letter(p[-1])) && strncasecmp(p, word, n) == 0 && (n > 4 || !is_letter(p[n])))
+            return strpbrk(p, "0123456789") != NULL;
+    return 0;
+}
+
+/* The line above the data that most probably gives the clock; NULL: there is none.  It is shown, not read: whether
+ * a number is the rate of this table, its period or a rate of flow, and in what unit, only its writer knows. */
+static const struct table_line *
+find_rate_line(const struct table *t)
+{
+    static const char *const word[] = { "sampling", "samplerate", "samples per", "samples/s", "abtast", "chantillonnage",
+                                        "muestreo", "campionamento", "rate", "interval", "fs", "dt" };
+    for (size_t w = 0; w < sizeof word / sizeof *word; w++)
+        for (size_t i = 0; i < t->n_head; i++)
+            if (has_number_of(t->head[i].text, word[w]))
+                return &t->head[i];
+    return NULL;
+}
+
 ss_status
 ss_delimited_choose_clock(struct table *t, ss_error *err)
 {
@@ -369,5 +401,9 @@ ss_delimited_choose_clock(struct table *t, ss_error *err)
     ss_status st = guessed ? read_clock(t, column, NULL) : SS_ECLOCK;
     if (st == SS_OK || st == SS_ENOMEM)
         return st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
+    const struct table_line *line = find_rate_line(t);
+    if (line != NULL)
+        return ss_fail(err, SS_ECLOCK, "%s: no column of time, but line %lu may give the rate: '%.80s'", t->in->name,
+                       line->number, line->text);
     return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->in->name);
 }
