@@ -21,8 +21,8 @@
 #include "study/rank/samples.h"
 
 enum { STARTS_MOST = 256 };
-#define SMALL 0.01              /* of a simplex: a match goes on from there, and faster */
-#define SAME 0.02               /* of a key: one descent reaches the same from both */
+#define SMALL 0.01              /* size of a simplex that ends a search: a match goes on faster from there */
+#define SAME 0.02               /* difference of two keys from which descents end at the same point */
 
 /* Parameter i of the model. */
 static double *
@@ -37,7 +37,7 @@ drive_of(const ss_scene *scene)
     return scene->stiffness * scene->base_amplitude;
 }
 
-/* A term that a fit does not keep; NULL if none. */
+/* A term of the scene that no adjustment allows for; NULL: none. */
 static const char *
 strange_term(const ss_scene *scene)
 {
@@ -157,7 +157,7 @@ keys_of(const candidate *c, const double *u, double key[CANDIDATE_KEYS])
     }
 }
 
-/* In proportion, so that a simplex walks valleys of 20 and of 60 dB alike. */
+/* The logarithm of the misfit: with it a simplex descends into valleys of 20 and of 60 dB alike. */
 static double
 height(const gsl_vector *u, void *user)
 {
@@ -215,7 +215,7 @@ descend(start *s, size_t free, size_t steps, problem *p)
     return p->status;
 }
 
-/* Append to c->start, unless one is there that is the same to SAME in every key. */
+/* Append the keys of u to c->start, unless they are those of a start there, to within SAME. */
 static void
 keep_start(problem *p, const double *u)
 {

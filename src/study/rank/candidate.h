@@ -31,8 +31,8 @@ typedef struct candidate {
     double lo[CANDIDATE_KEYS], hi[CANDIDATE_KEYS];  /* of the search; equal for a fixed key */
     candidate_start start[CANDIDATE_KEPT];          /* the best first, no two the same */
     size_t n_starts;
-    double steps;               /* of all runs so far: their cost */
-    double budget;              /* of steps: the search ends when it is used up */
+    double steps;               /* integration steps of all runs so far */
+    double budget;              /* of these steps: the search ends when it is used up */
 } candidate;
 
 /* SS_OK for a scene in range whose base moves. */

@@ -25,7 +25,7 @@ bins_of(double samples)
     return n;
 }
 
-/* Sums and counts of each bin; returns the sum of the squares. */
+/* Find sum and count of each bin; returns the sum of the squares. */
 static double
 gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n,
        double cycles)
@@ -75,7 +75,7 @@ ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double r
     return SS_OK;
 }
 
-/* The power about the mean that repeats, in bins. */
+/* The power of the mean cycle, about its mean. */
 static double
 repeating(const double *x, const char *missing, size_t n, double samples)
 {
@@ -107,8 +107,9 @@ ss_cycle_period(const double *x, const char *missing, size_t n, double rate, dou
     return best;
 }
 
-/* A signal that repeats after a period does so after two and three of them: if nearly all of its
- * power is left at a part of it, that part is the period.  (Half a cycle of a model has none.) */
+/* A signal that repeats after a period also repeats after two or three periods.  So if a half or a third of
+ * the period found keeps nearly all of the power, this part is the period.  (Half a cycle of a model keeps
+ * none.) */
 static double
 shortest(const double *x, const char *missing, size_t n, double rate, double period)
 {

@@ -18,7 +18,7 @@
 
 enum { PASSES = 48, TRIALS = 6 };       /* steps of a descent, and how many may fail in a row */
 #define FARTHEST 0.2                    /* the longest step of an unknown */
-#define MUCH 4.                         /* times the noise: no digits are needed of it */
+#define MUCH 4.                         /* times the noise: such a residual needs few digits */
 
 static size_t
 unknowns(const descent *w)
@@ -69,7 +69,7 @@ weigh(descent *w, const double *clear)
     }
 }
 
-/* Size and offset of the motion that minimise the residual of the samples used, and that residual. */
+/* Find the size and the offset of the motion with the least residual of the samples used. */
 static void
 regress(const descent *w, const double *motion, descent_point *at)
 {
@@ -216,8 +216,8 @@ try_step(descent *w, descent_point *at, const double step[MATCH_UNKNOWNS])
     return 1;
 }
 
-/* The part of the residual below which a gain is none.  Noise moves the sum of squares by once its
- * variance: a hundredth of that is nothing. */
+/* The part of the residual below which a gain does not count.  Noise moves the sum of squares by about its
+ * own variance; a hundredth of this does not count. */
 static double
 least_gain(const descent *w, double left)
 {
@@ -256,7 +256,8 @@ descend(descent *w, descent_point *at)
     }
 }
 
-/* Descend with narrower and narrower weights; the slopes of the start are coarse until the last. */
+/* Descend with narrower and narrower weights.  With the last ones the slopes by the start are no longer
+ * coarse, so they are found again. */
 void
 ss_descent_go(descent *w, descent_point *at)
 {

@@ -6,8 +6,8 @@
 #include "features/drops.h"
 #include "study/rank/record.h"
 
-enum { WINDOW = 512 };          /* samples of a fall at most */
-#define BEFORE 0.5              /* the samples of a fall begin and end so many of its lengths from it */
+enum { WINDOW = 512 };          /* the most samples of a fall */
+#define BEFORE 0.5              /* its samples begin so many of its lengths before it, and end behind it */
 #define BEHIND 1.0
 
 static int
@@ -16,7 +16,7 @@ is_slip(const ss_features *f, size_t i)
     return isfinite(f->loading[i].friction.value);
 }
 
-/* Those that are slips of a Coulomb slider are surely falls: if they are most, no others are taken. */
+/* Slips of a Coulomb slider are surely falls: if three quarters are such slips, the others are left out. */
 static size_t
 find_usable(const ss_features *f, size_t *usable)
 {
@@ -29,7 +29,7 @@ find_usable(const ss_features *f, size_t *usable)
     return n;
 }
 
-/* The samples about a fall, not beyond the middle of the sticks beside it.  0: too few. */
+/* Set the samples about a fall, which end at the middle of the sticks beside it.  0: they are too few. */
 static int
 set_fall(fall *w, const falls *r, const ss_features *f, size_t i, size_t n)
 {
@@ -69,7 +69,7 @@ power_of(const falls *r)
     return n > 0 ? sum / n : NAN;
 }
 
-/* The falls of this column, some of all evenly. */
+/* Choose at most FALLS_MOST of the usable falls, evenly over the record. */
 static void
 choose(falls *out, const ss_features *f, size_t *usable, size_t n)
 {

@@ -25,17 +25,17 @@ typedef struct falls {
     fall fall[FALLS_MOST];
     double first;                   /* the onset of the first fall of the record [s] */
     ss_median slope, k_over_m;      /* as the features have them; k_over_m NaN: not known */
-    double noise;                   /* variance of white noise, at most */
+    double noise;                   /* variance of white noise: an upper bound */
     double power;                   /* mean square of the samples about the mean of their fall */
 } falls;
 
 /* A number of the scene that all falls have in common. */
 typedef struct falls_key {
     size_t offset;                  /* in ss_scene */
-    int power;                      /* of a rig that is made so many times stiffer and keeps its forces,
-                                       the key is this power of as many times larger */
-    double own, change, error;      /* the scene's as given (of a speed, that of the pull over the
-                                       surface); the logarithm of its factor in the fit */
+    int power;                      /* if a rig becomes r times stiffer and keeps its forces, the key becomes
+                                       r^power times larger */
+    double own;                     /* the given value (of a speed, that of the pull over the surface) */
+    double change, error;           /* the logarithm of its factor in the fit, and the error of this */
 } falls_key;
 enum { FALLS_KEYS = SS_FIT_KEYS };
 
@@ -45,7 +45,7 @@ typedef struct falls_fit {
     size_t n_keys;                  /* the mass, the speed of the pull, and others */
     falls_key key[FALLS_KEYS];
     ss_median static_friction, friction;
-    double left;                    /* mean square of what it leaves, of the samples compared */
+    double left;                    /* mean square of the residuals of the samples compared */
     size_t compared;
 } falls_fit;
 
@@ -55,10 +55,10 @@ ss_status ss_falls_gather(falls *out, const ss_features *features, const ss_sign
                           double direction);
 void ss_falls_free(falls *r);
 
-/* Fit mass, speed of the pull, damping (if the scene has one) and the model's own parameters in common,
- * and onset, f_s and f_k of each fall.  spread: the logarithm of the factor within which the scene
- * knows the first of these; INFINITY: it does not.  *steps grows by the cost, and the fit ends
- * unfinished beyond the budget.  SS_ENOMEM, SS_STOP. */
+/* Fit mass, speed of the pull, damping (if the scene has one) and the model's own parameters of all falls,
+ * and onset, f_s and f_k of each fall.  spread: the logarithm of the factor within which the scene knows its
+ * own numbers; INFINITY: it does not know them.  *steps grows by the cost, and the fit ends unfinished beyond
+ * the budget.  SS_ENOMEM, SS_STOP. */
 ss_status ss_falls_fit(falls_fit *out, const falls *falls, const ss_scene *scene, double spread,
                        double budget, double *steps, const ss_stretch *progress);
 

@@ -24,17 +24,17 @@
 #include "study/rank/fall_run.h"
 
 enum { LOCAL = FALL_UNKNOWNS, ONSET = 0, MIDDLE, HALF };
-enum { STEPS = 60 };            /* of a stage of the fit */
+enum { STEPS = 60 };            /* in a stage of the fit, at most */
 #define LEAST 2                 /* f_k over f_s - f_k in a simulation: see fill_rows */
-#define BENT 0.01               /* the part of the slope of loading that other slips may change it by */
-#define FAR 5                   /* times its spread no key changes more: such a scene is another, */
-#define FARTHEST 1e3            /* and by no larger factor where it is not known at all */
-#define LITTLE 1e-4             /* the last step lessens what is left by so little a part, */
-#define LITTLE_NOISE 0.01       /* or by this part of the noise of a sample */
-#define NEARLY 0.05             /* so much of its height a fall may be off to start from */
-#define HELD 0.01               /* a change of a key that is held that would cost all of the power */
+#define BENT 0.01               /* relative error of the slope of loading if slips are no Coulomb slips */
+#define FAR 5                   /* spreads: a scene whose key changes by more is another scene */
+#define FARTHEST 1e3            /* the largest factor of a key if there is no spread */
+#define LITTLE 1e-4             /* a stage ends if a step lessens the residual by no larger part, */
+#define LITTLE_NOISE 0.01       /* or by no larger part of the noise of a sample */
+#define NEARLY 0.05             /* relative error of a fall's height from which the fit may start */
+#define HELD 0.01               /* a change of a held key by so much costs all of the power */
 #define DIFFERENCE 1e-4         /* of an unknown, for its slopes */
-#define HOPELESS 1e3            /* rms of what a scene leaves that does not slip, re the fall's */
+#define HOPELESS 1e3            /* rms residual of a scene that does not slip, re the fall's */
 
 /* --- unknowns ------------------------------------------------------------------------------ */
 
@@ -43,14 +43,15 @@ typedef struct problem {
     const ss_scene *scene;
     falls_fit *out;
     double spread, budget, *steps;
-    double noise;               /* variance, in rows */
+    double noise;               /* variance, in the units of rows */
     double farthest;            /* the largest change of a key */
     int stage;                  /* of the fit */
-    double held[FALLS_KEYS];    /* the keys at its begin: the later ones nearly stay there */
+    double held[FALLS_KEYS];    /* the keys at the begin of the stage: it moves only those that are free */
     double size;                /* the unit of rows, so that their squares are parts of the power */
-    double (*start)[LOCAL];     /* the locals of each fall */
+    double (*start)[LOCAL];     /* the locals of each fall from which the fit starts */
     size_t rows;
-    double *changed, *time;     /* the rows of a fall, with one unknown changed; when each fall was */
+    double *changed;            /* the rows of a fall with one unknown changed */
+    double *time;               /* at which the scene's fall comes, for each fall [s] */
     const ss_stretch *progress;
     ss_status status;
 } problem;
@@ -107,17 +108,17 @@ rows_of(const fall *w)
     return w->n + 1;
 }
 
-/* Of the slope of loading [N/s], which is read between slips of a Coulomb slider, where others may begin
- * and end elsewhere. */
+/* The error of the slope of loading [N/s].  The slope is read between the ends of Coulomb slips; the slips of
+ * another law may begin and end elsewhere. */
 static double
 slope_error(const falls *r)
 {
     return hypot(r->slope.error, BENT * r->slope.value);
 }
 
-/* Fill in what the scene leaves of a fall.  The fall comes at *time; NAN: find out.  The friction of a
- * slider that never slips back may be less by a constant, f_s and f_k alike: then the force is, too, and
- * the first stick is shorter. */
+/* Write the residuals of a fall.  The scene's fall comes at *time; NaN: find it.  As long as a slider never
+ * slips back, a constant may be subtracted from f_s and f_k: the force is less by the same constant, and the
+ * first stick is shorter. */
 static void
 fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL], double *time, double *row)
 {
@@ -146,8 +147,8 @@ fill_rows(problem *f, size_t i, const double change[], const double local[LOCAL]
         row[k] = (row[k] + local[MIDDLE] - s.friction - f->r->y[w->first + k * w->step]) / f->size;
 }
 
-/* The unknowns of the fit are the changes of the keys, then those of the locals of each fall: of onset and
- * f_k in these units, of f_s - f_k as a logarithm. */
+/* The unknowns of the fit are the changes of the keys, then the changes of the locals of each fall: those of
+ * onset and f_k in this unit, that of f_s - f_k as a logarithm. */
 static double
 unit_of(const fall *w, size_t k)
 {
@@ -163,7 +164,7 @@ locals_of(const problem *f, const gsl_vector *at, size_t i, double local[LOCAL])
     local[HALF] = f->start[i][HALF] * exp(u[HALF]);
 }
 
-/* First the frictions of a law are found that gives such falls, then the rig, then the law. */
+/* The stages: first the frictions alone are free, then also mass and speed, then all keys. */
 enum { STAGES = 3 };
 static const size_t FREE_AT[STAGES] = { 0, SPEED + 1, FALLS_KEYS };
 
@@ -173,7 +174,7 @@ is_held(const problem *f, size_t key)
     return key >= FREE_AT[f->stage];
 }
 
-/* The weight of what is known of a key. */
+/* The weight of the row that says what is known of a key. */
 static double
 weight_of(const problem *f, size_t key)
 {
@@ -256,9 +257,9 @@ height_of(problem *f, size_t i, const double change[])
     return isnan(time) ? NAN : high - low;
 }
 
-/* Start a fall where it begins, with f_s by the force there and the f_k that lets the scene fall as far as
- * the force does.  A scene may slide on without falls if f_s is little more than f_k, and fall too far as
- * soon as it has any: then the least fall that it has will do. */
+/* Find where the fit of a fall starts: at its onset, with the f_s that the force has there, and the f_k with
+ * which the scene falls as far as the force does.  If f_s is little more than f_k, a scene may slide without
+ * falls; its least fall may be too high.  Then the fit starts from this least fall. */
 static void
 start_fall(problem *f, size_t i, const double change[])
 {
@@ -287,7 +288,7 @@ start_fall(problem *f, size_t i, const double change[])
     local[MIDDLE] = top - local[HALF];
 }
 
-/* Mass and speed by the slope and the k/m of the record; the rest is the scene's. */
+/* Start from the mass and the speed that the record's slope and k/m give, and the scene's other keys. */
 static void
 start(problem *f, gsl_vector *at)
 {
@@ -323,8 +324,8 @@ covariance_of(const problem *f, const gsl_vector *at, const gsl_matrix *covarian
     return sum;
 }
 
-/* The median of f_k or f_s over the falls.  Its error is that of the mean, as the errors of the keys are
- * common to all, or that of the scatter. */
+/* The median of f_k or f_s over the falls.  Its error is that of the scatter, or that of the mean if this is
+ * larger: the errors of the keys are common to all falls. */
 static ss_median
 median_of(const problem *f, const gsl_vector *at, const gsl_matrix *covariance, int is_static)
 {
@@ -342,7 +343,7 @@ median_of(const problem *f, const gsl_vector *at, const gsl_matrix *covariance, 
     return m;
 }
 
-/* Mean square over the samples. */
+/* Find the mean square of the residuals of samples. */
 static void
 find_left(problem *f, const gsl_vector *left)
 {
@@ -388,7 +389,7 @@ squares_of(const gsl_multifit_nlinear_workspace *space)
     return norm * norm;
 }
 
-/* Until a step gains little beside the noise of a sample, or beside what is left beyond the noise. */
+/* Step until a step gains little beside the noise of a sample, or beside the residual above the noise. */
 static int
 descend(const problem *f, gsl_multifit_nlinear_workspace *space)
 {

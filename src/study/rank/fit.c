@@ -24,14 +24,14 @@
 #include "study/rank/samples.h"
 
 enum { STARTS = 96, KEEP = 8, STEPS = 150 };
-enum { LONGER = 2 };                    /* matches that the first one takes longer than others */
-enum { CYCLES = 32, MOST = 65536 };     /* of the record that is fitted */
-#define BUDGET 1e8                      /* steps of a fit: less than a minute */
-#define NEAR 1.5                        /* the features' estimates are that good, as a factor */
-#define FAR 10.0
-#define LOW 0.1                         /* of f_k / (k Z_e): below, sticks are too short to fit */
-#define SHORT 0.25                      /* periods of the contact */
-#define VAGUE 0.3                       /* a parameter of a larger standard error is not determined */
+enum { LONGER = 2 };                    /* the first match takes as long as so many others, and its own time */
+enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
+#define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
+#define NEAR 1.5                        /* factor within which the features' estimates are right */
+#define FAR 10.0                        /* factor of the range that is searched */
+#define LOW 0.1                         /* the least f_k / (k Z_e): below it sticks are too short to fit */
+#define SHORT 0.25                      /* periods of the contact: shorter sticks show no stiffness */
+#define VAGUE 0.3                       /* a parameter with a larger relative error is not determined */
 #define REFUTED 9.                      /* a gain that refutes a term held: three standard errors, as a lag
                                            puts the other numbers off by more than it can be seen itself */
 
@@ -108,8 +108,8 @@ search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stret
     return st;
 }
 
-/* The part of the matches' work before the match of start i.  The first match takes the longest, as
- * others often are taken over from it. */
+/* The part of the matches' work before the match of start i.  The first match takes the longest, as others
+ * often are found to be the same. */
 static double
 part_before(size_t i, size_t n)
 {
@@ -139,7 +139,7 @@ match_all(fitting *w, const ss_stretch *progress)
 
 /* --- the scene ----------------------------------------------------------------------------- */
 
-/* The numbers that are adjusted, and the unknowns of a match whose product each of them is. */
+/* The numbers that are adjusted.  Each is the product of so many unknowns of a match. */
 static const struct {
     const char *name;
     size_t n, unknown[2];
@@ -148,7 +148,7 @@ static const struct {
     { "base_frequency", 1, { MATCH_FREQUENCY } }, { "contact_stiffness", 1, { CANDIDATE_OWN } },
     { "contact_damping", 1, { CANDIDATE_OWN + 1 } } };
 
-/* The standard error of a number, as a logarithm. */
+/* The standard error of the logarithm of a number. */
 static double
 error_of(const match *m, size_t key)
 {
@@ -184,7 +184,7 @@ report(ss_fit *fit, const fitting *w)
     fit->noise = sqrt(fmin(w->record.noise, m->white) / m->power);
 }
 
-/* Of the record less the settled scene's, the offset between them apart. */
+/* Find the residual of the whole record: its difference from the settled scene, without their offset. */
 static ss_status
 find_residual(ss_fit *fit, const fitting *w)
 {
@@ -205,7 +205,7 @@ find_residual(ss_fit *fit, const fitting *w)
 /* --- the verdict --------------------------------------------------------------------------- */
 
 typedef struct sticks {
-    double since, longest;              /* of the last stick's begin, NaN in slip [s] */
+    double since, longest;              /* begin of the present stick, NaN in slip; the longest stick [s] */
 } sticks;
 
 static int
@@ -230,7 +230,7 @@ find_longest_stick(double *periods, const ss_scene *scene)
     return st == SS_ENOMEM ? st : SS_OK;
 }
 
-/* The first parameter that stands at an end of its range or has an error too large; NULL: none. */
+/* The first parameter that stands at an end of its range, or whose error is too large; NULL: none. */
 static const char *
 vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *error)
 {
@@ -245,7 +245,7 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
     return NULL;
 }
 
-/* Say which term the signal contradicts: then the other numbers are off, too. */
+/* Say which term the signal contradicts most: then the other numbers are wrong, too. */
 static ss_status
 judge_held(ss_fit *fit, const fitting *w)
 {
@@ -315,7 +315,7 @@ list_keys(ss_fit *fit, const ss_scene *start)
     }
 }
 
-/* Numbers that are not determined are not given. */
+/* Take all numbers back: a fit that is not conclusive gives none. */
 static void
 withdraw(ss_fit *fit, const ss_scene *start)
 {
@@ -325,8 +325,8 @@ withdraw(ss_fit *fit, const ss_scene *start)
 
 /* --- all ----------------------------------------------------------------------------------- */
 
-/* The record from half a cycle on, if it is long: a motion that starts from rest with the record is
- * none that began in a slip before. */
+/* The part of a long record that begins after half a cycle.  A fitted motion starts in a slip before its
+ * record, but the record itself may start from rest. */
 static rank_record
 fitted_part(const fitting *w)
 {
@@ -338,7 +338,7 @@ fitted_part(const fitting *w)
                            .from = (double)first / w->rate };
 }
 
-/* Of all work, in cycles of the motion: for the progress. */
+/* The part of all work that the search is, in cycles of the motion: for the progress. */
 static double
 search_share(const fitting *w)
 {

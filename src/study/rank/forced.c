@@ -23,10 +23,10 @@
 #include "study/rank/order.h"
 
 enum { STARTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
-#define EQUAL 0.01                      /* of the spread: no scene is nearer by so little */
-#define HOPELESS 0.03                   /* of the power of a cycle */
-#define BUDGET 2e7                      /* steps that a scene may cost: some seconds */
-enum { WINDOW = 4 };                    /* cycles of which features are compared */
+#define EQUAL 0.01                      /* of the spread: two scenes are equally near to within this */
+#define HOPELESS 0.03                   /* of the power of a cycle: see match_scene */
+#define BUDGET 2e7                      /* integration steps of a scene: some seconds */
+enum { WINDOW = 4 };                    /* cycles that are compared */
 
 /* --- a scene ------------------------------------------------------------------------------- */
 
@@ -71,8 +71,8 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
     return st;
 }
 
-/* The best of the matches from the starts of the search.  Where a start leaves much of the
- * cycle, a descent over the record changes that little: of such starts the best will do. */
+/* Find the best of the matches from the starts of the search.  If a start leaves much of the cycle, a
+ * descent over the record changes this little: of such starts only the best is matched. */
 static ss_status
 match_scene(found *f, const comparison *w, const ss_stretch *progress)
 {
@@ -92,8 +92,7 @@ match_scene(found *f, const comparison *w, const ss_stretch *progress)
     return st;
 }
 
-/* How many times more to search within a factor than within the usual one: a wider range holds more
- * hollows. */
+/* The work of a search within a factor, over that within the usual one: a wider range has more minima. */
 static double
 work_of(double factor)
 {
@@ -137,14 +136,14 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
 
 /* --- the verdict --------------------------------------------------------------------------- */
 
-/* By how much, in standard errors squared, the residual of a scene is below that of another. */
+/* The amount by which the residual of m is below that of another match, in standard errors squared. */
 static double
 lead_of(const match *m, const match *over, double noise)
 {
     return (double)m->compared * (ss_match_excess(over, noise) - ss_match_excess(m, noise));
 }
 
-/* A motion without transitions, as any linear rig has it. */
+/* Does a sinusoid explain the signal, which is the motion of every linear rig? */
 static int
 is_sinusoid(const comparison *w, const match *m)
 {
@@ -159,7 +158,7 @@ variance_of(const match *m, size_t key)
     return fmax(m->left, MATCH_QUIET * m->power) * m->covariance[key][key];
 }
 
-/* Of the difference of two adjustments by one record: what moves both alike does not count. */
+/* The error of the difference of two adjustments to one record: an error that both share cancels. */
 static double
 difference_error(const found *a, const found *b)
 {
@@ -197,7 +196,7 @@ compare_equals(ss_ranking *r, const ss_rank_row *other, const found *f, double s
     r->verdict = SS_UNDECIDED;
 }
 
-/* The verdict, by the residuals of the scenes. */
+/* Find the verdict from the residuals of the scenes. */
 static void
 judge(ss_ranking *r, const comparison *w, const found *f)
 {
@@ -231,8 +230,8 @@ judge(ss_ranking *r, const comparison *w, const found *f)
             compare_equals(r, &r->row[i], f, w->opts->spread);
 }
 
-/* The key by which two matches of one candidate contradict each other most, beyond what their errors
- * allow, and *errors by how many; c->n: none does. */
+/* The key in which two matches of one candidate differ most, significantly, and their difference in standard
+ * errors; c->n: they do not contradict each other. */
 static size_t
 contradicted_key(const candidate *c, const match *a, const match *b, double *errors)
 {
@@ -247,7 +246,7 @@ contradicted_key(const candidate *c, const match *a, const match *b, double *err
     return worst;
 }
 
-/* One column more: r->why, if what it says contradicts the scene that is named for the first. */
+/* Fit the scene that is named to another column; if that contradicts the first, r->why says so. */
 static ss_status
 ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
 {
@@ -265,7 +264,7 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     ss_status st = ss_record_noise(&record, w->goal.period * record.rate);
     if (st == SS_OK)
         st = ss_match_other(&m, &c, &named->match, &record, &silent);
-    if (st != SS_OK || m.power == 0)        /* a constant does not say anything */
+    if (st != SS_OK || m.power == 0)        /* a constant contradicts nothing */
         return st;
     size_t key = contradicted_key(&c, &named->match, &m, &errors);
     if (!ss_match_explains(&m, record.noise))
@@ -280,8 +279,8 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     return SS_OK;
 }
 
-/* Do the other columns say the same?  A scene that explains one of them by itself must do so with the
- * same parameters, but for its size, which is in the units of the column. */
+/* Ask the other columns, too.  The scene must explain each of them, with the same parameters except the
+ * size, which is in the units of the column. */
 static ss_status
 ask_other_columns(ss_ranking *r, const comparison *w, const found *f)
 {

@@ -20,7 +20,7 @@
 
 enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };               /* samples of half a cycle, to find the fastest slip */
-#define UNLIKELY 0.1                    /* part of the power: no descent or start mends more than it */
+#define UNLIKELY 0.1                    /* part of the power: if more is left, no descent or start helps */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
  * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of

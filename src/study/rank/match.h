@@ -27,8 +27,8 @@ enum { MATCH_FREQUENCY = CANDIDATE_KEYS, MATCH_PHASE, MATCH_X0, MATCH_V0, MATCH_
 typedef struct match_origin {
     double lead;                /* time from the start to the first sample [s] */
     double frequency;           /* [Hz] */
-    double turn;                /* its unit: the relative change that shifts the ends of the record by
-                                   about a radian */
+    double turn;                /* unit of FREQUENCY: the relative change of the frequency that shifts
+                                   the ends of the record by about a radian */
     double x_unit, v_unit;      /* 0: from rest */
 } match_origin;
 
@@ -40,7 +40,7 @@ typedef struct match {
     double left;                /* mean square of the residual away from events */
     double left_all;            /* the same over all samples that are not missing */
     double power;               /* variance of these samples */
-    double white;               /* variance of the white noise in the residual, at most */
+    double white;               /* variance of the white noise in the residual: an upper bound */
     size_t compared;            /* samples away from events */
     double covariance[MATCH_UNKNOWNS][MATCH_UNKNOWNS];  /* for noise of variance 1; NaN: no fit */
 } match;

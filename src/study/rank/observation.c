@@ -46,7 +46,8 @@ measure_jumps(observation *l, double half)
     return SS_OK;
 }
 
-/* Spikes not more than 20 dB below the strongest: how many a half cycle, and how smooth. */
+/* Measure the spikes that are at most 20 dB below the strongest: their number in a half cycle, and the median
+ * of their slopes. */
 static ss_status
 measure_spikes(observation *l, const ss_spikes *found, double halves)
 {

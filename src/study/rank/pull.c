@@ -23,9 +23,9 @@
 #include "study/rank/record.h"
 
 enum { FITTED = 4 };            /* parameters of a slip */
-#define MOST 0.75               /* of the falls must be such slips */
-#define VAGUE 0.3               /* a number of a larger standard error is not determined */
-#define EXPLAINED 0.98          /* of the power of the falls: less is another motion */
+#define MOST 0.75               /* the least part of the falls that must be such slips */
+#define VAGUE 0.3               /* a number with a larger relative error is not determined */
+#define EXPLAINED 0.98          /* the least part of the falls' power that a fit must explain */
 #define BUDGET 2e7              /* integration steps */
 
 ss_status
@@ -44,7 +44,7 @@ ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *start, con
     return ss_column_check_unit(signal, column, SS_SPRING, err);
 }
 
-/* Have its slips a closed form with few unknowns? */
+/* Do its slips have a closed form with few unknowns? */
 static int
 is_plain(const ss_scene *scene)
 {
@@ -61,7 +61,7 @@ sum_of(const ss_signal *signal, size_t column)
     return sum;
 }
 
-/* Stuck at the start of the record, so that the first slip begins with that of the record. */
+/* The fitted scene.  It sticks at the start of the record so that its first slip begins with the record's. */
 static ss_scene
 scene_of(const ss_scene *start, const ss_features *f, size_t first, const ss_signal *signal)
 {
@@ -74,7 +74,7 @@ scene_of(const ss_scene *start, const ss_features *f, size_t first, const ss_sig
     else
         s.surface_velocity = -pull;
     s.friction = f->friction.value;
-    s.static_friction = s.friction + f->drop.value / 2;     /* where the level drifts, that scatters less */
+    s.static_friction = s.friction + f->drop.value / 2;     /* it scatters less if the level drifts */
     double force = s.static_friction - loading * f->transition[first].onset;
     s.x0 = -direction * fmax(force, -s.static_friction) / s.stiffness;
     s.v0 = s.surface_velocity;
@@ -84,7 +84,7 @@ scene_of(const ss_scene *start, const ss_features *f, size_t first, const ss_sig
     return s;
 }
 
-/* What the slips leave of the samples about them, of their power and of the noise. */
+/* Find the residual of the slips, relative to their power and to the noise. */
 static ss_status
 find_excess(ss_pull *p, const ss_signal *signal, size_t column)
 {

@@ -19,13 +19,14 @@
 typedef struct trial {
     falls_fit fit;
     match match;
-    double distance, error;     /* rms change of its numbers, and the error of that */
-    double beyond;              /* the spread is the number `most_name`, in errors; it has changed by */
-    double most;                /* so much, as a logarithm, by the falls alone */
-    const char *most_name;
-    int explains, near;         /* the falls; is it within the spread? */
-    int unfinished;             /* it explains less than it may: its fit took too many steps, */
-    int rings;                  /* or its contact still rings when the next slip begins */
+    double distance, error;     /* rms change of its numbers, and the error of this */
+    const char *most_name;      /* the number that is farthest beyond the spread, by the falls alone, */
+    double beyond;              /* its distance from the spread, in errors, */
+    double most;                /* and its change, as a logarithm */
+    int explains;               /* the falls */
+    int near;                   /* it is within the spread */
+    int unfinished;             /* its fit took too many steps, so that a better one may exist */
+    int rings;                  /* the same as its contact still rings when the next slip begins */
 } trial;
 
 enum { CHANGES = FALLS_KEYS + 3 };
@@ -33,7 +34,7 @@ enum { CHANGES = FALLS_KEYS + 3 };
 typedef struct change {
     const char *name;
     double by, error;           /* logarithms */
-    double data, data_error;    /* the same by the falls alone, without what the scene says of it */
+    double data, data_error;    /* the same by the falls alone, without what the scene knows */
     int power;                  /* see falls_key */
 } change;
 
@@ -52,7 +53,8 @@ change_of(const char *name, double found, double error, double given)
     return (change){ name, by, error / found, by, error / found, 0 };
 }
 
-/* What the fit changes in the scene, which knows its keys to within `known`; how many numbers. */
+/* List the numbers that the fit changes in the scene, which knows its keys to within `known`; returns how
+ * many there are. */
 static size_t
 list_changes(change c[CHANGES], const falls_fit *fit, const ss_scene *scene, double known)
 {
@@ -66,7 +68,8 @@ list_changes(change c[CHANGES], const falls_fit *fit, const ss_scene *scene, dou
     return n;
 }
 
-/* Of all rigs that move as the fit does, each so many times stiffer, the one that changes least. */
+/* Of all rigs with the motion of the fit, which differ in stiffness, find the one that changes least, and
+ * measure its change. */
 static void
 measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, double limit)
 {
@@ -111,9 +114,9 @@ fill_row(ss_rank_row *row, const trial *t, double noise, double spread)
     row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? t->distance / log(1 + spread) : 0;
 }
 
-/* Does the contact still ring, above the noise, when the next slip begins?  The phase of what rings at a
- * release depends on the frictions and the contact's frequency so much that a fit may end far from the best,
- * and the falls need not be settled, which a fit takes them for. */
+/* Does the contact still ring, above the noise, when the next slip begins?  Then the next fall depends on the
+ * phase of the ringing, which changes fast with the frictions and the contact's frequency.  So a fit may end
+ * far from the best one; and the falls need not be settled, as the fit assumes. */
 static int
 rings_on(const ss_scene *s, const falls *r)
 {
@@ -150,7 +153,7 @@ is_same_law(const trial *a, const trial *b)
     return a->fit.scene.model == b->fit.scene.model && a->fit.n_keys == b->fit.n_keys;
 }
 
-/* Is what a leaves no more than what b does, to within its error? */
+/* Does a leave no more than b, to within the error? */
 static int
 leaves_as_little(const trial *a, const trial *b, double noise)
 {
@@ -158,7 +161,7 @@ leaves_as_little(const trial *a, const trial *b, double noise)
         < MATCH_DECISIVE;
 }
 
-/* Say why none of the scenes that explain the falls is named, or that none does. */
+/* Say that no scene explains the falls, or why none of those that explain them is named. */
 static void
 refuse(ss_ranking *r, const trial *t, double noise)
 {
@@ -178,8 +181,7 @@ refuse(ss_ranking *r, const trial *t, double noise)
                  "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
 }
 
-/* Is it not known whether a scene explains the falls?  Then it may be that none of the others is to be
- * named. */
+/* Does a scene exist of which it is not known whether it explains the falls?  Then no other may be named. */
 static int
 leaves_open(ss_ranking *r, const trial *t)
 {

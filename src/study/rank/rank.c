@@ -111,7 +111,7 @@ last_row(size_t i, const ss_scene *scene)
     return row;
 }
 
-/* The verdict is that of the scenes of the signal's kind, whose rows come first.  Those of the other kind
+/* Copy the verdict and the rows of the scenes of the signal's kind.  The scenes of the other kind follow: they
  * do not fit, and have no values. */
 static void
 copy_answer(ss_ranking *r, const ss_ranking *of, const ss_scene *scene)

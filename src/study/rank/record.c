@@ -74,7 +74,7 @@ ss_record_power(const rank_record *r)
     return sum / fmax(n, 1);
 }
 
-/* The variance of n numbers, by the median of their sizes, as if they were Gaussian. */
+/* The variance that n Gaussian numbers with this median size have. */
 static double
 gaussian_variance(double *d, size_t n)
 {
@@ -86,8 +86,8 @@ gaussian_variance(double *d, size_t n)
     return median * median;
 }
 
-/* By fourth differences, which have (1 + 16 + 36 + 16 + 1) times the variance: slow motion and what
- * happens seldom are not in their median. */
+/* The variance by fourth differences, which have (1 + 16 + 36 + 16 + 1) times as much: their median contains
+ * neither slow motion nor what happens seldom. */
 static double
 fast_variance(const rank_record *r, double *d)
 {
@@ -100,8 +100,8 @@ fast_variance(const rank_record *r, double *d)
     return gaussian_variance(d, count);
 }
 
-/* By the difference one cycle later, interpolated between two samples: no periodic motion is in it,
- * however fast. */
+/* The variance by the differences from one cycle to the next, interpolated between two samples: they contain
+ * no periodic motion, however fast. */
 static double
 cycle_variance(const rank_record *r, double samples, double *d)
 {
@@ -115,8 +115,8 @@ cycle_variance(const rank_record *r, double samples, double *d)
     return gaussian_variance(d, count);
 }
 
-/* A converter's steps: a twelfth of the square of the smallest, and the ninth that noise of a third of a
- * step has, which medians do not see: most samples that are in one step stay in it. */
+/* The variance of a converter's steps: a twelfth of the square of the smallest, and a ninth for noise of a
+ * third of a step.  Medians do not see such noise, as most samples do not leave their step. */
 static double
 step_variance(const rank_record *r)
 {

@@ -12,19 +12,19 @@ typedef struct rank_record {
     size_t n;
     double rate;                /* [Hz] */
     double from;                /* time of x[0] in the record whose cycle was searched [s] */
-    double noise;               /* variance, at most: see ss_record_noise */
+    double noise;               /* variance, an upper bound: see ss_record_noise */
     double steps;               /* variance that a converter's steps leave */
 } rank_record;
 
 /* SS_OK for a column that is there, has finite values and suits the options. */
 ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts,
                           ss_error *err);
-/* SS_OK for a column without a unit, or in that of scenes: sizes are compared. */
+/* SS_OK for a column that has no unit, or the unit that scenes have: the sizes of both are compared. */
 ss_status ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantity,
                                ss_error *err);
-/* Mean square about the mean. */
+/* The variance of the samples. */
 double ss_record_power(const rank_record *r);
-/* Set r->noise and r->steps of a record that repeats after so many samples, 0 if nothing repeats. */
+/* Set r->noise and r->steps of a record that repeats after so many samples; 0: nothing repeats. */
 ss_status ss_record_noise(rank_record *r, double samples);
 /* The mean square residual of the best sinusoid of this frequency [Hz] with an offset. */
 double ss_record_sinusoid(const rank_record *r, double frequency);

@@ -106,7 +106,7 @@ append_smooth(sampled *t, const walk *w, double c[6][MAX_DIM], double s)
     append_samples(&sample, 1, t);
 }
 
-/* Move so many seconds on; t, unless it is NULL, gets the samples from now on. */
+/* Advance the motion by so many seconds, and append its samples to t, unless t is NULL. */
 static ss_status
 advance(walk *w, double seconds, sampled *t)
 {
