@@ -1,6 +1,7 @@
 /* test_transitions.c -- transitions of simulated scenes, held against the scenes' own numbers. */
 #include <stdlib.h>
 #include <string.h>
+#include <complex.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
@@ -314,6 +315,50 @@ rings_beside_larger_jumps(void **state)
  * The noise is seen up to band = 0.002 sqrt(2 ln m), m < 4000 samples, and may take as much off.
  * The step, the slowest to rise, sin(pi u / 2)^2, is twice that at u = 2 / pi asin(sqrt(2 band));
  * then there is a sample. */
+/* Chebyshev's low-pass of fourth order with a ripple of 1 dB, by the bilinear transform. */
+static void
+filter_sharply(double *x, size_t n, double corner)
+{
+    double lean = asinh(1 / sqrt(pow(10, 0.1) - 1)) / 4, warped = 2 * tan(M_PI * corner);
+    for (int k = 0; k < 2; k++) {
+        double phase = M_PI * (2 * k + 1) / 8;
+        double complex p = warped * (-sinh(lean) * sin(phase) + I * cosh(lean) * cos(phase)), z = (2 + p) / (2 - p);
+        double a = -2 * creal(z), b = pow(cabs(z), 2), now[3] = { x[0], x[0], x[0] }, y[2] = { x[0], x[0] };
+        for (size_t i = 0; i < n; i++) {
+            now[2] = now[1], now[1] = now[0], now[0] = x[i];
+            x[i] = (1 + a + b) / 4 * (now[0] + 2 * now[1] + now[2]) - a * y[0] - b * y[1];
+            y[1] = y[0], y[0] = x[i];
+        }
+    }
+}
+
+/* A filter rings behind each jump, at its corner; a slider without a contact does not. */
+static void
+the_ringing_of_a_filter_is_no_contact(void **state)
+{
+    int slips = 0;
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        ss_scene scene = scene_of("coulomb");
+        ss_signal *signal = NULL;
+        ss_features *f = NULL;
+        scene.friction *= 0.6 + 0.05 * k;
+        scene.duration = 6;
+        scene.rate = 8000 * (1 + k % 2);
+        assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
+        size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
+        double *a = signal->values + column * n;
+        filter_sharply(a, n, 0.2);
+        ss_noise_add_once(a, n, ss_noise_rms(a, n, 60), 1 + (unsigned long)k);
+        assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
+        slips += isfinite(f->slip_rate.value);
+        assert_true(isnan(f->frequency.value) && isnan(f->damping_ratio.value) && f->why_ringing != NULL);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+    assert_true(slips >= 6);
+}
+
 static void
 single_events_have_an_extent(void **state)
 {
@@ -594,6 +639,7 @@ main(void)
         cmocka_unit_test(finds_nothing_in_noise_silence_and_short_records),
         cmocka_unit_test(the_forcing_is_no_harmonic),
         cmocka_unit_test(rings_beside_larger_jumps),
+        cmocka_unit_test(the_ringing_of_a_filter_is_no_contact),
         cmocka_unit_test(single_events_have_an_extent),
         cmocka_unit_test(no_slip_rate_where_repetitions_have_no_transition),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),

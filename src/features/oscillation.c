@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/list.h"
+#include "features/edge.h"
 #include "features/fold.h"
 #include "features/hum.h"
 #include "features/ringdown.h"
@@ -273,11 +274,16 @@ static ss_status
 fit_shared(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each)
 {
     ss_hum hum = SS_HUM_NONE;
+    int is_edge = 0;
     double repeats = s->out->repetition_frequency.value;
     ss_status st = isnan(repeats) ? SS_OK
         : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
     if (st == SS_OK)
         st = fit(s, anchor, s->out->n, f, window, all, each, &s->out->why_ringing);
+    if (st == SS_OK && s->out->why_ringing == NULL)
+        st = ss_edge_find(s->x, s->n, all[0].value / (2 * M_PI), &is_edge);
+    if (is_edge)
+        s->out->why_ringing = "it rings where the spectrum ends without a peak, as a filter does";
     s->is_cleaned |= hum == SS_HUM_SUBTRACTED;
     if (hum == SS_HUM_HIDDEN)
         s->out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
