@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stickslip/spectrum.h>
 
-#define FLAT 1.6                /* re the power law: more is a peak */
+#define FLAT 1.3                /* re the power law: more is a peak */
 #define STEEP 3.2               /* the same: more is lost behind a corner */
 #define STEP 1.67               /* from band to band, each from 1 / WIDE to WIDE of its middle */
 #define WIDE 1.18
