@@ -91,13 +91,17 @@ table() {       # of all recordings, with links to their pages
             for (i = 1; i < 4; i++) note[word[2], i] = word[i + 2] }
         function foot(text, i) { printf "<tr><td>%s</td>", text
             for (c = 3; c < n; c += 2) if (used[c]) printf "<td>%s</td>", known(note[column[c], i], "%.5g")
-            print "<td></td></tr>" }
+            print "</tr>" }
+        function why(r,   text, place) { text = cell[r, n]; place = cell[r, 1] ": "
+            if (index(text, place) == 1) text = substr(text, length(place) + 1)
+            return text == "-" ? "" : "<br><span class=\"why\">" text "</span>" }
         END { printf "<thead><tr><th>recording</th>"
             for (c = 3; c < n; c += 2) if (used[c]) printf "%s", head(c)
-            print "<th class=\"text\">why not, or how</th></tr></thead><tbody>"
-            for (r = 1; r <= rows; r++) { printf "<tr><td><a href=\"%s\">%s</a></td>", page[r], cell[r, 1]
+            print "</tr></thead><tbody>"
+            for (r = 1; r <= rows; r++) {
+                printf "<tr><td class=\"text\"><a href=\"%s\">%s</a>%s</td>", page[r], cell[r, 1], why(r)
                 for (c = 3; c < n; c += 2) if (used[c]) printf "<td>%s</td>", show(r, c)
-                print "<td class=\"text\">" (cell[r, n] == "-" ? "" : cell[r, n]) "</td></tr>" }
+                print "</tr>" }
             print "</tbody><tfoot>"; foot("mean", 1); foot("standard deviation between files", 2)
             foot("standard error within a file, rms", 3); print "</tfoot>" }' "$work/pages" "$work/escaped"
 }
