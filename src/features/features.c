@@ -16,13 +16,8 @@ const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displace
                                                 .force = -1, .threads = 1 };
 
 #define SPAN 80.0               /* [dB] of the paper's contours */
-#define SIGMAS 3.0
-#define JITTER 0.125            /* of a period, see slips_in_cycle */
-#define MOST 0.75
-#define ALONE 0.75              /* of a cycle, or of half of one that has two slips */
-#define OVERTONES 0.1           /* of the power: less makes no slip in a sinusoid */
-#define CONFIRMS 0.15           /* of the slip rate: a period so near to it is that of the slips */
-#define SLIGHT 0.5              /* [dB] maxima less prominent show no oscillation */
+#define SIGMAS 3.0              /* of the noise: maxima that rise less above the saddle are left out */
+#define SLIGHT 0.5              /* [dB] the least prominence of a maximum that shows an oscillation */
 
 /* --- maxima above the noise ------------------------------------------------------------------ */
 
@@ -46,7 +41,7 @@ find_noise(search *s)
     return st;
 }
 
-/* Nine tenths of the noise lie below, and a saddle there is made by noise. */
+/* A level that noise exceeds in a tenth of the places: a saddle below it is made by noise. */
 static double
 noise_floor(const search *s)
 {
@@ -54,8 +49,8 @@ noise_floor(const search *s)
     return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
 }
 
-/* Noise moves |W| by about its rms: leave out maxima whose fall to the saddle is not SIGMAS of it,
- * and those that no contour shows. */
+/* Leave out maxima that fall to their saddle by less than SIGMAS of the noise, as noise moves |W| by about its
+ * rms, and maxima that no contour shows. */
 static void
 drop_noise(search *s)
 {
@@ -71,7 +66,7 @@ drop_noise(search *s)
     s->n_found = kept;
 }
 
-/* Only maxima above the threshold are reported. */
+/* Report the maxima above the threshold. */
 static ss_status
 keep_prominent(search *s)
 {
@@ -84,216 +79,10 @@ keep_prominent(search *s)
     return SS_OK;
 }
 
-/* --- values that transitions have in common -------------------------------------------------- */
-
-/* How many transitions a second, by the mean of the times between them; a gap between two may hide
- * more. */
-static ss_value
-mean_rate(const search *s)
-{
-    const ss_features *out = s->out;
-    double sum = 0, squares = 0, m = 0;
-    for (size_t i = 1; i < out->n; i++) {
-        double from = out->transition[i - 1].onset, interval = out->transition[i].onset - from;
-        if (ss_gaps_near(s->gap, s->n_gaps, from + interval / 2, interval / 2))
-            continue;
-        sum += interval;
-        squares += interval * interval;
-        m++;
-    }
-    if (m < 2)
-        return unknown;
-    double mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
-    return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
-}
-
-/* The frequency of the cycles [Hz]. */
-static ss_value
-cycle_rate(const search *s)
-{
-    return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
-}
-
-/* Have so many transitions later a time of passed, for MOST of them, give or take JITTER of it? */
-static int
-recur(const search *s, size_t step, double time)
-{
-    const ss_features *out = s->out;
-    size_t good = 0, all = 0;
-    for (size_t i = 0; i + step < out->n; i++) {
-        double from = out->transition[i].onset, passed = out->transition[i + step].onset - from;
-        if (ss_gaps_near(s->gap, s->n_gaps, from + passed / 2, passed / 2))
-            continue;
-        all++;
-        good += fabs(passed / time - 1) <= JITTER;
-    }
-    return all >= 2 && (double)good >= MOST * (double)all;
-}
-
-/* How many transitions make a cycle: that many later a period has passed.  0: they do not repeat with
- * the cycle. */
-static size_t
-slips_in_cycle(const search *s)
-{
-    double period = 1 / s->out->repetition_frequency.value, each = round(mean_rate(s).value * period);
-    return each >= 1 && each < (double)s->out->n && recur(s, (size_t)each, period) ? (size_t)each : 0;
-}
-
-/* The slips that a cycle has at least: one, but two if its second half mirrors the first. */
-static size_t
-least_in_cycle(const search *s)
-{
-    return s->cycles.symmetry < -CYCLES_ALIKE ? 2 : 1;
-}
-
-/* A contact rings while it sticks: what does not ring, and stands beside what does, is an end of
- * that stick or a micro-slip. */
-static void
-keep_ringing(search *s)
-{
-    ss_features *out = s->out;
-    double apart = ALONE / (out->repetition_frequency.value * (double)least_in_cycle(s));
-    size_t kept = 0;
-    for (size_t i = 0; i < out->n; i++) {
-        const ss_transition *tr = &out->transition[i], *last = &out->transition[kept - (kept > 0)];
-        size_t next = i;
-        while (next < out->n && isnan(out->transition[next].from))
-            next++;
-        int is_beside = (kept > 0 && tr->onset - last->onset < apart)
-            || (next < out->n && out->transition[next].onset - tr->onset < apart);
-        if (!isnan(tr->from) || !is_beside)
-            out->transition[kept++] = *tr;
-    }
-    out->n = kept;
-}
-
-/* May some of the events be no slips, but ends of sticks, or micro-slips? Those that are as far
- * apart as the next are alike. */
-static int
-is_doubtful(const search *s, size_t each)
-{
-    size_t least = least_in_cycle(s);
-    return each % least != 0
-        || (each > least && !recur(s, 1, 1 / ((double)each * s->out->repetition_frequency.value)));
-}
-
-static void
-forget_loadings(ss_features *out)
-{
-    free(out->loading);
-    out->loading = NULL;
-    out->slope = out->stiffness = out->drop = out->duration = out->recurrence = out->stick
-        = out->static_friction = out->friction = out->k_over_m = no_median;
-}
-
-static void
-forget_slips(ss_features *out, const char *why)
-{
-    out->slips.value = NAN;
-    out->slip_rate = unknown;
-    out->why_slips = why;
-}
-
-static void
-forget_ringing(ss_features *out)
-{
-    for (size_t i = 0; i < out->n; i++)
-        out->transition[i].frequency = out->transition[i].damping_ratio = unknown;
-    out->frequency_raw = out->frequency = out->damping_ratio = unknown;
-    out->why_ringing = "the slips are not known";
-}
-
-/* Sharp events do not repeat with the cycle.  A cycle of dry friction has a slip all the same: one,
- * unless its second half mirrors the first, as then it has as many either way; a sinusoid need not
- * have any. */
-static void
-count_cycles(search *s)
-{
-    ss_features *out = s->out;
-    int more = (double)out->n > (double)s->cycles.n;
-    forget_ringing(out);
-    if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE
-        && s->cycles.overtones > OVERTONES) {
-        out->n = out->recurring = 0;
-        out->slips.value = (double)s->cycles.n;
-        out->slip_rate = out->repetition_frequency;
-        out->why_slips = "counted as one a cycle, as nothing sharp repeats with it";
-    } else
-        forget_slips(out, more ? "there are more sharp events than slips that could repeat with the cycle"
-            : "there are fewer sharp events than cycles");
-}
-
-/* Each slip of a force that falls ends a cycle, so its period needs no other proof. */
-static void
-confirm_repetition(search *s)
-{
-    ss_features *out = s->out;
-    if (isnan(out->repetition_frequency.value)
-        && fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS) {
-        out->repetition_frequency = cycle_rate(s);
-        out->why_repetition = NULL;
-    }
-}
-
-/* What repeats with several falls a cycle, or with none, is a force of one sign only if someone says so. */
-static int
-has_offset(const search *s)
-{
-    return s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0
-        && !isnan(s->out->repetition_frequency.value)
-        && !(fabs(s->out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS);
-}
-
-static void
-find_slip_rate(search *s)
-{
-    ss_features *out = s->out;
-    if (out->why_slips != NULL) {
-        out->slips = unknown;
-        return;
-    }
-    out->slips.value = (double)out->n;
-    out->slip_rate = mean_rate(s);
-    if (out->loading != NULL) {
-        if (has_offset(s)) {
-            forget_loadings(out);
-            out->n = 0;
-            forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
-            return;
-        }
-        confirm_repetition(s);
-        if (out->n > 0 && isnan(out->drop.value))
-            out->why_slips = "most falls of the force are no slips of an evenly pulled slider";
-        else if (s->has_offset)
-            out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
-        return;
-    }
-    if (isnan(out->repetition_frequency.value)) {
-        if (out->n == 0)
-            out->why_slips = "nothing stands out: slips that are smooth or weak are not seen";
-        else
-            out->why_slips = "counted by what stands out, as nothing repeats that would confirm it";
-        return;
-    }
-    size_t each = slips_in_cycle(s);
-    if (each > least_in_cycle(s) && !isnan(out->frequency.value)) {
-        keep_ringing(s);
-        out->slips.value = (double)out->n;
-        each = slips_in_cycle(s);
-    }
-    if (each == 0)
-        count_cycles(s);
-    else if (is_doubtful(s, each))
-        forget_slips(out, "of several sharp events a cycle some may be no slips of their own");
-    else
-        out->slip_rate = (ss_value){ (double)each * out->repetition_frequency.value,
-                                     (double)each * out->repetition_frequency.error };
-}
-
 /* --- stiffness and damping ----------------------------------------------------------------- */
 
-/* With r = hypot(omega, s): K = m r^2, c = 2 m s; their errors from those of frequency and ratio,
- * taken as independent. */
+/* K = m r^2 and c = 2 m s with r = hypot(omega, s).  Their errors follow from those of frequency and ratio as
+ * if these were independent. */
 static void
 find_stiffness(ss_features *out, double m, double k)
 {
@@ -311,7 +100,7 @@ find_stiffness(ss_features *out, double m, double k)
         out->contact_stiffness = (ss_value){ total - k, out->total_stiffness.error };
 }
 
-/* The contact's stiffness found the other way, over the fitted spans. */
+/* Find the contact's stiffness from force and displacement, over the spans in which oscillations are fitted. */
 static ss_status
 find_slope(search *s)
 {
@@ -320,7 +109,7 @@ find_slope(search *s)
     size_t x = (size_t)s->opts->displacement, f = (size_t)s->opts->force, n = 0;
     if (s->opts->displacement < 0 || s->opts->force < 0)
         return SS_OK;
-    if (out->reverses && isfinite(out->friction.value))     /* which has its own stiffness */
+    if (out->reverses && isfinite(out->friction.value))     /* the stiffness is found from its loading */
         return SS_OK;
     ss_window *span = malloc((out->n + 1) * sizeof *span);
     if (span == NULL)
@@ -337,7 +126,7 @@ find_slope(search *s)
 
 /* --- all of it ----------------------------------------------------------------------------- */
 
-/* Parts of the work, roughly. */
+/* Parts of the work that are done after each step, roughly. */
 #define TRANSFORMED 0.35
 #define FLOODED 0.6
 #define FITTED 0.9
@@ -345,7 +134,7 @@ find_slope(search *s)
 static ss_status
 report_progress(const search *s, double part)
 {
-    part = s->is_cleaned ? FITTED + (1 - FITTED) * part : part;     /* all is done again without the hum */
+    part = s->is_cleaned ? FITTED + (1 - FITTED) * part : part;     /* the second time, without the hum */
     return ss_progress_at(&s->opts->progress, part);
 }
 
@@ -355,7 +144,7 @@ report_transform(double done, void *user)
     return report_progress(user, TRANSFORMED * done) != SS_OK;
 }
 
-/* Of the map from the lowest usable frequency on; SS_ESCALE where there is none. */
+/* Plan the map from the lowest usable frequency on; SS_ESCALE: no frequency is usable. */
 static ss_status
 plan_map(search *s, size_t column, ss_error *err)
 {
@@ -414,7 +203,7 @@ find_repetition(search *s)
     return SS_OK;
 }
 
-/* What needs no map, so that its memory is not taken yet. */
+/* Find what needs no map before the map takes its memory. */
 static ss_status
 find_before_map(search *s)
 {
@@ -435,7 +224,7 @@ find_with_map(search *s)
         return st;
     if ((st = ss_transitions_find(s)) != SS_OK || (st = report_progress(s, FITTED)) != SS_OK)
         return st;
-    find_slip_rate(s);
+    ss_slip_rate_find(s);
     find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
     return find_slope(s);
 }
@@ -475,8 +264,20 @@ normalised(const double *x, size_t n, double *largest)
     return copy;
 }
 
-/* What is in the samples x of a column.  *cleaned, if it is not NULL: these without the hum that was
- * subtracted from them; NULL: none was. */
+/* The features of a recording that is too short to have any. */
+static void
+forget_all(ss_features *out)
+{
+    out->slips = (ss_value){ 0, NAN };
+    out->slip_rate = out->repetition_frequency = out->frequency_raw = out->frequency = out->damping_ratio
+        = out->total_stiffness_raw = out->total_stiffness = out->contact_stiffness = out->contact_damping
+        = out->contact_slope = unknown;
+    ss_loadings_forget(out);
+    out->why_ringing = "the recording is too short";
+}
+
+/* Find the features of the samples x of a column.  *cleaned, unless cleaned is NULL, becomes these samples
+ * without their hum, if they have one. */
 static ss_status
 find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
      const ss_features_opts *opts, double **cleaned, ss_error *err)
@@ -493,12 +294,7 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
     }
     ss_gaps_bridge(s.x, s.n, s.rate, s.gap, s.n_gaps);
     s.quantity = ss_column_quantity(&signal->head->column[column]);
-    s.out->slips = (ss_value){ 0, NAN };
-    s.out->slip_rate = s.out->repetition_frequency = s.out->frequency_raw = s.out->frequency
-        = s.out->damping_ratio = s.out->total_stiffness_raw = s.out->total_stiffness
-        = s.out->contact_stiffness = s.out->contact_damping = s.out->contact_slope = unknown;
-    forget_loadings(s.out);
-    s.out->why_ringing = "the recording is too short";
+    forget_all(s.out);
     ss_status st = s.n > 0 ? plan_map(&s, column, err) : SS_ESCALE;
     if (st == SS_OK && (st = find_before_map(&s)) != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));
@@ -509,7 +305,7 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
     ss_levels_free(&s.map);
     free(s.gap);
     free(s.found);
-    if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* too short for anything to be in it */
+    if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* it is too short to have features */
         st = SS_OK;
     if (st == SS_OK && s.out->spikes == NULL
         && (s.out->spikes = calloc(1, sizeof *s.out->spikes)) == NULL)
@@ -540,7 +336,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
     ss_status st = check(signal, column, opts, err);
     if (st == SS_OK)
         st = find(&found, signal, column, signal->values + column * signal->n, opts, &cleaned, err);
-    if (cleaned != NULL) {              /* the hum was in the period and the slips, too */
+    if (cleaned != NULL) {              /* the hum has changed the period and the slips, too */
         ss_features_free(found);
         st = find(&found, signal, column, cleaned, opts, NULL, err);
         free(cleaned);

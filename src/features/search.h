@@ -47,6 +47,20 @@ is_event(const ss_spike *spike)
     return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
 }
 
+/* The frequency of the cycles [Hz]. */
+static inline ss_value
+cycle_rate(const search *s)
+{
+    return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
+}
+
+/* Count the slips, and find their rate, into s->out, which has transitions and repetition_frequency; or say
+ * there why they are not known. */
+void ss_slip_rate_find(search *s);
+
+/* Free the loadings, if there are any; all that they give is unknown. */
+void ss_loadings_forget(ss_features *out);
+
 /* Room for n transitions of which nothing is known, in place of those before. */
 ss_status ss_transitions_new(ss_features *out, size_t n);
 
