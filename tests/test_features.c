@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stickslip.h>
 
-#include "unit.h"
+#include "new_signal.h"
 
 /* A map of the transform's grid, filled with a function of time and octaves. */
 typedef double height(double t, double m);      /* dB */
@@ -12,14 +12,11 @@ typedef double height(double t, double m);      /* dB */
 static ss_coefficients *
 long_map_of(height *h, double step, size_t samples)
 {
-    ss_header *head = ss_header_new(1000, 0);
-    ss_signal *signal = NULL;
+    ss_signal *signal = new_signal(samples, 1000, 0, "a", "");
     ss_coefficients *coef = NULL;
     ss_morlet_opts opts = ss_morlet_defaults;
     opts.octaves = 1, opts.m0 = -6, opts.m1 = -2, opts.voices = 8, opts.step = step;
     opts.dense = step == 0, opts.force = 1;
-    ss_header_add_column(head, "a", "");
-    assert_int_equal(ss_signal_new(&signal, head, samples), SS_OK);
     assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
     for (size_t i = 0; i < coef->n_scales; i++) {
         const ss_scale *sc = &coef->scale[i];
@@ -28,7 +25,6 @@ long_map_of(height *h, double step, size_t samples)
             coef->w[2 * (sc->offset + k) + 1] = -pow(10, h(ss_scale_b(sc, k), sc->m) / 20);
         }
     }
-    ss_header_free(head);
     ss_signal_free(signal);
     return coef;
 }
@@ -210,14 +206,11 @@ static void
 finds_two_tone_bursts(void **state)
 {
     enum { N = 6000 };
-    ss_header *head = ss_header_new(2000, 0);
-    ss_signal *signal = NULL;
+    ss_signal *signal = new_signal(N, 2000, 0, "a", "m/s^2");
     ss_coefficients *coef = NULL;
     ss_maximum *peak = NULL;
     size_t n = 0, all;
     (void)state;
-    ss_header_add_column(head, "a", "m/s^2");
-    ss_signal_new(&signal, head, N);
     for (size_t i = 0; i < N; i++) {
         double t = (double)i / 2000, u = (t - 1) / 0.1, v = (t - 2.2) / 0.1;
         signal->values[i] = exp(-u * u / 2) * cos(2 * M_PI * 45 * t)
@@ -234,7 +227,6 @@ finds_two_tone_bursts(void **state)
     assert_true(isinf(peak[0].prominence) && peak[1].prominence > 40);
     free(peak);
     ss_coefficients_free(coef);
-    ss_header_free(head);
     ss_signal_free(signal);
 }
 
@@ -244,16 +236,13 @@ static void
 a_long_map_has_the_maxima_of_a_short_one(void **state)
 {
     enum { RATE = 1000, EVERY = 500, N = 1600 * EVERY };
-    ss_header *head = ss_header_new(RATE, 0);
-    ss_signal *signal;
+    ss_signal *signal = new_signal(N, RATE, 0, "a", "");
     ss_coefficients *coef;
     ss_maximum *peak;
     ss_morlet_opts opts = ss_morlet_defaults;
     size_t n = 0, inside = 0;
     double least = INFINITY, most = 0;
     (void)state;
-    ss_header_add_column(head, "a", "");
-    assert_int_equal(ss_signal_new(&signal, head, N), SS_OK);
     for (size_t i = 0; i < N; i++) {
         double u = ((double)((i + EVERY / 2) % EVERY) - EVERY / 2.) / 80;
         signal->values[i] = exp(-u * u / 2) * cos(2 * M_PI * 50 * 80. / RATE * u);
@@ -278,7 +267,6 @@ a_long_map_has_the_maxima_of_a_short_one(void **state)
     free(peak);
     ss_coefficients_free(coef);
     ss_signal_free(signal);
-    ss_header_free(head);
 }
 
 int

@@ -20,6 +20,8 @@ SS_PRINTF(3, 4)
 ss_status ss_fail(ss_error *err, ss_status status, const char *format, ...);
 /* SS_EINVAL: a pointer that must not be NULL is. */
 #define SS_FAIL_NULL(err) ss_fail(err, SS_EINVAL, "an argument is NULL")
+/* SS_EINVAL: a signal of n columns has none with this index. */
+ss_status ss_fail_column(ss_error *err, size_t column, size_t n);
 /* SS_EIO for a file, with the system's text for this errno; strerror is not safe for threads. */
 ss_status ss_fail_errno(ss_error *err, const char *name, int number);
 /* SS_ENOMEM of a call that reads or writes a file, or of one that does not (name NULL). */

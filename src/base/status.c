@@ -78,6 +78,12 @@ ss_fail(ss_error *err, ss_status status, const char *format, ...)
 }
 
 ss_status
+ss_fail_column(ss_error *err, size_t column, size_t n)
+{
+    return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1, n);
+}
+
+ss_status
 ss_fail_errno(ss_error *err, const char *name, int number)
 {
     char text[128];

@@ -131,8 +131,7 @@ ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t colum
     if (out == NULL || signal == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     if (column >= signal->head->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1,
-                       signal->head->n_columns);
+        return ss_fail_column(err, column, signal->head->n_columns);
     ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, opts, err);
     if (st != SS_OK)
         return st;

@@ -29,7 +29,7 @@ ss_map_read_column(map_column *column, const ss_table *t, size_t c, ss_error *er
 {
     ss_status st = SS_OK;
     if (c >= t->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", c + 1, t->n_columns);
+        return ss_fail_column(err, c, t->n_columns);
     double *value = malloc((t->n + 1) * sizeof *value);
     if (value == NULL)
         return ss_fail_memory(err, NULL);

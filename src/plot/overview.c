@@ -137,7 +137,7 @@ ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const s
     if (out == NULL || head == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     if (column >= head->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column + 1, head->n_columns);
+        return ss_fail_column(err, column, head->n_columns);
     ss_overview *o = *out = calloc(1, sizeof *o);
     if (o == NULL)
         return ss_fail_memory(err, NULL);

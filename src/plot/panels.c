@@ -45,7 +45,7 @@ make_panels(panel **out, const ss_signal *signal, const size_t column[], size_t 
     for (size_t i = 0; i < n; i++) {
         size_t c = column != NULL ? column[i] : i;
         if (c >= head->n_columns)
-            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", c + 1, head->n_columns);
+            return ss_fail_column(err, c, head->n_columns);
         p[i] = (panel){ &head->column[c], signal->values + c * signal->n, SCRIPT_NO_EXTENT, ss_script_power(0), { .n = 0 } };
     }
     return SS_OK;
@@ -216,7 +216,7 @@ ss_plot_over_columns(size_t column[2], const ss_header *over, const ss_header *s
     if (column == NULL || over == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     if (x >= signal->n_columns || y >= signal->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1, signal->n_columns);
+        return ss_fail_column(err, x > y ? x : y, signal->n_columns);
     const char *name[2] = { signal->column[x].name, signal->column[y].name };
     int found[2] = { ss_header_column(over, name[0]), ss_header_column(over, name[1]) };
     int named = found[0] >= 0 && found[1] >= 0;
@@ -318,8 +318,7 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
     script_span span;
     path p = { .clock = { .gap = NULL } }, over = p;
     if (x >= head->n_columns || y >= head->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1,
-                       head->n_columns);
+        return ss_fail_column(err, x > y ? x : y, head->n_columns);
     ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
     if (status == SS_OK)
         status = make_path(&p, signal, (const size_t[]){ x, y }, &span, err);

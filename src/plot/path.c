@@ -224,7 +224,7 @@ ss_plot_path(ss_signal **out, size_t *rows, ss_reader *reader, size_t x, size_t 
     script_span span;
     *out = NULL;
     if (x >= head->n_columns || y >= head->n_columns)
-        return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", (x > y ? x : y) + 1, head->n_columns);
+        return ss_fail_column(err, x > y ? x : y, head->n_columns);
     r.head.start = start;
     ss_script_find_rows(&r.first, &r.end, &r.head, opts);
     r.clock = (script_clock){ .start = head->start, .rate = head->rate };

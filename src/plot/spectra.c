@@ -143,7 +143,7 @@ ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const 
     memset(spectrum, 0, n * sizeof *spectrum);
     for (size_t i = 0; i < n; i++)
         if (column[i] >= s.columns)
-            return ss_fail(err, SS_EINVAL, "no column %zu, there are %zu", column[i] + 1, s.columns);
+            return ss_fail_column(err, column[i], s.columns);
     s.row = malloc((PIECE + s.columns) * sizeof *s.row);
     ss_status st = s.row != NULL ? read_column(&s, 0, NULL, err) : ss_fail_memory(err, NULL);
     if (st == SS_OK)

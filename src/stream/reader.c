@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/list.h"
 #include "signal/gaps.h"
 #include "stream/calibration.h"
 #include "stream/clock.h"
@@ -172,15 +173,10 @@ read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
     *rows = NULL;
     *n = 0;
     do {
-        if (room - *n < piece) {
-            room = room == 0 ? 4 * piece : 2 * room;
-            double *more = room < SIZE_MAX / sizeof *more / 2 / columns
-                         ? realloc(*rows, room * columns * sizeof *more) : NULL;
-            if (more == NULL)
-                return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long",
-                               reader->in.name);
-            *rows = more;
-        }
+        double *more = ss_list_grow(*rows, &room, *n + piece, columns * sizeof *more);
+        if (more == NULL)
+            return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", reader->in.name);
+        *rows = more;
         ss_status st = ss_reader_rows(reader, *rows + *n * columns, room - *n, &got, err);
         if (st != SS_OK)
             return st;
