@@ -4,10 +4,11 @@
 #include <string.h>
 #include <stickslip.h>
 
+#include "morlet/fft/blocks.h"
+#include "morlet_plan.h"
 #include "new_signal.h"
 #include "unit.h"
 
-#define LENGTH(a) (sizeof (a) / sizeof *(a))
 enum { N = 8009 };                      /* a prime */
 
 /* Tones from 30 to 205 Hz one after the other, nothing at the ends: all within the labels. */
@@ -82,6 +83,124 @@ transform_is_inverted_as_well_as_is_said(void **state)
             ss_signal_free(signal);
             ss_coefficients_free(coef);
         }
+}
+
+/* The part of the coefficients that a signal does not explain, by the sum of the definition. */
+static double
+unexplained(const ss_signal *signal, const ss_coefficients *coef, ss_morlet_opts opts)
+{
+    double off = 0, all = 0;
+    opts.engine = SS_ENGINE_QUADRATURE;
+    ss_coefficients *own = coefficients_of(signal, opts);
+    assert_int_equal(own->n_scales, coef->n_scales);
+    for (size_t i = 0; i < coef->n_scales; i++) {
+        const ss_scale *sc = &coef->scale[i];
+        double weight = sc->b_num / sc->b_den / (opts.norm == SS_NORM_L1 ? 1 : sc->a);
+        for (size_t k = 2 * sc->offset; k < 2 * (sc->offset + sc->n); k++) {
+            off += weight * (own->w[k] - coef->w[k]) * (own->w[k] - coef->w[k]);
+            all += weight * coef->w[k] * coef->w[k];
+        }
+    }
+    ss_coefficients_free(own);
+    return sqrt(off / all);
+}
+
+static void
+explains_the_coefficients_as_well_as_asked(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < LENGTH(fine); i++) {
+        ss_morlet_opts opts = fine[i];
+        ss_signal *signal = some_signal(1), *back;
+        opts.threads = 1;
+        ss_coefficients *coef = coefficients_of(signal, opts);
+        for (double tol = 1e-2; tol > 1e-12; tol *= 1e-3) {
+            assert_int_equal(ss_morlet_inverse(&back, coef, tol, NULL, (ss_progress){ NULL, NULL }, NULL),
+                             SS_OK);
+            double left = unexplained(back, coef, opts);
+            if (!(left <= 1.01 * tol + 1e-12))
+                fail_msg("row %zu: %g is left, %g asked for", i, left, tol);
+            ss_signal_free(back);
+        }
+        ss_signal_free(signal);
+        ss_coefficients_free(coef);
+    }
+}
+
+/* --- the adjoint ------------------------------------------------------------------------------ */
+
+/* Samples by the sum over coefficients of Re(w h), in units of a^1/2. */
+static long double
+sum_at(const ss_scale *sc, const ss_morlet_opts *opts, double rate, const double *w, size_t n)
+{
+    const long double wc = opts->center, second = opts->admissible ? expl(-wc * wc / 2) : 0;
+    double parts = ss_scale_parts(sc, rate);
+    long double sum = 0;
+    for (size_t k = 0; k < sc->n; k++) {
+        spot at = ss_scale_spot(sc, k, rate);       /* a translation next to a sample is that sample */
+        long double tau = parts > 0 ? (long double)k * sc->b_num / parts - (long double)at.c : at.tau;
+        long double u = ((long double)n - (long double)at.c - tau) / ((long double)sc->a * rate);
+        if (fabsl(u) < 12)
+            sum += expl(-u * u / 2) * (w[2 * k] * (cosl(wc * u) - second) - w[2 * k + 1] * sinl(wc * u));
+    }
+    return sum * powl(acosl(-1), -0.25L) / ((long double)sc->a * rate);
+}
+
+/* x becomes the adjoint of scale i in blocks; random coefficients into w. */
+static void
+in_blocks(const ss_morlet *plan, block_sums *sums, size_t i, double *scratch, double *w, double *x)
+{
+    const ss_scale *sc = ss_morlet_scale(plan, i);
+    make(NOISE, w, 2 * sc->n);
+    memset(x, 0, plan->n * sizeof *x);
+    for (size_t k = 0, n; k < sc->n; k += n) {
+        n = ss_blocks_rest(plan->blocks, i, k);
+        n = n < sc->n - k ? n : sc->n - k;
+        ss_block_sums_add(sums, i, scratch, (span){ k, n }, 1, w + 2 * k);
+    }
+    assert_int_equal(ss_block_sums_end(sums, x), SS_OK);
+}
+
+/* To 16 eps of the largest that coefficients of size 1 can make, the sum of |h| over translations. */
+static void
+adjoint_in_blocks_is_the_sum(void **state)
+{
+    static const ss_morlet_opts grid[] = {
+        { .center = 6, .voices = 3, .step = 0.25 }, { .center = 3, .voices = 2, .step = 0.7, .admissible = 1 },
+        { .center = 6, .voices = 3, .dense = 1 },   { .center = 2, .voices = 1, .dense = 1, .admissible = 1 },
+        { .center = 6, .voices = 3, .step = 0.3, .exact = 1 }, { .center = 40, .voices = 2, .step = 2 },
+        { .center = 5, .voices = 1, .step = 1 },
+    };
+    static const size_t length[] = { 8009, 700 };
+    (void)state;
+    for (size_t g = 0; g < LENGTH(grid) * LENGTH(length); g++) {
+        ss_morlet_opts opts = grid[g / LENGTH(length)];
+        size_t n = length[g % LENGTH(length)], blocks = 0;
+        opts.engine = SS_ENGINE_FFT, opts.accuracy = 1e-12, opts.threads = 1;
+        ss_morlet *plan = plan_of(n, 1500, &opts);
+        block_sums *sums = ss_block_sums_new(plan->blocks);
+        double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w), *x = malloc(n * sizeof *x), *scratch;
+        assert_int_equal(ss_morlet_scratch(plan, &scratch), SS_OK);
+        for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
+            const ss_scale *sc = ss_morlet_scale(plan, i);
+            double error = 0, sum_of_h = 1.88 / (1500 * sc->b_num / sc->b_den);
+            double allow = 16 * DBL_EPSILON * sum_of_h;
+            if (!ss_blocks_covers(plan->blocks, i))
+                continue;
+            blocks++;
+            in_blocks(plan, sums, i, scratch, w, x);
+            for (size_t k = 0; k < n; k += k < 9 || k + 9 > n ? 1 : 97)
+                error = fmax(error, fabs(x[k] - (double)sum_at(sc, &opts, 1500, w, k)));
+            if (!(error <= allow))
+                fail_msg("row %zu, scale %zu: %g times the bound", g, i, error / allow);
+        }
+        assert_true(blocks > 3);
+        ss_block_sums_free(sums);
+        ss_fft_scratch_free(scratch);
+        ss_morlet_free(plan);
+        free(w);
+        free(x);
+    }
 }
 
 static void
@@ -179,6 +298,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(transform_is_inverted_as_well_as_is_said),
+        cmocka_unit_test(explains_the_coefficients_as_well_as_asked),
+        cmocka_unit_test(adjoint_in_blocks_is_the_sum),
         cmocka_unit_test(refuses_what_has_no_inverse),
         cmocka_unit_test(nothing_gives_nothing),
         cmocka_unit_test(progress_rises_and_may_stop),

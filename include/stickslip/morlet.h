@@ -239,7 +239,8 @@ int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k
  * SS_ESCALE: this ratio exceeds 100, so the grid is too coarse.  SS_ETOL: more than tol, 1e-12 ...
  * 0.1, of the coefficients is not explained, because they are those of no signal, or because 500
  * passes do not suffice.  SS_EDATA: the notes lack options, or scales are missing.  SS_STOP:
- * progress asked for it.  The cost is three to 500 transforms and as many adjoints by the sum. */
+ * progress asked for it.  The cost is one to 500 passes, each a transform and its adjoint of about the
+ * same cost, and some twelve numbers per sample of memory. */
 ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
                             double *error, ss_progress progress, ss_error *err);
 

@@ -2,30 +2,41 @@
  *
  * Weighted by the grid's share of the integral over a and b, da db/a^2, coefficients on a fine grid
  * are nearly a tight frame: the transform's adjoint nearly inverts it, up to a constant, for what the
- * scales reach.  From there conjugate gradients (Hestenes and Stiefel 1952, in the form for least
- * squares, CGLS) converge on any grid; on one that is far from tight they need many passes, and a
- * residual that stays shows that the coefficients are those of no signal.  Frequencies at the edge of
- * the scales and beyond converge slowly: the residual then falls about as the passes to the power
- * -1/2 to -1, without end. */
+ * scales reach.  From there conjugate gradients (Hestenes and Stiefel 1952) on the normal equations
+ * converge on any grid; on one that is far from tight they need many passes, and a residual that stays
+ * shows that the coefficients are those of no signal.  Frequencies at the edge of the scales and beyond
+ * converge slowly: the residual then falls about as the passes to the power -1/2 to -1, without end.
+ *
+ * A pass transforms the step and applies the adjoint to each part of the coefficients as it comes: the
+ * given coefficients are the only ones in memory.  The rest's adjoint, the gradient, and the rest's size
+ * follow from those of the step.  Rounding errors of the size show when it is some 1e-8 of where it began:
+ * so both are computed anew from the given coefficients long before, and when the search ends. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/range.h"
+#include "base/versions.h"
+#include "morlet/fft/blocks.h"
 #include "morlet/plan.h"
 
 /* A residual stays if twice as many passes, from STALL_FROM on, lower it by less than this part. */
-enum { PASSES = 500, STALL_FROM = 16 };
+enum { PASSES = 500, STALL_FROM = 16, LANES = 8 };
 static const double STALL = 0.1;
+
+/* A residual that is found from step to step is computed again when it has become so much smaller. */
+static const double FRESH = 1e-5;
 
 typedef struct solver {
     const ss_coefficients *coef;
     ss_stretch progress;
     ss_morlet *plan;
-    wavelet **wave;                 /* of each scale */
-    double *x, *gradient, *step;
-    double *w, *rest;               /* coefficients of step; the part that x does not explain */
+    block_sums *sums;               /* NULL: no scale is computed in blocks */
+    wavelet **wave;                 /* of each scale that is not */
+    double *x, *gradient, *step, *image;
+    double *part, *scratch;
+    double unit[2];                 /* the coefficients are times both */
     int exponent;                   /* all of these are divided by 2^exponent */
     double bounds;                  /* the upper frame bound over the lower one */
 } solver;
@@ -38,40 +49,85 @@ weight_of(const solver *s, const ss_scale *sc)
     return s->plan->opts.norm == SS_NORM_L1 ? share * sc->a : share;
 }
 
-static double
-norm2_weighted(const solver *s, const double *w)
-{
-    double sum = 0;
-    for (size_t i = 0; i < s->plan->n_scales; i++) {
-        const ss_scale *sc = &s->plan->scale[i];
-        double part = 0;
-        for (size_t k = 2 * sc->offset; k < 2 * (sc->offset + sc->n); k++)
-            part += w[k] * w[k];
-        sum += weight_of(s, sc) * part;
-    }
-    return sum;
-}
-
-static double
+VERSIONS static double
 norm2(const double *x, size_t n)
 {
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] * x[i];
-    return sum;
+    double sum[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            sum[l] += x[i + l] * x[i + l];
+    for (; i < n; i++)
+        sum[0] += x[i] * x[i];
+    for (size_t l = 1; l < LANES; l++)
+        sum[0] += sum[l];
+    return sum[0];
 }
 
-/* gradient becomes the adjoint of the transform, applied to the weighted rest. */
+/* w becomes the coefficients that are given, a part of scale i, less w. */
 static void
-adjoint(solver *s)
+subtract(const solver *s, size_t i, span part, double *w)
 {
-    memset(s->gradient, 0, s->plan->n * sizeof *s->gradient);
-    for (size_t i = 0; i < s->plan->n_scales; i++) {
-        const ss_scale *sc = &s->plan->scale[i];
-        double factor = weight_of(s, sc) * (s->plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(sc->a));
-        ss_quadrature_adjoint(s->plan, sc, s->wave[i], s->rest + 2 * sc->offset, factor,
-                              s->gradient);
+    const double *given = s->coef->w + 2 * (s->coef->scale[i].offset + part.first);
+    for (size_t k = 0; k < 2 * part.n; k++)
+        w[k] = given[k] * s->unit[0] * s->unit[1] - w[k];
+}
+
+/* Add the adjoint of a part of scale i to samples, those of blocks not before the sums' end. */
+static void
+add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
+{
+    const ss_scale *sc = &s->plan->scale[i];
+    double factor = weight_of(s, sc) * (s->plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(sc->a));
+    if (ss_blocks_covers(s->plan->blocks, i))
+        ss_block_sums_add(s->sums, i, s->scratch, part, factor, w);
+    else
+        ss_quadrature_adjoint(s->plan, sc, s->wave[i], part, factor, w, to);
+}
+
+/* What `transform` says, for scale i of the record, part by part. */
+static ss_status
+one_scale(solver *s, size_t i, const record *rec, const spectra *sp, int rest, double *to, double *norm,
+          ss_error *err)
+{
+    const ss_scale *sc = &s->plan->scale[i];
+    double most = 0, sum = 0;
+    for (size_t k = 0, n; k < sc->n; k += n) {
+        n = ss_morlet_part_length(s->plan, i, k);
+        span part = { k, n < sc->n - k ? n : sc->n - k };
+        ss_status st = ss_morlet_part(s->plan, i, rec, sp, s->scratch, s->wave[i], part, &most, s->part, err);
+        if (st != SS_OK)
+            return st;
+        if (rest)
+            subtract(s, i, part, s->part);
+        sum += norm2(s->part, 2 * part.n);
+        add_adjoint(s, i, part, s->part, to);
     }
+    *norm += weight_of(s, sc) * sum;
+    return SS_OK;
+}
+
+/* The coefficients of x, or with rest the given ones less those: *norm becomes the weighted sum of their
+ * squares, and `to` the adjoint of the transform applied to them.  No more than a part of them is in memory
+ * at a time. */
+static ss_status
+transform(solver *s, const double *x, int rest, double *to, double *norm, ss_error *err)
+{
+    record rec;
+    spectra sp = { .first = 0 };
+    ss_status st = ss_morlet_record(&rec, x, s->plan->n, SS_DETREND_NONE, err);
+    if (st != SS_OK)
+        return st;
+    st = ss_morlet_forward(s->plan, &rec, &sp);
+    memset(to, 0, s->plan->n * sizeof *to);
+    *norm = 0;
+    for (size_t i = 0; st == SS_OK && i < s->plan->n_scales; i++)
+        st = one_scale(s, i, &rec, &sp, rest, to, norm, err);
+    if (st == SS_OK && s->sums != NULL)
+        st = ss_block_sums_end(s->sums, to);
+    ss_morlet_spectra_free(&sp);
+    free(rec.x);
+    return st;
 }
 
 /* Round x up to two digits. */
@@ -95,41 +151,61 @@ refuse(double tol, double residual, int passes, int stays, ss_error *err)
                    takes, tol, takes);
 }
 
+/* The progress of the search: every pass lowers the rest by about the same factor. */
+static ss_status
+report(const solver *s, double left, double tol, int pass)
+{
+    double done = fmax(log(left) / (2 * log(tol)), (double)pass / PASSES);
+    return ss_stretch_at(&s->progress, fmin(1, fmax(0, done)));
+}
+
+/* Go along the step to the least rest, whose squares were *left. */
+static ss_status
+advance(solver *s, double slope, double *left, ss_error *err)
+{
+    double norm;
+    ss_status st = transform(s, s->step, 0, s->image, &norm, err);
+    double length = slope / norm;
+    for (size_t i = 0; st == SS_OK && i < s->plan->n; i++) {
+        s->x[i] += length * s->step[i];
+        s->gradient[i] -= length * s->image[i];
+    }
+    *left -= length * slope;
+    return st;
+}
+
 /* Solve by conjugate gradients.  *residual becomes the size of the part that x does not explain, relative
- * to all. */
+ * to all.  The rest and its adjoint follow from those of the step, and are computed anew before their
+ * rounding errors show. */
 static ss_status
 solve(solver *s, double tol, double *residual, ss_error *err)
 {
-    size_t n = s->plan->n, total = 2 * s->plan->total;
-    double all = norm2_weighted(s, s->rest), left = all;
-    ss_status st = SS_OK;
-    adjoint(s);
-    memcpy(s->step, s->gradient, n * sizeof *s->step);
-    double slope = norm2(s->gradient, n), then = left;
+    size_t n = s->plan->n;
+    double all, slope, left, fresh, then;
     int pass = 0, mark = STALL_FROM, stays = 0;
-    for (; left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
-        /* every pass lowers the rest by about the same factor */
-        double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
-        if ((st = ss_stretch_at(&s->progress, fmax(0, done))) != SS_OK
-            || (st = ss_morlet_execute(s->plan, s->step, s->w, err)) != SS_OK)
-            return st;
-        double length = slope / norm2_weighted(s, s->w);
-        for (size_t i = 0; i < n; i++)
-            s->x[i] += length * s->step[i];
-        for (size_t i = 0; i < total; i++)
-            s->rest[i] -= length * s->w[i];
-        left = norm2_weighted(s, s->rest);
+    ss_status st = transform(s, s->x, 1, s->gradient, &all, err);
+    memcpy(s->step, s->gradient, n * sizeof *s->step);
+    slope = norm2(s->gradient, n);
+    left = fresh = then = all;
+    for (; st == SS_OK && left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
+        if ((st = report(s, left / all, tol, pass)) == SS_OK)
+            st = advance(s, slope, &left, err);
+        if (st == SS_OK && (left <= FRESH * FRESH * fresh || left <= tol * tol * all)) {
+            st = transform(s, s->x, 1, s->gradient, &left, err);
+            fresh = left;
+        }
         if (pass + 1 == mark) {
             stays = mark > STALL_FROM && sqrt(left) > (1 - STALL) * sqrt(then);
             then = left;
             mark *= 2;
         }
-        adjoint(s);
         double before = slope;
         slope = norm2(s->gradient, n);
         for (size_t i = 0; i < n; i++)
             s->step[i] = s->gradient[i] + slope / before * s->step[i];
     }
+    if (st != SS_OK)
+        return st;
     *residual = all > 0 ? sqrt(left / all) : 0;
     return *residual <= tol ? SS_OK : refuse(tol, *residual, pass, stays || !(slope > 0), err);
 }
@@ -237,37 +313,43 @@ make_plan(solver *s, ss_error *err)
                                   "shortest");
 }
 
-/* Allocate the solver's arrays.  rest becomes the coefficients in the plan's order, times a power of two
- * with which their squares neither overflow nor vanish. */
+/* Choose the power of two with which the coefficients' squares neither overflow nor vanish. */
+static void
+choose_unit(solver *s)
+{
+    const ss_coefficients *c = s->coef;
+    double most = 0;
+    for (size_t i = 0; i < c->n_scales; i++)
+        for (size_t k = 2 * c->scale[i].offset; k < 2 * (c->scale[i].offset + c->scale[i].n); k++)
+            most = fmax(most, fabs(c->w[k]));
+    frexp(most, &s->exponent);
+    s->unit[0] = ldexp(1, -s->exponent / 2);
+    s->unit[1] = ldexp(1, -s->exponent - -s->exponent / 2);
+}
+
 static ss_status
 make_room(solver *s)
 {
-    size_t n = s->plan->n, total = 2 * s->plan->total;
-    s->wave = calloc(s->plan->n_scales, sizeof(wavelet *));
-    s->w = malloc(total * sizeof *s->w);
-    s->rest = malloc(total * sizeof *s->rest);
+    const ss_morlet *plan = s->plan;
+    size_t n = plan->n, most = 0;
+    choose_unit(s);
+    for (size_t i = 0; i < plan->n_scales; i++)
+        most = plan->scale[i].n > most ? plan->scale[i].n : most;
+    most = most < ss_morlet_part_most(plan) ? most : ss_morlet_part_most(plan);
+    s->wave = calloc(plan->n_scales, sizeof(wavelet *));
+    s->part = malloc(2 * most * sizeof *s->part);
     s->gradient = malloc(n * sizeof *s->gradient);
     s->step = malloc(n * sizeof *s->step);
-    if (s->wave == NULL || s->w == NULL || s->rest == NULL || s->gradient == NULL
-        || s->step == NULL)
+    s->image = malloc(n * sizeof *s->image);
+    if (s->wave == NULL || s->part == NULL || s->gradient == NULL || s->step == NULL
+        || s->image == NULL || ss_morlet_scratch(plan, &s->scratch) != SS_OK)
         return SS_ENOMEM;
-    for (size_t i = 0; i < s->plan->n_scales; i++) {
-        const ss_scale *sc = &s->plan->scale[i];
-        memcpy(s->rest + 2 * sc->offset, s->coef->w + 2 * s->coef->scale[i].offset,
-               2 * sc->n * sizeof *s->rest);
-    }
-    double most = 0;
-    for (size_t i = 0; i < total; i++)
-        most = fmax(most, fabs(s->rest[i]));
-    frexp(most, &s->exponent);
-    for (size_t i = 0; i < total; i++)
-        s->rest[i] = ldexp(s->rest[i], -s->exponent);
-    for (size_t i = 0; i < s->plan->n_scales; i++) {
-        const ss_scale *sc = &s->plan->scale[i];
-        s->wave[i] = ss_wavelet_new(&s->plan->opts, sc->a, s->plan->rate, n);
-        if (s->wave[i] == NULL)
+    if (plan->blocks != NULL && (s->sums = ss_block_sums_new(plan->blocks)) == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        if (!ss_blocks_covers(plan->blocks, i)
+            && (s->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, n)) == NULL)
             return SS_ENOMEM;
-    }
     return SS_OK;
 }
 
@@ -277,10 +359,12 @@ release(solver *s)
     for (size_t i = 0; s->wave != NULL && i < s->plan->n_scales; i++)
         ss_wavelet_free(s->wave[i]);
     free(s->wave);
-    free(s->w);
-    free(s->rest);
+    free(s->part);
     free(s->gradient);
     free(s->step);
+    free(s->image);
+    ss_fft_scratch_free(s->scratch);
+    ss_block_sums_free(s->sums);
     ss_morlet_free(s->plan);
 }
 

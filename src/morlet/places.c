@@ -54,27 +54,39 @@ find_places(const point_series *s, double b_num, double b_den, double rate, doub
 #define TWO(w, i) (w)[i], (w)[i]
 #define TWICE(w, i) (lanes){ TWO(w, i), TWO(w, (i) + 1), TWO(w, (i) + 2), TWO(w, (i) + 3) }
 
+/* The weights of the taps of a place so far behind its point, each twice. */
+INLINE void
+weights_behind(const kaiser *ker, double behind, lanes weight[4])
+{
+    double f = behind * KAISER_PARTS;
+    int part = (int)f < KAISER_PARTS ? (int)f : KAISER_PARTS - 1;
+    double y = 2 * (f - part) - 1;
+    const lanes *c = (const lanes *)ker->table[part][KAISER_NODES - 1];
+    lanes low = c[0], high = c[1];
+    UNROLL
+    for (int m = KAISER_NODES - 1; m > 0; m--) {
+        c -= KAISER_TAPS_MAX / LANES;
+        low = low * y + c[0];
+        high = high * y + c[1];
+    }
+    weight[0] = TWICE(low, 0);
+    weight[1] = TWICE(low, 4);
+    weight[2] = TWICE(high, 0);
+    weight[3] = TWICE(high, 4);
+}
+
 INLINE void
 add_taps(const kaiser *ker, const double *v, const places *at, size_t n, double (*sum)[2])
 {
     ptrdiff_t lead = ker->taps / 2 - 1;
     for (size_t i = 0; i < n; i++) {
-        double f = at->behind[i] * KAISER_PARTS;
-        int part = (int)f < KAISER_PARTS ? (int)f : KAISER_PARTS - 1;
-        double y = 2 * (f - part) - 1;
         const lanes *point = (const lanes *)(v + 2 * ((ptrdiff_t)at->point[i] - lead));
-        const lanes *c = (const lanes *)ker->table[part][KAISER_NODES - 1];
-        lanes low = c[0], high = c[1];
-        UNROLL
-        for (int m = KAISER_NODES - 1; m > 0; m--) {
-            c -= KAISER_TAPS_MAX / LANES;
-            low = low * y + c[0];
-            high = high * y + c[1];
-        }
-        lanes all = point[0] * TWICE(low, 0);
-        all += point[1] * TWICE(low, 4);
-        all += point[2] * TWICE(high, 0);
-        all += point[3] * TWICE(high, 4);
+        lanes weight[4];
+        weights_behind(ker, at->behind[i], weight);
+        lanes all = point[0] * weight[0];
+        all += point[1] * weight[1];
+        all += point[2] * weight[2];
+        all += point[3] * weight[3];
         pair of[4];
         memcpy(of, &all, sizeof of);
         of[0] = (of[0] + of[1]) + (of[2] + of[3]);
@@ -130,18 +142,46 @@ write_any(const kaiser *ker, const point_series *s, const ss_scale *scale, doubl
     }
 }
 
-#define WRITE(name, target) \
+INLINE void
+add_any(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part,
+        double factor, const double *w, double *v)
+{
+    ptrdiff_t lead = ker->taps / 2 - 1;
+    places at;
+    double e[AT_ONCE][2];
+    for (size_t i = 0; i < part.n; i++) {
+        size_t k = i % AT_ONCE;
+        if (k == 0) {
+            find_places(s, scale->b_num, scale->b_den, rate, (double)(part.first + i), &at);
+            carriers(s->turns, &at, e);
+        }
+        double re = (w[2 * i] * e[k][0] + w[2 * i + 1] * e[k][1]) * factor;
+        double im = (w[2 * i] * e[k][1] - w[2 * i + 1] * e[k][0]) * factor;
+        lanes *point = (lanes *)(v + 2 * ((ptrdiff_t)at.point[k] - lead)), weight[4];
+        weights_behind(ker, at.behind[k], weight);
+        for (int m = 0; m < 4; m++)
+            point[m] += weight[m] * (lanes){ re, im, re, im, re, im, re, im };
+    }
+}
+
+#define VERSION(size, target) \
     target static void \
-    name(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part, \
-         double factor, double *w) \
+    write_##size(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, \
+                 span part, double factor, double *w) \
     { \
         write_any(ker, s, scale, rate, part, factor, w); \
+    } \
+    target static void \
+    add_##size(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, \
+               span part, double factor, const double *w, double *v) \
+    { \
+        add_any(ker, s, scale, rate, part, factor, w, v); \
     }
 
-WRITE(write_128, FAST)
+VERSION(128, FAST)
 #ifdef HAVE_TARGETS
-WRITE(write_256, FAST_FOR("avx2,fma"))
-WRITE(write_512, FAST_FOR("avx512f"))
+VERSION(256, FAST_FOR("avx2,fma"))
+VERSION(512, FAST_FOR("avx512f"))
 #endif
 
 void
@@ -149,4 +189,11 @@ ss_places_write(const kaiser *ker, const point_series *s, const ss_scale *scale,
                 span part, double factor, double *w)
 {
     BEST_VERSION(write_128, write_256, write_512)(ker, s, scale, rate, part, factor, w);
+}
+
+void
+ss_places_add(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part,
+              double factor, const double *w, double *v)
+{
+    BEST_VERSION(add_128, add_256, add_512)(ker, s, scale, rate, part, factor, w, v);
 }

@@ -23,5 +23,8 @@ void ss_places_kernel(kaiser *out, double reach, double center, double second, d
 /* A part of a scale, times factor; its translations are not fractions of samples (ss_scale_parts). */
 void ss_places_write(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
                      span part, double factor, double *w);
+/* The adjoint of this: its conjugate is added to the points v of the series. */
+void ss_places_add(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
+                   span part, double factor, const double *w, double *v);
 
 #endif

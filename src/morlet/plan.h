@@ -102,10 +102,9 @@ void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
 void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                          wavelet *wave, span part, double factor, double *most, double *w);
 double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n);
-/* The adjoint of a whole scale's transform in units of a^1/2, times factor, to be added to the n
- * samples x. */
-void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
-                           const double *w, double factor, double *x);
+/* The adjoint of a part's transform in units of a^1/2, times factor, to be added to the n samples x. */
+void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave, span part,
+                           double factor, const double *w, double *x);
 
 /* The same at n translations k, by the definition, as exactly as double precision allows, for
  * factor 1. */

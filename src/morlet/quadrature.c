@@ -326,13 +326,13 @@ add_wavelet(const kernel *ker, size_t n, spot b, const double w[2], double *x)
 }
 
 void
-ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave,
-                      const double *w, double factor, double *x)
+ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave, span part,
+                      double factor, const double *w, double *x)
 {
     fill_tables(&wave->ker, wave->room);
-    for (size_t k = 0; k < scale->n; k++) {
-        double part[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
-        add_wavelet(&wave->ker, plan->n, ss_scale_spot(scale, k, plan->rate), part, x);
+    for (size_t i = 0; i < part.n; i++) {
+        double one[2] = { factor * w[2 * i], factor * w[2 * i + 1] };
+        add_wavelet(&wave->ker, plan->n, ss_scale_spot(scale, part.first + i, plan->rate), one, x);
     }
 }
 

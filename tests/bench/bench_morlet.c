@@ -2,8 +2,8 @@
  *
  * Prints the largest error against the sum in long double, over all signals of morlet_oracle.h, as a
  * fraction of the bound promised, and the cost; then what rounding alone leaves, the cost for longer
- * records, and transforms by FFT in multiples of one FFT of the record.  Exits 1 if a bound is
- * exceeded. */
+ * records, the cost of an inverse, and transforms by FFT in multiples of one FFT of the record.  Exits 1 if
+ * a bound is exceeded. */
 #include <fftw3.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -140,6 +140,55 @@ compare_grids(size_t n)
            ns[2] / ns[0]);
 }
 
+static int
+count_pass(double done, void *user)
+{
+    ++*(int *)user;
+    return done > 1;
+}
+
+/* White noise at 2 kHz and its inverse within 1e-3: the passes, and the time of all and of one over that of
+ * the transform. */
+static void
+invert(size_t n, const ss_morlet_opts *opts)
+{
+    ss_header *head = ss_header_new(2000, 0);
+    ss_signal *signal = NULL, *back = NULL;
+    ss_coefficients *coef = NULL;
+    int passes = 0;
+    double forward, begin;
+    size_t count;
+    if (ss_header_add_column(head, "a", "1") != SS_OK || ss_signal_new(&signal, head, n) != SS_OK)
+        exit(2);
+    make(NOISE, signal->values, n);
+    forward = run(NOISE, n, opts, NULL, &count);
+    if (ss_morlet_transform(&coef, signal, 0, opts, NULL) != SS_OK)
+        exit(2);
+    begin = bench_seconds();
+    if (ss_morlet_inverse(&back, coef, 1e-3, NULL, (ss_progress){ count_pass, &passes }, NULL) != SS_OK)
+        exit(2);
+    double ratio = (bench_seconds() - begin) / forward;
+    printf("%7zu  %5s  %8.3g  %6d  %5.0f  %.2g\n", n, opts->dense ? "dense" : "0.25", forward, passes, ratio,
+           ratio / passes);
+    ss_header_free(head);
+    ss_signal_free(signal);
+    ss_signal_free(back);
+    ss_coefficients_free(coef);
+}
+
+static void
+invert_all(void)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    opts.fmin = 4, opts.fmax = 400;
+    printf("samples   step  transform s  inverse: passes, time over it, of a pass\n");
+    for (opts.dense = 0; opts.dense < 2; opts.dense++)
+        for (size_t n = 20000; n <= 200000; n *= 10) {
+            opts.voices = opts.dense ? 4 : 16;
+            invert(n, &opts);
+        }
+}
+
 int
 main(void)
 {
@@ -182,6 +231,7 @@ main(void)
     printf("samples  default  exact  dense, ns a coefficient  exact/default  dense/default\n");
     compare_grids(10000);
     compare_grids(200000);
+    invert_all();
     printf("      accuracy   1 FFT/s         s   ratio      plan  difference/max|W|\n");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         for (size_t j = 0; j < sizeof accuracy / sizeof *accuracy; j++)

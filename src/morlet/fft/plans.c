@@ -1,4 +1,4 @@
-/* plans.c -- FFTW's plans of the levels and of the scales of blocks.c.
+/* plans.c -- FFTW's plans of the levels and of the scales of blocks.c, and of their adjoint.
  *
  * Levels with windows of one length share their plans, and so do scales with as many points. */
 #include <fftw3.h>
@@ -83,6 +83,36 @@ ss_blocks_plans_free(struct blocks *b)
             fftw_destroy_plan(b->stage[l].forward);
         if (b->stage[l].back != NULL)
             fftw_destroy_plan(b->stage[l].back);
+    }
+    pthread_mutex_unlock(&ss_fftw_planner);
+}
+
+ss_status
+ss_sums_plans_make(struct block_sums *s)
+{
+    ss_status status = SS_OK;
+    pthread_mutex_lock(&ss_fftw_planner);
+    for (size_t l = 0; status == SS_OK && l < s->b->levels; l++) {
+        const stage *st = &s->b->stage[l];
+        int n = (int)st->length;
+        fftw_complex *terms = (fftw_complex *)(s->v + st->stride), *half = terms + st->stride / 2;
+        s->half[l] = fftw_plan_dft_r2c_1d(n / 2, s->v, half, FFTW_ESTIMATE);
+        s->back[l] = fftw_plan_dft_c2r_1d(n, terms, s->v, FFTW_ESTIMATE);
+        status = s->half[l] != NULL && s->back[l] != NULL ? SS_OK : SS_ENOMEM;
+    }
+    pthread_mutex_unlock(&ss_fftw_planner);
+    return status;
+}
+
+void
+ss_sums_plans_free(struct block_sums *s)
+{
+    pthread_mutex_lock(&ss_fftw_planner);
+    for (size_t l = 0; l < s->b->levels; l++) {
+        if (s->half[l] != NULL)
+            fftw_destroy_plan(s->half[l]);
+        if (s->back[l] != NULL)
+            fftw_destroy_plan(s->back[l]);
     }
     pthread_mutex_unlock(&ss_fftw_planner);
 }

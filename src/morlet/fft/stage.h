@@ -52,6 +52,19 @@ struct blocks {
 ss_status ss_blocks_plans_make(struct blocks *b, ss_planner planner, size_t room);
 void ss_blocks_plans_free(struct blocks *b);
 
+/* The adjoint of the transform: for each window a sum over coefficients in place of its spectrum. */
+struct block_sums {
+    const struct blocks *b;
+    double *level[LEVELS];                  /* of levels in use, from window 0 on */
+    columns *places[2 * LEVELS];            /* as in blocks */
+    fftw_plan half[LEVELS], back[LEVELS];   /* from L/2 samples, and to L samples */
+    double *v;                              /* a window's samples, its spectrum, half a spectrum */
+};
+
+/* The same for its plans. */
+ss_status ss_sums_plans_make(struct block_sums *s);
+void ss_sums_plans_free(struct block_sums *s);
+
 /* Windows that hold n samples' coefficients. */
 static inline size_t
 windows_for(const stage *st, size_t n)

@@ -55,15 +55,21 @@ ss_blocks_rest(const struct blocks *b, size_t i, size_t k)
     return ss_blocks_end(b, i, window_of(b, i, k)) - k;
 }
 
+/* Where term lo goes among the points of a scale. */
+static size_t
+place_of_terms(const block_scale *r)
+{
+    ptrdiff_t rest = (r->lo - r->mid) % (ptrdiff_t)r->points;
+    return (size_t)(rest < 0 ? rest + (ptrdiff_t)r->points : rest);
+}
+
 /* Compute all points of a window, of which v[0] belongs to the window's first translation.  For kernels,
  * the points are continued before and after, as on a circle. */
 static void
 transform_window(const stage *st, const block_scale *r, const double *x, double *c, double *v)
 {
-    ptrdiff_t rest = (r->lo - r->mid) % (ptrdiff_t)r->points;
-    size_t at = (size_t)(rest < 0 ? rest + (ptrdiff_t)r->points : rest);
     memset(c, 0, 2 * r->points * sizeof *c);
-    add_terms(x, st->length, r->lo, r->weight, r->terms, c, r->points, at);
+    add_terms(x, st->length, r->lo, r->weight, r->terms, c, r->points, place_of_terms(r));
     fftw_execute_dft(r->inverse, (fftw_complex *)c, (fftw_complex *)v);
     if (r->kind != AT_POINTS) {
         memcpy(v - 2 * DENSE_MARGIN, v + 2 * (r->points - DENSE_MARGIN), 2 * DENSE_MARGIN * sizeof *v);
@@ -71,16 +77,13 @@ transform_window(const stage *st, const block_scale *r, const double *x, double 
     }
 }
 
-/* Write translations that lie between the points v of a window. */
-static void
-write_between(const struct blocks *b, size_t i, size_t window, double *v, span part, double factor,
-              double *w)
+/* The points v of a window, between which translations lie. */
+static point_series
+series_of(const struct blocks *b, const block_scale *r, size_t window, const double *v)
 {
-    const block_scale *r = &b->scale[i];
     double apart = (double)b->stage[r->level].circle / (double)r->points;
     double turns = (double)r->mid / (double)r->points;
-    point_series s = { v, start_of(b, r, window), apart, turns };
-    ss_places_write(b->kernel, &s, &b->grid[i], b->rate, part, factor, w);
+    return (point_series){ v, start_of(b, r, window), apart, turns };
 }
 
 /* Write n translations of a window from `first` on.  Places repeat from point to point, so those before
@@ -116,14 +119,52 @@ ss_blocks_scale(const struct blocks *b, size_t i, const spectra *s, double *scra
         span now = { k, (end < last ? end : last) - k };
         double *to = w + 2 * (k - part.first);
         transform_window(st, r, s->level[r->level] + (window - s->first) * st->stride, scratch, v);
+        point_series series = series_of(b, r, window, v);
         if (r->kind == BETWEEN)
-            write_between(b, i, window, v, now, factor, to);
+            ss_places_write(b->kernel, &series, &b->grid[i], b->rate, now, factor, to);
         else if (r->kind == EACH)
             write_each(b, r, k % r->hop, now.n, v, factor, to);
         else
             write_points(v + 2 * (k % r->hop), now.n, factor, to);
         k = end;
     }
+}
+
+/* --- the adjoint ------------------------------------------------------------------------------- */
+
+static const columns *
+columns_of(const block_sums *s, const block_scale *r)
+{
+    size_t i = 0;
+    while (s->b->places[i] != r->places)
+        i++;
+    return s->places[i];
+}
+
+/* Of each term and its mirror image, the term takes the half of the sum. */
+void
+ss_block_sums_add(block_sums *s, size_t i, double *scratch, span part, double factor, const double *w)
+{
+    const struct blocks *b = s->b;
+    const block_scale *r = &b->scale[i];
+    const stage *st = &b->stage[r->level];
+    size_t window = window_of(b, i, part.first), room = 2 * DENSE_MARGIN, all = 2 * r->points;
+    double *v = scratch + room, *c = scratch + 2 * (b->longest + DENSE_MARGIN);
+    point_series series = series_of(b, r, window, NULL);
+    memset(scratch, 0, (all + 2 * room) * sizeof *scratch);
+    if (r->kind == BETWEEN)
+        ss_places_add(b->kernel, &series, &b->grid[i], b->rate, part, factor / 2, w, v);
+    else if (r->kind == EACH)
+        ss_columns_add(columns_of(s, r), (size_t)r->mid, st->circle, part.n, factor / 2, w, v);
+    else
+        add_points(w, part.n, factor / 2, v);
+    for (size_t k = 0; r->kind != AT_POINTS && k < room; k++) {
+        v[k] += v[all + k];
+        v[all - room + k] += scratch[k];
+    }
+    fftw_execute_dft(r->inverse, (fftw_complex *)v, (fftw_complex *)c);
+    add_conjugate_terms(c, r->points, place_of_terms(r), r->weight, r->terms,
+                        s->level[r->level] + window * st->stride, st->length, r->lo);
 }
 
 size_t

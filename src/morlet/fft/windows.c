@@ -187,6 +187,114 @@ ss_morlet_spectra_free(spectra *s)
         fftw_free(s->level[l]);
 }
 
+/* --- the adjoint ------------------------------------------------------------------------------ */
+
+/* Sample first + i += v[i]. */
+static void
+add_samples(const samples *s, ptrdiff_t first, size_t n, const double *v)
+{
+    ptrdiff_t end = first + (ptrdiff_t)n;
+    ptrdiff_t lo = first > s->lo ? first : s->lo, hi = end < s->hi ? end : s->hi;
+    for (ptrdiff_t k = lo; k < hi; k++)
+        s->x[k - s->lo] += v[k - first];
+}
+
+/* The adjoint of filter_terms, y being the spectrum of real samples. */
+VERSIONS static void
+unfilter_terms(const stage *st, const double *restrict y, double *restrict x)
+{
+    size_t half = st->length / 4;
+    const double *f = st->filter, *g = f + half + 1;
+    double *z = x + st->length;
+    for (size_t k = 0; k < half; k++) {
+        x[2 * k] += f[k] * y[2 * k];
+        x[2 * k + 1] += f[k] * y[2 * k + 1];
+        *(z - 2 * k) += g[k] * y[2 * k];
+        *(z - 2 * k + 1) -= g[k] * y[2 * k + 1];
+    }
+    x[2 * half] += (f[half] + g[half]) / 2 * y[2 * half];
+}
+
+/* The adjoint of one_window: samples of the next level, if there is one, and sums to those of this. */
+static void
+sums_window(const block_sums *s, size_t l, size_t i, const samples *next, const samples *to)
+{
+    const stage *st = &s->b->stage[l];
+    ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)st->hop;
+    size_t before = st->overlap / 2, inside = st->length - before, made = st->hop / 2;
+    double *v = s->v, *terms = v + st->stride, *half = v + 2 * st->stride;
+    if (s->level[l] != NULL)
+        terms = s->level[l] + i * st->stride;
+    else
+        memset(terms, 0, st->stride * sizeof *terms);
+    if (next != NULL) {
+        copy_samples(next, first / 2, made, v);
+        memset(v + made, 0, (st->length / 2 - made) * sizeof *v);
+        fftw_execute_dft_r2c(s->half[l], v, (fftw_complex *)half);
+        unfilter_terms(st, half, terms);
+    }
+    fftw_execute_dft_c2r(s->back[l], (fftw_complex *)terms, v);
+    add_samples(to, first, inside, v);
+    add_samples(to, first - (ptrdiff_t)before, before, v + inside);
+    memset(terms, 0, st->stride * sizeof *terms);
+}
+
+ss_status
+ss_block_sums_end(block_sums *s, double *x)
+{
+    samples next = { 0 }, now;
+    ss_status status = SS_OK;
+    for (size_t l = s->b->levels; status == SS_OK && l-- > 0;) {
+        const stage *st = &s->b->stage[l];
+        if (l > 0)
+            status = samples_new(&now, st);
+        else
+            now = (samples){ x, 0, (ptrdiff_t)st->n };
+        for (size_t i = 0; status == SS_OK && i < st->windows; i++)
+            sums_window(s, l, i, next.x != NULL ? &next : NULL, &now);
+        free(next.x);
+        next = now;
+    }
+    return status;
+}
+
+block_sums *
+ss_block_sums_new(const struct blocks *b)
+{
+    block_sums *s = calloc(1, sizeof *s);
+    if (s == NULL)
+        return NULL;
+    s->b = b;
+    int failed = (s->v = fftw_malloc(window_room(b) * sizeof *s->v)) == NULL;
+    for (size_t l = 0; !failed && l < b->levels; l++) {
+        size_t room = b->stage[l].windows * b->stage[l].stride * sizeof(double);
+        if (b->stage[l].used)
+            failed = (s->level[l] = fftw_malloc(room)) == NULL;
+        if (s->level[l] != NULL)
+            memset(s->level[l], 0, room);
+    }
+    for (size_t i = 0; !failed && i < b->n_places; i++)
+        failed = (s->places[i] = ss_columns_new(b->kernel, ss_dense_phases(b->places[i]))) == NULL;
+    if (!failed && ss_sums_plans_make(s) == SS_OK)
+        return s;
+    ss_block_sums_free(s);
+    return NULL;
+}
+
+void
+ss_block_sums_free(block_sums *s)
+{
+    if (s == NULL)
+        return;
+    ss_sums_plans_free(s);
+    for (size_t l = 0; l < s->b->levels; l++)
+        fftw_free(s->level[l]);
+    for (size_t i = 0; i < s->b->n_places; i++)
+        ss_columns_free(s->places[i]);
+    fftw_free(s->v);
+    free(s);
+}
+
 /* --- a stream --------------------------------------------------------------------------------- */
 
 /* The next window of a level, which samples fill. */
