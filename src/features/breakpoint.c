@@ -12,14 +12,14 @@
 enum { JUMP, KINK };
 enum { DEGREE = 3, SAMPLES = 128 };
 
-#define ROUNDING 1e-6           /* re the range of the samples: better no fit needs to be */
+#define ROUNDING 1e-6           /* of the range of the samples: no fit needs to be better */
 
 /* A cubic through samples of one side, in the monic polynomials that are orthogonal over them. */
 typedef struct side {
-    double middle;              /* of the samples, from the first of the piece on */
+    double middle;              /* of the samples, from the first sample of the piece on */
     size_t n;
     double c[DEGREE + 1], norm[DEGREE + 1];     /* coefficients; sums of squares */
-    double left;                /* sum of squares that it leaves */
+    double left;                /* sum of squares of its residuals */
 } side;
 
 typedef struct piece {
@@ -78,7 +78,7 @@ value_at(const side *f, double t, double *variance)
     return value;
 }
 
-/* Sum of squares that a kink or a jump at a place leaves. */
+/* The sum of squares that a kink or a jump at a place leaves. */
 static double
 residual(piece *p, double at, int is_kink)
 {
@@ -96,8 +96,8 @@ residual(piece *p, double at, int is_kink)
     return sum + d * d / (u + v);
 }
 
-/* Where in [lo, hi] the residual of a kink is least: scanned in steps of a quarter of a sample,
- * then by golden section, then by the parabola through the last three. */
+/* The place in [lo, hi] where the residual of a kink is least.  It is scanned in steps of a quarter of a
+ * sample; golden section follows, then the parabola through the last three. */
 static double
 least_kink(piece *p, double lo, double hi, double *sum)
 {
@@ -138,7 +138,7 @@ least_kink(piece *p, double lo, double hi, double *sum)
     return best;
 }
 
-/* The same of a jump, which has its place half way between two samples. */
+/* The same for a jump, whose place is half way between two samples. */
 static double
 least_jump(piece *p, double lo, double hi, double *sum)
 {

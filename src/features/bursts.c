@@ -9,7 +9,7 @@
 #include "base/sort.h"
 #include "features/scale_rows.h"
 
-#define LONGEST 20.0            /* scales in the record at least: some of them must be quiet */
+#define LONGEST 20.0            /* fewest scales in the record: some of them must be quiet */
 
 static int
 stronger_first(const void *a, const void *b)
@@ -24,7 +24,7 @@ label_of(const row_source *source, size_t i)
     return ROW_HIGHEST * source->rate / 2 * exp2(-(double)i / ROW_VOICES);
 }
 
-/* Take the row, and what it has, if it is clearer than the best. */
+/* Keep the row and its peaks if it is clearer than the best. */
 static void
 keep_clearer(row *best, row *r)
 {
@@ -36,7 +36,7 @@ keep_clearer(row *best, row *r)
     *best = *r;
 }
 
-/* The clearest row, left in *best; rows: how many there are.  The heads come first. */
+/* Find the clearest row, *best, and the number of rows.  The heads come first. */
 static ss_status
 find_clearest(row *best, row_source *source, size_t rows, ss_error *err)
 {
@@ -60,7 +60,7 @@ find_clearest(row *best, row_source *source, size_t rows, ss_error *err)
     return st;
 }
 
-/* The peaks of the row above the threshold, those within range. */
+/* Find the peaks of the row that are above the threshold and within range. */
 static ss_status
 collect_bursts(ss_bursts *found, row *r, double threshold, double range)
 {

@@ -29,9 +29,10 @@
 #define ERROR 0.03
 
 #define TYPICAL 4.0             /* M / h, see above */
-#define NARROWEST 5             /* samples: two wrong ones side by side do no harm */
+#define NARROWEST 5             /* samples: two wrong ones in a row do no harm */
 #define STANDS_OUT 5.0          /* standard deviations of the noise, and */
-#define GLITCH 0.05             /* of the median drop: a wrong sample is off its neighbours by both */
+#define GLITCH 0.05             /* part of the median drop, by both of which a wrong sample differs from its
+                                   neighbours */
 
 typedef struct drop_list {
     size_t n, room;
@@ -141,7 +142,7 @@ find(drop_list *list, const double *x, size_t n, double rate, double height, dou
     return read_turning_points(list, y, n, rate, height, reload);
 }
 
-/* Falls over a gap: part of them is not known. */
+/* Leave out falls over a gap, as a part of them is not known. */
 static void
 leave_out(drop_list *list, const ss_span *gap, size_t n_gaps)
 {
@@ -156,7 +157,7 @@ leave_out(drop_list *list, const ss_span *gap, size_t n_gaps)
 
 /* --- the height that falls have ------------------------------------------------------------- */
 
-/* The turning points of y, in place; how many. */
+/* Find the turning points of y, in place; returns their number. */
 static size_t
 keep_turning_points(double *y, size_t n)
 {
@@ -167,7 +168,8 @@ keep_turning_points(double *y, size_t n)
     return kept;
 }
 
-/* How many falls leave a turning point by more than h, and their median; fall holds as many. */
+/* The number of falls that leave a turning point by more than h, and their median; fall has room for as
+ * many. */
 static size_t
 count_falls(const double *y, size_t n, double h, double *fall, double *median)
 {

@@ -11,8 +11,8 @@
 #include <gsl/gsl_cdf.h>
 #include <stdlib.h>
 
-#define WHITE 1.2               /* of the white noise's variance: more is coloured */
-#define LOWEST_LINE 0.7         /* re the oscillation's frequency, see add_line */
+#define WHITE 1.2               /* times the variance of white noise: more is coloured */
+#define LOWEST_LINE 0.7         /* of the oscillation's frequency, see add_line */
 #define HIGHEST_LINE 1.4
 enum { LINES = 15 };
 
@@ -25,7 +25,7 @@ errors_of_fit(const normal *h, double variance, ss_value value[2])
     value[1].error = sqrt(variance * h->ww / det);
 }
 
-/* The variance of the samples, by what a fit leaves of them. */
+/* The variance of the samples, from the residuals of a fit. */
 static double
 variance_of(const fitter *k, const linear *fit)
 {

@@ -10,8 +10,8 @@
 #include <math.h>
 
 #define AWAY 4.0                /* periods: a wavelet's reach */
-#define QUIET 4.0               /* periods of quiet that a line needs */
-#define FAINT 0.01              /* of the event's height: passes for noise */
+#define QUIET 4.0               /* the fewest periods of quiet for a line */
+#define FAINT 0.01              /* of the event's height: so little counts as noise */
 
 /* The side of an event: the sample k steps off its middle is x[k * step]. */
 typedef struct side {
@@ -48,7 +48,7 @@ fit_line(const side *s, size_t first, double *offset, double *slope)
     return sqrt(rss / (m - 2));
 }
 
-/* Steps to the last sample of the event on its side. */
+/* The steps to the last sample of the event on its side. */
 static size_t
 reach(const side *s, double period)
 {

@@ -7,12 +7,12 @@
 
 #include <stdlib.h>
 
-enum { CYCLES = 3, FEWEST = 4 };        /* cycles of the mean; cycles that are worth averaging */
+enum { CYCLES = 3, FEWEST = 4 };        /* copies of the mean cycle; fewest cycles to average */
 
 ss_status
 ss_fold_spikes(const search *s, ss_spikes **out, double *period)
 {
-    double samples = s->rate / s->out->repetition_frequency.value;      /* NaN: nothing repeats */
+    double samples = s->rate / s->out->repetition_frequency.value;      /* NaN if nothing repeats */
     *out = NULL;
     *period = samples / s->rate;
     if (!(samples * (CYCLES + FEWEST) <= (double)s->n))

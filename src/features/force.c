@@ -18,14 +18,14 @@
 #include "features/loading.h"
 #include "features/reversals.h"
 
-#define OUTLIERS 0.02           /* of the samples at either end may be wrong */
-#define SLOWER 1.05             /* less is within what sampling makes of turning points */
-#define QUICK 2.0               /* so much slower are all rises where there are few */
+#define OUTLIERS 0.02           /* part of the samples at either end of the range that may be wrong */
+#define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */
+#define QUICK 2.0               /* factor by which all rises are slower than falls if there are few */
 enum { FEW_RISES = 9 };
-#define LEVEL 0.5               /* of the level: less is no half-cycle */
-#define RETREAT 0.05            /* of the level: a fall by which the force has broken away */
+#define LEVEL 0.5               /* part of the level that a half-cycle passes */
+#define RETREAT 0.05            /* part of the level by which a force that has broken away falls */
 
-/* The quantile of n samples, by a copy. */
+/* A quantile of n samples, which are copied. */
 static double
 quantile(const double *x, size_t n, double part, double *copy)
 {
@@ -33,7 +33,7 @@ quantile(const double *x, size_t n, double part, double *copy)
     return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
 }
 
-/* 1 or -1: the sign that nearly all samples have; 0: both are there. */
+/* The sign of nearly all samples, 1 or -1; 0: both signs are there. */
 static int
 one_sign(const double *x, size_t n, double *copy)
 {
@@ -53,8 +53,9 @@ set_falls(search *s, const ss_drop *drop, size_t n)
     return st;
 }
 
-/* How many samples x spends between a quarter and three quarters of the way from one turning point to the
- * next, along lines from sample to sample.  It is the same for a signal reversed in time, or upside down. */
+/* The time, in samples, that x spends between a quarter and three quarters of the way from one turning point
+ * to the next, along lines from sample to sample.  It is the same for a signal that is reversed in time, or
+ * upside down. */
 static double
 passage(const double *x, size_t from, size_t to)
 {
@@ -70,8 +71,8 @@ passage(const double *x, size_t from, size_t to)
     return sum;
 }
 
-/* Slips are quicker than what loads them: 1, falls are quicker than the rises between them, -1, slower, 0,
- * neither.  The sign test decides at three standard deviations; of few, all must be so by a factor. */
+/* 1: falls are quicker than the rises between them, so they are slips; -1: they are slower; 0: neither.  The
+ * sign test decides at three standard deviations; if there are few, all must be quicker by a factor. */
 static int
 compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
 {
@@ -88,8 +89,8 @@ compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
     return (signs > 3 * sqrt(all)) - (signs < -3 * sqrt(all));
 }
 
-/* Does x stand still at its largest or its least value, time and again?  Then falls from above the one or to
- * below the other are not seen. */
+/* Does x stay at its largest or its least value, time and again?  Then falls from above the one or to below
+ * the other are not seen. */
 static int
 is_clipped(const double *x, size_t n)
 {
@@ -106,8 +107,8 @@ is_clipped(const double *x, size_t n)
     return highs >= FEW || lows >= FEW;
 }
 
-/* Falls of x above the height.  A force that falls slower than it rises is upside down: its sign is that of
- * an offset. */
+/* Find the falls of x that are higher than the height.  A force that falls slower than it rises is upside
+ * down: its sign is that of an offset. */
 static ss_status
 find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
 {
@@ -133,8 +134,8 @@ find_falls(search *s, const double *x, double height, double reload, int named, 
     return st;
 }
 
-/* Falls of x, which is the signal or its negative, of the height that they have; of -x, if x is upside
- * down. */
+/* Find the falls of x, which is the signal or its negative, with the height that they have; or the falls of
+ * -x, if x is upside down. */
 static ss_status
 find_typical_falls(search *s, double *x, int *decided)
 {

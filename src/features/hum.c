@@ -22,16 +22,16 @@
 #include "base/versions.h"
 #include "morlet/fft/real.h"
 
-#define BAND 0.5                /* of the frequency, to either side */
-#define BEYOND 0.1              /* the same, of harmonics that the window brings into the band */
-#define ABOVE 10.0              /* a line's power re all others' */
-#define REACH 4.0               /* bins about a line that it may have filled */
-#define CLEAR 0.1               /* of a line's power, in free bins: with less it is not measured well */
-#define SEEN 0.001              /* the same, for it to be looked for */
-#define FAINT 1e-3              /* of the strongest harmonic: a line that is no more disturbs no fit */
+#define BAND 0.5                /* part of the frequency that the band extends to either side */
+#define BEYOND 0.1              /* the same for harmonics that the window brings into the band */
+#define ABOVE 10.0              /* a line's power over all others */
+#define REACH 4.0               /* bins about a line that its power may fill */
+#define CLEAR 0.1               /* part of a line's power in free bins: with less it is not measured well */
+#define SEEN 0.001              /* the same: with less it is not sought */
+#define FAINT 1e-3              /* part of the strongest harmonic: a line below it disturbs no fit */
 enum { LINES = 3, FEWEST = 6, FREE = 16, BATCH = 16, STRONGEST = BATCH };
 enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
-enum { ENOUGH = 16 };           /* parts without a hum, for there to be none */
+enum { ENOUGH = 16 };           /* parts without a hum after which there is none */
 
 typedef struct zoomed {         /* x = Re z exp(i center t) in the band, at t = 0, step, 2 step ... */
     double complex *z;          /* under the window */
@@ -177,7 +177,7 @@ typedef struct harmonics {
     double power[STRONGEST];
 } harmonics;
 
-/* Keep it if it is one of the strongest. */
+/* Keep the line if it is one of the strongest. */
 static void
 insert(harmonics *h, size_t k, double strength)
 {
@@ -206,7 +206,7 @@ less_harmonic(double period, void *user)
     return sum;
 }
 
-/* Where f is least, from *at on, to a thousandth of a bin (Brent). */
+/* Move *at to where f is least, to a thousandth of a bin (Brent). */
 static ss_status
 narrow(gsl_function *f, double bin, double *at)
 {
@@ -224,7 +224,7 @@ narrow(gsl_function *f, double bin, double *at)
     return SS_OK;
 }
 
-/* The strongest harmonics of a period in the band. */
+/* Find the strongest harmonics of a period in the band. */
 static void
 find_harmonics(harmonics *h, double low, double high, double period)
 {
@@ -242,8 +242,8 @@ find_harmonics(harmonics *h, double low, double high, double period)
     }
 }
 
-/* The period at which the strongest harmonics have most, to a thousandth of a bin; as it was where
- * that has no maximum near it. */
+/* The period at which the strongest harmonics have most power, to a thousandth of a bin; the given one if
+ * there is no maximum near it. */
 static ss_status
 refine_period(const zoomed *zoom, double low, double high, double *period)
 {
@@ -281,7 +281,7 @@ is_free(const comb *c, size_t i)
     return phase > 1 && phase < c->cycles - 1;
 }
 
-/* The strongest free bin off the lines that are known; its power into *most.  c->n: there is none. */
+/* The strongest free bin away from the known lines, and its power in *most.  c->n: there is none. */
 static size_t
 strongest(const comb *c, double *most)
 {
@@ -299,7 +299,7 @@ strongest(const comb *c, double *most)
     return best;
 }
 
-/* How much of the power in the free bins near bin i a line at a place explains. */
+/* The part of the power in the free bins near bin i that a line at a place explains. */
 static double
 explained(const comb *c, size_t i, double at, line *fitted)
 {
@@ -315,7 +315,7 @@ explained(const comb *c, size_t i, double at, line *fitted)
     return norm > SEEN ? power(sum) / norm : 0;
 }
 
-/* The line that explains most about bin i, on ever finer grids. */
+/* Find the line that explains most about bin i, on ever finer grids. */
 static line
 measure(const comb *c, size_t i)
 {
@@ -334,7 +334,7 @@ measure(const comb *c, size_t i)
     return found;
 }
 
-/* Take lines out of the bins; keep as many as stand above all that is left then. */
+/* Subtract lines from the bins, and keep those that stand above all that is left then. */
 static void
 find_lines(comb *c)
 {

@@ -19,7 +19,7 @@
 #include <math.h>
 
 enum { ONSET, END, TOP, BOTTOM, BEFORE, BEHIND, BEND, PARAMETERS };
-enum { MOST = 256, STEPS = 60 };        /* samples: more are averaged; iterations */
+enum { MOST = 256, STEPS = 60 };        /* most samples, more are averaged; most iterations */
 
 typedef struct fall {
     size_t n;
@@ -56,7 +56,7 @@ residuals(const gsl_vector *at, void *user, gsl_vector *out)
     return GSL_SUCCESS;
 }
 
-/* *left: the least sum of squares; NaN: no fit. */
+/* Fit either shape.  *left becomes the least sum of squares; NaN: there is no fit. */
 static ss_status
 fit(fall *f, double loading, double *left)
 {
@@ -82,7 +82,7 @@ fit(fall *f, double loading, double *left)
     return SS_OK;
 }
 
-/* The samples from half a slip before it to half a slip behind it. */
+/* Fill in the samples from half a slip before it to half a slip behind it. */
 static void
 fill(fall *f, const double *x, ss_window room, const ss_slip *slip)
 {

@@ -15,7 +15,7 @@ struct levels {
     spectra spectra;
 };
 
-/* The parts of one thread: every so many, from first on. */
+/* The parts of one thread: those from first on, `every` apart. */
 typedef struct task {
     const map_source *source;
     const level_part *part;
@@ -23,7 +23,7 @@ typedef struct task {
     ss_status status;
 } task;
 
-/* magnitude_of each; none needs hypot as a rule, and then this is faster. */
+/* The magnitude of each.  Hardly any number needs hypot, and then this is faster. */
 VERSIONS static void
 magnitudes_of(const double *restrict w, size_t n, double *restrict level)
 {
@@ -96,8 +96,8 @@ digit_of(double level, int shift, size_t mask)
     return bits >> shift & mask;
 }
 
-/* Digit by digit of their bits, which are ordered as the numbers are: those that have not the digit
- * of the middle one are moved behind the others. */
+/* The middle one is found digit by digit of the numbers' bits, which are ordered as the numbers are: numbers
+ * without its digit are moved behind the others. */
 double
 ss_levels_middle(double *level, size_t n)
 {

@@ -25,10 +25,11 @@
 #include "features/slip.h"
 #include "features/window.h"
 
-#define NEAR 3.0                /* standard deviations about the line */
-#define AWAY 4                  /* samples in a row beyond that end it */
-#define DEVIATION_SD 1.17       /* relative, of a median deviation, x the root of the number of values */
-#define SHORT 0.2               /* of the time, for falls: all else may be stick */
+#define NEAR 3.0                /* standard deviations within which a sample is near the line */
+#define AWAY 4                  /* samples in a row that are farther away end the line */
+#define DEVIATION_SD 1.17       /* relative error of a median deviation, times the root of the number of
+                                   values */
+#define SHORT 0.2               /* part of the time that falls may take, so that the rest may be stick */
 
 typedef struct line {
     double slope, error;        /* per unit of the abscissa */
@@ -36,7 +37,7 @@ typedef struct line {
     double rms;                 /* about it */
 } line;
 
-/* y against x, or against the number of the sample where x is NULL; the error is that of white noise. */
+/* Fit a line to y over x, or over the number of the sample if x is NULL.  Its error is that of white noise. */
 static line
 through(const double *y, const double *x, ss_window w)
 {
@@ -69,7 +70,7 @@ fit(const double *y, const double *x, ss_window w)
     return l;
 }
 
-/* The last sample near the line, from sample i on towards end. */
+/* The last sample that is near the line, from sample i on towards end. */
 static size_t
 follow(const double *y, const line *l, size_t i, size_t end)
 {
@@ -87,7 +88,7 @@ follow(const double *y, const line *l, size_t i, size_t end)
 /* A fall, and the rise before it, in samples. */
 typedef struct fall {
     size_t high, low;           /* the maximum, and the minimum behind */
-    ss_window rise;             /* before the fall, without what is known to be slip */
+    ss_window rise;             /* before the fall, without the part that is known to be slip */
     line line;                  /* through its middle half; slope NaN: it is too short */
     ss_slip slip;
     int is_slip;
@@ -176,8 +177,8 @@ common_misfit(const fall *f, size_t n)
     return power > 0 ? hidden * hidden * power * samples / slips : 0;
 }
 
-/* By so much more variance.  A shift of all onsets is in no time between two of them, but in the sticks: there
- * it is counted with the ends. */
+/* Add so much more variance.  A shift of all onsets does not change the times between two of them, but it
+ * changes the sticks: there it is counted with the ends. */
 static void
 add_common(ss_slip *slip, double more)
 {
@@ -203,14 +204,15 @@ read_slip(ss_loading *l, const search *s, const ss_slip *slip)
     l->n = slip->n;
 }
 
-/* An end of a stick that its line puts elsewhere than the slip beside it: by creep, or by noise that wanders. */
+/* An end of a stick, moved to where its line puts it.  The slip beside it may put it elsewhere, by creep or by
+ * noise that wanders: their difference is an error. */
 static ss_value
 moved_to(ss_value end, double to)
 {
     return (ss_value){ to, hypot(end.error, to - end.value) };
 }
 
-/* The samples of the rise, as far as they stay near the line. */
+/* The samples of the rise that stay near the line. */
 static ss_window
 find_stick(const double *x, const fall *f, const fall *before, ss_value *length)
 {
@@ -229,7 +231,8 @@ find_stick(const double *x, const fall *f, const fall *before, ss_value *length)
     return stick;
 }
 
-/* Noise of variance v in the octave of the stick's m samples has a slope, of variance 12 v / m^2 about. */
+/* Read the stick of a rise.  Noise of variance v in the octave of its m samples has a slope of variance
+ * 12 v / m^2, about. */
 static void
 read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const fall *before, double octave)
 {
@@ -249,7 +252,7 @@ read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const
                          s->largest);
 }
 
-/* The median of the errors that are known, of *known values; 0 if there is none. */
+/* The median of the errors that are known, and their number in *known; 0: none is known. */
 static double
 median_error(size_t *known, const ss_value *v, size_t n, double *scratch)
 {
@@ -260,8 +263,8 @@ median_error(size_t *known, const ss_value *v, size_t n, double *scratch)
     return *known > 0 ? gsl_stats_median(scratch, 1, *known) : 0;
 }
 
-/* Errors that are larger than the scatter are not by chance: all have that part in common, and it
- * does not become less with their number. */
+/* If errors are larger than the scatter, they are not by chance: all values have a part of them in common, and
+ * this part does not become less with the number of values. */
 ss_median
 ss_median_of(const ss_value *v, size_t n, double *scratch)
 {
@@ -280,8 +283,8 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
     return (ss_median){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter };
 }
 
-/* The median of one number of all loadings, which stands offset bytes behind their starts; so much of
- * the variance of each is common to all. */
+/* The median of one number of all loadings, which is offset bytes behind their starts; `common` is the part
+ * of the variance of each that all share. */
 static ss_median
 median_over(const ss_features *out, size_t offset, double common, ss_value *v, double *scratch)
 {
@@ -293,9 +296,9 @@ median_over(const ss_features *out, size_t offset, double common, ss_value *v, d
     return m;
 }
 
-/* k/m is a property of the rig.  Slips that disagree on it by more than their errors, not by chance at
- * three standard deviations, are not quite those of the model, whose misfit may shift them all alike.
- * What is common to them is not in their scatter. */
+/* Add to the error of k/m the part that all slips share.  k/m is a property of the rig.  If slips disagree on it
+ * by more than their errors, at three standard deviations, they are not quite slips of the model: a misfit
+ * may shift all of them alike, which their scatter does not show. */
 static void
 add_misfit(ss_median *k_over_m, double common, const ss_value *v, size_t n, double *scratch)
 {
@@ -305,8 +308,9 @@ add_misfit(ss_median *k_over_m, double common, const ss_value *v, size_t n, doub
         k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
 }
 
-/* Where fewer than half of the falls are slips of a pulled slider, these are not typical of the others;
- * and if falls take long, too, it may be sliding that is behind and before them. */
+/* Find the medians of the numbers that are typical.  If fewer than half of the falls are slips of a pulled
+ * slider, these may differ from the others; and if falls take long, too, the mass may slide before and behind
+ * them. */
 static void
 summarise(ss_features *out, const ss_drop *drop, double common, ss_value *v, double *scratch)
 {
@@ -335,10 +339,11 @@ summarise(ss_features *out, const ss_drop *drop, double common, ss_value *v, dou
     };
     for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
-    add_misfit(&out->k_over_m, common, v, out->n, scratch);     /* v: still of k/m */
+    add_misfit(&out->k_over_m, common, v, out->n, scratch);     /* v still holds the errors of k/m */
 }
 
-/* Sticks that end before the slip do so in all cycles, so that the median is uncertain by as much. */
+/* Add the error of the median of sticks that is common to all: sticks that end before the slip do so in all
+ * cycles. */
 static void
 add_creep(ss_features *out, const search *s, const fall *f, ss_value *v, double *scratch)
 {
@@ -350,7 +355,7 @@ add_creep(ss_features *out, const search *s, const fall *f, ss_value *v, double 
     out->stick.error = hypot(out->stick.error, ss_median_of(v, out->n, scratch).value - out->stick.value);
 }
 
-/* Lines through the rises, and slips between them, by *loading, the median slope of these. */
+/* Fit lines to the rises, and slips to the falls between them, with *loading, the median slope of the lines. */
 static ss_status
 fit_falls(fall *f, const search *s, const double *x, size_t n, ss_value *v, double *scratch,
           double *loading)
@@ -368,7 +373,7 @@ fit_falls(fall *f, const search *s, const double *x, size_t n, ss_value *v, doub
     return st;
 }
 
-/* A rise begins and ends where the slips do. */
+/* Let rises begin and end where the slips do. */
 static void
 leave_out_slips(fall *f, size_t n)
 {
@@ -380,11 +385,11 @@ leave_out_slips(fall *f, size_t n)
     }
 }
 
-/* Unless slips explain more of the falls better than relaxations do, there are none. */
+/* Forget the slips, unless they explain more of the falls better than relaxations do. */
 static ss_status
 judge_inertia(fall *f, const search *s, const double *x, size_t n, double loading)
 {
-    enum { MOST = 64 };         /* falls that are judged, evenly spread */
+    enum { MOST = 64 };         /* the most falls that are judged, evenly over the record */
     int signs = 0, sign;
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i < n; i += n / MOST + 1) {
@@ -399,8 +404,8 @@ judge_inertia(fall *f, const search *s, const double *x, size_t n, double loadin
     return st;
 }
 
-/* The falls of x that the drops are.  A line that still has a part of a slip in it is too steep or
- * too flat.  The slips fitted with such lines are wrong, too, but less: three passes are enough. */
+/* Fit lines and slips to the rises and falls of x, which the drops give.  A line that contains a part of a slip is too steep or
+ * too flat.  The slips that are fitted with such lines are wrong, too, but less: three passes are enough. */
 static ss_status
 find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_t n, ss_value *v,
            double *scratch)
@@ -412,7 +417,7 @@ find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_
         f[i].high = (size_t)(drop[i].t * s->rate + 0.5);
         f[i].low = (size_t)(drop[i].end * s->rate + 0.5);
         f[i].rise = (ss_window){ i > 0 ? f[i - 1].low : 0, f[i].high + 1 };
-        for (size_t k = 0; i == 0 && k < f[i].high; k++)    /* nothing falls before the first */
+        for (size_t k = 0; i == 0 && k < f[i].high; k++)    /* there is no fall before the first */
             f[i].rise.first = x[k] < x[f[i].rise.first] ? k : f[i].rise.first;
     }
     for (int pass = 0; st == SS_OK && pass < PASSES; pass++) {
@@ -442,8 +447,8 @@ read_loading(const search *s, const double *x, const ss_drop *drop, const fall *
     return l;
 }
 
-/* The variance that noise has in the octave of a stick's length: what lines through whole sticks leave
- * beyond lines through their halves. */
+/* The variance of noise in the octave of a stick's length: by how much the residual of lines through whole
+ * sticks is larger than that of lines through their halves. */
 static double
 octave_of(const double *x, const fall *f, size_t n)
 {

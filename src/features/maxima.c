@@ -16,7 +16,7 @@
 #include "features/maxima.h"
 #include "morlet/plan.h"
 
-/* Highest first, by counting digits from the lowest to the highest. */
+/* Sort peaks, the highest first, by counting their digits from the lowest to the highest. */
 static ss_status
 sort_borders(basins *b)
 {
@@ -112,7 +112,7 @@ list_maxima(ss_maximum *out, const basins *b, const double *saddle, double top, 
     for (size_t i = 0; i < b->n_peaks; i++) {
         const peak *p = &b->peak[i];
         const ss_scale *scale = &b->grid->scale[p->row];
-        /* only the highest has no saddle */
+        /* the highest alone has no saddle */
         double below = saddle[i] > 0 || p->level == highest ? saddle[i] : b->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
         if (fall > 0 && fall >= min_prominence && !on_border(b, p->row, p->k))
@@ -122,8 +122,7 @@ list_maxima(ss_maximum *out, const basins *b, const double *saddle, double top, 
     return n;
 }
 
-/* Keep those of n maxima that are not more than range below the highest of them, in time order.
- * Returns their number. */
+/* Keep those of n maxima that are within range of the highest of them, in time order.  Returns their number. */
 static size_t
 keep_highest(ss_maximum *list, size_t n, double range)
 {

@@ -10,12 +10,12 @@
 #include "features/search.h"
 #include "signal/gaps.h"
 
-#define NEAR 1.0                /* [octaves] what is fitted is as near to what recurs */
-#define SHARPER 1.5             /* than the oscillation, in frequency: an event within it */
-#define PRECISE 10.0            /* a frequency is this many of its standard errors, at least */
-#define POSITIVE 3.0            /* standard errors by which a damping ratio is more than 0 */
+#define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
+#define SHARPER 1.5             /* times the frequency of the oscillation: an event so sharp lies within it */
+#define PRECISE 10.0            /* standard errors that a frequency must be large */
+#define POSITIVE 3.0            /* standard errors that a damping ratio must be above 0 */
 
-/* omega and s per sample into Hz and damping ratio. */
+/* Convert omega and s, per sample, to Hz and damping ratio. */
 static void
 set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_value *ratio)
 {
@@ -41,8 +41,8 @@ cuts(const ss_spike *spike, double f)
 
 typedef enum bars { BAR_GAPS, BAR_JUMPS, BAR_EVENTS } bars;
 
-/* What no stick reaches over: gaps, and strong jumps, or jumps and kinks, which have no samples of
- * their own. */
+/* Find the bars that no stick crosses: gaps, and strong jumps, or jumps and kinks, whose samples no model
+ * describes. */
 static ss_status
 find_bars(const search *s, bars which, double f, ss_window **bar, size_t *n)
 {
@@ -62,7 +62,7 @@ find_bars(const search *s, bars which, double f, ss_window **bar, size_t *n)
     return SS_OK;
 }
 
-/* Does a jump or kink that ends a stick lie between the two, by more than the scale that shows it? */
+/* Does a jump or kink that ends a stick lie between the two, farther from them than the scale that shows it? */
 static int
 crosses_event(const ss_spikes *found, double from, double to, double f)
 {
@@ -75,7 +75,7 @@ crosses_event(const ss_spikes *found, double from, double to, double f)
     return 0;
 }
 
-/* How many of the windows cross an event, of the record or of its mean cycle. */
+/* The number of windows that cross an event, of the record or of its mean cycle. */
 static ss_status
 count_crossings(const search *s, const ss_window *window, size_t n, double f, size_t *used,
                 size_t *crossed)
@@ -102,8 +102,9 @@ count_crossings(const search *s, const ss_window *window, size_t n, double f, si
 
 static const char trains[] = "what recurs is a train of micro-slips, once a period of the oscillation";
 
-/* Why what was fitted to used of n transitions is no ringing at about omega radians a sample; NULL if
- * it is.  What fewer than half of them show, and not every cycle does, is picked by the fit itself. */
+/* The reason why the fit to `used` of n transitions is no ringing at about omega radians a sample; NULL: it
+ * is.  An oscillation that fewer than half of the transitions show, and not every cycle, was picked by the
+ * fit itself. */
 static const char *
 judge_fit(const ss_value all[2], double omega, size_t n, size_t cycles, size_t used, size_t crossed)
 {
@@ -122,7 +123,7 @@ judge_fit(const ss_value all[2], double omega, size_t n, size_t cycles, size_t u
     return NULL;
 }
 
-/* The standard deviation of n fits, which the error of their median, all, is of. */
+/* The standard deviation of n fits, from the error of their median, all. */
 static double
 scatter_of(ss_value all, const ss_value *each, size_t n)
 {
@@ -132,7 +133,7 @@ scatter_of(ss_value all, const ss_value *each, size_t n)
     return all.error * sqrt(2 * (double)used / M_PI);
 }
 
-/* Where the transitions are known already, each stick by itself, as they need not be alike. */
+/* Fit each stick by itself, as sticks need not be alike, if the transitions are known already. */
 static ss_status
 fit_singly(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each)
 {
@@ -149,7 +150,8 @@ fit_singly(search *s, const size_t *anchor, double f, ss_window *window, ss_valu
     return st;
 }
 
-/* One fit about the anchors, kept off bars, and its judgement. *why: it is no ringing. */
+/* Fit once about the anchors, away from bars, and judge the fit.  *why becomes the reason why it is no
+ * ringing. */
 static ss_status
 fit_once(const search *s, const size_t *anchor, size_t n, double f, const ss_window *bar, size_t n_bars,
          ss_window *window, ss_value all[2], ss_value *each, const char **why)
@@ -245,7 +247,7 @@ fit(const search *s, const size_t *anchor, size_t n, double f, ss_window *window
     return st;
 }
 
-/* Write what was fitted to the transitions; what rings behind the next one is that one's. */
+/* Write the fits to the transitions; what rings behind the next transition belongs to that. */
 static void
 report(search *s, const ss_window *window, const ss_value all[2], const ss_value *each)
 {
@@ -269,7 +271,7 @@ report(search *s, const ss_window *window, const ss_value all[2], const ss_value
     }
 }
 
-/* All transitions together, when a hum beside the oscillation is subtracted. */
+/* Fit all transitions together, after a hum beside the oscillation is subtracted. */
 static ss_status
 fit_shared(search *s, const size_t *anchor, double f, ss_window *window, ss_value all[2], ss_value *each)
 {

@@ -15,7 +15,8 @@
 #include "features/levels.h"
 #include "morlet/fft/real.h"
 
-#define NEARLY 0.9              /* of the highest peak: the first peak as high as this is the period's */
+#define NEARLY 0.9              /* part of the highest peak: the first peak that is so high is that of the
+                                   period */
 /* The least correlation that counts. That of white noise has the standard deviation n^-1/2: SIGMAS
  * of them are not reached by chance at any of 1e6 lags. Irregular slips reach 0.05, drifting ones
  * that still repeat 0.3. */
@@ -162,7 +163,7 @@ is_peak(const double *r, size_t i)
     return r[i] >= r[i - 1] && r[i] > r[i + 1];
 }
 
-/* The top of the parabola through the highest of the lags within reach of at, and its neighbours. */
+/* The top of the parabola through the highest of the lags within reach of `at`, and its neighbours. */
 static double
 peak_near(const double *r, double at, double reach)
 {
@@ -192,7 +193,7 @@ follow(const double *r, size_t lag, double last, double most, double *height, do
     return period;
 }
 
-/* An oscillation that decays repeats itself too, but not for long. */
+/* Does it last?  An oscillation that decays repeats itself, too, but not for long. */
 static int
 lasts(const double *r, size_t lag, size_t last)
 {
@@ -202,8 +203,8 @@ lasts(const double *r, size_t lag, size_t last)
     return height >= 0.5 * r[lag];
 }
 
-/* The first peak behind the main one that is nearly the highest up to last, and
- * lasts if any does; 0: none. */
+/* The first peak behind the main one that is nearly the highest up to last and, if any peak lasts, lasts; 0:
+ * none. */
 static size_t
 first_peak(const double *r, size_t last, double least)
 {
@@ -235,7 +236,8 @@ ss_period_find(const double *x, size_t n, ss_value *period)
         return SS_OK;
     if (n > SIZE_MAX / 8 / sizeof *x)
         return SS_ENOMEM;
-    choose_size(n + n / 4, &rows, &columns);    /* what is compressed ends nowhere: it wraps where it is low */
+    choose_size(n + n / 4, &rows, &columns);    /* the compressed samples are a circle, whose ends meet where
+                                                   they are low */
     double *r = centred(x, n, 2 * rows * columns);
     ss_status st = r != NULL ? autocorrelation(r, n, rows, columns) : SS_ENOMEM;
     size_t peak = st != SS_OK ? 0 : first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));

@@ -16,13 +16,14 @@
 #include <string.h>
 #include "features/loading.h"
 
-#define NEAR 0.05               /* of the step, or of a level: that near to it */
-#define STAYS 0.5               /* of the time from one break-away to the next, at the level or above */
-#define SAMPLES 3               /* in the way, at least */
+#define NEAR 0.05               /* part of the step, or of a level, within which a sample is near it */
+#define STAYS 0.5               /* the least part of the time from one break-away to the next at or above the
+                                   level */
+#define SAMPLES 3               /* the fewest samples on the way */
 
 typedef struct plateau {
     ss_window slip;
-    double level, quartile;     /* on the side of the other level */
+    double level, quartile;     /* quartile: on the side of the other level */
     int stays;
 } plateau;
 
@@ -34,8 +35,8 @@ select(const double *x, ss_window w, double part, double *copy)
     return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
 }
 
-/* Break-aways and ends of half-cycles are found at half of the level: what loads the force is cut off by
- * the median of all. */
+/* Find the passes.  Break-aways and ends of half-cycles are found at half of the level; what only loads the
+ * force is cut off by the median of all. */
 static plateau
 find_plateau(const search *s, const ss_transition *t, int is_last, const double *x, double *copy)
 {
@@ -57,14 +58,14 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
     return p;
 }
 
-/* z where x passes the goal between i - 1 and i. */
+/* The value of z where x passes the goal between samples i - 1 and i. */
 static double
 at_goal(const double *z, const double *x, size_t i, double goal)
 {
     return z[i - 1] + (goal - x[i - 1]) / (x[i] - x[i - 1]) * (z[i] - z[i - 1]);
 }
 
-/* From a to b; its error is that of a sample at either end of the way. */
+/* The slope from a to b.  Its error is that of a sample at either end. */
 static ss_value
 find_stiffness(const double *x, const double *z, const plateau *a, const plateau *b)
 {

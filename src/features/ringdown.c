@@ -16,17 +16,21 @@
 #include <string.h>
 #include "features/fitter.h"
 
-/* In periods of the oscillation. */
+/* Lengths in periods of the oscillation. */
 #define CORE 1.25               /* fits into a stick of two wherever that lies */
-#define MOST 16.0               /* longer ones know no more, as the oscillation has decayed */
-#define APART 3.0               /* periods a transition, or half-cycle of the base: two and a slip */
+#define MOST 16.0               /* the longest window: the oscillation has decayed by its end */
+#define APART 3.0               /* least periods in a transition or half-cycle of the base: a window of two,
+                                   and the slip */
 
-#define GROWTH 1.25             /* of the longest window from one fit to the next */
-#define KEPT 0.6                /* of the windows where micro-slips are left out: a train keeps less */
-#define LASTING 3.0             /* times s: more in a window is not missed, as 5 % are left then */
-enum { ENOUGH = 256 };          /* windows for a fit while they still grow */
-#define LASTS 0.15              /* of its amplitude at its end: with less it rang under 2 periods */
-#define START 0.03              /* s / w that the fit starts from */
+#define GROWTH 1.25             /* factor by which the longest window grows from one fit to the next */
+#define KEPT 0.6                /* the least part of the windows that is kept without micro-slips: a train
+                                   keeps less */
+#define LASTING 3.0             /* times the decay time 1/s: a longer window shows no more, as 5 % are left
+                                   then */
+enum { ENOUGH = 256 };          /* the most windows of a fit while they still grow */
+#define LASTS 0.15              /* part of the amplitude that is left at the end: with less it rang for under
+                                   2 periods */
+#define START 0.03              /* s / w from which the fit starts */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 
 static const ss_value nothing = { NAN, NAN };
@@ -56,7 +60,7 @@ fit_each(fitter *k, const ss_window *window, size_t n, ss_value *each)
             fit_one(k, window[i], each + 2 * i);
 }
 
-/* Windows of the least length, each fitted by itself and kept if the oscillation explains it well. */
+/* Fit each window of the least length by itself, and keep those that the oscillation explains well. */
 static void
 fit_rough(fitter *k, const size_t *anchor, size_t n, ss_window *window, ss_value *each)
 {
@@ -111,7 +115,7 @@ median_of_fits(const ss_window *window, size_t n, const ss_value *each, ss_value
 
 /* --- all of it ----------------------------------------------------------------------------- */
 
-/* Fit w and s to all windows, and find the noise. *ok: they have converged. */
+/* Fit w and s to all windows, and find the noise.  *ok: the fit has converged. */
 static ss_status
 fit_shared(fitter *k, const ss_window *window, size_t n, double tol, int *ok)
 {
@@ -119,7 +123,7 @@ fit_shared(fitter *k, const ss_window *window, size_t n, double tol, int *ok)
     return *ok ? ss_sticks_noise(k, window, n) : SS_OK;
 }
 
-/* Is the oscillation in the windows, in the mean, more than what noise makes of itself there? */
+/* Is the oscillation in the windows, in the mean, larger than what noise alone would give there? */
 static int
 stands_out(fitter *k, const ss_window *window, size_t n)
 {
@@ -127,7 +131,7 @@ stands_out(fitter *k, const ss_window *window, size_t n)
     return all.ring > (double)all.windows * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }
 
-/* Which cores: every so many; those beside them, up to which they may grow; all others. */
+/* Cores to fit: one of so many; the cores beside them, up to which they may grow; or all others. */
 typedef enum cores { SOME, BESIDE, OTHERS } cores;
 
 static cores
@@ -137,7 +141,7 @@ cores_of(size_t i, size_t every)
     return phase == 0 ? SOME : phase == 1 || phase + 1 == every ? BESIDE : OTHERS;
 }
 
-/* Place cores about their anchors, for an oscillation w, s. */
+/* Place cores about their anchors, for an oscillation of w and s. */
 static void
 place_cores(fitter *k, const double at[2], const size_t *anchor, ss_window *core, size_t n, size_t every,
             cores which)
@@ -150,7 +154,7 @@ place_cores(fitter *k, const double at[2], const size_t *anchor, ss_window *core
     k->fit.w = found[0], k->fit.s = found[1];
 }
 
-/* Has one of every so many windows the least length? */
+/* Does one of every so many windows have the least length? */
 static int
 lasts(const fitter *k, const ss_window *window, size_t n, size_t every)
 {
@@ -160,8 +164,8 @@ lasts(const fitter *k, const ss_window *window, size_t n, size_t every)
     return 0;
 }
 
-/* Windows about some of the cores, longer and longer, as long as the fit to them converges near its
- * start; then about all of them, if some are long enough. */
+/* Fit windows about some of the cores, longer and longer, as long as the fit converges near its start; then
+ * windows about all cores, if some are long enough. */
 static ss_status
 grow_windows(fitter *k, const size_t *anchor, ss_window *core, ss_window *window, size_t n, int *ok)
 {
@@ -173,7 +177,7 @@ grow_windows(fitter *k, const size_t *anchor, ss_window *core, ss_window *window
         window[i] = i % every == 0 ? core[i] : (ss_window){ anchor[i], anchor[i] };
     ss_status st = fit_shared(k, window, n, COARSE, ok);
     for (double limit = CORE * GROWTH; more && limit < MOST; limit *= GROWTH) {
-        *ok = *ok && fabs(log(k->fit.w / start[0])) < M_LN2 / 2;    /* or it is something else */
+        *ok = *ok && fabs(log(k->fit.w / start[0])) < M_LN2 / 2;    /* else it is another oscillation */
         if (st != SS_OK || !*ok)
             return st;
         if (longest == 0)
@@ -193,7 +197,7 @@ grow_windows(fitter *k, const size_t *anchor, ss_window *core, ss_window *window
     return fit_shared(k, window, n, COARSE, ok);
 }
 
-/* The samples in all windows, of each as many as an oscillation lasts at most. */
+/* The number of samples in all windows; in each at most those for which an oscillation lasts. */
 static double
 samples_in(const ss_window *window, size_t n, double lasting)
 {
@@ -226,7 +230,7 @@ leave_out_slips(fitter *k, ss_window *window, size_t n, int *ok)
     }
 }
 
-/* Has every window enough samples for all the columns that there are?  What has fewer is not tested. */
+/* Does every window have enough samples for all columns?  A window with fewer is not tested. */
 static int
 are_long(const ss_window *window, size_t n)
 {

@@ -8,8 +8,8 @@
 #include "features/scale_rows.h"
 #include "features/search.h"
 
-#define BAND 0.25               /* [octaves] maxima this near in frequency are of one kind */
-#define RANGE 20.0              /* [dB] along the row of the oscillation: weaker swells are none */
+#define BAND 0.25               /* [octaves] the largest distance of maxima of one kind */
+#define RANGE 20.0              /* [dB] range of the swells in the row of the oscillation */
 
 static size_t
 row_of(const ss_coefficients *coef, double f)
@@ -31,8 +31,8 @@ typedef struct gathered {
     double octave, level;       /* of a maximum */
 } gathered;
 
-/* The frequency about which most maxima gather, the strongest of equals; 0 where fewer than FEW do.
- * An oscillation within a transition is faster than what repeats. */
+/* The frequency about which most maxima gather, the strongest of equals; 0: fewer than FEW gather.  An
+ * oscillation within a transition is faster than the cycles. */
 static ss_status
 find_recurrent(const search *s, double prominence, double *f)
 {
@@ -52,7 +52,7 @@ find_recurrent(const search *s, double prominence, double *f)
         size_t from = ss_list_from(list, n, sizeof *list, octave - BAND);
         size_t end = ss_list_from(list, n, sizeof *list, octave + BAND);
         if (end - from < FEW || end - from < most || s->found[i].f <= slowest)
-            continue;           /* that is not a number where nothing repeats */
+            continue;           /* it is NaN if nothing repeats */
         for (size_t k = from; k < end; k++)
             level += list[k].level;
         if (end - from > most || level > best_level) {
@@ -73,8 +73,8 @@ true_frequency(const search *s, double label)
         : label * (CENTER + sqrt(CENTER * CENTER + 2)) / (2 * CENTER);
 }
 
-/* Give every swell the nearest maximum of the kind, not further than the wavelet reaches, where it
- * is above the threshold, if FEW or more are; how many have one at all. */
+/* Give every swell the nearest maximum of the kind that is above the threshold and within reach of the
+ * wavelet, if FEW or more are.  Returns the number of swells with a maximum at all. */
 static size_t
 match_maxima(search *s, const ss_maximum *swell, double f)
 {
@@ -103,7 +103,7 @@ match_maxima(search *s, const ss_maximum *swell, double f)
     return ringing;
 }
 
-/* The median of the labels; its error has the step of the grid in it, and their scatter. */
+/* The median of the labels.  Its error contains the step of the grid and their scatter. */
 static ss_status
 read_raw(search *s)
 {
@@ -127,9 +127,9 @@ read_raw(search *s)
     return SS_OK;
 }
 
-/* Move the onset, which the fit or the swell gave, to the nearest jump or kink within half a period;
- * move the end to the last one that follows another within a period: the mass sticks no longer than
- * that before it is released again. */
+/* Move the onset, which the fit or the swell gave, to the nearest jump or kink within half a period.  Move
+ * the end to the last jump or kink that follows another within a period: the mass does not stick longer
+ * between them. */
 static void
 snap_to_spikes(const search *s, ss_transition *tr, double period)
 {
@@ -181,8 +181,9 @@ forget_transitions(ss_features *out)
     out->n = out->recurring = 0;
 }
 
-/* Noise in a band swells too: but slowly, where a slip sets off its ringing at once.  So swells of a
- * signal that does not repeat itself are transitions only if half of them begin with a jump or kink. */
+/* Are these swells transitions?  Noise in a band swells, too, but slowly, while a slip makes its ringing
+ * begin at once.  So swells of a signal that does not repeat itself are transitions only if half of them
+ * begin with a jump or kink. */
 static int
 begin_sharply(const search *s, const ss_maximum *swell, double f)
 {
@@ -233,13 +234,13 @@ ss_ringing_find(search *s, double prominence)
 
 /* --- ringing behind transitions that are known ----------------------------------------------- */
 
-#define SETTLED 1.0             /* periods behind the onset that are not looked at: its own jump */
-#define LOOKED 5.0              /* periods behind it up to which the band is looked for */
-#define LEFT 2.0                /* periods before the end that are not looked at */
-/* The band is looked for behind so many transitions, one behind the other, at so many places of the record. */
+#define SETTLED 1.0             /* periods behind the onset that are left out: they show its own jump */
+#define LOOKED 5.0              /* periods behind the onset up to which the band is sought */
+#define LEFT 2.0                /* periods before the end that are left out */
+/* The band is sought behind so many transitions in a row, at so many places of the record. */
 enum { STRETCH = 64, STRETCHES = 16 };
 
-/* Where it may ring behind a transition: behind the last spike of those that are known by spikes. */
+/* The span behind a transition in which it may ring [s]: behind its last spike, if it is known by spikes. */
 static void
 span_behind(const search *s, size_t i, double period, double *from, double *to, double *last)
 {
@@ -292,7 +293,7 @@ fill_behind(const search *s, size_t index, double *level)
     return ss_levels_fill(&s->map, part, n);
 }
 
-/* The mean square of |W| behind a transition; 0: it does not last so long. */
+/* The mean square of |W| behind a transition; 0: the transition does not last so long. */
 static double
 power_of(const search *s, size_t transition, const ss_scale *scale, const double *level)
 {
@@ -324,12 +325,12 @@ power_behind(const search *s, const ss_scale *scale, const double *level)
     return 2 * used > all ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
 }
 
-/* Every so many scales are a quarter of an octave apart.  The band of a sinusoid is wider: the nearest of
- * these has three quarters of its power at least. */
+/* Scales that are so many apart differ by a quarter of an octave.  The band of a sinusoid is wider: the
+ * nearest of these scales has at least three quarters of its power. */
 enum { EVERY = 4 };
 #define SEEN 0.7
 
-/* Is it more than 0, and no less than that of the scales EVERY before and after, if there are some? */
+/* Is the power above 0, and no less than at the scales EVERY before and behind, if there are any? */
 static int
 is_peak(const double *power, size_t n, size_t i)
 {
@@ -346,8 +347,8 @@ is_beside(const double *power, size_t n, size_t i, double least)
         || (next < n && is_peak(power, n, next) && power[next] >= least);
 }
 
-/* The power behind the transitions at n scales: at some of them, and at those beside peaks that may be
- * the strongest band, which is no peak at the end of what is known.  0: it is not known. */
+/* Find the power behind the transitions at n scales: at some of them, and at those beside peaks that may be
+ * the strongest band.  (A peak at the end of the known scales is none.)  0: it is not known. */
 static ss_status
 powers_behind(const search *s, double *power, size_t n)
 {
@@ -372,7 +373,7 @@ powers_behind(const search *s, double *power, size_t n)
     return st;
 }
 
-/* The label of the strongest band that is a band: with less power on either side.  0: none. */
+/* The label of the strongest band that has less power on either side.  0: there is none. */
 static ss_status
 strongest_band(const search *s, double *f)
 {
@@ -391,7 +392,7 @@ strongest_band(const search *s, double *f)
     return st;
 }
 
-/* Fit about two periods behind the transitions. */
+/* Fit an oscillation about two periods behind the transitions. */
 static ss_status
 fit_behind(search *s, double f)
 {
@@ -409,7 +410,7 @@ fit_behind(search *s, double f)
     return st;
 }
 
-/* The oscillation of the strongest band is fitted; what is finer resolved but weaker is none. */
+/* Fit the oscillation of the strongest band.  Weaker bands with a finer resolution do not count. */
 ss_status
 ss_ringing_behind(search *s)
 {

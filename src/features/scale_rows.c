@@ -21,10 +21,10 @@
 #include <stickslip/morlet.h>
 
 #define ACCURACY 1e-10          /* of W: 200 dB */
-#define QUIET 3.0               /* scales from a spike on that it is heard */
-#define LEAST 0.1               /* part of a row that its noise is read from at least */
-#define TOGETHER 6.0            /* octaves that share spectra */
-#define MARGIN 0.25             /* of the record: with longer margins, octaves share nothing */
+#define QUIET 3.0               /* scales from a spike within which it raises the level */
+#define LEAST 0.1               /* the least part of a row from which its noise is found */
+#define TOGETHER 6.0            /* octaves above an octave that share its spectra */
+#define MARGIN 0.25             /* part of the record: octaves with longer margins share nothing */
 
 /* Does sample i stand in a gap? */
 static int
@@ -34,7 +34,7 @@ missing(const row_source *source, size_t i)
         && ss_gaps_near(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
 }
 
-/* Of numbers that are finite; the compiler makes no calls of these. */
+/* The larger of two finite numbers; compilers make no call of it. */
 static inline double
 least(double a, double b)
 {
@@ -47,8 +47,8 @@ most(double a, double b)
     return a > b ? a : b;
 }
 
-/* The step of the converter that the samples came through, 0 if none is seen: the smallest change,
- * if nearly all others are multiples of it.  A signal of few levels that changes seldom is one of
+/* The step of the converter from which the samples come; 0: none is seen.  It is the smallest change, if
+ * nearly all others are multiples of it.  So a signal of few levels that changes seldom counts as one of
  * steps. */
 static double
 converter_step(const row_source *source)
@@ -66,7 +66,7 @@ converter_step(const row_source *source)
         lo = least(lo, least(x[i], x[i - 1]));
         hi = most(hi, most(x[i], x[i - 1]));
         changes += steps > 0;
-        fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* by chance a fifth of them */
+        fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* a fifth of them fits by chance */
         if (changes - fit > n / 10)
             return 0;
     }
@@ -103,8 +103,8 @@ ss_row_source_init(row_source *source, const double *x, size_t n, double rate, d
     return SS_OK;
 }
 
-/* The record less its first value, with margin samples more at either end, an odd continuation;
- * past the other end of a record that is too short for that, its last value stays. */
+/* The record less its first value, with margin samples more at either end: an odd continuation.  Beyond the
+ * far end of a record that is too short for this, its last value continues. */
 static double *
 continued(const double *x, size_t n, size_t margin)
 {
@@ -131,16 +131,16 @@ summit(const double *level, double t, double step)
     return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
 }
 
-/* The rms of |W| that is not the signal's, from its median. */
+/* The rms of the part of |W| that is noise, from its median. */
 static double
 rms_of(const row_source *source, double middle)
 {
     return hypot(middle / sqrt(M_LN2), source->rounding);
 }
 
-/* The rms of |W| in the n levels, which change places, one every step from t on, by the median of
- * those that are farther than QUIET scales from all spikes found so far and out of the reach of
- * gaps: all that there are, if these are less than LEAST of them. */
+/* The rms of |W| in the n levels, of which one comes every step from t on, and which change places.  It is
+ * found from the median of the levels that are farther than QUIET scales from all spikes found so far and
+ * out of the reach of gaps, or of all levels if these are less than LEAST of them. */
 static double
 noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t n, double t,
          double step, double a)
@@ -164,8 +164,8 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     return rms_of(source, ss_levels_middle(level, left));
 }
 
-/* source->level holds |W| of the row, of which those before t = 0 and behind the record are not its
- * own. */
+/* Find the peaks of the row whose |W| source->level holds.  Levels before t = 0 and behind the record are
+ * not the record's own. */
 static ss_status
 fill_row(row *r, row_source *source, const ss_spikes *loud, const ss_scale *scale,
          double margin)
@@ -179,7 +179,7 @@ fill_row(row *r, row_source *source, const ss_spikes *loud, const ss_scale *scal
     if (r->peak == NULL)
         return SS_ENOMEM;
     for (size_t k = first; k <= last; k++) {
-        if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* in one branch, seldom taken */
+        if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* one branch, which is seldom taken */
             continue;
         double t = ss_scale_b(scale, k) - margin;
         if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))

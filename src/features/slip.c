@@ -22,10 +22,11 @@
 #include "features/colour.h"
 
 enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* SPEED: of the phase, w */
-enum { FEWEST = 8, STEPS = 60 };                /* samples in the fall; iterations */
-#define EXPLAINED 0.98          /* of the sum of squares about the mean: less is another shape */
-#define VAGUE (1 / 3.)          /* of the drop and of k/m, that an error may be */
-#define DEEP 0.8                /* of D: 10 and 90 % of the fall lie at f_k +- so much */
+enum { FEWEST = 8, STEPS = 60 };                /* fewest samples in the fall; most iterations */
+#define EXPLAINED 0.98          /* part of the sum of squares about the mean: a fit that explains less is
+                                   another shape */
+#define VAGUE (1 / 3.)          /* largest relative error of the drop and of k/m */
+#define DEEP 0.8                /* part of D: 10 and 90 % of the fall lie at f_k +- so much */
 
 typedef struct problem {
     const double *x;
@@ -40,7 +41,7 @@ length_of(const double p[FITTED], double loading)
     return 2 * (M_PI - atan(q)) / w;
 }
 
-/* The force at sample i, and its derivatives by the parameters. */
+/* Find the force at sample i, and its derivatives by the parameters. */
 static double
 force_at(const double p[FITTED], double loading, double i, double d[FITTED])
 {
@@ -98,8 +99,8 @@ jacobian(const gsl_vector *at, void *user, gsl_matrix *out)
     return GSL_SUCCESS;
 }
 
-/* From the sample where x passes the middle of the fall, forwards or backwards, to where it has come
- * past a level near its end; end if it does not. */
+/* The first sample, forwards or backwards from where x passes the middle of the fall, that is past a level
+ * near its end; `end`: none is. */
 static size_t
 walk(const double *x, size_t i, size_t end, double level)
 {
@@ -109,8 +110,8 @@ walk(const double *x, size_t i, size_t end, double level)
     return i;
 }
 
-/* Parameters to start from, by the times at which x passes 10, 50 and 90 % of the fall; and the samples
- * to use, of half a slip or so on either side. */
+/* Find the parameters to start from, by the times at which x passes 10, 50 and 90 % of the fall, and the
+ * samples to use, up to about half a slip on either side. */
 static int
 start(problem *f, double p[FITTED], ss_window room, size_t high, size_t low)
 {
@@ -132,7 +133,7 @@ start(problem *f, double p[FITTED], ss_window room, size_t high, size_t low)
     return f->used.end >= f->used.first + FEWEST;
 }
 
-/* Is what is left small enough? */
+/* Is the residual small enough? */
 static int
 explains(const problem *f, const gsl_vector *left, ss_slip *out)
 {
@@ -149,18 +150,18 @@ explains(const problem *f, const gsl_vector *left, ss_slip *out)
 
 enum { OF_SLIP = 7 };
 
-/* The numbers of a slip, in their order. */
+/* Write the numbers of a slip, in their order. */
 static void
 describe(const double p[FITTED], double loading, double number[OF_SLIP])
 {
     double D = p[TOP] - p[MIDDLE], w = p[SPEED], length = length_of(p, loading);
-    double peak = hypot(D, loading / w);        /* of the oscillation, where its phase is 0 */
+    double peak = hypot(D, loading / w);        /* amplitude of the oscillation, whose phase is 0 there */
     double duration = (acos(-DEEP * D / peak) - acos(DEEP * D / peak)) / w;
     memcpy(number, (double[OF_SLIP]){ p[ONSET], p[ONSET] + length, 2 * D, duration, p[TOP], p[MIDDLE],
                                       w * w }, OF_SLIP * sizeof *number);
 }
 
-/* With the errors that the covariance of the parameters gives them. */
+/* Find the errors of these numbers from the covariance of the parameters. */
 static void
 fill(ss_slip *s, const problem *f, const double p[FITTED], const gsl_matrix *covariance)
 {

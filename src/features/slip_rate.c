@@ -34,7 +34,7 @@ mean_rate(const search *s)
     return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
 }
 
-/* Does each of MOST transitions come so long before the one `step` transitions later, to within JITTER? */
+/* Do MOST of the transitions come so long before those `step` transitions later, to within JITTER? */
 static int
 recur(const search *s, size_t step, double time)
 {

@@ -8,10 +8,11 @@
 #include <string.h>
 #include "base/sort.h"
 
-#define BREAK 0.05              /* of cutting all windows where there is no micro-slip */
-#define BREAK_EARLY 1e-3        /* the same where neither part is of the least length: of refusing the lot */
+#define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip */
+#define BREAK_EARLY 1e-3        /* the same if neither part has the least length: then all windows are
+                                   refused */
 #define LATEST 32.0             /* behind a window, see rings_on */
-#define LOUDER 1.5              /* than what the fit leaves: it rings on */
+#define LOUDER 1.5              /* times the residual: an oscillation that is louder rings on */
 
 /* --- micro-slips too weak for any one window ----------------------------------------------- */
 
@@ -35,8 +36,8 @@ add_sums(varpro_sums *to, const varpro_sums *of, double times)
     }
 }
 
-/* Sums of products with a column that counts the changes of a window's gain so far, at a place and once
- * a period from there, and with its square. */
+/* Sums of products with a column that counts the changes of a window's gain so far (one at a place, and one
+ * each period from there), and with its square. */
 static void
 count_changes(fitter *k, ss_window win, size_t at, varpro_sums *once, varpro_sums *twice)
 {
@@ -171,7 +172,7 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, int from_end, size_t
     return SS_OK;
 }
 
-/* A train of micro-slips passes for a damping that the contact does not have. */
+/* A train of micro-slips looks like a damping that the contact does not have. */
 int
 ss_slips_recur(fitter *k, const ss_window *window, size_t n)
 {
@@ -193,7 +194,7 @@ typedef struct change {
     size_t window;
 } change;
 
-/* One by one, many windows would take as many fits. */
+/* Drop several windows at once: dropping one by one would take as many fits as windows. */
 ss_status
 ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at, int from_end)
 {
@@ -224,8 +225,8 @@ typedef struct tail {           /* behind a window */
     ss_window at;
 } tail;
 
-/* So many periods behind the window, in a window of the least length and before limit; empty: that
- * cannot be looked at. */
+/* The samples so many periods behind the window: as many as the least length has, before limit; empty: there
+ * are not enough. */
 static tail
 tail_of(fitter *k, ss_window win, double late_by, size_t limit)
 {
@@ -239,7 +240,7 @@ tail_of(fitter *k, ss_window win, double late_by, size_t limit)
     return (tail){ mean * exp(-2 * k->fit.s * apart), late };
 }
 
-/* Is there an oscillation, as k->fit has it, of more than LOUDER times the amplitude that is left? */
+/* Is there an oscillation with the w and s of k->fit, of more than LOUDER times the residual's amplitude? */
 static int
 rings_there(fitter *k, tail behind)
 {
@@ -251,7 +252,7 @@ rings_there(fitter *k, tail behind)
         + k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
 }
 
-/* Does it ring, or hum at a frequency near, behind more than half of the windows? */
+/* Does it ring on, or hum at a frequency nearby, behind more than half of the windows? */
 static int
 rings_behind(fitter *k, const tail *behind, size_t n)
 {
@@ -273,8 +274,8 @@ rings_behind(fitter *k, const tail *behind, size_t n)
     return seen >= FIT_FEW && 2 * most > seen;
 }
 
-/* A train of micro-slips looks like a strongly damped oscillation, though the contact rings on behind
- * it; a hum goes on, too.  So all windows are looked behind at growing distances. */
+/* Does something go on behind the windows, at growing distances?  A train of micro-slips looks like a
+ * strongly damped oscillation, but the contact rings on behind it; a hum goes on, too. */
 ss_status
 ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is)
 {

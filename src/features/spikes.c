@@ -15,11 +15,11 @@
 #include "features/scale_rows.h"
 #include <stickslip/spikes.h>
 
-#define DEEPEST 5.0             /* octaves searched for the first: 100 samples are smooth */
-#define REACH 2.0               /* octaves searched from the first row with a spike on */
-#define CLEAR 2.0               /* scales that two spikes are apart at least */
-#define DRIFT 0.5               /* scales by which a maximum moves from row to row at most */
-#define CONCLUSIVE 6.0          /* dB that the clearest spike is above the threshold at least */
+#define DEEPEST 5.0             /* octaves in which the first spike is sought: 100 samples are smooth */
+#define REACH 2.0               /* octaves in which spikes are sought from the first row with a spike on */
+#define CLEAR 2.0               /* the least distance of two spikes, in scales */
+#define DRIFT 0.5               /* the most by which a maximum moves from row to row, in scales */
+#define CONCLUSIVE 6.0          /* the least level of the clearest spike above the threshold [dB] */
 #define FIT 2.0                 /* scales on either side that the fit of a break sees */
 
 const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7, NULL, 0 };
@@ -43,7 +43,7 @@ is_smooth(const ss_spikes *found)
     return 1;
 }
 
-/* Where none is sharp, but some are there, it is not for noise. */
+/* If spikes are there but none is sharp, this is not because of noise. */
 const char *
 ss_spikes_verdict(const ss_spikes *found)
 {
@@ -84,8 +84,8 @@ stands_out(const spike_search *s, const row *r, const peak *p)
     return p != NULL && p->level > s->threshold * r->rms;
 }
 
-/* dB an octave along the line of maxima that begins at peak p of row i, over an octave at most;
- * what it has above the noise where that is most, into *clearest. */
+/* The slope [dB/octave] along the line of maxima that begins at peak p of row i, over an octave at most.
+ * *clearest becomes its largest level above the noise. */
 static double
 slope_of(const spike_search *s, size_t i, const peak *p, double *clearest)
 {
@@ -110,8 +110,8 @@ slope_of(const spike_search *s, size_t i, const peak *p, double *clearest)
     return weight > 0 ? sum / weight * ROW_VOICES : 0;
 }
 
-/* What falls towards longer scales without standing out at the shortest ones is a pulse of some
- * length: smooth. */
+/* Is it smooth?  A pulse of some length falls towards longer scales, but does not stand out at the shortest
+ * ones. */
 static ss_spike_kind
 kind_of(double slope, size_t i)
 {
@@ -141,7 +141,7 @@ sort(ss_spikes *found)
         qsort(found->spike, found->n, sizeof *found->spike, ss_ascending);
 }
 
-/* Is t clear of the n spikes found at shorter scales, which are in time order? */
+/* Is t away from the n spikes found at shorter scales, which are in time order? */
 static int
 is_clear(const ss_spikes *found, size_t n, double t, double distance)
 {
@@ -150,7 +150,7 @@ is_clear(const ss_spikes *found, size_t n, double t, double distance)
         && !(lo > 0 && t - found->spike[lo - 1].t < distance);
 }
 
-/* Neither the row nor those that its slope is read from may see a gap. */
+/* Does a gap reach the row, or the rows from which its slope is found? */
 static int
 sees_gap(const spike_search *s, const row *r, double t)
 {
@@ -184,7 +184,7 @@ search_rows(spike_search *s, double f, ss_error *err)
     double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
     double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
     if (!(octaves > 0))
-        return SS_OK;           /* too short for any */
+        return SS_OK;           /* it is too short to have spikes */
     size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
     const size_t reach = (size_t)(REACH * ROW_VOICES);
     s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
@@ -207,7 +207,7 @@ search_rows(spike_search *s, double f, ss_error *err)
 
 /* --- times and the whole ------------------------------------------------------------------- */
 
-/* Spike i's time from the fit, which sees no farther than its neighbours. */
+/* Find the time of spike i by a fit, which sees no farther than its neighbours. */
 static double
 refined(const spike_search *s, size_t i)
 {
@@ -309,7 +309,7 @@ ss_spikes_within(const ss_spikes *found, double onset, double end, double range)
     ss_spike_group group = { 0, 0 };
     if (found == NULL || found->n == 0)
         return group;
-    /* how far the bluntest may be off */
+    /* the largest error of the bluntest spike */
     double reach = ROW_CENTER / (2 * M_PI * found->f) * exp2(DEEPEST + 1);
     size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, onset - reach);
     for (; i < found->n && found->spike[i].t <= end + reach; i++) {

@@ -10,11 +10,12 @@
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
 
-#define TRIM_START 0.1          /* kept off the ends found, where a misfit not yet seen may hide */
-enum { PLACES = 16, MOST_PLACES = 4 * PLACES };         /* of the core: a period; at all */
+#define TRIM_START 0.1          /* periods at the ends found that are left out: a misfit not seen yet may
+                                   hide there */
+enum { PLACES = 16, MOST_PLACES = 4 * PLACES };         /* places in the core, which is a period; in all */
 
-/* By the median over the windows, as some may hold more than the oscillation; not less than the
- * misfit that is allowed. */
+/* The noise, by the median over the windows, as some may contain more than the oscillation; it is at least
+ * the misfit that is allowed. */
 ss_status
 ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
 {
@@ -40,7 +41,7 @@ ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
     return SS_OK;
 }
 
-/* How many gaps begin before sample i. */
+/* The number of gaps that begin before sample i. */
 static size_t
 gaps_before(const fitter *k, size_t i)
 {
@@ -147,7 +148,7 @@ grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
     return grow(k, win, &sums, right < most ? right : most, 0);
 }
 
-/* What is left of a window off which ends are cut; empty: less than the least length. */
+/* The window without the ends that are cut off; empty: it is shorter than the least length. */
 static ss_window
 keep_off(const fitter *k, ss_window win, size_t start, size_t end)
 {
@@ -156,8 +157,8 @@ keep_off(const fitter *k, ss_window win, size_t start, size_t end)
     return (ss_window){ win.first + start, win.end - end };
 }
 
-/* The part of a window before a place in it, or behind it, off that place if it stays long enough; all of
- * a window that does not reach there. */
+/* The part of a window before a place in it, or behind it, trimmed at the place if it stays long enough.  A
+ * window that does not reach the place stays whole. */
 static ss_window
 part(const fitter *k, ss_window win, size_t at, int from_end, int behind)
 {

@@ -6,10 +6,10 @@
 #include "features/scale_rows.h"
 #include "features/search.h"
 
-#define SPIKES 60.0             /* [dB] below the strongest: spikes counted in a transition */
-#define APART 6.0               /* [dB] above the next weaker one: events are not swells of noise */
-#define CLEAR 15.0              /* [dB] below the strongest: single events */
-enum { SHORT = 64 };            /* samples: in fewer no single event has quiet beside it */
+#define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
+#define APART 6.0               /* [dB] above the next weaker one: such events are no swells of noise */
+#define CLEAR 15.0              /* [dB] range of single events */
+enum { SHORT = 64 };            /* samples: a shorter record has no quiet beside a single event */
 
 static int
 has_strong_event(const ss_spikes *found)
@@ -20,8 +20,8 @@ has_strong_event(const ss_spikes *found)
     return 0;
 }
 
-/* Transitions that do not ring: each strong spike begins one, and the weaker ones up to the next
- * strong one belong to it.  Strong ones nearer than an eighth of what repeats are one. */
+/* Find transitions that do not ring.  Each strong spike begins one; the weaker spikes up to the next strong
+ * one belong to it.  Strong spikes nearer than an eighth of the cycle are one. */
 static ss_status
 find_spiked(search *s)
 {
@@ -48,7 +48,7 @@ find_spiked(search *s)
     return SS_OK;
 }
 
-/* The samples about t up to the next event or gap on either side. */
+/* The samples about t, up to the next event or gap on either side. */
 static ss_window
 room_about(const search *s, const ss_bursts *found, size_t i)
 {
@@ -67,7 +67,7 @@ room_about(const search *s, const ss_bursts *found, size_t i)
     return (ss_window){ (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
 }
 
-/* Do several stand apart from the next weaker one, or from the noise?  Swells of noise have all
+/* Do several events stand apart from the next weaker one, or from the noise?  Swells of noise have all
  * strengths. */
 static int
 stand_apart(const ss_bursts *found)
@@ -78,7 +78,7 @@ stand_apart(const ss_bursts *found)
     return found->n < 2 || weakest - fmax(found->next, found->floor) >= APART;
 }
 
-/* Does x stand still at the value, which it does not most of the time, between two events? */
+/* Does x stay at the value between two events, but not most of the time? */
 static int
 stands_between(const search *s, const ss_bursts *found, double value)
 {
@@ -96,7 +96,7 @@ stands_between(const search *s, const ss_bursts *found, double value)
     return 0;
 }
 
-/* What is clipped begins and ends sharply, so that two events may be of one. */
+/* May two events be one?  A clipped part of a signal begins and ends sharply. */
 static int
 is_clipped_between(const search *s, const ss_bursts *found)
 {
@@ -106,7 +106,7 @@ is_clipped_between(const search *s, const ss_bursts *found)
     return stands_between(s, found, top) || stands_between(s, found, bottom);
 }
 
-/* Single events in a record that is quiet else.  The map is not needed any more. */
+/* Find single events in a record that is quiet elsewhere.  The map is not needed any more. */
 static ss_status
 find_single(search *s)
 {
@@ -134,7 +134,7 @@ find_single(search *s)
     return st;
 }
 
-/* How far gaps reach for spikes as blunt as those found. */
+/* The reach of gaps for spikes as blunt as those found. */
 static double
 spike_reach(const ss_spikes *found)
 {
@@ -174,7 +174,7 @@ find_transitions(search *s)
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
         st = ss_ringing_find(s, slight ? 0 : s->opts->threshold);
         if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
-            out->n = 0;                 /* the spikes know the times better */
+            out->n = 0;                 /* the times of spikes are better */
     }
     if (st == SS_OK && out->n == 0 && spiked) {
         st = find_spiked(s);
@@ -184,7 +184,7 @@ find_transitions(search *s)
     if (st == SS_OK && out->n == 0 && !s->cycles.modulated)
         st = find_single(s);
     if (st == SS_OK && out->n == 0 && out->spikes->conclusive && s->n < SHORT)
-        st = find_spiked(s);            /* too short for the others */
+        st = find_spiked(s);            /* the record is too short for the others */
     return st;
 }
 

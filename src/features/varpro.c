@@ -21,9 +21,9 @@
 #include "base/versions.h"
 
 enum { COLUMNS = VARPRO_COLUMNS, OFTEN = 16, STEPS = 50 };
-#define DEPENDENT 1e-13         /* of a column's square: less than that is rounding */
+#define DEPENDENT 1e-13         /* part of a column's square: less is rounding */
 #define FIRST_DAMPING 1e-3
-#define ROUNDING 1e-14          /* of the sum of squares: it may rise so much at its minimum */
+#define ROUNDING 1e-14          /* part of the sum of squares by which it may rise at its minimum */
 
 ss_status
 ss_varpro_init(varpro *v, const double *x, size_t room)
@@ -150,7 +150,7 @@ add_samples(const double *restrict x, double level, double (*restrict row)[COLUM
         add_samples_of(x, level, row, n, to, xx, COLUMNS);
 }
 
-/* The sums over the first n rows, of which the last may not have theirs yet. */
+/* The sums over the first n rows, whose last row may lack its sums so far. */
 static void
 sum_rows(const varpro_table *tab, size_t n, double (*g)[COLUMNS])
 {
@@ -180,7 +180,7 @@ restart(varpro *v)
     v->factored = 0;
 }
 
-/* Compute the first n rows, of which some may be there. */
+/* Compute those of the first n rows that are not there yet. */
 static void
 extend(varpro *v, size_t n)
 {
@@ -230,7 +230,7 @@ factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], size_t n)
     }
 }
 
-/* The first n of l^-1 of. */
+/* The first n elements of l^-1 times `of`. */
 static void
 substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS], size_t n)
 {
@@ -260,7 +260,7 @@ ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2]
     by_s[0] = a * c[0] + b * s[0], by_s[1] = b * s[1];
 }
 
-/* What is left of the sum of squares xx. */
+/* The residual of the sum of squares xx. */
 static double
 left_of(const varpro_factor *f, double xx)
 {
@@ -296,7 +296,7 @@ ss_varpro_left(varpro_sums *sums)
     return left_of(&f, sums->xx);
 }
 
-/* The factor of windows of n samples. */
+/* The factor for windows of n samples. */
 static void
 find_factor(varpro *v, size_t n)
 {
@@ -343,7 +343,7 @@ ss_varpro_project_all(varpro *v, const ss_window *window, size_t n)
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
 
-/* The fit to all windows at a w and s. */
+/* Fit all windows at this w and s. */
 static linear
 project_at(varpro *v, const ss_window *window, size_t n, const double at[2])
 {
@@ -368,7 +368,7 @@ is_near(const double a[2], const double b[2], double tol)
         && fabs(b[1] - a[1]) <= tol * (fabs(a[1]) + tol);
 }
 
-/* A short step that leaves more ends the fit, too: it stands at the minimum already. */
+/* A short step that does not lessen the residual ends the fit, too: it stands at the minimum already. */
 int
 ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol)
 {
