@@ -282,6 +282,39 @@ errors_cover_in_pink_noise(void **state)
     assert_true(medians.within_2 >= .88 * medians.n && medians.beyond_5 == 0);
 }
 
+/* A recovery that slows down has a slope at either end that its error admits, or none. */
+static void
+a_bent_recovery_leaves_its_slope_open(void **state)
+{
+    enum { EACH = 1000, FALL = 30, CYCLES = 12 };
+    static const double bends[] = { .02, .1, .3, 1, 3 };    /* re the time constant */
+    (void)state;
+    for (size_t k = 0; k < 10; k++) {
+        double bend = bends[k / 2], begin = bend / (1 - exp(-bend)), end = begin * exp(-bend);
+        ss_signal *signal = new_signal(CYCLES * (EACH + FALL), EACH, 0, "s", "N");
+        ss_features *f = NULL;
+        double *x = signal->values;
+        for (size_t i = 0; i < signal->n; i++) {
+            double u = (double)((i + 400) % (EACH + FALL)) / EACH, fallen = (u - 1) * EACH / FALL;
+            x[i] = u < 1 ? 1 + (1 - exp(-bend * u)) / (1 - exp(-bend))
+                : 1 + .5 * (1 + cos(M_PI * fallen));
+        }
+        ss_noise_add_once(x, signal->n, ss_noise_rms(x, signal->n, k % 2 ? 60 : 40), k + 1);
+        assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+        assert_int_equal((int)f->slips.value, CYCLES);
+        if (bend < .5)
+            assert_true(fabs(f->slope.value - begin) <= 3 * f->slope.error
+                        && fabs(f->slope.value - end) <= 3 * f->slope.error && f->slope.error < .4);
+        else
+            assert_true(!(fabs(f->slope.value - begin) > 3 * f->slope.error));
+        if (bend > 2)
+            assert_true(isnan(f->slope.value) && isnan(f->slope.error) && isnan(f->stick.value)
+                        && f->why_slips != NULL);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
 /* A force less an offset that is larger than it: its drops are rises, and its zero is lost. */
 static void
 an_upside_down_pull_has_events_but_no_friction(void **state)
@@ -869,6 +902,7 @@ main(void)
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
         cmocka_unit_test(errors_cover_in_pink_noise),
         cmocka_unit_test(medians_behind_a_slow_sensor_cover),
+        cmocka_unit_test(a_bent_recovery_leaves_its_slope_open),
         cmocka_unit_test(an_upside_down_pull_has_events_but_no_friction),
         cmocka_unit_test(slips_of_a_clipped_pull_are_not_known),
         cmocka_unit_test(a_pull_without_its_mean_does_not_reverse),

@@ -29,6 +29,7 @@
 #define AWAY 4                  /* samples in a row that are farther away end the line */
 #define DEVIATION_SD 1.17       /* relative error of a median deviation, times the root of the number of
                                    values */
+#define MOST_BENT (1 / 3.)      /* see shape: a rise that is bent more, as a recovery is, is no line */
 #define SHORT 0.2               /* part of the time that falls may take, so that the rest may be stick */
 
 typedef struct line {
@@ -231,17 +232,25 @@ find_stick(const double *x, const fall *f, const fall *before, ss_value *length)
     return stick;
 }
 
+/* How the rises differ from lines.  octave is the variance of noise in the octave of a stick's length: by how
+ * much the residual of lines through whole sticks is larger than that of lines through their halves.
+ * bend is the difference between the slopes of the halves, relative to the slope, where it is more than
+ * two standard errors, else 0.  By so much do the slopes at the ends differ from their mean. */
+typedef struct shape {
+    double octave, bend;
+} shape;
+
 /* Read the stick of a rise.  Noise of variance v in the octave of its m samples has a slope of variance
  * 12 v / m^2, about. */
 static void
-read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const fall *before, double octave)
+read_stick(ss_loading *l, const search *s, const double *x, const fall *f, const fall *before, shape rises)
 {
     ss_value length;
     ss_window stick = find_stick(x, f, before, &length);
     line found = fit(x, NULL, stick);
-    if (!(found.slope > 0))
+    if (!(found.slope > 0) || rises.bend > MOST_BENT)
         return;
-    double m = (double)ss_window_length(stick), tilt = sqrt(12 * octave) / (m * found.slope);
+    double m = (double)ss_window_length(stick), tilt = hypot(sqrt(12 * rises.octave) / (m * found.slope), rises.bend);
     l->slope = times((ss_value){ found.slope, hypot(found.error, tilt * found.slope) },
                      s->rate * s->largest);
     l->stick = times(length, 1 / s->rate);
@@ -292,7 +301,8 @@ median_over(const ss_features *out, size_t offset, double common, ss_value *v, d
     for (size_t i = 0; i < out->n; i++)
         memcpy(&v[i], (const char *)&out->loading[i] + offset, sizeof *v);
     ss_median m = ss_median_of(v, out->n, scratch);
-    m.error = fmax(m.error, sqrt(common) * median_error(&known, v, out->n, scratch));
+    if (common > 0 && isfinite(m.error))
+        m.error = fmax(m.error, sqrt(common) * median_error(&known, v, out->n, scratch));
     return m;
 }
 
@@ -430,7 +440,7 @@ find_falls(fall *f, const search *s, const double *x, const ss_drop *drop, size_
 
 static ss_loading
 read_loading(const search *s, const double *x, const ss_drop *drop, const fall *f, int is_first,
-             double octave)
+             shape rises)
 {
     const fall *before = is_first ? NULL : f - 1;
     ss_loading l = { drop->t, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
@@ -441,19 +451,17 @@ read_loading(const search *s, const double *x, const ss_drop *drop, const fall *
                                        0.5 * (drop->t - drop[-1].t)))
         return l;
     if (f->line.slope > 0)
-        read_stick(&l, s, x, f, before, octave);
+        read_stick(&l, s, x, f, before, rises);
     if (before != NULL && before->is_slip && f->is_slip)
         l.recurrence = times(difference(f->slip.onset, before->slip.onset), 1 / s->rate);
     return l;
 }
 
-/* The variance of noise in the octave of a stick's length: by how much the residual of lines through whole
- * sticks is larger than that of lines through their halves. */
-static double
-octave_of(const double *x, const fall *f, size_t n)
+static shape
+shape_of(const double *x, const fall *f, size_t n)
 {
     enum { FEWEST = 16 };
-    double whole = 0, halves = 0, samples = 0, sticks = 0;
+    double whole = 0, halves = 0, samples = 0, sticks = 0, bend = 0, squares = 0;
     for (size_t i = 0; i < n; i++) {
         ss_value length;
         if (!(f[i].line.slope > 0))
@@ -462,14 +470,22 @@ octave_of(const double *x, const fall *f, size_t n)
         size_t m = ss_window_length(stick), middle = stick.first + m / 2;
         if (m < FEWEST)
             continue;
-        ss_window half[2] = { { stick.first, middle }, { middle, stick.end } };
-        whole += pow(through(x, NULL, stick).rms, 2) * (double)(m - 2);
-        for (int k = 0; k < 2; k++)
-            halves += pow(through(x, NULL, half[k]).rms, 2) * ((double)ss_window_length(half[k]) - 2);
+        line all = through(x, NULL, stick), first = through(x, NULL, (ss_window){ stick.first, middle });
+        line last = through(x, NULL, (ss_window){ middle, stick.end });
+        double bent = (last.slope - first.slope) / all.slope;
+        whole += pow(all.rms, 2) * (double)(m - 2);
+        halves += pow(first.rms, 2) * ((double)(m / 2) - 2) + pow(last.rms, 2) * ((double)(m - m / 2) - 2);
         samples += (double)m;
+        bend += bent;
+        squares += bent * bent;
         sticks++;
     }
-    return sticks > 0 ? fmax(0, whole / (samples - 2 * sticks) - halves / (samples - 4 * sticks)) : 0;
+    if (sticks == 0)
+        return (shape){ 0, 0 };
+    bend /= sticks;
+    double error = sqrt(fmax(0, squares / sticks - bend * bend) / (sticks - 1));
+    return (shape){ fmax(0, whole / (samples - 2 * sticks) - halves / (samples - 4 * sticks)),
+                    fabs(bend) > 2 * error ? fabs(bend) : 0 };
 }
 
 ss_status
@@ -485,16 +501,16 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
         st = ss_drops_without_glitches(y, x, s->n, drop, n);
     if (st == SS_OK)
         st = find_falls(f, s, y, drop, n, v, scratch);
-    double octave = st == SS_OK ? octave_of(y, f, n) : 0;
+    shape rises = st == SS_OK ? shape_of(y, f, n) : (shape){ 0, 0 };
     double more = st == SS_OK ? common_misfit(f, n) : 0;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         if (f[i].is_slip) {
             add_common(&f[i].slip, more);
-            add_wander(&f[i].slip, s->n, octave);
+            add_wander(&f[i].slip, s->n, rises.octave);
             out->transition[i].onset = f[i].slip.onset.value / s->rate;
             out->transition[i].end = f[i].slip.end.value / s->rate;
         }
-        out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, octave);
+        out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, rises);
     }
     if (st == SS_OK) {
         summarise(out, drop, more / (1 + more), v, scratch);

@@ -185,6 +185,8 @@ ss_slip_rate_find(search *s)
         confirm_repetition(s);
         if (out->n > 0 && isnan(out->drop.value))
             out->why_slips = "most falls of the force are no slips of an evenly pulled slider";
+        else if (out->n > 0 && isnan(out->slope.value))
+            out->why_slips = "the force rises along no lines: it has no slope, and its sticks no length";
         else if (s->has_offset)
             out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
         return;
