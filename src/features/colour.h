@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* The factor of the variance of a mean of n residuals y[i] - slope x[i] (x NULL: slope i) about
- * their mean over that of white ones of the same size; 1 ... n. */
+/* The variance of the mean of n residuals y[i] - slope x[i] (x NULL: slope i) over that of white residuals
+ * of the same size: 1 ... n. */
 double ss_colour(const double *y, const double *x, size_t n, double slope);
 
 #endif

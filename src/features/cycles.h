@@ -8,23 +8,23 @@
 typedef struct ss_cycles {
     ss_value period;            /* in samples; NaN: the signal does not repeat itself */
     ss_value frequency;         /* per sample */
-    size_t n;                   /* cycles that hold energy */
+    size_t n;                   /* cycles with energy */
     double likeness;            /* median correlation of a cycle with the next */
     double lasting;             /* correlation of the record with itself 8 cycles later, or a quarter of it */
     double symmetry;            /* the same with the signal half a period later: -1 where the second
                                    half of a cycle mirrors the first */
     double overtones;           /* share of a cycle's power beyond its fundamental */
     int modulated;              /* 1: the cycles swell and fade in turn */
-    const char *why;            /* there is no period; NULL where there is one */
+    const char *why;            /* why there is no period; NULL: there is one */
 } ss_cycles;
 
-/* The median cycle explains CYCLES_LIKE squared of the variance of the next where nothing else says
- * that it repeats; CYCLES_ALIKE squared where each cycle is known to be an event. */
+/* The median cycle explains CYCLES_LIKE squared of the variance of the next if nothing else says that the
+ * signal repeats; CYCLES_ALIKE squared if each cycle is known to be an event. */
 #define CYCLES_LIKE 0.95
-#define CYCLES_LAST 0.5         /* narrow noise, and what rings behind slips at random times, lasts less */
+#define CYCLES_LAST 0.5         /* narrow noise, and ringing behind slips at random times, lasts less */
 #define CYCLES_ALIKE 0.70
 
-/* The cycles of the n samples of x, of a likeness of at least CYCLES_ALIKE. */
+/* Find the cycles of the n samples of x, whose likeness must be at least CYCLES_ALIKE. */
 ss_status ss_cycles_find(const double *x, size_t n, ss_cycles *out);
 
 #endif

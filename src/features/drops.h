@@ -5,11 +5,12 @@
 #include <stddef.h>
 #include <stickslip/spikes.h>
 
-#define DROPS_RELOAD 0.25       /* rise, re the height asked for, that ends a fall of ss_drops_find */
+#define DROPS_RELOAD 0.25       /* part of the height asked for: a rise by it ends a fall of ss_drops_find */
 
 typedef struct ss_typical {
-    double height;              /* that separates falls from noise; 0: they have no typical height */
-    size_t more, less;          /* falls above half of it, or above the noise, and above twice it */
+    double height;              /* it separates falls from noise; 0: falls have no typical height */
+    size_t more, less;          /* more: falls above half of it, or above the noise; less: falls above twice
+                                   it */
 } ss_typical;
 
 /* Find the height of the falls of x, which has n samples. */

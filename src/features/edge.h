@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 
-/* *is_edge: the spectrum of n samples x ends at f [1/sample] and has no peak there.  0 if it is too short to
- * be seen. */
+/* *is_edge becomes 1 if the spectrum of n samples x ends at f [1/sample] and has no peak there; 0 also if x
+ * is too short to show this. */
 ss_status ss_edge_find(const double *x, size_t n, double f, int *is_edge);
 
 #endif

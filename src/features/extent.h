@@ -5,9 +5,9 @@
 #include <stddef.h>
 #include "features/window.h"
 
-/* The first and the last sample of the event about sample at that are off a line through the quiet
- * samples before and behind it, within the samples of win; both are at where too few are quiet.
- * period: of what shows it best, in samples. */
+/* Find the first and the last sample of the event about sample `at`: those farthest from it, within win,
+ * that are off a line through the quiet samples before and behind the event.  Both become `at` if too few
+ * samples are quiet.  period: of the oscillation that shows the event best, in samples. */
 ss_window ss_extent(const double *x, ss_window win, size_t at, double period);
 
 #endif

@@ -4,9 +4,9 @@
 
 #include "features/search.h"
 
-/* Jumps and kinks of the mean cycle, which has less noise than the record; *period [s], in which they
- * repeat, is what one cycle of them takes, and they are complete in [*period, 2 *period).  *out is NULL
- * where too few cycles are there to make it worth it. */
+/* Find the jumps and kinks of the mean cycle, which has less noise than the record.  They repeat after
+ * *period [s], that of one cycle, and are complete in [*period, 2 *period).  *out becomes NULL if there are
+ * too few cycles for a mean. */
 ss_status ss_fold_spikes(const search *s, ss_spikes **out, double *period);
 
 #endif

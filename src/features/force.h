@@ -4,9 +4,9 @@
 
 #include "features/search.h"
 
-/* The transitions of the signal in s, if it is a force whose slips are its falls or its reversals,
- * into s->out.  *decided: 1 where nothing else needs to be looked for: they are found, or s->out->why
- * says that they cannot be. */
+/* Find the transitions of the signal in s, into s->out, if it is a force whose slips are its falls or its
+ * reversals.  *decided becomes 1 if no other search is needed: they are found, or s->out->why says why they
+ * cannot be. */
 ss_status ss_force_find(search *s, int *decided);
 
 #endif

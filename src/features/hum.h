@@ -7,13 +7,12 @@
 
 typedef enum ss_hum {
     SS_HUM_NONE, SS_HUM_SUBTRACTED,
-    SS_HUM_HIDDEN               /* one is there, but too near a harmonic of what repeats */
+    SS_HUM_HIDDEN               /* there is one, but too near a harmonic of the cycle */
 } ss_hum;
 
-/* Subtract from the n samples of x the steady lines between half and one and a half times the
- * frequency f [per sample] which do not repeat with the period [samples].  None are looked for in
- * under six periods, or where six hold more than 16384 oscillations, and none is subtracted where
- * one is hidden. */
+/* Subtract from the n samples of x the steady lines between half and one and a half times the frequency f
+ * [per sample] that do not repeat with the period [samples].  None is sought in fewer than six periods, or
+ * if six periods contain more than 16384 oscillations.  None is subtracted if one is hidden. */
 ss_status ss_hum_subtract(double *x, size_t n, double f, double period, ss_hum *found);
 
 #endif

@@ -11,13 +11,13 @@ typedef enum number_group {
 } number_group;
 
 typedef struct feature_number {
-    const char *key, *unit;     /* unit NULL: that of the column is in it */
+    const char *key, *unit;     /* unit NULL: it contains the unit of the column */
     size_t at;                  /* in ss_features: an ss_value, or an ss_median, which begins like one */
     int is_median;              /* over the slips of a loading */
     number_group of;
 } feature_number;
 
-/* The first is the number of transitions, a count, and stands nowhere. */
+/* The first is the number of transitions, a count: `at` means nothing. */
 extern const feature_number ss_feature_numbers[SS_SUMMARY_NUMBERS];
 
 #endif

@@ -4,8 +4,8 @@
 
 #include "features/search.h"
 
-/* The medians over the reversals in s->out of x, which is the signal in s less a constant: friction, and
- * where there is a column of displacement, stiffness. */
+/* Find the medians over the reversals in s->out of x, which is the signal in s less a constant: friction,
+ * and stiffness if there is a column of displacement. */
 ss_status ss_reversals_measure(search *s, const double *x);
 
 #endif

@@ -25,7 +25,7 @@ ss_status ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, 
                                double w, const ss_window *gap, size_t n_gaps, ss_window *window,
                                ss_value value[2], ss_value *each);
 
-/* As before a fit: windows without samples, values that are not known. */
+/* Make the windows empty, and the values unknown, as before a fit. */
 void ss_ringdown_clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
                        ss_value *each);
 

@@ -8,8 +8,8 @@
 
 #define ROW_CENTER 6.0
 #define ROW_VOICES 4
-#define ROW_HIGHEST 0.6         /* of Nyquist: nearer to it converters have their filters */
-/* Scales by which a wavelet reaches: it is 1.5e-8 of its height there. */
+#define ROW_HIGHEST 0.6         /* part of the Nyquist frequency: converters have their filters above it */
+/* The reach of a wavelet in scales: it is 1.5e-8 of its height there. */
 #define ROW_REACH 6.0
 
 typedef struct peak {
@@ -18,7 +18,7 @@ typedef struct peak {
 
 typedef struct row {
     double a, f;
-    double rms, top;            /* of the noise; the largest peak's level */
+    double rms, top;            /* rms of the noise; level of the largest peak */
     size_t n;
     peak *peak;                 /* all maxima outside the cone of influence and out of the
                                    reach of gaps, in time order */
@@ -32,7 +32,7 @@ typedef struct row_source {
     double rate;
     int constant;               /* 1: all samples are the same */
     double rounding;            /* rms of |W| that the rounding of the samples makes */
-    const ss_span *gap;         /* in time order [s]: what stands there is not of the signal */
+    const ss_span *gap;         /* in time order [s]: samples in them are not of the signal */
     size_t n_gaps;
     /* computes the rows of scales from 2^octave s up to 2^end s, from x with margin samples before it;
      * levels is NULL before the first row */
@@ -41,20 +41,21 @@ typedef struct row_source {
     size_t margin;
     double *level;              /* room for so many of a row */
     size_t room;
-    int keeps_heads;            /* 1: the first rows are known when their peaks are gone */
-    row head[ROW_HEADS];        /* these; the noise is that of everywhere, the peaks are not there */
+    int keeps_heads;            /* 1: the first rows are kept when their peaks are freed */
+    row head[ROW_HEADS];        /* these rows, with the noise of the whole row and without their peaks */
     size_t n_heads;
 } row_source;
 
-/* Checks the samples and the rate.  precision: of a sample, re the largest change. */
+/* Prepare a source, and check the samples and the rate.  precision: of a sample, relative to the largest
+ * change. */
 ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate,
                              double precision, const ss_span *gap, size_t n_gaps, ss_error *err);
-/* Its memory; it can be used again, and its heads stay. */
+/* Free its memory.  It can be used again, and its heads stay. */
 void ss_row_source_free(row_source *source);
 
-/* The row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
- * for from short to long scales, as some octaves share spectra.  The noise is read where no spike
- * of loud is near; NULL: everywhere.  r->peak is to be freed with free(). */
+/* Compute the row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
+ * for from short to long scales, as some octaves share spectra.  The noise is found where no spike of loud
+ * is near; NULL: everywhere.  r->peak is to be freed with free(). */
 ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
 

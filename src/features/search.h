@@ -11,9 +11,9 @@
 #include "features/window.h"
 
 #define CENTER 6.0              /* of the wavelet */
-#define STRONG 20.0             /* [dB] below the strongest: spikes that begin or end a transition */
-enum { FEW = 3 };               /* maxima of a kind: fewer do not recur */
-enum { CLIPPED = 8 };           /* samples at the largest or least value, one behind the other */
+#define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition */
+enum { FEW = 3 };               /* fewest maxima of a kind that recur */
+enum { CLIPPED = 8 };           /* samples in a row at the largest or least value: the signal is clipped */
 
 static const ss_value unknown = { NAN, NAN };
 static const ss_median no_median = { NAN, NAN, NAN };
@@ -31,13 +31,14 @@ typedef struct search {
     map_source map;             /* |W| */
     double top;                 /* its largest outside the cone of influence */
     struct row_source *rows;    /* of x (scale_rows.h) */
-    ss_maximum *found;          /* maxima, slight ones too */
+    ss_maximum *found;          /* all maxima, also slight ones */
     size_t n_found;
     column_quantity quantity;
     ss_cycles cycles;
-    int is_cleaned;             /* of a steady hum: x is no more the column */
-    int has_offset;             /* a force whose sign is not that of friction, but of its zero */
-    int spiked;                 /* transitions end with their last spike, anywhere before the next */
+    int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
+    int has_offset;             /* a force whose sign is that of its zero, not that of friction */
+    int spiked;                 /* transitions end with their last spike, which may be anywhere before the
+                                   next transition */
     ss_features *out;
 } search;
 
@@ -58,25 +59,25 @@ cycle_rate(const search *s)
  * there why they are not known. */
 void ss_slip_rate_find(search *s);
 
-/* Free the loadings, if there are any; all that they give is unknown. */
+/* Free the loadings, if there are any, and make all their numbers unknown. */
 void ss_loadings_forget(ss_features *out);
 
-/* Room for n transitions of which nothing is known, in place of those before. */
+/* Make room for n transitions of which nothing is known, in place of those before. */
 ss_status ss_transitions_new(ss_features *out, size_t n);
 
-/* The transitions, in time order, and, where they ring, the frequency and damping that they have in
- * common, into s->out, which has spikes and repetition_frequency.  None found: s->out->n is 0. */
+/* Find the transitions, in time order, and the frequency and damping of their ringing, if they ring, into
+ * s->out, which has spikes and repetition_frequency.  If there are none, s->out->n is 0. */
 ss_status ss_transitions_find(search *s);
 
-/* Transitions at the swells of the oscillation that recurs most often among the maxima of at least this
- * prominence [dB], refined and fitted, into s->out.  None: s->out->n is 0. */
+/* Find transitions at the swells of the oscillation that recurs most often among the maxima of at least this
+ * prominence [dB], refined and fitted, into s->out.  If there are none, s->out->n is 0. */
 ss_status ss_ringing_find(search *s, double prominence);
 
-/* The ringing behind the transitions in s->out, if there is any. */
+/* Find the ringing behind the transitions in s->out, if there is any. */
 ss_status ss_ringing_behind(search *s);
 
-/* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and
- * judge it; singly: each by itself, as they need not be alike. */
+/* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and judge
+ * the fit.  singly: fit each by itself, as they need not be alike. */
 ss_status ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly);
 
 #endif
