@@ -8,7 +8,4 @@
  * their medians. */
 ss_status ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n);
 
-/* The median of those of n values that are numbers; scratch holds n. */
-ss_median ss_median_of(const ss_value *v, size_t n, double *scratch);
-
 #endif

@@ -19,7 +19,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "features/loading.h"
+#include "features/medians.h"
 #include "scene/model.h"
 #include "study/rank/fall_run.h"
 
