@@ -45,7 +45,7 @@ typedef struct map {
     basins *out;
     double outside, all;        /* the largest levels so far: outside the cone of influence, of all */
     line *line;                 /* of row first and on */
-    size_t room;                /* points */
+    size_t room, longest;       /* points, and those of a row */
     double *level;              /* of a strip's points; 0: dry */
     size_t *turn;               /* of a row, see find_turns */
     size_t n_hills, hill_room;
@@ -96,14 +96,18 @@ next_strip(map *m, double t)
 static ss_status
 make_room(map *m, size_t n)
 {
-    if (n <= m->room)
+    size_t longest = 0, rows = m->out->last - m->out->first + 1;
+    for (const line *l = m->line; l < m->line + rows; l++)
+        longest = l->end - l->lo > longest ? l->end - l->lo : longest;
+    if (n <= m->room && longest <= m->longest)
         return SS_OK;
     free(m->level);
     free(m->turn);
-    m->level = malloc(n * sizeof *m->level);
-    m->turn = malloc((n + 1) * sizeof *m->turn);
-    m->room = m->level != NULL && m->turn != NULL ? n : 0;
-    return m->room > 0 ? SS_OK : SS_ENOMEM;
+    m->room = n + n / 64 + rows * HALO;         /* strips differ, and the first has no halo */
+    m->longest = longest + longest / 64 + HALO;
+    m->level = malloc(m->room * sizeof *m->level);
+    m->turn = malloc((m->longest + 1) * sizeof *m->turn);
+    return m->level != NULL && m->turn != NULL ? SS_OK : SS_ENOMEM;
 }
 
 VERSIONS static double
