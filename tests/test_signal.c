@@ -202,6 +202,23 @@ reads_what_it_writes(void **state)
 }
 
 static void
+a_column_t_in_seconds_is_not_the_time(void **state)
+{
+    const size_t column = 1;
+    ss_signal *s = read_text("# stickslip signal 1\n# rate: 10\n# columns: a t/s\n1\t5\n2\t6\n", NULL), *t, *back;
+    (void)state;
+    assert_int_equal(s->head->has_time, 0);
+    assert_int_equal(ss_signal_select(&t, s, &column, 1, 0, 2, NULL), SS_OK);
+    back = read_again(t, SS_TSV);
+    assert_int_equal(back->head->n_columns, 1);
+    assert_string_equal(back->head->column[0].name, "t");
+    assert_true(back->values[0] == 5 && back->values[1] == 6);
+    ss_signal_free(back);
+    ss_signal_free(t);
+    ss_signal_free(s);
+}
+
+static void
 finds_the_row_of_a_time(void **state)
 {
     ss_header *head = ss_header_new(1000, 2);
@@ -327,6 +344,7 @@ main(void)
         cmocka_unit_test(replaces_a_note_of_the_same_key),
         cmocka_unit_test(has_at_most_4096_notes),
         cmocka_unit_test(reads_what_it_writes),
+        cmocka_unit_test(a_column_t_in_seconds_is_not_the_time),
         cmocka_unit_test(finds_the_row_of_a_time),
         cmocka_unit_test(selects_columns_and_rows),
         cmocka_unit_test(resamples_a_signal_at_its_own_samples),

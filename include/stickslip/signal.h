@@ -32,7 +32,8 @@ typedef struct ss_header {
 ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
 ss_header *ss_header_copy(const ss_header *head);
 /* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
- * "_2", "_3", ...; unit may be NULL or "".  SS_EINVAL: there is no name. */
+ * "_2", "_3", ...; unit may be NULL or "".  A first column t in s sets has_time, as readers would take it for the time
+ * otherwise.  SS_EINVAL: there is no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
 /* Append a note; it replaces a note with the same key.  Control characters but tabs become blanks, in
  * the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or

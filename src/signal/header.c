@@ -47,6 +47,8 @@ append_column(ss_header *head, char *name, char *unit)
         free(unit);
         return SS_ENOMEM;
     }
+    if (head->n_columns == 0 && strcmp(name, "t") == 0 && strcmp(unit, "s") == 0)
+        head->has_time = 1;             /* or readers would take this column for the time */
     head->column[head->n_columns++] = (ss_column){ name, unit };
     return SS_OK;
 }
