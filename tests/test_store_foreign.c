@@ -186,7 +186,7 @@ what_cannot_be_read_is_refused_in_clear_words(void **state)
         { "/huge", "has more values than can be read at once" },
         { "/nothing", "no such dataset" },
         { "/line/", "no such dataset" },
-        { "/", "no such dataset" },
+        { "/", "a group, not a dataset" },
     };
     (void)state;
     write_foreign(0);

@@ -185,8 +185,12 @@ ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss
     s->dataset = malloc(sizeof *s->dataset);
     if (s->dataset == NULL)
         return SS_ENOMEM;
-    if (id < 0)
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, "no such dataset");
+    if (id < 0) {
+        hid_t group = ss_h5_open_group(file->id, dataset);
+        if (group >= 0)
+            H5Gclose(group);
+        return ss_h5_fail(file, SS_EDATA, 0, dataset, group >= 0 ? "a group, not a dataset" : "no such dataset");
+    }
     const char *wrong;
     ss_status status = check_type(file, id, &wrong);
     if (status == SS_OK)
