@@ -780,6 +780,33 @@ medians_behind_a_slow_sensor_cover(void **state)
     }
 }
 
+/* Glitches that lie so that several cycles resemble several others are no period of the pull. */
+static void
+glitches_make_no_longer_period(void **state)
+{
+    enum { DRAWS = 60 };
+    unsigned long long seed = 7001;
+    size_t known = 0, single = 0;
+    (void)state;
+    for (unsigned long i = 0; i < DRAWS; i++) {
+        ss_scene s = pull_draw(draw, &seed);
+        const rig r = { s.mass, s.stiffness, s.base_velocity, s.static_friction - s.friction, 10 };
+        const double period = length_of_slip(&r) + length_of_stick(&r);
+        ss_features *f = NULL;
+        s.duration *= between(&seed, 1, 4);
+        record t = record_of(&s, 40, i + 1, 1);
+        for (int k = (int)between(&seed, 1, 20); k > 0; k--)
+            t.signal->values[(size_t)(draw(&seed) * (double)(t.n - 1))] += between(&seed, .3, 30) * r.drop;
+        assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
+        known += isfinite(f->repetition_frequency.value);
+        single += f->repetition_frequency.value * period > .9;
+        ss_features_free(f);
+        ss_signal_free(t.signal);
+    }
+    print_message("%zu of %d pulls with glitches repeat, %zu with each slip\n", known, DRAWS, single);
+    assert_true(known == single && known >= DRAWS / 3);
+}
+
 /* Each number some per cent off. */
 static ss_scene
 neighbour(const ss_scene *scene, unsigned long long *seed)
@@ -902,6 +929,7 @@ main(void)
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
         cmocka_unit_test(errors_cover_in_pink_noise),
         cmocka_unit_test(medians_behind_a_slow_sensor_cover),
+        cmocka_unit_test(glitches_make_no_longer_period),
         cmocka_unit_test(a_bent_recovery_leaves_its_slope_open),
         cmocka_unit_test(an_upside_down_pull_has_events_but_no_friction),
         cmocka_unit_test(slips_of_a_clipped_pull_are_not_known),

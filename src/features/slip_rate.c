@@ -11,6 +11,7 @@
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
+#define ALIKE 0.05              /* relative scatter of falls that differ by chance only */
 #define CONFIRMS 0.15           /* relative difference of a period from the time between falls */
 
 /* The number of transitions in a second, by the mean of the times between them.  Times with a gap are left
@@ -155,6 +156,19 @@ confirm_repetition(search *s)
     }
 }
 
+/* Falls that are alike and evenly spaced repeat with each.  A period of several of them is that of what
+ * disturbs them, such as glitches. */
+static void
+doubt_repetition(search *s)
+{
+    ss_features *out = s->out;
+    if (slips_in_cycle(s) < 2 || !recur(s, 1, 1 / out->slip_rate.value)
+        || !(out->drop.scatter <= ALIKE * out->drop.value))
+        return;
+    out->repetition_frequency = unknown;
+    out->why_repetition = "each fall is like the next one, but the signal repeats only after several";
+}
+
 /* Is the signal no force of one sign, but one with an offset?  It is if it repeats with several falls in a
  * cycle, or with none, unless someone says that it is such a force. */
 static int
@@ -183,6 +197,7 @@ ss_slip_rate_find(search *s)
             return;
         }
         confirm_repetition(s);
+        doubt_repetition(s);
         if (out->n > 0 && isnan(out->drop.value))
             out->why_slips = "most falls of the force are no slips of an evenly pulled slider";
         else if (out->n > 0 && isnan(out->slope.value))
