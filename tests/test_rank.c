@@ -450,7 +450,7 @@ ask(held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_samples)
     ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5);
     assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
     assert_int_equal(ss_match_find(&m, &c, &start, period, &r, NULL, 0, &silent), SS_OK);
-    assert_int_equal(ss_held_ask(of, &c, &m, &r), SS_OK);
+    assert_int_equal(ss_held_gains(of, &c, &m, &r), SS_OK);
     assert_true(m.compared > 0);
     *part = m.left / m.power;
     ss_signal_free(signal);

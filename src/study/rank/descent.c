@@ -259,7 +259,7 @@ descend(descent *w, descent_point *at)
 /* Descend with narrower and narrower weights.  With the last ones the slopes by the start are no longer
  * coarse, so they are found again. */
 void
-ss_descent_go(descent *w, descent_point *at)
+ss_descent_minimise(descent *w, descent_point *at)
 {
     static const double wide[] = { SAMPLES_REACH - 1, 4, 1 };
     for (size_t i = 0; i < sizeof wide / sizeof *wide; i++) {

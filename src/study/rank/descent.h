@@ -59,6 +59,6 @@ int ss_descent_slopes(descent *w, const descent_point *at);
 /* The normal equations by these slopes: of moved, size and offset. */
 void ss_descent_normal(const descent *w, const descent_point *at, normal *e);
 /* Move *at, the present point, to the least residual near it. */
-void ss_descent_go(descent *w, descent_point *at);
+void ss_descent_minimise(descent *w, descent_point *at);
 
 #endif

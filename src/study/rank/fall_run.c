@@ -33,7 +33,7 @@ wait_for_fall(const ss_event *e, void *user)
 }
 
 static ss_sim_opts
-how_to_run(const ss_scene *s)
+options_of(const ss_scene *s)
 {
     return (ss_sim_opts){ .method = ss_model_is_linear(s->model) ? "exact" : NULL, .tol = 1e-10 };
 }
@@ -55,7 +55,7 @@ ss_fall_find(const ss_scene *scene, double *steps, ss_status *status)
     waiting w = { 0, SHORT * fmin(2 * half / loading, 2 * M_PI / own_frequency(scene)), NAN, 0,
                   ss_model_of(scene)->has_contact ? SETTLED_CONTACT : SETTLED };
     ss_sim_stats stats = { .steps = 0 };
-    ss_sim_opts opts = how_to_run(&s);
+    ss_sim_opts opts = options_of(&s);
     opts.events = wait_for_fall;
     opts.user = &w;
     opts.max_steps = LONGEST;
@@ -89,7 +89,7 @@ ss_fall_sample(double *y, const ss_scene *scene, double time, double onset, cons
     ss_scene s = *scene;
     sampled t = { y, pull_of(scene) > 0 ? 1 : -1, 0, w->n };
     ss_sim_stats stats = { .steps = 0 };
-    ss_sim_opts opts = how_to_run(&s);
+    ss_sim_opts opts = options_of(&s);
     opts.samples = append_samples;
     opts.user = &t;
     s.settle = time - (onset - (double)w->first) / rate;

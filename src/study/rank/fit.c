@@ -251,7 +251,7 @@ judge_held(ss_fit *fit, const fitting *w)
 {
     held of[HELD_TERMS];
     held_term most = 0;
-    ss_status st = ss_held_ask(of, &w->c, &w->best, &w->record);
+    ss_status st = ss_held_gains(of, &w->c, &w->best, &w->record);
     if (st != SS_OK)
         return st;
     for (held_term term = 1; term < HELD_TERMS; term++)

@@ -248,7 +248,7 @@ contradicted_key(const candidate *c, const match *a, const match *b, double *err
 
 /* Fit the scene that is named to another column; if that contradicts the first, r->why says so. */
 static ss_status
-ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
+fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
 {
     const size_t column = (size_t)w->opts->also[quantity];
     const ss_stretch silent = { { NULL, NULL }, 0, 1 };
@@ -279,22 +279,23 @@ ask_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     return SS_OK;
 }
 
-/* Ask the other columns, too.  The scene must explain each of them, with the same parameters except the
+/* Fit the scene to the other columns, too.  It must explain each of them, with the same parameters except the
  * size, which is in the units of the column. */
 static ss_status
-ask_other_columns(ss_ranking *r, const comparison *w, const found *f)
+fit_other_columns(ss_ranking *r, const comparison *w, const found *f)
 {
     ss_status st = SS_OK;
     for (int q = 0; st == SS_OK && r->why[0] == '\0' && q < SS_QUANTITIES; q++)
         if (w->opts->also[q] >= 0 && (size_t)w->opts->also[q] != w->column)
-            st = ask_column(r, w, &f[r->row[0].scene], q);
+            st = fit_column(r, w, &f[r->row[0].scene], q);
     if (r->why[0] != '\0')
         r->verdict = SS_UNDECIDED;
     return st;
 }
 
+/* Find the noise, the distances, the order of the rows and the verdict. */
 static ss_status
-settle(ss_ranking *r, comparison *w, const found *f)
+conclude(ss_ranking *r, comparison *w, const found *f)
 {
     double least = INFINITY;
     for (size_t i = 0; i < r->n; i++) {
@@ -310,7 +311,7 @@ settle(ss_ranking *r, comparison *w, const found *f)
     for (size_t i = 0; i < SS_CRITERIA; i++)
         r->value[i] = w->observation.value[i];
     judge(r, w, f);
-    return r->verdict == SS_NAMED ? ask_other_columns(r, w, f) : SS_OK;
+    return r->verdict == SS_NAMED ? fit_other_columns(r, w, f) : SS_OK;
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
@@ -339,7 +340,7 @@ rank_scenes(ss_ranking *r, found *f, const ss_scene *scene, comparison *w, const
         st = rank_scene(&r->row[i], &f[i], w, &scene[i], &part, err);
     }
     if (st == SS_OK)
-        st = settle(r, w, f);
+        st = conclude(r, w, f);
     return st;
 }
 

@@ -84,7 +84,7 @@ gain_by_lag(descent *w, const descent_point *at)
 }
 
 ss_status
-ss_held_ask(held of[HELD_TERMS], const candidate *c, const match *m, const rank_record *record)
+ss_held_gains(held of[HELD_TERMS], const candidate *c, const match *m, const rank_record *record)
 {
     const ss_stretch silent = { { NULL, NULL }, 0, 1 };
     candidate own = *c;

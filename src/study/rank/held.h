@@ -17,8 +17,8 @@ typedef struct held {
     double nearer;              /* the damping [N s/m] or f_s / f_k that it would find; NaN for the lag */
 } held;
 
-/* Ask for each term by the slopes at the end of a match, in which one key of the candidate at least was held.
- * If the motion of the match cannot be run, each gain is 0.  SS_ENOMEM. */
-ss_status ss_held_ask(held of[HELD_TERMS], const candidate *c, const match *m, const rank_record *record);
+/* Find the gain of each term by the slopes at the end of a match, in which at least one key of the candidate was
+ * held.  If the motion of the match cannot be run, each gain is 0.  SS_ENOMEM. */
+ss_status ss_held_gains(held of[HELD_TERMS], const candidate *c, const match *m, const rank_record *record);
 
 #endif

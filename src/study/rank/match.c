@@ -186,9 +186,9 @@ are_same(const match *m, const double a[], const double b[])
     return 1;
 }
 
-/* Become the one of others that has the same settled motion; 0 if there is none. */
+/* Copy the one of others that has the same settled motion; 0: there is none. */
 static int
-become_same(match *m, const match *others, size_t n)
+copy_same(match *m, const match *others, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (are_same(m, m->settled, others[i].settled)) {
@@ -210,19 +210,19 @@ solve(descent *w, descent_point *at, double misfit, const match *others, size_t 
     if (!ss_descent_begin(w, at))
         return;
     if (misfit < UNLIKELY * m->power)
-        ss_descent_go(w, at);
+        ss_descent_minimise(w, at);
     else
         ss_descent_compare(w, &w->here, at);
     report(w, at, m);
     memcpy(m->settled, m->p, sizeof m->settled);
-    if (become_same(m, others, n_others))
+    if (copy_same(m, others, n_others))
         return;
     w->n_moved += 2;
     for (size_t i = 0; i < 2 && m->compared > 0 && m->left <= UNLIKELY * m->power; i++) {
         double before = m->left;
         if (!free_start(w, cycles[i], at, m->power))
             return;
-        ss_descent_go(w, at);
+        ss_descent_minimise(w, at);
         if (at->left < m->left)
             report(w, at, m);
         if (m->left == before)
@@ -274,7 +274,7 @@ ss_match_other(match *m, candidate *c, const match *from, const rank_record *rec
     m->scene = from->scene;
     memcpy(m->p, from->p, sizeof m->p);
     if (ss_descent_resume(&w, &at, from)) {
-        ss_descent_go(&w, &at);
+        ss_descent_minimise(&w, &at);
         report(&w, &at, m);
     }
     free(room);

@@ -183,7 +183,7 @@ refuse(ss_ranking *r, const trial *t, double noise)
 
 /* Does a scene exist of which it is not known whether it explains the falls?  Then no other may be named. */
 static int
-leaves_open(ss_ranking *r, const trial *t)
+has_unknown(ss_ranking *r, const trial *t)
 {
     for (size_t i = 0; i < r->n; i++) {
         const char *model = ss_model_name(r->row[i].adjusted.model);
@@ -236,7 +236,7 @@ has_rival(ss_ranking *r, const trial *t, size_t least, double noise)
 static size_t
 name_scene(ss_ranking *r, const trial *t, double noise)
 {
-    if (leaves_open(r, t))
+    if (has_unknown(r, t))
         return r->n;
     const size_t least = find_least(t, r->n);
     if (least == r->n) {
