@@ -2,6 +2,7 @@
 #include "common.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -151,6 +152,20 @@ tool_check_base(ss_status status, const ss_error *err)
     tool_check(status, err);
 }
 
+/* Read the base of a scene that is in this file, "-" or shipped.  Its name is relative to the scene's folder. */
+static void
+read_base(ss_scene *scene, const char *path)
+{
+    static ss_base *base;               /* the scene points at it */
+    ss_error err = { 0 };
+    const char *slash = strrchr(path, '/');
+    char name[PATH_MAX + SS_BASE_FILE];
+    snprintf(name, sizeof name, "%.*s%s", slash != NULL ? (int)(slash - path) + 1 : 0, path, scene->base_file);
+    if (scene->base_file[0] != '\0')
+        tool_reads(name);
+    tool_check_base(ss_scene_load_base(&base, scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
+}
+
 ss_scene
 tool_read_scene_by(const char *path, const tool_texts *settings, const char *options)
 {
@@ -163,8 +178,7 @@ tool_read_scene_by(const char *path, const tool_texts *settings, const char *opt
     if (st == SS_EINVAL)
         tool_usage("%s: %s", options, err.text);
     tool_check(st, &err);
-    static ss_base *base;               /* the scene points at it */
-    tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
+    read_base(&scene, path);
     return scene;
 }
 

@@ -22,6 +22,8 @@ refused ss-sim -b folder/z.tsv:y coulomb
 refused ss-sim -b folder/none.tsv coulomb
 refused ss-sim -s base_file=none.tsv folder/my.scene
 refused ss-sim -b folder/z.tsv -o folder/z.tsv coulomb
+refused ss-sim -o folder/z.tsv folder/my.scene
+refused ss-sweep --vary mass=1:2:2 -o folder/z.tsv folder/my.scene
 printf 't,z (mm)\n0,1\n1,2\n2,3\n3,2\n4,1\n5,0\n' > mm.csv
 refused ss-sim -b mm.csv coulomb
 printf 't,z (m)\n0,1\n1,2\n2,3\n5,2\n6,1\n7,0\n' > gap.csv
