@@ -165,6 +165,7 @@ headers_and_samples_refuse_null(void **state)
     assert_int_equal(ss_gaps_near(NULL, 1, 0, 1), 0);
     assert_null(ss_reader_header(NULL));
     assert_int_equal(ss_reader_waits(NULL), 0);
+    assert_int_equal(ss_reader_piece(NULL), 1);
     assert_refused(ss_writer_flush(NULL), NULL);
     assert_refused(ss_reader_resample(NULL, 1, &e), &e);
     assert_refused(ss_reader_resample(&(ss_reader *){ NULL }, 1, &e), &e);

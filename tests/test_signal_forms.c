@@ -167,6 +167,7 @@ gives_what_a_slow_pipe_has_delivered(void **state)
     assert_int_equal(write(fd[1], first, strlen(first)), strlen(first));
     FILE *in = fdopen(fd[0], "r");
     assert_int_equal(ss_reader_new(&reader, in, "in", NULL, NULL), SS_OK);
+    assert_int_equal(ss_reader_piece(reader), 4096);
     assert_int_equal(ss_reader_rows(reader, row, 16, &n, NULL), SS_OK);
     assert_true(n == 1 && row[0] == 1);
     assert_int_equal(write(fd[1], "\t2\n", 3), 3);

@@ -25,8 +25,6 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { PIECE = 4096 };          /* rows */
-
 static const char *path, *output;
 static tool_texts wanted;               /* names of columns */
 
@@ -58,12 +56,12 @@ copy_rows(tool_kind kind, const ss_read_opts *opts)
     ss_reader *reader = tool_read_rows(path, opts);
     const ss_header *head = ss_reader_header(reader);
     ss_header *chosen;
-    size_t n, got, *column = choose_columns(head, &n), all = head->n_columns;
-    double *rows = tool_room(NULL, PIECE * (all + n), sizeof *rows), *part = rows + PIECE * all;
+    size_t n, got, *column = choose_columns(head, &n), all = head->n_columns, piece = ss_reader_piece(reader);
+    double *rows = tool_room(NULL, piece * (all + n), sizeof *rows), *part = rows + piece * all;
     say_header(head);
     tool_check(ss_header_select(&chosen, head, column, n, 0), NULL);
     tool_signal *out = tool_signal_new(chosen, output, kind);
-    while ((got = tool_rows(reader, rows, PIECE)) > 0) {
+    while ((got = tool_rows(reader, rows, piece)) > 0) {
         for (size_t i = 0; i < got; i++)
             for (size_t j = 0; j < n; j++)
                 part[i * n + j] = rows[i * all + column[j]];

@@ -102,13 +102,12 @@ end_overview(drawing *d)
 static void
 draw_rows(drawing *d, ss_reader *reader, FILE *in)
 {
-    enum { PIECE = 8192 };
     const ss_header *head = ss_reader_header(reader);
-    size_t columns = head->n_columns, column = open_overview(d, head), n;
-    double *rows = tool_room(NULL, columns * PIECE, sizeof *rows), x[PIECE];
+    size_t columns = head->n_columns, column = open_overview(d, head), piece = ss_reader_piece(reader), n;
+    double *rows = tool_room(NULL, (columns + 1) * piece, sizeof *rows), *x = rows + columns * piece;
     struct stat st;
     double size = in != NULL && fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
-    while ((n = tool_rows(reader, rows, PIECE)) > 0) {
+    while ((n = tool_rows(reader, rows, piece)) > 0) {
         for (size_t i = 0; i < n; i++)
             x[i] = rows[i * columns + column];
         push(d, x, n);

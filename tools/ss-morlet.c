@@ -346,13 +346,12 @@ push_rows(flow *f, const double *rows, double *x, size_t n, const ss_header *hea
 static void
 follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
 {
-    enum { PIECE = 8192 };
     const ss_header *head = ss_reader_header(reader);
-    size_t n, all = 0;
-    double *rows = tool_room(NULL, head->n_columns * PIECE, sizeof *rows), x[PIECE];
+    size_t n, all = 0, piece = ss_reader_piece(reader);
+    double *rows = tool_room(NULL, (head->n_columns + 1) * piece, sizeof *rows), *x = rows + head->n_columns * piece;
     ss_error bad = { 0 }, err = { 0 };
     do {
-        ss_status st = ss_reader_rows(reader, rows, PIECE, &n, &bad);
+        ss_status st = ss_reader_rows(reader, rows, piece, &n, &bad);
         all += n;
         if (all == 0)                   /* then nothing is written */
             tool_check(st, &bad);

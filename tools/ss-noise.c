@@ -25,8 +25,6 @@ TOOL_READING_USAGE
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-enum { PIECE = 4096 };
-
 static const char *path, *output;
 static tool_reading reading;
 static tool_texts wanted;               /* names of columns */
@@ -138,7 +136,7 @@ find_levels(ss_reader *reader, const double *chosen, double *rows)
     ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
     memset(variance, 0, columns * sizeof *variance);
     for (int again = 0; again < 2 && !isnan(snr); again++) {
-        while ((n = tool_rows(reader, rows, PIECE)) > 0)
+        while ((n = tool_rows(reader, rows, ss_reader_piece(reader))) > 0)
             for (size_t c = 0; c < columns; c++)
                 (again ? ss_variance_square : ss_variance_mean)(&variance[c], rows + c, n, columns);
         tool_check(ss_reader_rewind(reader, &err), &err);
@@ -163,11 +161,11 @@ change_rows(tool_kind kind, ss_noise *noise)
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     if (head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    double *rows = tool_room(NULL, PIECE * head->n_columns, sizeof *rows);
+    double *rows = tool_room(NULL, ss_reader_piece(reader) * head->n_columns, sizeof *rows);
     double *chosen = choose_columns(head), *level = find_levels(reader, chosen, rows);
     add_notes(head);
     tool_signal *out = tool_signal_new(head, output, kind);
-    while ((n = tool_rows(reader, rows, PIECE)) > 0) {
+    while ((n = tool_rows(reader, rows, ss_reader_piece(reader))) > 0) {
         tool_check(ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level), NULL);
         size_t step = head->n_columns == 1 ? n : 1;     /* values of one column, side by side */
         for (size_t i = 0; i < n * head->n_columns && bits > 0; i += step)

@@ -137,6 +137,8 @@ const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the 
  * their number; SS_OK with *n = 0 is the end.  If some rows have arrived, the call returns them and
  * does not wait for more. */
 ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+/* The rows to read at a time, fast and in half a megabyte: 4096, fewer if they have many columns, or one. */
+size_t ss_reader_piece(const ss_reader *reader);
 /* 1 if that call would wait for the source; 0 if a part of a row has arrived, or at the end. */
 int ss_reader_waits(const ss_reader *reader);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */

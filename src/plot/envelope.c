@@ -3,13 +3,14 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "plot/extremes.h"
 #include "plot/script.h"
 
 enum {
     KEPT = 1 << 20,             /* values of a signal that is drawn as it is */
-    PIECE = 4096                /* rows at a time, and the least that are kept */
+    LEAST_KEPT = 4096           /* rows */
 };
 
 typedef struct envelope {
@@ -18,18 +19,31 @@ typedef struct envelope {
     const size_t *column;
     size_t n_columns;           /* of these */
     size_t room;                /* rows, and blocks */
-    double *rows;               /* of the source: the first, then a piece */
+    double *rows;               /* of the source, a piece */
+    double *kept;               /* of each column that is drawn room values: the first, then a piece */
     size_t n;                   /* rows so far */
     size_t first, end;          /* those that are drawn */
     extremes *part;             /* of each column */
 } envelope;
+
+/* Read at most max rows, and keep their values from number `at` on. */
+static ss_status
+read_piece(envelope *e, size_t at, size_t max, size_t *got, ss_error *err)
+{
+    size_t piece = ss_reader_piece(e->reader);
+    ss_status st = ss_reader_rows(e->reader, e->rows, max < piece ? max : piece, got, err);
+    for (size_t c = 0; c < e->n_columns; c++)
+        for (size_t i = 0; i < *got; i++)
+            e->kept[c * e->room + at + i] = e->rows[i * e->head.n_columns + e->column[c]];
+    return st;
+}
 
 static ss_status
 read_start(envelope *e, ss_error *err)
 {
     ss_status st = SS_OK;
     for (size_t got = 1; st == SS_OK && got > 0 && e->n < e->room; e->n += got)
-        st = ss_reader_rows(e->reader, e->rows + e->n * e->head.n_columns, e->room - e->n, &got, err);
+        st = read_piece(e, e->n, e->room - e->n, &got, err);
     return st;
 }
 
@@ -39,26 +53,18 @@ give_whole(const envelope *e, ss_header *head, ss_signal **out)
 {
     ss_status st = ss_signal_new(out, head, e->n);
     for (size_t c = 0; st == SS_OK && c < e->n_columns; c++)
-        for (size_t i = 0; i < e->n; i++)
-            (*out)->values[c * e->n + i] = e->rows[i * e->head.n_columns + e->column[c]];
+        memcpy((*out)->values + c * e->n, e->kept + c * e->room, e->n * sizeof *e->kept);
     return st;
 }
 
-/* Add n rows; the first of them is row number at of the source. */
+/* Add the n rows that are kept; the first of them is row number at of the source. */
 static void
 add_rows(envelope *e, size_t at, size_t n)
 {
-    double value[PIECE];
     size_t from = at < e->first ? e->first - at : 0, end = e->end > at ? e->end - at : 0;
     end = end < n ? end : n;
-    for (size_t m; from < end; from += m) {
-        m = end - from < PIECE ? end - from : PIECE;
-        for (size_t c = 0; c < e->n_columns; c++) {
-            for (size_t i = 0; i < m; i++)
-                value[i] = e->rows[(from + i) * e->head.n_columns + e->column[c]];
-            ss_extremes_add(&e->part[c], value, m);
-        }
-    }
+    for (size_t c = 0; from < end && c < e->n_columns; c++)
+        ss_extremes_add(&e->part[c], e->kept + c * e->room + from, end - from);
 }
 
 static ss_status
@@ -72,7 +78,7 @@ read_rest(envelope *e, ss_error *err)
         return ss_fail_memory(err, NULL);
     add_rows(e, 0, e->n);
     for (size_t got = 1; st == SS_OK && got > 0; e->n += got) {
-        st = ss_reader_rows(e->reader, e->rows, PIECE, &got, err);
+        st = read_piece(e, 0, e->room, &got, err);
         add_rows(e, e->n, got);
     }
     return st;
@@ -106,14 +112,16 @@ ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t 
     envelope e = { .reader = reader, .head = *ss_reader_header(reader), .column = column, .n_columns = n };
     size_t columns = e.head.n_columns;
     ss_header *head = NULL;
-    e.room = PIECE;
+    e.room = LEAST_KEPT;
     while (e.room * columns < KEPT)
         e.room *= 2;
     *out = NULL;
     e.head.start = start;
     ss_script_find_rows(&e.first, &e.end, &e.head, opts);
-    e.rows = malloc(e.room * columns * sizeof *e.rows);
-    ss_status st = e.rows != NULL ? ss_header_select(&head, ss_reader_header(reader), column, n, 0) : SS_ENOMEM;
+    e.rows = malloc(ss_reader_piece(reader) * columns * sizeof *e.rows);
+    e.kept = malloc(e.room * n * sizeof *e.kept);
+    ss_status st = e.rows != NULL && e.kept != NULL
+        ? ss_header_select(&head, ss_reader_header(reader), column, n, 0) : SS_ENOMEM;
     st = st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st == SS_OK ? read_start(&e, err) : st;
     int whole = e.n < e.room;
     if (st == SS_OK)
@@ -124,6 +132,7 @@ ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t 
         ss_extremes_free(&e.part[c]);
     free(e.part);
     free(e.rows);
+    free(e.kept);
     ss_header_free(head);
     *rows = e.n;
     return st;

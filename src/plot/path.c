@@ -12,7 +12,6 @@
 
 enum {
     KEPT = 1 << 19,             /* rows of a signal that is drawn as it is */
-    PIECE = 4096,               /* values that are read at a time, or one row */
     CELLS = 2 * SCRIPT_COLUMNS, /* along each axis */
     BLOCK = 8                   /* along each axis of a block */
 };
@@ -42,11 +41,11 @@ struct reduction {
 static ss_status
 read_rows_of(reduction *r, use_row *use, ss_error *err)
 {
-    size_t columns = r->head.n_columns, n = 1;
-    double *rows = malloc((PIECE + columns) * sizeof *rows);
+    size_t columns = r->head.n_columns, piece = ss_reader_piece(r->reader), n = 1;
+    double *rows = malloc(piece * columns * sizeof *rows);
     ss_status st = rows != NULL ? ss_reader_rewind(r->reader, err) : ss_fail_memory(err, NULL);
     for (r->rows = 0; st == SS_OK && n > 0; r->rows += n) {
-        st = ss_reader_rows(r->reader, rows, 1 + PIECE / columns, &n, err);
+        st = ss_reader_rows(r->reader, rows, piece, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++) {
             const double *row = rows + i * columns, at[2] = { row[r->column[0]], row[r->column[1]] };
             if (r->rows + i >= r->first && r->rows + i < r->end)

@@ -93,8 +93,6 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
 
 /* --- a signal of any length ----------------------------------------------------------------- */
 
-enum { PIECE = 4096 };          /* values that are read at a time, or one row */
-
 /* The rows of a signal that are drawn. */
 typedef struct selection {
     ss_reader *reader;
@@ -110,7 +108,7 @@ read_column(selection *s, size_t column, ss_welch *welch, ss_error *err)
     ss_status st = ss_reader_rewind(s->reader, err);
     size_t n = 1;
     for (s->rows = 0; st == SS_OK && n > 0; s->rows += n) {
-        st = ss_reader_rows(s->reader, s->row, 1 + PIECE / s->columns, &n, err);
+        st = ss_reader_rows(s->reader, s->row, ss_reader_piece(s->reader), &n, err);
         for (size_t i = 0; st == SS_OK && i < n && welch != NULL; i++)
             if (s->rows + i >= s->first && s->rows + i < s->end)
                 st = ss_welch_add(welch, &s->row[i * s->columns + column], 1, err);
@@ -144,7 +142,7 @@ ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const 
     for (size_t i = 0; i < n; i++)
         if (column[i] >= s.columns)
             return ss_fail_column(err, column[i], s.columns);
-    s.row = malloc((PIECE + s.columns) * sizeof *s.row);
+    s.row = malloc(ss_reader_piece(reader) * s.columns * sizeof *s.row);
     ss_status st = s.row != NULL ? read_column(&s, 0, NULL, err) : ss_fail_memory(err, NULL);
     if (st == SS_OK)
         st = ss_script_find_span(&span, head, s.rows, opts, err);

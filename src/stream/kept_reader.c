@@ -6,7 +6,6 @@
 #include "stream/kept.h"
 #include "stream/reader.h"
 
-enum { PIECE = 4096 };          /* values that are read at a time, or one row */
 
 static ss_status
 give_kept(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
@@ -42,11 +41,11 @@ never_waits(const ss_reader *reader)
 static ss_status
 keep_rows(struct kept *kept, ss_reader *from, ss_error *err)
 {
-    size_t columns = from->head->n_columns, n = 1;
-    double *rows = malloc((PIECE + columns) * sizeof *rows), *row;
+    size_t columns = from->head->n_columns, piece = ss_reader_piece(from), n = 1;
+    double *rows = malloc(piece * columns * sizeof *rows), *row;
     ss_status st = rows != NULL ? SS_OK : ss_fail_memory(err, from->in.name);
     while (st == SS_OK && n > 0) {
-        st = ss_reader_rows(from, rows, 1 + PIECE / columns, &n, err);
+        st = ss_reader_rows(from, rows, piece, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++)
             if ((st = ss_kept_new(kept, &row, err)) == SS_OK) {
                 memcpy(row, rows + i * columns, columns * sizeof *row);

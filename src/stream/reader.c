@@ -144,6 +144,14 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
     return st == SS_OK ? scaled : st;
 }
 
+size_t
+ss_reader_piece(const ss_reader *reader)
+{
+    enum { ROWS = 4096, VALUES = 1 << 16 };
+    size_t rows = reader == NULL ? 1 : VALUES / reader->head->n_columns;
+    return rows > ROWS ? ROWS : rows > 1 ? rows : 1;
+}
+
 int
 ss_reader_waits(const ss_reader *reader)
 {
@@ -199,8 +207,8 @@ copy_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
 static ss_status
 read_into(ss_signal *signal, ss_reader *reader, ss_error *err)
 {
-    size_t columns = signal->head->n_columns, piece = 1 + 16384 / (columns + 1), done = 0, got;
-    double *rows = malloc(piece * (columns + 1) * sizeof *rows);
+    size_t columns = signal->head->n_columns, piece = ss_reader_piece(reader), done = 0, got;
+    double *rows = malloc(piece * columns * sizeof *rows);
     if (rows == NULL)
         return ss_fail_memory(err, reader->in.name);
     ss_status st;

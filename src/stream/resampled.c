@@ -6,7 +6,6 @@
 #include "signal/resample.h"
 #include "stream/reader.h"
 
-enum { PIECE = 4096 };          /* values that are read at a time, or one row */
 #define MOST 1e6                /* samples for each row: a short file cannot fill a disk */
 
 struct inner {
@@ -25,7 +24,7 @@ next_row(void *source, int *there, double *stamp, double *row, ss_error *err)
     ss_status st = SS_OK;
     if (in->next == in->n) {
         in->next = in->n = 0;
-        st = ss_reader_rows(in->reader, in->rows, 1 + PIECE / head->n_columns, &in->n, err);
+        st = ss_reader_rows(in->reader, in->rows, ss_reader_piece(in->reader), &in->n, err);
     }
     *there = st == SS_OK && in->next < in->n;
     if (!*there)
@@ -73,7 +72,8 @@ ss_reader_resample(ss_reader **reader, double rate, ss_error *err)
     size_t columns = head->n_columns;
     ss_reader *r = ss_reader_like(*reader);
     struct inner *in = calloc(1, sizeof *in);
-    if (r == NULL || in == NULL || (in->rows = malloc((PIECE + columns) * sizeof *in->rows)) == NULL
+    size_t room = ss_reader_piece(*reader) * columns * sizeof(double);
+    if (r == NULL || in == NULL || (in->rows = malloc(room)) == NULL
         || ss_resampler_new(&in->resampler, r->in.name, columns, rate, INFINITY, next_row, in, NULL) != SS_OK) {
         ss_reader_free(r);
         if (in != NULL) {
