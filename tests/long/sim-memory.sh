@@ -4,7 +4,7 @@
 ss-sim --set settle=0 --set duration=1000 --set rate=100000 coulomb > /dev/null &
 tool=$!
 most=0
-while now=$(awk '/^VmHWM/ { print $2 }' /proc/$tool/status) && [ -n "$now" ]; do
+while now=$(awk '/^VmHWM/ { print $2 }' /proc/$tool/status 2> /dev/null) && [ -n "$now" ]; do
     most=$now
     sleep 1
 done
