@@ -26,7 +26,7 @@ const char *
 ss_value_range(const scene_key *k)
 {
     static const char *const text[] = {
-        [ANY_NUMBER] = "finite", [NOT_NEGATIVE] = ">= 0", [POSITIVE] = "> 0", [RATE] = "in " RATE_RANGE,
+        [ANY_NUMBER] = "finite", [NOT_NEGATIVE] = ">= 0", [POSITIVE] = "> 0", [RATE] = ("in " RATE_RANGE),
     };
     return text[k->range];
 }
