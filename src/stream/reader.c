@@ -148,7 +148,7 @@ size_t
 ss_reader_piece(const ss_reader *reader)
 {
     enum { ROWS = 4096, VALUES = 1 << 16 };
-    size_t rows = reader == NULL ? 1 : VALUES / reader->head->n_columns;
+    size_t rows = reader == NULL || reader->head->n_columns == 0 ? 1 : VALUES / reader->head->n_columns;
     return rows > ROWS ? ROWS : rows > 1 ? rows : 1;
 }
 
