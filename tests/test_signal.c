@@ -2,7 +2,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <stickslip/morlet.h>
 #include "signal_text.h"
 
 /* --- headers, columns and rows -------------------------------------------------------------- */
@@ -116,20 +115,30 @@ replaces_a_note_of_the_same_key(void **state)
 }
 
 static void
-has_at_most_4096_notes(void **state)
+writes_at_most_4096_notes(void **state)
 {
-    ss_header *head = ss_header_new(1, 0), *coefficients;
+    static const ss_format format[] = { SS_TSV, SS_AU };
+    ss_header *head = ss_header_new(1, 0);
+    ss_writer *writer;
+    ss_error err;
     char key[24];
+    FILE *out = tmpfile();
     (void)state;
     ss_header_add_column(head, "x", "");
     for (int i = 0; i < 4096; i++) {
         snprintf(key, sizeof key, "note %d", i);
         assert_int_equal(ss_header_note(head, key, ""), SS_OK);
     }
-    assert_int_equal(ss_header_note(head, "one more", ""), SS_EDATA);
-    assert_int_equal(ss_header_note(head, "note 5", "changed"), SS_OK);
-    assert_int_equal(head->n_notes, 4096);
-    assert_int_equal(ss_coefficients_header(&coefficients, head, 0, 10, &ss_morlet_defaults), SS_EDATA);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(ss_writer_new(&writer, out, format[i], head, &err), SS_OK);
+        ss_writer_free(writer);
+    }
+    ss_header_note(head, "one more", "");
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(ss_writer_new(&writer, out, format[i], head, &err), SS_EDATA);
+        assert_string_equal(err.text, "4097 notes: files have no more than 4096");
+    }
+    fclose(out);
     ss_header_free(head);
 }
 
@@ -342,7 +351,7 @@ main(void)
         cmocka_unit_test(numbers_the_same_name_by_what_is_free),
         cmocka_unit_test(names_thousands_of_columns_alike),
         cmocka_unit_test(replaces_a_note_of_the_same_key),
-        cmocka_unit_test(has_at_most_4096_notes),
+        cmocka_unit_test(writes_at_most_4096_notes),
         cmocka_unit_test(reads_what_it_writes),
         cmocka_unit_test(a_column_t_in_seconds_is_not_the_time),
         cmocka_unit_test(finds_the_row_of_a_time),

@@ -137,9 +137,6 @@ void tool_signal_rows(tool_signal *signal, const double *rows, size_t n);
 void tool_signal_note(tool_signal *signal, const char *key, const char *value);
 void tool_signal_end(tool_signal *signal);
 
-/* Add a note to a header, or die. */
-void tool_add_note(ss_header *head, const char *key, const char *value);
-
 /* Write a script to the output that -o names, a .gp or standard output, or the picture that
  * gnuplot makes of it; opts get the format of the picture.  Dies with the message of gnuplot if
  * that fails. */

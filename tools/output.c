@@ -158,22 +158,13 @@ tool_signal_rows(tool_signal *s, const double *rows, size_t n)
 }
 
 void
-tool_add_note(ss_header *head, const char *key, const char *value)
-{
-    ss_status st = ss_header_note(head, key, value);
-    if (st == SS_EDATA)
-        tool_die("the signal has 4096 notes, and one more (%s) cannot be read back", key);
-    tool_check(st, NULL);
-}
-
-void
 tool_signal_note(tool_signal *s, const char *key, const char *value)
 {
     ss_error err = { 0 };
     if (s->store != NULL)
         tool_check(ss_store_writer_note(s->store, key, value, &err), &err);
     else if (s->writer == NULL)
-        tool_add_note(s->head, key, value);
+        tool_check(ss_header_note(s->head, key, value), NULL);
     else if (s->kind == TOOL_TSV)
         fprintf(s->out, "# %s: %s\n", key, value);
 }

@@ -78,12 +78,12 @@ add_notes(ss_header *head)
         snprintf(text, sizeof text, "%s %s%s%s%s%s%s%s, seed %d", isnan(rms) ? "snr" : "rms",
                  number, isnan(rms) ? " dB" : "", isnan(band[0]) ? "" : ", ", limit[0],
                  isnan(band[0]) ? "" : " to ", limit[1], isnan(band[0]) ? "" : " Hz", seed);
-        tool_add_note(head, "noise", text);
+        tool_check(ss_header_note(head, "noise", text), NULL);
     }
     if (bits > 0) {
         ss_number_format(number, range);
         snprintf(text, sizeof text, "%d bits, range %s", bits, number);
-        tool_add_note(head, "converter", text);
+        tool_check(ss_header_note(head, "converter", text), NULL);
     }
 }
 
@@ -119,7 +119,7 @@ add_band(tool_kind kind, ss_noise *noise)
     }
     add_notes(signal->head);
     if (note_clipped(text, sizeof text))
-        tool_add_note(signal->head, "clipped", text);
+        tool_check(ss_header_note(signal->head, "clipped", text), NULL);
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
     free(chosen);

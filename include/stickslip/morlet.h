@@ -245,8 +245,7 @@ ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients
                             double *error, ss_progress progress, ss_error *err);
 
 /* Make the header of coefficients, of the header of their signal and the options.  n = 0: the
- * number of samples is not known yet, and the end of the text will give it.  SS_EDATA: the signal has
- * no room for more notes (ss_header_note). */
+ * number of samples is not known yet, and the end of the text will give it. */
 ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                                  const ss_morlet_opts *opts);
 /* A writer of coefficients as they arrive.  The caller keeps and closes out. */

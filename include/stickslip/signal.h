@@ -37,7 +37,7 @@ ss_header *ss_header_copy(const ss_header *head);
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
 /* Append a note; it replaces a note with the same key.  Control characters but tabs become blanks, in
  * the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or
- * contains a colon; SS_EDATA: there are 4096 notes, and readers refuse more. */
+ * contains a colon.  Writers and readers of files take up to 4096 notes. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);
 /* The value of the note with this key, owned by head; NULL if there is none. */
 const char *ss_header_find_note(const ss_header *head, const char *key);

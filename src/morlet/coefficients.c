@@ -4,7 +4,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "morlet/plan.h"
-#include "signal/header.h"
 
 static const char *const norm_name[] = { "l2", "l1" };
 static const char *const engine_name[] = { "auto", "quadrature", "fft" };
@@ -84,7 +83,7 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
         || (opts->rounded && ss_header_note(head, "rounded", "yes"))
         || ss_header_note(head, "method", engine_name[opts->engine])
         || ss_header_note(head, "label", "f = center / (2 pi a)");
-    return !failed ? SS_OK : head->n_notes == MAX_NOTES ? SS_EDATA : SS_ENOMEM;
+    return failed ? SS_ENOMEM : SS_OK;
 }
 
 ss_status

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/gaps.h"
-#include "signal/header.h"
 
 static const char key[] = "gaps";
 
@@ -149,8 +148,6 @@ ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
     char *text = spans(&g->rows, head);
     ss_status st = text != NULL ? ss_header_note(head, key, text) : SS_ENOMEM;
     free(text);
-    if (st == SS_EDATA)
-        return ss_fail(err, st, "%s: more than %d notes with that of its gaps", name, MAX_NOTES);
     return st == SS_OK ? st : ss_fail_memory(err, name);
 }
 

@@ -321,10 +321,10 @@ ss_header_note(ss_header *head, const char *key, const char *value)
     blank_controls(note, length);
     i = find_note(head, note, length, &old);
     if (i == head->n_notes) {
-        char **more = i < MAX_NOTES ? realloc(head->note, (i + 1) * sizeof *more) : NULL;
+        char **more = realloc(head->note, (i + 1) * sizeof *more);
         if (more == NULL) {
             free(note);
-            return i < MAX_NOTES ? SS_ENOMEM : SS_EDATA;
+            return SS_ENOMEM;
         }
         head->note = more;
         head->note[head->n_notes++] = NULL;

@@ -23,6 +23,8 @@ is_blank(char c)
     return (unsigned char)c <= ' ' || c == 127;
 }
 
+/* SS_EDATA: readers would refuse the header, as it has too many notes. */
+ss_status ss_header_check_notes(const ss_header *head, ss_error *err);
 /* The lines of a header, to be freed, or NULL if there is no memory. */
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 /* Read a "# key: value" line, which is changed; reason is set if the status is SS_EDATA. */

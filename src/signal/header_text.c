@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/error.h"
 #include "signal/header.h"
 
 void
@@ -13,6 +14,13 @@ ss_write_label(FILE *out, const char *name, const char *unit)
         fprintf(out, " %s/(%s)", name, unit);
     else
         fprintf(out, " %s/%s", name, unit);
+}
+
+ss_status
+ss_header_check_notes(const ss_header *head, ss_error *err)
+{
+    return head->n_notes <= MAX_NOTES ? SS_OK
+        : ss_fail(err, SS_EDATA, "%zu notes: files have no more than %d", head->n_notes, MAX_NOTES);
 }
 
 char *
@@ -117,5 +125,7 @@ ss_header_read_line(ss_header *head, char *line, const char **reason)
         return head->n_columns > 0 ? SS_EDATA : read_columns(head, value, reason);
     }
     *reason = "more than 4096 notes";
+    if (head->n_notes == MAX_NOTES)
+        return SS_EDATA;
     return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/header.h"
 #include "store/groups.h"
 #include "store/output.h"
 
@@ -102,6 +103,8 @@ ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *si
     if (out == NULL || path == NULL || (grid == NULL && signal == NULL)
         || (grid != NULL && (grid->head == NULL || grid->n_scales == 0)))
         return SS_FAIL_NULL(err);
+    if ((st = ss_header_check_notes(grid != NULL ? grid->head : signal, err)) != SS_OK)
+        return st;
     H5E_BEGIN_TRY {
         st = begin_empty(&w, path, signal, grid);
         if (w != NULL)

@@ -158,6 +158,9 @@ static ss_status
 begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
     size_t length;
+    ss_status st = ss_header_check_notes(head, err);
+    if (st != SS_OK)
+        return st;
     char *text = ss_header_text(head, magic, &length);
     if (text == NULL)
         return SS_ENOMEM;

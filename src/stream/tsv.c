@@ -150,8 +150,10 @@ open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
 static ss_status
 begin_text(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
-    (void)err;
     size_t length;
+    ss_status st = ss_header_check_notes(head, err);
+    if (st != SS_OK)
+        return st;
     char *text = ss_header_text(head, magic, &length);
     if (text == NULL)
         return SS_ENOMEM;
