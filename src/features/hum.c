@@ -31,7 +31,7 @@
 #define FAINT 1e-3              /* part of the strongest harmonic: a line below it disturbs no fit */
 enum { LINES = 3, FEWEST = 6, FREE = 16, BATCH = 16, STRONGEST = BATCH };
 enum { PART = 2048, LONGEST = 16384 };  /* oscillations in a part of a record */
-enum { ENOUGH = 16 };           /* parts without a hum after which there is none */
+enum { ENOUGH = 16 };           /* most parts without a hum after which there is none */
 
 typedef struct zoomed {         /* x = Re z exp(i center t) in the band, at t = 0, step, 2 step ... */
     double complex *z;          /* under the window */

@@ -365,7 +365,7 @@ powers_behind(const search *s, double *power, size_t n)
             st = fill_behind(s, i, level);
             power[i] = st == SS_OK ? power_behind(s, &scale[i], level) : 0;
         }
-        for (size_t i = EVERY; i + EVERY < n; i += EVERY)
+        for (size_t i = EVERY; st == SS_OK && i + EVERY < n; i += EVERY)
             if (is_peak(power, n, i) && power[i - EVERY] > 0 && power[i + EVERY] > 0)
                 most = fmax(most, power[i]);
     }

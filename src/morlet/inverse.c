@@ -10,7 +10,7 @@
  * A pass transforms the step and applies the adjoint to each part of the coefficients as it comes: the
  * given coefficients are the only ones in memory.  The rest's adjoint, the gradient, and the rest's size
  * follow from those of the step.  Rounding errors of the size show when it is some 1e-8 of where it began:
- * so both are computed anew from the given coefficients long before, and when the search ends. */
+ * so both are computed anew from the given coefficients long before, and before they are found small enough. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -184,6 +184,8 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     double all, slope, left, fresh, then;
     int pass = 0, mark = STALL_FROM, stays = 0;
     ss_status st = transform(s, s->x, 1, s->gradient, &all, err);
+    if (st != SS_OK)
+        return st;
     memcpy(s->step, s->gradient, n * sizeof *s->step);
     slope = norm2(s->gradient, n);
     left = fresh = then = all;

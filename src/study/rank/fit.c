@@ -80,7 +80,8 @@ candidate_of(const ss_scene *start, ss_quantity quantity)
     candidate c = ss_candidate_of(start, (int)quantity, FAR);
     c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
     c.lo[CANDIDATE_RATIO] = log(LOW);
-    c.hi[CANDIDATE_RATIO] = log(start->friction / fmax(start->static_friction, start->friction));
+    c.hi[CANDIDATE_RATIO] = start->friction > 0
+        ? log(start->friction / fmax(start->static_friction, start->friction)) : 0;
     c.budget = BUDGET;
     return c;
 }

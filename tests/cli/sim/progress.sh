@@ -16,7 +16,7 @@ while kill -STOP $! 2> /dev/null; do
 done
 END
 ss-signal noise --rate 20000 --duration 4 -o short.au
-ss-signal noise --rate 20000 --duration 20 -o long.au
+ss-signal noise --rate 20000 --duration 45 -o long.au
 slow='--method quadrature --accuracy 1e-13 --step 4 --voices 32 --center 200 --fmax 3000'
 ss-signal sine --amplitude 0 --rate 20000 --duration 3 |
     ss-morlet --dense --voices 16 --fmin 20 -o dense.h5
