@@ -38,3 +38,9 @@ ss-sim -s rate=16000 -c t,a compliant-light | awk -v OFS='\t' '
     /^#/ { print; next }
     n++ % 8 == 0 { print $1, y + 0 }
     { y += ($2 - y) * (1 - exp(-2 * 3.14159265 * 300 / 16000)) }' | ss-noise --snr 40 | ss-rank --fit || echo $?
+# a fit finds friction where the scene that it starts from has none
+ss-sim -c t,a -s settle=4 -s duration=4 compliant-light > start.tsv
+for friction in 0 1e-9; do
+    ss-rank --fit -c a -s friction=$friction start.tsv compliant-light > from.$friction
+done
+cmp from.0 from.1e-9
