@@ -9,13 +9,13 @@
 #include <math.h>
 #include <stickslip/spectrum.h>
 
-#define FLAT 1.3                /* re the power law: more is a peak */
-#define STEEP 3.2               /* the same: more is lost behind a corner */
+#define FLAT 1.3                /* power re the power law: with more there is a peak */
+#define STEEP 3.2               /* power law re the power beyond: with more there is a corner */
 #define STEP 1.67               /* from band to band, each from 1 / WIDE to WIDE of its middle */
 #define WIDE 1.18
-#define FINE (1 / 32.)          /* the resolution re the oscillation; a quarter of the record has it */
+#define FINE (1 / 32.)          /* resolution re the oscillation; coarser in records of under four segments */
 
-/* Of the density in the band about f. */
+/* The mean density in the band about f. */
 static double
 mean_about(const ss_spectrum *s, double f)
 {
