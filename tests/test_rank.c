@@ -71,7 +71,10 @@ size_and_shift_of_a_cycle_are_found(void **state)
             m[i] = wave((double)i / 512) + 7;           /* an offset is no matter */
             c.power += c.y[i] * c.y[i] / 512;
         }
-        double left = ss_cycle_misfit(&c, m, &a, &s);
+        cycle_goal goal;
+        assert_int_equal(ss_cycle_goal_new(&goal, &c), SS_OK);
+        double left = ss_cycle_misfit(&goal, m, &a, &s);
+        ss_cycle_goal_free(&goal);
         assert_true(fabs(remainder(s - shift[k], 1)) <= 0.004 / 512);
         assert_true(fabs(a / 2.5 - 1) <= 1e-6 && left <= 1e-6 * c.power);
     }
@@ -85,7 +88,10 @@ what_cannot_move_leaves_all(void **state)
     (void)state;
     for (size_t i = 0; i < 64; i++)
         c.y[i] = i % 2 ? sqrt(3) : -sqrt(3);
-    assert_true(ss_cycle_misfit(&c, m, &a, &s) == 3 && a == 0 && s == 0);
+    cycle_goal goal;
+    assert_int_equal(ss_cycle_goal_new(&goal, &c), SS_OK);
+    assert_true(ss_cycle_misfit(&goal, m, &a, &s) == 3 && a == 0 && s == 0);
+    ss_cycle_goal_free(&goal);
 }
 
 /* The period to what a bin is over the cycles there are, and noise averaged down: 40 cycles of 100

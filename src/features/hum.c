@@ -19,8 +19,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/fft.h"
 #include "base/versions.h"
-#include "morlet/fft/real.h"
 
 #define BAND 0.5                /* part of the frequency that the band extends to either side */
 #define BEYOND 0.1              /* the same for harmonics that the window brings into the band */
@@ -141,18 +141,17 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
     size_t size = power_of_two((double)n), middle = (size_t)(f * (double)size);
     size_t half = (size_t)((BAND + BEYOND) * f * (double)size);
     size_t few = power_of_two(2. * (double)half + 1);
-    double *r = calloc(size + 2, sizeof *r);
+    real_fft whole;
     zoom->z = calloc(few, sizeof *zoom->z);
-    if (r != NULL)
-        memcpy(r, x, n * sizeof *r);
-    if (r == NULL || zoom->z == NULL || ss_real_fft(r, size, 0) != SS_OK) {
-        free(r);
+    if (zoom->z == NULL || ss_real_fft_new(&whole, size, 0) != SS_OK)
         return SS_ENOMEM;
-    }
+    for (size_t i = 0; i < size; i++)
+        whole.x[i] = i < n ? x[i] : 0;
+    ss_real_fft_run(&whole);
     for (size_t j = middle - half; j <= middle + half && j < size / 2; j++)
         if (j > 0)
-            zoom->z[(j + few - middle) % few] = 2 / (double)size * (r[2 * j] + I * r[2 * j + 1]);
-    free(r);
+            zoom->z[(j + few - middle) % few] = 2 / (double)size * (whole.x[2 * j] + I * whole.x[2 * j + 1]);
+    ss_real_fft_free(&whole);
     zoom->step = (double)size / (double)few;
     zoom->center = 2 * M_PI * (double)middle / (double)size;
     zoom->n = few;

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include "base/fft.h"
 #include "features/levels.h"
-#include "morlet/fft/real.h"
 
 #define NEARLY 0.9              /* part of the highest peak: the first peak that is so high is that of the
                                    period */

@@ -4,13 +4,14 @@
  * it has Gaussian numbers at the frequencies of the band and zeros elsewhere, and is scaled to the
  * given rms.  The number of samples of its inverse transform is a power of two; the record takes
  * the first of them. */
-#include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
+#include "base/fft.h"
 #include <stickslip/signal.h>
 
 struct ss_noise {
@@ -53,17 +54,16 @@ ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns,
     return zero == 0 ? SS_OK : SS_ERANGE;
 }
 
-/* Fill in Gaussian numbers at those frequencies of the spectrum of m samples that lie in [lo, hi].  GSL
- * stores real parts from the left, imaginary parts from the right. */
+/* Fill in Gaussian numbers at those frequencies of the spectrum of m samples that lie in [lo, hi]. */
 static size_t
 fill_band(ss_noise *noise, double *spectrum, size_t m, double rate, double lo, double hi)
 {
     size_t first = (size_t)ceil(lo / rate * (double)m), last = (size_t)floor(hi / rate * (double)m);
     last = last < m / 2 ? last : m / 2;
     for (size_t k = first; k <= last; k++) {
-        spectrum[k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+        spectrum[2 * k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
         if (k > 0 && k < m / 2)
-            spectrum[m - k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+            spectrum[2 * k + 1] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
     }
     return first <= last ? last - first + 1 : 0;
 }
@@ -83,15 +83,17 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
                        lo, hi, rate / 2);
     while (m < n)
         m *= 2;
-    double *y = calloc(m, sizeof *y);
-    if (y == NULL)
-        return SS_ENOMEM;
+    real_fft f;
+    if (ss_real_fft_new(&f, m, 1) != SS_OK)
+        return ss_fail_memory(err, NULL);
+    memset(f.x, 0, (m + 2) * sizeof *f.x);
+    double *y = f.x;
     if (fill_band(noise, y, m, rate, lo, hi) == 0) {
-        free(y);
+        ss_real_fft_free(&f);
         return ss_fail(err, SS_EINVAL, "band %g to %g Hz: a record of %zu sample%s at %g Hz has "
                        "no frequency in it", lo, hi, n, PLURAL(n), rate);
     }
-    gsl_fft_halfcomplex_radix2_inverse(y, 1, m);
+    ss_real_fft_run(&f);
     for (size_t i = 0; i < n; i++)
         square += y[i] * y[i];
     double gain = square > 0 ? rms / sqrt(square / (double)n) : 0, zero = 0;
@@ -99,7 +101,7 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
         x[i] += gain * y[i];
         zero += 0 * x[i];
     }
-    free(y);
+    ss_real_fft_free(&f);
     return zero == 0 ? SS_OK : ss_fail(err, SS_ERANGE, "signal and noise exceed what a double holds");
 }
 

@@ -1,11 +1,11 @@
-/* spectrum.c -- the power spectral density by Welch's method, with GSL's FFT. */
+/* spectrum.c -- the power spectral density by Welch's method. */
 #include <stickslip/spectrum.h>
 
-#include <gsl/gsl_fft_real.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/fft.h"
 
 #define BANDWIDTH 1.5           /* of a Hann window, in steps of frequency */
 enum { LEAST = 16 };            /* the shortest segment, in samples */
@@ -14,7 +14,7 @@ enum { LEAST = 16 };            /* the shortest segment, in samples */
 struct ss_welch {
     size_t length;              /* of a segment, a power of 2 */
     double rate;
-    double *segment;            /* a segment while its samples come, then what becomes of it */
+    real_fft segment;           /* while its samples come, then its terms */
     double *half;               /* the second half of the segment before, which is the first of the next */
     size_t n, at;               /* samples so far; of the segment */
     ss_spectrum *sum;
@@ -44,7 +44,7 @@ hann(size_t i, size_t length)
 static void
 add_segment(ss_welch *w)
 {
-    double *x = w->segment, *density = w->sum->density, first = x[0];
+    double *x = w->segment.x, *density = w->sum->density, first = x[0];
     double mean = first;        /* plus the mean of x - first, which is exactly 0 for a constant */
     size_t length = w->length;
     memcpy(w->half, x + length / 2, length / 2 * sizeof *x);
@@ -52,11 +52,9 @@ add_segment(ss_welch *w)
         mean += (x[i] - first) / (double)length;
     for (size_t i = 0; i < length; i++)
         x[i] = (x[i] - mean) * hann(i, length);
-    gsl_fft_real_radix2_transform(x, 1, length);
-    density[0] += x[0] * x[0];
-    density[length / 2] += x[length / 2] * x[length / 2];
-    for (size_t k = 1; k < length / 2; k++)
-        density[k] += x[k] * x[k] + x[length - k] * x[length - k];
+    ss_real_fft_run(&w->segment);
+    for (size_t k = 0; k <= length / 2; k++)
+        density[k] += x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1];
     w->sum->segments++;
 }
 
@@ -90,7 +88,7 @@ ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error 
                        "%g Hz", n, rate, resolution, BANDWIDTH * rate / (double)n, BANDWIDTH * rate / LEAST);
     ss_welch *w = calloc(1, sizeof *w);
     ss_spectrum *s = w != NULL ? w->sum = calloc(1, sizeof *s) : NULL;
-    if (s == NULL || (w->segment = malloc(length * sizeof *w->segment)) == NULL
+    if (s == NULL || ss_real_fft_new(&w->segment, length, 0) != SS_OK
         || (w->half = malloc(length / 2 * sizeof *w->half)) == NULL
         || (s->density = calloc(length / 2 + 1, sizeof *s->density)) == NULL) {
         ss_welch_free(w);
@@ -115,10 +113,10 @@ ss_welch_add(ss_welch *w, const double *x, size_t n, ss_error *err)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is not finite", w->n);
         if (w->at == w->length) {
-            memcpy(w->segment, w->half, w->length / 2 * sizeof *x);
+            memcpy(w->segment.x, w->half, w->length / 2 * sizeof *x);
             w->at = w->length / 2;
         }
-        w->segment[w->at++] = x[i];
+        w->segment.x[w->at++] = x[i];
         if (w->at == w->length)
             add_segment(w);
     }
@@ -147,7 +145,7 @@ ss_welch_free(ss_welch *w)
     if (w == NULL)
         return;
     ss_spectrum_free(w->sum);
-    free(w->segment);
+    ss_real_fft_free(&w->segment);
     free(w->half);
     free(w);
 }

@@ -1,16 +1,12 @@
-/* plan.h -- FFTW's planner, and the terms of the series that a scale is. */
+/* plan.h -- the flags of FFTW's planner, and the terms of the series that a scale is. */
 #ifndef FFT_PLAN_H
 #define FFT_PLAN_H
 
 #include <fftw3.h>
 #include <math.h>
-#include <pthread.h>
 #include <stddef.h>
+#include "base/fft.h"
 #include "morlet/plan.h"
-
-/* FFTW's planner is not safe for threads: making and freeing of plans, and wisdom, take turns.
- * Other users of FFTW in the program must not plan at the same time. */
-extern pthread_mutex_t ss_fftw_planner;
 
 /* The terms of the spectrum that a scale consists of. */
 typedef struct band {

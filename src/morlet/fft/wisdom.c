@@ -1,13 +1,11 @@
 /* wisdom.c -- FFTW's measurements of this machine, written to a file and read from one. */
 #include <errno.h>
 #include <fftw3.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "morlet/fft/plan.h"
-
-pthread_mutex_t ss_fftw_planner = PTHREAD_MUTEX_INITIALIZER;
+#include "base/fft.h"
+#include <stickslip/morlet.h>
 
 /* Wisdom is a list of (name number #xflags #xflags #xflags ...), itself in brackets.  FFTW stores the
  * flags in 20, 20 and 9 bits, and aborts the program if they do not fit. */

@@ -118,7 +118,7 @@ ss_candidate_scene(const candidate *c, const double key[CANDIDATE_KEYS], double 
 
 typedef struct problem {
     candidate *c;
-    const cycle *goal;
+    cycle_goal goal;
     const ss_stretch *progress;
     double runs, expected;      /* so far, and about how many there will be */
     ss_status status;           /* SS_ENOMEM once a run lacked memory, SS_STOP once asked to stop; all
@@ -129,7 +129,7 @@ static double
 misfit(problem *p, const double key[], double *size, double *shift)
 {
     candidate *c = p->c;
-    const cycle *goal = p->goal;
+    const cycle *goal = p->goal.c;
     double value[CYCLE_MOST];
     ss_scene s = ss_candidate_scene(c, key, goal->period);
     s.duration = goal->period;
@@ -144,7 +144,7 @@ misfit(problem *p, const double key[], double *size, double *shift)
         p->status = SS_ENOMEM;
     if (st != SS_OK)
         return goal->power;
-    return ss_cycle_misfit(goal, value, size, shift);
+    return ss_cycle_misfit(&p->goal, value, size, shift);
 }
 
 /* Any u gives keys in range; a fixed key has no u. */
@@ -166,7 +166,7 @@ height(const gsl_vector *u, void *user)
     if (p->c->steps > p->c->budget)
         return 0;
     keys_of(p->c, u->data, key);
-    return log(misfit(p, key, &size, &shift) / p->goal->power + 1e-12);
+    return log(misfit(p, key, &size, &shift) / p->goal.c->power + 1e-12);
 }
 
 /* --- search -------------------------------------------------------------------------------- */
@@ -239,9 +239,11 @@ ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
 {
     start s[STARTS_MOST];
     /* a step of the simplex runs the scene once or twice */
-    problem p = { c, goal, progress, 0, (double)(starts + 3 * keep * steps / 2), SS_OK };
+    problem p = { .c = c, .progress = progress, .expected = (double)(starts + 3 * keep * steps / 2) };
     size_t free = 0;
-    ss_status st = SS_OK;
+    ss_status st = ss_cycle_goal_new(&p.goal, goal);
+    if (st != SS_OK)
+        return st;
     for (size_t i = 0; i < c->n; i++)
         free += c->hi[i] > c->lo[i];
     memset(&s[0], 0, sizeof s[0]);
@@ -255,6 +257,7 @@ ss_candidate_search(candidate *c, const cycle *goal, size_t starts, size_t keep,
         keep_start(&p, s[i].u);
         st = p.status;
     }
+    ss_cycle_goal_free(&p.goal);
     return st;
 }
 

@@ -9,8 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <gsl/gsl_fft_halfcomplex.h>
-#include <gsl/gsl_fft_real.h>
 #include "base/error.h"
 #include "features/period.h"
 
@@ -152,10 +150,38 @@ ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *mis
     return SS_OK;
 }
 
-double
-ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift)
+ss_status
+ss_cycle_goal_new(cycle_goal *goal, const cycle *c)
 {
-    double y[CYCLE_MOST], s[CYCLE_MOST], power = 0, mean = 0;
+    goal->c = c;
+    goal->back = (real_fft){ 0 };
+    ss_status st = ss_real_fft_new(&goal->forward, c->n, 0);
+    if (st == SS_OK)
+        st = ss_real_fft_new(&goal->back, c->n, 1);
+    if (st != SS_OK) {
+        ss_cycle_goal_free(goal);
+        return st;
+    }
+    memcpy(goal->forward.x, c->y, c->n * sizeof *c->y);
+    ss_real_fft_run(&goal->forward);
+    for (size_t k = 0; k < c->n + 2; k++)
+        goal->term[k] = goal->forward.x[k] / (double)c->n;
+    return SS_OK;
+}
+
+void
+ss_cycle_goal_free(cycle_goal *goal)
+{
+    ss_real_fft_free(&goal->forward);
+    ss_real_fft_free(&goal->back);
+}
+
+double
+ss_cycle_misfit(const cycle_goal *goal, const double *m, double *a, double *shift)
+{
+    const cycle *c = goal->c;
+    const double *g = goal->term;
+    double *s = goal->forward.x, *y = goal->back.x, power = 0, mean = 0;
     size_t n = c->n, peak = 0;
     for (size_t i = 0; i < n; i++)
         mean += m[i] / (double)n;
@@ -166,18 +192,12 @@ ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift)
     *a = *shift = 0;
     if (!(power > 0))
         return c->power;
-    memcpy(y, c->y, n * sizeof *y);
-    gsl_fft_real_radix2_transform(y, 1, n);
-    gsl_fft_real_radix2_transform(s, 1, n);
-    /* y times the conjugate of s, in GSL's half-complex order */
-    y[0] *= s[0];
-    y[n / 2] *= s[n / 2];
-    for (size_t k = 1; k < n / 2; k++) {
-        double re = y[k] * s[k] + y[n - k] * s[n - k], im = y[n - k] * s[k] - y[k] * s[n - k];
-        y[k] = re;
-        y[n - k] = im;
+    ss_real_fft_run(&goal->forward);
+    for (size_t k = 0; k <= n; k += 2) {        /* the goal's terms times the conjugate of those of m */
+        y[k] = g[k] * s[k] + g[k + 1] * s[k + 1];
+        y[k + 1] = g[k + 1] * s[k] - g[k] * s[k + 1];
     }
-    gsl_fft_halfcomplex_radix2_inverse(y, 1, n);
+    ss_real_fft_run(&goal->back);
     for (size_t i = 1; i < n; i++)
         if (y[i] > y[peak])
             peak = i;

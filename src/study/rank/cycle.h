@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/status.h>
+#include "base/fft.h"
 #include "base/progress.h"
 
 enum { CYCLE_LEAST = 64, CYCLE_MOST = 1024 };
@@ -31,8 +32,18 @@ double ss_cycle_period(const double *x, const char *missing, size_t n, double ra
 ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing,
                         size_t n, double rate, double frequency, const ss_stretch *progress);
 
-/* The mean square of c less *a times m shifted by *shift cycles, for the best *a >= 0 and *shift.
- * m has c's n bins. */
-double ss_cycle_misfit(const cycle *c, const double *m, double *a, double *shift);
+/* A cycle that others are compared with. */
+typedef struct cycle_goal {
+    const cycle *c;
+    double term[CYCLE_MOST + 2];        /* of its spectrum, over n */
+    real_fft forward, back;
+} cycle_goal;
+
+ss_status ss_cycle_goal_new(cycle_goal *goal, const cycle *c);  /* SS_ENOMEM */
+void ss_cycle_goal_free(cycle_goal *goal);
+
+/* The mean square of the goal less *a times m shifted by *shift cycles, for the best *a >= 0 and *shift.
+ * m has the goal's n bins. */
+double ss_cycle_misfit(const cycle_goal *goal, const double *m, double *a, double *shift);
 
 #endif
