@@ -45,10 +45,9 @@ pc        = $(shell $(PKG_CONFIG) --$1 $2 2>/dev/null)
 HDF5_PC  := $(firstword $(foreach p,hdf5-serial hdf5,$(if $(call pc,modversion,$p),$p)))
 HOMEBREW := $(if $(HDF5_PC),,$(shell brew --prefix 2>/dev/null))
 INCLUDES := $(call pc,cflags,gsl) $(call pc,cflags,fftw3) $(call pc,cflags,$(HDF5_PC)) \
-	$(HOMEBREW:%=-I%/include) $(call pc,cflags,libdeflate)
+	$(HOMEBREW:%=-I%/include)
 NUMERICS := $(call pc,libs,gsl) $(call pc,libs,fftw3) -lpthread -lm
-LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 \
-	$(call pc,libs-only-L,libdeflate) -ldeflate $(NUMERICS)
+LIBS     := $(call pc,libs-only-L,$(HDF5_PC)) $(HOMEBREW:%=-L%/lib) -lhdf5_hl -lhdf5 $(NUMERICS)
 CMOCKA_INCLUDES := $(call pc,cflags,cmocka)
 CMOCKA_LIBS     := $(or $(call pc,libs,cmocka),-lcmocka)
 

@@ -1,7 +1,6 @@
 /* test_store.c -- what goes into an HDF5 file comes out again, to the last bit, at once or piece by
  * piece. */
 #include "store_file.h"
-#include "store/deflate.h"
 
 /* --- records ------------------------------------------------------------------------------- */
 
@@ -228,67 +227,13 @@ error_of_file(const ss_signal *signal, const ss_morlet_opts *opts)
     return worst;
 }
 
-/* Write n numbers, deflated here, as the one chunk of a dataset, and read them as any program does. */
-static void
-deflate_and_read(const double *x, hsize_t n, size_t size, double *back)
-{
-    deflater *d = ss_deflater_new();
-    const void *bytes;
-    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(1, &n, NULL);
-    H5Pset_chunk(how, 1, &n);
-    H5Pset_shuffle(how);
-    H5Pset_deflate(how, 1);
-    hid_t id = H5Dcreate2(file, "x", size == 4 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space, H5P_DEFAULT,
-                          how, H5P_DEFAULT);
-    size_t length = ss_deflate(d, x, n, size, &bytes);
-    assert_true(H5Dwrite_chunk(id, H5P_DEFAULT, 0, &(hsize_t){ 0 }, length, bytes) >= 0);
-    H5Dclose(id);
-    H5Sclose(space);
-    H5Pclose(how);
-    H5Fclose(file);
-    ss_deflater_free(d);
-    read_raw("x", H5T_NATIVE_DOUBLE, back);
-}
-
-/* Equal, noise of few and of all bits, smooth, now and then another; and one that is rarer by the golden ratio
- * than the one before it. */
-static double
-sample_of_kind(int kind, size_t i)
-{
-    static uint64_t state = 1;
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    uint64_t bits = kind == 1 ? state >> 44 : state >> 12;
-    double rare = floor(-log(ldexp((double)((state >> 11) + 1), -53)) / log((1 + sqrt(5)) / 2));
-    return kind == 0 ? 1.5 : kind < 3 ? ldexp(1 + (double)bits, -52) : kind == 3 ? sin(0.001 * (double)i)
-        : kind == 4 ? (double)(state >> 56 == 0) : 1 + rare / 4096;
-}
-
-static void
-deflated_numbers_read_back_exactly(void **state)
-{
-    static const size_t length[] = { 1, 2, 3, 5, 255, 1000, 32768, 65535, DEFLATE_MOST };
-    static double x[DEFLATE_MOST], back[DEFLATE_MOST];
-    (void)state;
-    for (size_t row = 0; row < 2 * 9 * 6; row++) {
-        size_t n = length[row / 2 % 9], size = row % 2 == 0 ? 8 : 4;
-        for (size_t i = 0; i < n; i++) {
-            double next = sample_of_kind((int)(row / 18), i);
-            x[i] = size == 8 ? next : (double)(float)ldexp(next, i % 9 == 0 ? -140 : i % 9 == 1 ? 126 : 0);
-        }
-        memset(back, 0, sizeof back);
-        deflate_and_read(x, n, size, back);
-        assert_same_bits(x, back, n);
-    }
-}
-
 /* 20 bits of noise and some more are needed of 64, and 10.  A row is a chunk of scales as in
  * README-morlet.md, up to a twentieth of the rate. */
 static void
 rounded_coefficients_keep_the_accuracy_in_half_the_bytes(void **state)
 {
     static const double accuracy[] = { 1e-6, 1e-3, 1e-12 }, part[] = { 0.4, 0.22, 0.9 };
-    ss_signal *signal = new_signal(DEFLATE_MOST);
+    ss_signal *signal = new_signal(65536);
     double *x = signal->values + signal->n;
     (void)state;
     memset(x, 0, signal->n * sizeof *x);
@@ -618,7 +563,6 @@ main(void)
         cmocka_unit_test(coefficients_read_back_exactly),
         cmocka_unit_test(a_file_made_piece_by_piece_reads_back_exactly),
         cmocka_unit_test(a_signal_of_unknown_length_reads_back_exactly),
-        cmocka_unit_test(deflated_numbers_read_back_exactly),
         cmocka_unit_test(rounded_coefficients_keep_the_accuracy_in_half_the_bytes),
         cmocka_unit_test(floats_are_stored_where_they_keep_the_accuracy),
         cmocka_unit_test(coefficients_that_outgrow_floats_are_refused),

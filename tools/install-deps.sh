@@ -10,12 +10,12 @@ report=${INSTALL_DEPS:-1}
 # A want is named by what it is, and each system has its own name for the package.
 # shellcheck disable=SC2034  # used through eval
 {
-wants='compiler pkgconfig gsl fftw3 hdf5 libdeflate cmocka gnuplot'
-debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libdeflate-dev libcmocka-dev gnuplot-nox'
-fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libdeflate-devel libcmocka-devel gnuplot'
-arch='gcc pkgconf gsl fftw hdf5 libdeflate cmocka gnuplot'
-homebrew='gcc pkgconf gsl fftw hdf5 libdeflate cmocka gnuplot'
-unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) libdeflate CMocka gnuplot(with-cairo-terminals)'
+wants='compiler pkgconfig gsl fftw3 hdf5 cmocka gnuplot'
+debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libcmocka-dev gnuplot-nox'
+fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libcmocka-devel gnuplot'
+arch='gcc pkgconf gsl fftw hdf5 cmocka gnuplot'
+homebrew='gcc pkgconf gsl fftw hdf5 cmocka gnuplot'
+unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) CMocka gnuplot(with-cairo-terminals)'
 }
 
 : "${CC:=cc}" "${PKG_CONFIG:=pkg-config}"
@@ -23,7 +23,7 @@ need=
 for word; do
     case $word in
     --report) report=only ;;
-    build) need="$need compiler pkgconfig gsl fftw3 hdf5 libdeflate" ;;
+    build) need="$need compiler pkgconfig gsl fftw3 hdf5" ;;
     check) need="$need cmocka gnuplot" ;;
     paper) need="$need gnuplot" ;;
     *) echo "usage: install-deps.sh [--report] [build] [check] [paper]" >&2; exit 2 ;;
@@ -47,7 +47,6 @@ have() {
     compiler)   echo 'int main(void) { return 0; }' | $CC -x c -fsyntax-only -include stdio.h - ;;
     pkgconfig)  command -v "$PKG_CONFIG" ;;
     hdf5)       have_library hdf5_hl.h hdf5-serial hdf5 ;;
-    libdeflate) have_library libdeflate.h libdeflate ;;
     gnuplot)    GNUTERM=dumb gnuplot -e 'set terminal pngcairo; set terminal pdfcairo' ;;
     *)          "$PKG_CONFIG" --exists "$1" ;;
     esac > /dev/null 2>&1

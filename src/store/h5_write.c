@@ -6,7 +6,6 @@
  * are little-endian, links are kept in the order of writing. */
 #include "store/h5_write.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #define PLAIN_BYTES 65536       /* a dataset up to this size is stored without compression */
@@ -186,62 +185,6 @@ ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
     H5Sclose(memory);
     H5Sclose(space);
     return good;
-}
-
-/* The number of values in a chunk, if the dataset is shuffled and deflated row by row; else 0. */
-static size_t
-row_chunk(hid_t id)
-{
-    hsize_t chunk[2] = { 0, 0 };
-    hid_t how = H5Dget_create_plist(id);
-    int rank = H5Pget_layout(how) == H5D_CHUNKED && H5Pget_nfilters(how) == 2 ? H5Pget_chunk(how, 2, chunk) : 0;
-    H5Pclose(how);
-    return rank == 1 ? chunk[0] : rank == 2 && chunk[0] == 1 ? chunk[1] : 0;
-}
-
-ss_status
-ss_h5_hold_row(h5_row *row)
-{
-    hid_t type = H5Dget_type(row->id);
-    row->size = H5Tget_size(type);
-    H5Tclose(type);
-    row->chunk = row_chunk(row->id);
-    if (row->chunk > 0)
-        row->held = malloc(row->chunk * sizeof *row->held);
-    return row->chunk == 0 || row->held != NULL ? SS_OK : SS_ENOMEM;
-}
-
-int
-ss_h5_end_row(h5_pieces *pieces, h5_row *row, int rank, const hsize_t end[])
-{
-    hsize_t at[2] = { end[0], end[rank - 1] - row->n };
-    if (row->n == 0)
-        return 1;
-    at[0] = rank == 1 ? at[1] : at[0];
-    memset(row->held + row->n, 0, (row->chunk - row->n) * sizeof *row->held);
-    const void *bytes;
-    size_t size = ss_deflate(pieces->deflater, row->held, row->chunk, row->size, &bytes);
-    row->n = 0;
-    return grow(row->id, rank, end[rank - 1])
-        && H5Dwrite_chunk(row->id, H5P_DEFAULT, 0, at, size, bytes) >= 0;
-}
-
-int
-ss_h5_write_row(h5_pieces *pieces, h5_row *row, int rank, const hsize_t at[], size_t n,
-                const double *values)
-{
-    if (row->chunk == 0)
-        return ss_h5_write_piece(row->id, rank, at, n, H5T_NATIVE_DOUBLE, values);
-    hsize_t end[2] = { at[0], at[rank - 1] };
-    for (size_t m; n > 0; n -= m, values += m) {
-        m = n < row->chunk - row->n ? n : row->chunk - row->n;
-        memcpy(row->held + row->n, values, m * sizeof *values);
-        row->n += m;
-        end[rank - 1] += m;
-        if (row->n == row->chunk && !ss_h5_end_row(pieces, row, rank, end))
-            return 0;
-    }
-    return 1;
 }
 
 hsize_t

@@ -2,10 +2,9 @@
 #ifndef H5_WRITE_H
 #define H5_WRITE_H
 
-#include "store/deflate.h"
 #include "store/h5.h"
 
-#define H5_PIECE DEFLATE_MOST   /* the most values in a chunk, and in one write */
+#define H5_PIECE 65536          /* the most values in a chunk, and in one write */
 
 /* One dataset to be written. */
 typedef struct h5_dataset {
@@ -15,7 +14,7 @@ typedef struct h5_dataset {
     size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
     hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
                                    kept in chunks of so many values of a row */
-    int in_rows;                /* 1: ss_h5_write_row writes it, each row in chunks of its own */
+    int in_rows;                /* 1: it is written row by row, and each has chunks of its own */
 } h5_dataset;
 
 /* The writers of all groups share the clock of the file and room for a piece of values. */
@@ -24,18 +23,9 @@ typedef struct h5_pieces {
     double rate, start;
     int growing;                /* lengths are known only at the end */
     double value[2][H5_PIECE];  /* re and im, or others */
+    float single[H5_PIECE];
     unsigned char edge[H5_PIECE];
-    deflater *deflater;
 } h5_pieces;
-
-/* A row of numbers that is deflated here and not by HDF5, which takes several times longer: chunk by
- * chunk, so that the last values wait for more.  Begin with zeros but for id. */
-typedef struct h5_row {
-    hid_t id;                   /* of the dataset */
-    size_t size;                /* bytes of a number in the file: 8, or 4 */
-    double *held;               /* of the chunk that is not yet full */
-    size_t n, chunk;            /* of these; in a chunk, or 0: HDF5 writes the values */
-} h5_row;
 
 /* A call of HDF5 fails for lack of memory, or for a name or size that it cannot store; disk.c hides a
  * full disk from it. */
@@ -59,13 +49,6 @@ ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], si
  * short grows. */
 int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
                       const void *values);
-
-/* Make room to hold a chunk: SS_ENOMEM.  Then the next n doubles of a row, which begin at its at-th, as
- * ss_h5_write_piece has it; and the last ones that were held, before `end`. */
-ss_status ss_h5_hold_row(h5_row *row);
-int ss_h5_write_row(h5_pieces *pieces, h5_row *row, int rank, const hsize_t at[], size_t n,
-                    const double *values);
-int ss_h5_end_row(h5_pieces *pieces, h5_row *row, int rank, const hsize_t end[]);
 
 /* The number of values of a row in one chunk, a power of two, for rows that grow together; bytes: the
  * size of a column of all rows. */

@@ -11,8 +11,8 @@
 #include "store/groups.h"
 
 struct scale_datasets {
-    hid_t group, time, edge;
-    h5_row re, im;              /* if dense, all scales have the ids of the same two datasets */
+    hid_t group, time, re, im, edge;
+    int single;                 /* re and im are 32-bit floats */
     size_t done;
     double most;                /* the largest |W| so far */
 };
@@ -103,8 +103,8 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
         return SS_ENOMEM;
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->datasets[i] = (struct scale_datasets){ .group = -1, .time = -1, .edge = -1, .re.id = -1,
-                                                 .im.id = -1 };
+        w->datasets[i] = (struct scale_datasets){ .group = -1, .time = -1, .re = -1, .im = -1,
+                                                 .edge = -1 };
     w->dense = is_dense(w);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
 }
@@ -145,24 +145,10 @@ ss_wavelet_writer_find(const wavelet_writer *w, const ss_scale *scale, size_t fi
     return i;
 }
 
-/* Write the rest of a scale, which is held in memory. */
-static int
-end_rows(wavelet_writer *w, size_t i)
-{
-    struct scale_datasets *d = &w->datasets[i];
-    const hsize_t where[2] = { i, d->done }, *end = where + !w->dense;
-    int rank = w->dense ? 2 : 1;
-    int good = ss_h5_end_row(w->pieces, &d->re, rank, end) && ss_h5_end_row(w->pieces, &d->im, rank, end);
-    free(d->re.held);
-    free(d->im.held);
-    d->re.held = d->im.held = NULL;
-    return good;
-}
-
 static int
 close_datasets(struct scale_datasets *r)
 {
-    hid_t *const id[] = { &r->time, &r->re.id, &r->im.id, &r->edge };
+    hid_t *const id[] = { &r->time, &r->re, &r->im, &r->edge };
     int good = 1;
     for (size_t i = 0; i < sizeof id / sizeof *id; i++) {
         good &= *id[i] < 0 || H5Dclose(*id[i]) >= 0;
@@ -192,9 +178,13 @@ largest_of(const double *x, size_t n, double most)
     return fmax(most, sqrt(square));
 }
 
-/* Make the datasets of scale i, or, if dense, those of all scales, which are rectangles. */
+/* Make the datasets of scale i, or, if dense, those of all scales, which are rectangles.  The largest |W| is
+ * `most` so far.  For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which
+ * 32-bit floats hold exactly unless the unit is below 2^-149.  The error there is far below the
+ * 16 eps a^1/2 max|x| that W has anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one
+ * scale. */
 static ss_status
-open_datasets(wavelet_writer *w, size_t i, int single)
+open_datasets(wavelet_writer *w, size_t i, double most)
 {
     static const char *const scales[] = { "scale", "time" };
     int growing = w->pieces->growing, rank = w->dense ? 2 : 1;
@@ -202,7 +192,8 @@ open_datasets(wavelet_writer *w, size_t i, int single)
     hsize_t length = growing ? 0 : w->dense ? w->n : w->scale[i].n;
     const hsize_t dims[2] = { w->n_scales, length };
     struct scale_datasets *d = &w->datasets[w->dense ? 0 : i];
-    hid_t group = w->dense ? w->group : d->group, type = single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    d->single = w->tolerance >= 1e-7 && most >= 1e-20 && most <= 1e20;
+    hid_t group = w->dense ? w->group : d->group, type = d->single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     const h5_dataset v[] = {
         { .name = "time", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
           .chunk = chunk },
@@ -216,7 +207,7 @@ open_datasets(wavelet_writer *w, size_t i, int single)
     d->time = ss_h5_new_dataset(group, &v[0], 1, &length, NULL);
     if (d->time < 0)
         return ss_h5_fail_write(w->pieces->file, group, v[0].name);
-    hid_t *const id[] = { NULL, &d->re.id, &d->im.id, &d->edge };
+    hid_t *const id[] = { NULL, &d->re, &d->im, &d->edge };
     for (size_t k = 1; k < sizeof v / sizeof *v; k++) {
         *id[k] = ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
         /* the CF conventions name so the label of a row that is not its index */
@@ -227,23 +218,6 @@ open_datasets(wavelet_writer *w, size_t i, int single)
         return ss_h5_fail_write(w->pieces->file, w->group, "re");
     d->group = -1;
     return SS_OK;
-}
-
-/* Begin scale i, whose largest |W| is `most` so far, and make its datasets, unless another scale has made
- * them.  For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which 32-bit
- * floats hold exactly unless the unit is below 2^-149.  The error there is far below the 16 eps a^1/2 max|x|
- * that W has anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one scale. */
-static ss_status
-begin_scale(wavelet_writer *w, size_t i, double most)
-{
-    struct scale_datasets *d = &w->datasets[i], *shared = &w->datasets[w->dense ? 0 : i];
-    int single = w->tolerance >= 1e-7 && most >= 1e-20 && most <= 1e20;
-    ss_status st = shared->re.id < 0 ? open_datasets(w, i, single) : SS_OK;
-    d->re.id = shared->re.id;
-    d->im.id = shared->im.id;
-    if (st == SS_OK)
-        st = ss_h5_hold_row(&d->re);
-    return st == SS_OK ? ss_h5_hold_row(&d->im) : st;
 }
 
 /* Split coefficients into re and im, rounded by adding and subtracting `shift`. */
@@ -274,6 +248,16 @@ find_edges(const wavelet_writer *w, const ss_scale *scale, size_t first, size_t 
                                               w->n_gaps);
 }
 
+/* Write re or im of n coefficients.  Were HDF5 to make 32-bit floats of them, it would zero 1 MB in each call. */
+static int
+write_part(h5_pieces *p, hid_t id, int single, int rank, const hsize_t at[], size_t n, const double *x)
+{
+    for (size_t k = 0; single && k < n; k++)
+        p->single[k] = (float)x[k];
+    return ss_h5_write_piece(id, rank, at, n, single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE,
+                             single ? (const void *)p->single : x);
+}
+
 /* Write n coefficients of scale i, at most a piece. */
 static int
 write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
@@ -286,8 +270,8 @@ write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t sample
     const hsize_t where[2] = { i, first }, *at = where + 2 - rank;
     split(p->value[0], p->value[1], x, n, rounding_of(w->tolerance, w->datasets[i].most));
     find_edges(w, scale, first, n, samples);
-    return ss_h5_write_row(p, &w->datasets[i].re, rank, at, n, p->value[0])
-        && ss_h5_write_row(p, &w->datasets[i].im, rank, at, n, p->value[1])
+    return write_part(p, d->re, d->single, rank, at, n, p->value[0])
+        && write_part(p, d->im, d->single, rank, at, n, p->value[1])
         && ss_h5_write_piece(d->edge, rank, at, n, H5T_NATIVE_UCHAR, p->edge)
         && (w->dense || ss_h5_write_times(p, d->time, scale, first, n));
 }
@@ -295,12 +279,12 @@ write_rows(wavelet_writer *w, size_t i, size_t n, const double *x, size_t sample
 ss_status
 ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
-    struct scale_datasets *d = &w->datasets[i];
+    struct scale_datasets *d = &w->datasets[i], *shared = &w->datasets[w->dense ? 0 : i];
     ss_status st = SS_OK;
     d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
-    if (d->done == 0 && n > 0)
-        st = begin_scale(w, i, d->most);
-    if (st == SS_OK && d->re.size == sizeof(float) && d->most > FLT_MAX)
+    if (shared->re < 0 && n > 0)
+        st = open_datasets(w, i, d->most);
+    if (st == SS_OK && shared->single && d->most > FLT_MAX)
         st = ss_h5_fail(w->pieces->file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede "
                         "some above 3.4e38, which 32-bit floats do not hold; keep all bits");
     if (st != SS_OK)
@@ -311,8 +295,7 @@ ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x,
             return ss_h5_fail_write(w->pieces->file, w->group, "re");
         d->done += m;
     }
-    if (!w->pieces->growing && d->done == w->scale[i].n
-        && (!end_rows(w, i) || (!w->dense && !close_datasets(d))))
+    if (!w->pieces->growing && !w->dense && d->done == w->scale[i].n && !close_datasets(d))
         return ss_h5_fail_write(w->pieces->file, w->group, "re");
     return SS_OK;
 }
@@ -336,8 +319,6 @@ ss_wavelet_writer_end(wavelet_writer *w, size_t samples)
     for (size_t i = 0; i < w->n_scales; i++)
         if (!is_full(w, i, samples))
             return ss_fail(file->err, SS_EINVAL, "coefficients of scale %g are missing", w->scale[i].m);
-        else if (!end_rows(w, i))
-            return ss_h5_fail_write(file, w->group, "re");
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
     if ((w->dense && !ss_h5_write_times(w->pieces, w->datasets->time, &w->scale[0], 0, samples))
@@ -350,10 +331,6 @@ ss_wavelet_writer_end(wavelet_writer *w, size_t samples)
 void
 ss_wavelet_writer_free(wavelet_writer *w)
 {
-    for (size_t i = 0; w->datasets != NULL && i < w->n_scales; i++) {
-        free(w->datasets[i].re.held);
-        free(w->datasets[i].im.held);
-    }
     free(w->unit);
     free(w->scale);
     free(w->datasets);

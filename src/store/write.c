@@ -48,8 +48,6 @@ begin(ss_store_writer **out, const char *path, const ss_header *head)
     w->pieces.rate = head != NULL ? head->rate : 1;
     w->pieces.start = head != NULL ? head->start : 0;
     ss_status st = ss_h5_output_open(&w->output, path);
-    if (st == SS_OK && (w->pieces.deflater = ss_deflater_new()) == NULL)
-        st = SS_ENOMEM;
     return st == SS_OK ? write_notes(&w->output.file, head) : st;
 }
 
@@ -215,7 +213,6 @@ ss_store_writer_free(ss_store_writer *w)
         ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
     } H5E_END_TRY
     ss_wavelet_writer_free(&w->wavelet);
-    ss_deflater_free(w->pieces.deflater);
     free(w->signal.column);
     free(w->output.path);
     free(w);
