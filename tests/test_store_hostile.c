@@ -148,10 +148,10 @@ nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
     unlink(other);
 }
 
-/* A /signal of n values at 1 kHz, with a column t of no storage, tracked in the order of writing but
+/* A /signal of n values at 1 Hz from 1 s on, at most 200, with a column t only, tracked in the order of writing but
  * without an index of it. */
 static hid_t
-open_signal_without_values(hid_t file, hsize_t n)
+open_signal_of_times(hid_t file, hsize_t n)
 {
     const double one = 1;
     static const char *const name[] = { "rate", "start", "has_time" };
@@ -162,6 +162,10 @@ open_signal_without_values(hid_t file, hsize_t n)
         put_scalar(group, name[i], H5T_NATIVE_DOUBLE, &one);
     hid_t space = H5Screate_simple(1, &n, NULL);
     hid_t id = H5Dcreate2(group, "t", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    double t[200];
+    for (int i = 0; i < 200; i++)
+        t[i] = 1 + i;
+    H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, t);
     H5Dclose(id);
     H5Sclose(space);
     H5Pclose(how);
@@ -192,21 +196,23 @@ assert_signal_refused(const char *words)
 static void
 many_datasets_together_claim_no_more_than_one_may(void **state)
 {
-    char name[32];
+    enum { VALUES = 200 };
+    char name[32], words[120];
     struct stat st;
     (void)state;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t group = open_signal_without_values(file, 1 << 24);
-    for (int i = 0; i < 12; i++) {
+    hid_t group = open_signal_of_times(file, VALUES);
+    for (int i = 0; i < 9; i++) {
         snprintf(name, sizeof name, "x%d", i);
-        put_without_values(group, name, 1 << 24);
+        put_without_values(group, name, VALUES);
     }
     H5Gclose(group);
     H5Fclose(file);
     assert_int_equal(stat(path, &st), 0);
-    assert_true(st.st_size < 10000);
-    assert_signal_refused(":/signal/x1: with those before, claims more values than a file of this size "
-                          "can hold");
+    assert_in_range(st.st_size, 2 * 8 * VALUES, 9 * 8 * VALUES - 1);
+    snprintf(words, sizeof words, ":/signal/x%d: with those before, claims more values than a file of this size can "
+             "hold", (int)st.st_size / (8 * VALUES) - 1);
+    assert_signal_refused(words);
 }
 
 /* Hard links and soft ones, of t and of a column. */
@@ -222,7 +228,7 @@ a_dataset_under_two_names_is_refused(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-        hid_t group = open_signal_without_values(file, 3);
+        hid_t group = open_signal_of_times(file, 3);
         put_without_values(group, "x", 3);
         if (row[i].soft)
             H5Lcreate_soft(row[i].from, group, row[i].to, H5P_DEFAULT, H5P_DEFAULT);
@@ -247,13 +253,12 @@ a_dataset_under_two_names_is_refused(void **state)
     ss_signal_free(signal);
 }
 
-/* Memory is not asked for as many columns as t is long before they are seen to be shorter. */
 static void
 a_column_shorter_than_t_is_refused(void **state)
 {
     (void)state;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t group = open_signal_without_values(file, 1 << 24);
+    hid_t group = open_signal_of_times(file, 100);
     put_without_values(group, "x", 1);
     H5Gclose(group);
     H5Fclose(file);
@@ -298,7 +303,7 @@ one_text_under_many_names_is_not_read_many_times(void **state)
     size_t size;
     (void)state;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    H5Gclose(open_signal_without_values(file, 3));
+    H5Gclose(open_signal_of_times(file, 3));
     put_variable_text(file, "large", LARGE, 'a');
     for (int i = 0; i < NAMES; i++) {
         snprintf(name, sizeof name, "small%d", i);
@@ -391,7 +396,7 @@ many_columns_without_an_index_are_listed_at_once(void **state)
     char name[32];
     (void)state;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t group = open_signal_without_values(file, 3);
+    hid_t group = open_signal_of_times(file, 3);
     for (int i = COLUMNS; i > 0; i--) {
         snprintf(name, sizeof name, "x%d", i);
         put_without_values(group, name, 3);
@@ -482,6 +487,136 @@ only_filters_that_bound_what_they_make_are_run(void **state)
     assert_int_equal(after, before);
 }
 
+/* As in text: within rounding and 1e-6 of a sample period of start + n / rate, over pieces, and in one row of each. */
+static void
+times_that_are_not_the_clock_are_refused(void **state)
+{
+    enum { ROWS = 300000 };
+    static const struct { hsize_t at; double by; int good; } row[] = {
+        { 0, 0, 1 }, { 0, 1e-3, 0 }, { ROWS - 1, -1e-6, 0 }, { ROWS / 2, NAN, 0 }, { 7, INFINITY, 0 }, { 7, 1e-10, 1 },
+    };
+    ss_signal *signal = new_signal(ROWS);
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal });
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_signal *back = NULL;
+        ss_error err = { 0 };
+        const hsize_t one = 1;
+        char words[80];
+        double right = signal->head->start + (double)row[i].at / signal->head->rate;
+        for (int wrong = 1; wrong >= 0; wrong--) {
+            double stamp = wrong ? right + row[i].by : right;
+            hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), id = H5Dopen2(file, "/signal/t", H5P_DEFAULT);
+            hid_t space = H5Dget_space(id), memory = H5Screate_simple(1, &one, NULL);
+            H5Sselect_elements(space, H5S_SELECT_SET, 1, &row[i].at);
+            assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &stamp) >= 0);
+            H5Sclose(memory);
+            H5Sclose(space);
+            H5Dclose(id);
+            H5Fclose(file);
+            ss_status st = ss_store_read_signal(&back, path, NULL, NULL, &err);
+            assert_int_equal(st, !wrong || row[i].good ? SS_OK : SS_EDATA);
+            snprintf(words, sizeof words, ":/signal/t: value %d is not start + %d / rate", (int)row[i].at + 1,
+                     (int)row[i].at);
+            if (st != SS_OK)
+                assert_string_equal(err.text + strlen(path), words);
+            ss_signal_free(back);
+            back = NULL;
+        }
+    }
+    ss_signal_free(signal);
+}
+
+/* Modulo 2^64 the first three products are 0, 24 and 1. */
+static void
+dimensions_are_multiplied_without_end(void **state)
+{
+    const struct { hsize_t dims[2], chunk[2]; int deflated; const char *words; } row[] = {
+        { { (hsize_t)1 << 62, 4 }, { 64, 4 }, 0, "has more values than can be read at once" },
+        { { ((hsize_t)1 << 61) + 3, 8 }, { 64, 8 }, 0, "has more values than can be read at once" },
+        { { 67280421310721, 274177 }, { 64, 1 }, 1, "has more values than can be read at once" },
+        { { 900000000, 1 }, { 64, 1 }, 1, "claims more values than a file of this size can hold" },
+        { { 1, 6 }, { 1 << 14, 1 << 14 }, 1, "claims more values than a file of this size can hold" },
+    };
+    static const ss_read_opts opts = { .rate = 1 };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_signal *signal = NULL;
+        ss_error err = { 0 };
+        const hsize_t most[2] = { H5S_UNLIMITED, H5S_UNLIMITED };
+        hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), how = H5Pcreate(H5P_DATASET_CREATE);
+        hid_t space = H5Screate_simple(2, row[i].dims, most);
+        H5Pset_chunk(how, 2, row[i].chunk);
+        if (row[i].deflated)
+            H5Pset_deflate(how, 9);
+        hid_t id = H5Dcreate2(file, "x", H5T_STD_I8LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+        assert_true(id >= 0);
+        H5Dclose(id);
+        H5Sclose(space);
+        H5Pclose(how);
+        H5Fclose(file);
+        assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+        assert_string_equal(err.text + strlen(path) + strlen(":/x: "), row[i].words);
+    }
+}
+
+/* Write a file whose group with this name holds n soft links to /x with long names, in a heap, and the attributes of
+ * a signal and of a dense grid. */
+static void
+write_heap(const char *name, int n, int deflated)
+{
+    static const char *const attribute[] = { "rate", "start", "has_time", "samples", "scales", "dense" };
+    const double one = 1, six = 6;
+    char link[4000];
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS), how = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    put_array(file, "x", H5T_IEEE_F64LE, 6, H5P_DEFAULT);
+    H5Pset_link_phase_change(how, 0, 0);
+    if (deflated)
+        H5Pset_deflate(how, 9);
+    hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_non_null(memset(link, 'a', sizeof link));
+    for (int i = 0; i < n; i++) {
+        snprintf(link + 3900, sizeof link - 3900, "%d", i);
+        assert_true(H5Lcreate_soft("/x", group, link, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    }
+    assert_true(H5Lcreate_hard(file, "/x", group, "y", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    for (size_t i = 0; i < sizeof attribute / sizeof *attribute; i++)
+        put_scalar(group, attribute[i], H5T_NATIVE_DOUBLE, &one);
+    put_scalar(group, "center", H5T_NATIVE_DOUBLE, &six);
+    H5Gclose(group);
+    H5Lcreate_soft(name, file, "z", H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(file);
+    H5Pclose(how);
+    H5Pclose(access);
+}
+
+/* Directly, through a soft link, among the datasets to be listed, and as /signal and /wavelet. */
+static void
+names_that_are_packed_are_not_unpacked(void **state)
+{
+    static const struct { const char *name, *dataset; } row[] = {
+        { "group", "/group/y" }, { "group", "/z/y" }, { "group", "" }, { "signal", "" }, { "wavelet", NULL },
+    };
+    static const ss_read_opts opts = { .rate = 1 };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        for (int deflated = 0; deflated < 2; deflated++) {
+            ss_signal *signal = NULL;
+            ss_coefficients *c = NULL;
+            ss_error err = { 0 };
+            write_heap(row[i].name, 100, deflated);
+            ss_status st = row[i].dataset == NULL ? ss_store_read_coefficients(&c, path, &err)
+                : ss_store_read_signal(&signal, path, row[i].dataset, &opts, &err);
+            assert_int_equal(st, !deflated && i < 2 ? SS_OK : SS_EDATA);
+            int packed = strstr(err.text, ": names or attributes in it are packed by filters") != NULL;
+            if (packed != deflated)
+                fail_msg("%s as %s, deflated %d: %s", row[i].name, row[i].dataset, deflated, err.text);
+            ss_signal_free(signal);
+        }
+}
+
 /* Put a 1-D dataset of n zeros in the place of one. */
 static void
 put_zeros(const char *dataset, hsize_t n)
@@ -568,6 +703,9 @@ main(void)
         cmocka_unit_test(many_columns_without_an_index_are_listed_at_once),
         cmocka_unit_test(the_sources_of_a_virtual_dataset_are_not_opened),
         cmocka_unit_test(only_filters_that_bound_what_they_make_are_run),
+        cmocka_unit_test(times_that_are_not_the_clock_are_refused),
+        cmocka_unit_test(dimensions_are_multiplied_without_end),
+        cmocka_unit_test(names_that_are_packed_are_not_unpacked),
         cmocka_unit_test(a_grid_that_is_not_one_is_refused),
     };
     return cmocka_run_group_tests_name("store hostile", tests, make_dir, remove_dir);

@@ -84,6 +84,16 @@ append_name(struct list *list, const char *name)
     return full;
 }
 
+/* Can the names in a group not be read?  They are asked for one first, as list_links of signal_reader.c does. */
+static int
+has_lost_names(hid_t root, const char *name)
+{
+    hid_t group = ss_h5_open_group(root, name);
+    int lost = H5Lexists(group, "t", H5P_DEFAULT) < 0;
+    H5Gclose(group);
+    return lost;
+}
+
 /* HDF5's time for groups in groups grows with the cube of their depth, so those whose names would not fit
  * are not looked into: they end the list. */
 static herr_t
@@ -96,6 +106,8 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
         return 1;
     if (strlen(name) >= LISTED)
         return append_name(list, name);
+    if (info->type == H5O_TYPE_GROUP)
+        return has_lost_names(root, name);
     if (info->type != H5O_TYPE_DATASET)
         return 0;
     hid_t id = ss_h5_open_dataset(root, name);

@@ -27,11 +27,12 @@ typedef struct signal_rows {
     h5_file file;
     char *path;                 /* of the file */
     hid_t *dataset;             /* one for all columns, or one for each */
+    hid_t times;                /* of the rows, to be checked, or 0 */
     size_t n_datasets, n, row;  /* n: rows; row: of these, the next to be read */
     int by_columns;             /* what is read at a time from a dataset is column after column */
     int gaps;                   /* values that are not finite are missing, not wrong */
     size_t piece;               /* rows that are read at a time */
-    double *raw;                /* a piece of a dataset, if by columns */
+    double *raw;                /* a piece of a dataset, if by columns, or of the times */
 } signal_rows;
 
 /* Begin to read a signal of an open file, as ss_store_signal_reader does, but for ss_reader_adjust.  The

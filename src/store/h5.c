@@ -16,6 +16,10 @@ ss_status
 ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
 {
     char where[256] = "";
+    h5_disk *disk;
+    if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, (void **)&disk) >= 0 && disk->packed)
+        return ss_fail(file->err, SS_EDATA, "%s: names or attributes in it are packed by filters; only values may be",
+                       file->path);
     if (group > 0 && name[0] != '/')
         H5Iget_name(group, where, sizeof where);
     const char *colon = name[0] != '\0' || where[0] != '\0' ? ":" : "";
@@ -33,7 +37,7 @@ compare_addresses(const void *a, const void *b)
 ss_status
 ss_h5_open(h5_file *file)
 {
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    hid_t access = ss_h5_disk_access(NULL, &file->driver);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, access);
     H5Pclose(access);
@@ -52,6 +56,8 @@ ss_h5_close(h5_file *file)
     }
     if (file->id >= 0)
         H5Fclose(file->id);
+    if (file->driver > 0)
+        H5FDunregister(file->driver);
 }
 
 /* --- objects ------------------------------------------------------------------------------- */
@@ -111,29 +117,37 @@ file_size(hid_t object)
     return (double)size;
 }
 
-/* All that is read from a file may need at most so many bytes: as many as deflate can make of the whole
- * file, or a size that is small anyway. */
 static double
-largest_claim(hid_t object)
+product(int n, const hsize_t factor[])
 {
-    return fmax(1032 * file_size(object), 1 << 28);
+    double all = 1;
+    for (int i = 0; i < n; i++)
+        all *= (double)factor[i];
+    return all;
 }
 
+/* The number of values in a dataspace.  HDF5 itself multiplies modulo 2^64. */
 static double
-chunk_values(hid_t how)
+values_in(hid_t space)
+{
+    hsize_t dims[H5S_MAX_RANK];
+    return H5Sget_simple_extent_type(space) == H5S_NULL ? 0
+        : product(H5Sget_simple_extent_dims(space, dims, NULL), dims);
+}
+
+/* The values of a chunk, or 0 if the dataset has none. */
+static double
+values_in_chunk(hid_t how)
 {
     hsize_t chunk[H5S_MAX_RANK];
-    double values = 1;
-    int rank = H5Pget_chunk(how, H5S_MAX_RANK, chunk);
-    for (int i = 0; i < rank; i++)
-        values *= (double)chunk[i];
-    return values;
+    return H5Pget_layout(how) == H5D_CHUNKED ? product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk) : 0;
 }
 
-/* 1 if the values are stored as they are, or by filters for which the limit of largest_claim is true.
- * Deflated twice, a file would hold 1032^2 times its size; other filters take the size from the file. */
-static int
-has_plain_filters(hid_t how)
+/* So many bytes of values can come from one of the file at most: 1 if they are stored as they are, what deflate
+ * can do if they are deflated; 0 if that is not known.  Deflated twice, a file would hold 1032^2 times its size;
+ * other filters take the size from the file. */
+static double
+most_from_byte(hid_t how)
 {
     int deflated = 0, n = H5Pget_nfilters(how);
     for (int i = 0; i < n; i++) {
@@ -145,7 +159,7 @@ has_plain_filters(hid_t how)
             return 0;
         deflated += filter == H5Z_FILTER_DEFLATE;
     }
-    return n >= 0 && deflated <= 1;
+    return n < 0 || deflated > 1 ? 0 : deflated == 1 ? 1032 : 1;
 }
 
 /* The reason to refuse how values are stored, or NULL.  Call it before reading the extent: for that of a
@@ -155,39 +169,48 @@ refuse_storage(hid_t how)
 {
     if (H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0)
         return "its values lie outside this file";
-    if (!has_plain_filters(how))
+    if (most_from_byte(how) <= 0)
         return "is packed otherwise than by deflate, once; h5repack -f GZIP=1 makes it so";
     return NULL;
 }
 
+/* *bytes: so many of the file the values need at least. */
 static const char *
-refuse_extent(hid_t dataset, hid_t how)
+refuse_extent(hid_t dataset, hid_t how, double *bytes)
 {
     hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
     H5T_class_t class = H5Tget_class(type);
-    size_t width = H5Tget_size(type) > 8 ? H5Tget_size(type) : 8;       /* doubles in memory */
-    double values = (double)H5Sget_simple_extent_npoints(space);
-    double chunk = H5Pget_layout(how) == H5D_CHUNKED ? chunk_values(how) : 0;
+    double width = (double)H5Tget_size(type) / most_from_byte(how), values = values_in(space);
+    size_t size = H5Tget_size(type);
     H5Sclose(space);
     H5Tclose(type);
-    if ((class != H5T_INTEGER && class != H5T_FLOAT) || width > 16)
+    *bytes = values * width;
+    if ((class != H5T_INTEGER && class != H5T_FLOAT) || size > 16)
         return "does not hold real numbers";
     if (!(values >= 0 && values <= H5_MAX_VALUES))
         return "has more values than can be read at once";
-    if (fmax(values, chunk) * (double)width > largest_claim(dataset))
+    if (fmax(values, values_in_chunk(how)) * width > file_size(dataset))
         return "claims more values than a file of this size can hold";
     return NULL;
+}
+
+/* The reason why the values of a dataset must not be read, or NULL; *bytes as for refuse_extent. */
+static const char *
+refuse_values(hid_t dataset, double *bytes)
+{
+    hid_t how = H5Dget_create_plist(dataset);
+    const char *wrong = refuse_storage(how);
+    if (wrong == NULL)
+        wrong = refuse_extent(dataset, how, bytes);
+    H5Pclose(how);
+    return wrong;
 }
 
 const char *
 ss_h5_refuse_values(hid_t dataset)
 {
-    hid_t how = H5Dget_create_plist(dataset);
-    const char *wrong = refuse_storage(how);
-    if (wrong == NULL)
-        wrong = refuse_extent(dataset, how);
-    H5Pclose(how);
-    return wrong;
+    double bytes;
+    return refuse_values(dataset, &bytes);
 }
 
 /* Refuse a dataset that has been read under another name: under many names, one would be read many times. */
@@ -214,7 +237,8 @@ refuse_second_name(h5_file *file, hid_t dataset, const char **wrong)
 static ss_status
 claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
 {
-    *wrong = ss_h5_refuse_values(dataset);
+    double bytes;
+    *wrong = refuse_values(dataset, &bytes);
     if (*wrong != NULL)
         return SS_EDATA;
     ss_status status = refuse_second_name(file, dataset, wrong);
@@ -223,9 +247,9 @@ claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
     hid_t space = H5Dget_space(dataset);
     *n = (size_t)H5Sget_simple_extent_npoints(space);
     H5Sclose(space);
-    file->claimed += 8 * (double)*n;
+    file->claimed += bytes;
     *wrong = "with those before, claims more values than a file of this size can hold";
-    return file->claimed > largest_claim(dataset) ? SS_EDATA : SS_OK;
+    return file->claimed > file_size(dataset) ? SS_EDATA : SS_OK;
 }
 
 /* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good, HDF5 gives no mask, and 0 is returned. */
@@ -255,8 +279,7 @@ ss_h5_get_number(hid_t object, const char *name, double *value)
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
     H5T_class_t class = H5Tget_class(type);
     int good = (class == H5T_INTEGER || class == H5T_FLOAT) && H5Tget_size(type) <= 16
-               && H5Sget_simple_extent_npoints(space) == 1
-               && H5Aread(id, H5T_NATIVE_DOUBLE, value) >= 0;
+               && values_in(space) == 1 && H5Aread(id, H5T_NATIVE_DOUBLE, value) >= 0;
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(id);
@@ -309,7 +332,7 @@ ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text)
     if (id < 0)
         return SS_OK;
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
-    if (H5Tget_class(type) == H5T_STRING && H5Sget_simple_extent_npoints(space) == 1
+    if (H5Tget_class(type) == H5T_STRING && values_in(space) == 1
         && !has_claimed_too_much(file))
         status = read_text(id, type, text);
     H5Sclose(space);
@@ -375,7 +398,8 @@ read_notes(h5_file *file, ss_header *head)
     struct notes notes = { file, head, SS_OK };
     unsigned tracked = 0;
     H5Pget_attr_creation_order(how, &tracked);
-    herr_t stopped = H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
+    int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for list_links of signal_reader.c */
+    herr_t stopped = lost ? -1 : H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
                                  H5_ITER_INC, NULL, read_note, &notes);
     H5Pclose(how);
     H5Gclose(root);

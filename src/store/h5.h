@@ -18,7 +18,8 @@ typedef struct h5_file {
     hid_t id;
     const char *path;           /* for messages */
     ss_error *err;
-    double claimed;             /* bytes of the values read so far, as doubles */
+    hid_t driver;               /* to be unregistered behind the file */
+    double claimed;             /* bytes of the file that the values read so far need at least */
     double text;                /* and of text in attributes */
     void *seen;                 /* the datasets among them, a tree of tsearch() by their addresses */
 } h5_file;
@@ -32,16 +33,17 @@ ss_status ss_h5_open(h5_file *file);
 /* Close it, if it is open. */
 void ss_h5_close(h5_file *file);
 
-/* The open file on disk to which HDF5 writes; error is the errno of the first failure, or 0 (disk.c).
- * ss_h5_disk_access gives a file access list for it, to be closed, or < 0. */
+/* An open file on disk as HDF5 sees it; error is the errno of the first failure to write, or 0 (disk.c).
+ * ss_h5_disk_access gives a file access list, to be closed, or < 0: for this disk, which is written, or for a
+ * file that is read, for NULL.  The driver is to be unregistered behind the file: H5Fclose drops what the
+ * file holds of it before its last use. */
 typedef struct h5_disk {
     H5FD_t of_hdf5;             /* comes first */
     int fd, error;
-    hid_t driver;               /* to be unregistered behind the file: H5Fclose drops what the file holds of it
-                                   before its last use */
+    int reading, packed;        /* packed: a heap with filters was refused */
     haddr_t eoa, eof;           /* end of what is allocated, of what is there */
 } h5_disk;
-hid_t ss_h5_disk_access(h5_disk *disk);
+hid_t ss_h5_disk_access(h5_disk *disk, hid_t *driver);
 
 /* Objects by their path, links out of the file not followed; < 0 if there is none. */
 hid_t ss_h5_open_dataset(hid_t group, const char *name);

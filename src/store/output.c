@@ -50,7 +50,6 @@ ss_h5_output_open(h5_output *out, const char *path)
 {
     out->file = (h5_file){ .id = -1, .path = path, .err = &out->error };
     out->disk.fd = -1;
-    out->disk.driver = -1;
     out->path = strdup(path);
     if (out->path == NULL)
         return SS_ENOMEM;
@@ -58,7 +57,7 @@ ss_h5_output_open(h5_output *out, const char *path)
     ss_status st = open_disk(out);
     if (st != SS_OK)
         return st;
-    hid_t access = ss_h5_disk_access(&out->disk);
+    hid_t access = ss_h5_disk_access(&out->disk, &out->file.driver);
     if (access < 0)
         return SS_ENOMEM;
     out->file.id = create_file(out->path, access);
@@ -98,9 +97,9 @@ ss_h5_output_close(h5_output *out, ss_status st)
 {
     struct stat is;
     st = close_hdf5(out, st);
-    if (out->disk.driver >= 0)
-        H5FDunregister(out->disk.driver);
-    out->disk.driver = -1;
+    if (out->file.driver > 0)
+        H5FDunregister(out->file.driver);
+    out->file.driver = 0;
     if (out->disk.fd < 0)
         return st;
     if (st == SS_OK && out->disk.error == 0 && out->spooled)

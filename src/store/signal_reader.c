@@ -41,7 +41,8 @@ append_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
 }
 
 /* List all names of a group at once.  Asked one by one, HDF5 would sort them all again for each, if the
- * group has no index of that order. */
+ * group has no index of that order.  Open one of them before: HDF5 1.10 frees pointers that it has not set
+ * if it cannot read the heap of the names while it lists them. */
 static ss_status
 list_links(h5_file *file, hid_t group, struct links *links)
 {
@@ -52,20 +53,33 @@ list_links(h5_file *file, hid_t group, struct links *links)
     return links->status;
 }
 
-/* Add the dataset of n values at a link as a column of the header.  The dataset stays open. */
+/* Open the dataset of n values at a link; it stays open. */
+static ss_status
+open_list(h5_file *file, hid_t group, const char *link, hid_t *id, size_t *n)
+{
+    ss_status status = ss_h5_read_size(file, group, link, n);
+    if (status != SS_OK)
+        return status;
+    *id = ss_h5_open_pieces(group, link);
+    hid_t space = H5Dget_space(*id);
+    int rank = H5Sget_simple_extent_ndims(space);
+    H5Sclose(space);
+    return rank == 1 ? SS_OK : ss_h5_fail(file, SS_EDATA, group, link, "not a list of values");
+}
+
+/* Add the dataset at a link as a column of the header. */
 static ss_status
 add_column(signal_rows *s, hid_t group, const char *link, ss_header *head)
 {
     size_t own;
+    hid_t id;
     char *name = NULL, *unit = NULL;
     h5_file *file = &s->file;
-    ss_status status = ss_h5_read_size(file, group, link, &own);
+    ss_status status = open_list(file, group, link, &id, &own);
     if (status != SS_OK)
         return status;
-    hid_t id = s->dataset[s->n_datasets++] = ss_h5_open_pieces(group, link), space = H5Dget_space(id);
-    int rank = H5Sget_simple_extent_ndims(space);
-    H5Sclose(space);
-    if (own != s->n || rank != 1)
+    s->dataset[s->n_datasets++] = id;
+    if (own != s->n)
         return ss_h5_fail(file, SS_EDATA, group, link, "not as long as t");
     status = ss_h5_get_text(file, id, "column", &name);
     if (status == SS_OK)
@@ -80,7 +94,7 @@ add_column(signal_rows *s, hid_t group, const char *link, ss_header *head)
 static ss_status
 add_columns(signal_rows *s, hid_t group, const struct links *links, ss_header *head)
 {
-    ss_status status = ss_h5_read_size(&s->file, group, "t", &s->n);
+    ss_status status = SS_OK;
     s->dataset = calloc(links->n + 1, sizeof *s->dataset);
     if (s->dataset == NULL)
         return SS_ENOMEM;
@@ -102,6 +116,8 @@ ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts)
     if (group < 0)
         return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
     ss_status status = ss_h5_read_header(file, group, head);
+    if (status == SS_OK)
+        status = open_list(file, group, "t", &s->times, &s->n);
     if (status == SS_OK)
         status = list_links(file, group, &links);
     if (status == SS_OK)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "store/groups.h"
+#include "stream/clock.h"
 
 enum { PIECE = 1 << 18 };       /* values that are read at a time, unless chunks are larger */
 
@@ -71,22 +72,37 @@ check_finite(signal_rows *s, size_t d, double *x, size_t n, size_t columns)
     return SS_OK;
 }
 
+static ss_status
+check_times(signal_rows *s, const ss_reader *reader, size_t n)
+{
+    char text[64];
+    if (!read_rows_of(s->times, 0, s->row, n, s->raw))
+        return ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
+    for (size_t i = 0; i < n; i++)
+        if (!ss_is_on_clock(s->raw[i], reader->head->rate, reader->start, s->row + i)) {
+            snprintf(text, sizeof text, "value %zu is not start + %zu / rate", s->row + i + 1, s->row + i);
+            return ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
+        }
+    return SS_OK;
+}
+
 /* Read the next n rows into the values of the reader. */
 static ss_status
 read_piece(ss_reader *reader, signal_rows *s, size_t n)
 {
     size_t all = reader->head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
-    for (size_t d = 0; d < s->n_datasets; d++) {
+    ss_status status = s->times > 0 && n > 0 ? check_times(s, reader, n) : SS_OK;
+    for (size_t d = 0; status == SS_OK && d < s->n_datasets; d++) {
         double *x = s->by_columns ? s->raw : reader->values;
         if (n > 0 && !read_rows_of(s->dataset[d], s->by_columns, s->row, n, x))
             return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
-        ss_status status = check_finite(s, d, x, n, columns);
-        if (status != SS_OK)
-            return status;
-        for (size_t c = 0; s->by_columns && c < columns; c++)
+        status = check_finite(s, d, x, n, columns);
+        for (size_t c = 0; status == SS_OK && s->by_columns && c < columns; c++)
             for (size_t i = 0; i < n; i++)
                 reader->values[i * all + d + c] = x[c * n + i];
     }
+    if (status != SS_OK)
+        return status;
     s->row += n;
     reader->n_rows = n;
     reader->next = 0;
@@ -141,9 +157,9 @@ begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
     reader->length = s->n;
     s->piece = piece_rows(s, all);
     reader->values = malloc((s->piece * all + 1) * sizeof *reader->values);
-    if (s->by_columns)
-        s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);
-    if (reader->values == NULL || (s->by_columns && s->raw == NULL))
+    if (s->by_columns || s->times > 0)
+        s->raw = malloc((s->piece * (columns > 0 ? columns : 1) + 1) * sizeof *s->raw);
+    if (reader->values == NULL || ((s->by_columns || s->times > 0) && s->raw == NULL))
         return SS_ENOMEM;
     return s->gaps ? ss_reader_fill_gaps(reader, opts->gaps, s->file.err) : SS_OK;
 }

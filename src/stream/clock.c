@@ -5,7 +5,6 @@
  * chosen: stamps of 1/1024 s in 7 digits give 1024 Hz, not 1023.9999998. */
 #include <float.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
@@ -330,6 +329,13 @@ ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate
     else
         st = p.status;
     return st == SS_EUNEVEN ? refuse(s, usual, line_of(fit), err) : st;
+}
+
+int
+ss_is_on_clock(double stamp, double rate, double start, uint64_t row)
+{
+    double expected = start + (double)row / rate;
+    return fabs(stamp - expected) <= 1e-6 / rate + 1e-15 * fabs(expected);
 }
 
 ss_status

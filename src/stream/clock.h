@@ -3,6 +3,7 @@
 #define CLOCK_H
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stickslip/signal.h>
 
 /* Sums over stamps that come one after the other, from which the uniform clock follows.  Begin with
@@ -48,6 +49,9 @@ size_t ss_clock_sample(struct sample_count *c, double stamp);
 ss_status ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err);
 /* The median step of stamps, which must ascend. */
 ss_status ss_usual_step(const struct stamps *s, double *usual, ss_error *err);
+
+/* Is the stamp start + row / rate, but for rounding and 1e-6 sample periods? */
+int ss_is_on_clock(double stamp, double rate, double start, uint64_t row);
 
 /* Refuse options for input without a clock; this input has the rate own. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);

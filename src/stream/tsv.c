@@ -51,17 +51,15 @@ refuse_row(const ss_reader *reader, const char *line, ss_error *err)
                    bad);
 }
 
-/* SS_EDATA if a stamp differs from the clock by more than rounding and 1e-6 sample periods. */
 static ss_status
 check_time(const ss_reader *reader, double t, ss_error *err)
 {
     const ss_header *head = reader->head;
-    double expected = reader->start + (double)reader->row / head->rate;
-    if (fabs(t - expected) <= 1e-6 / head->rate + 1e-15 * fabs(expected))
+    if (ss_is_on_clock(t, head->rate, reader->start, reader->row))
         return SS_OK;
     char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];
     ss_number_format(is, t);
-    ss_number_format(should, expected);
+    ss_number_format(should, reader->start + (double)reader->row / head->rate);
     return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s",
                    reader->in.name, reader->in.line, is, (unsigned long long)reader->row, should);
 }
