@@ -49,8 +49,9 @@ write_lattice(hid_t object, const ss_scale *scale)
            && ss_h5_write_number(object, "b_den", H5T_IEEE_F64LE, scale->b_den);
 }
 
+/* The scales as lists, and the lattice that all share, if they do. */
 static ss_status
-open_dense(wavelet_writer *w)
+write_scales(wavelet_writer *w)
 {
     double *row = malloc(4 * w->n_scales * sizeof *row);
     if (row == NULL)
@@ -70,7 +71,7 @@ open_dense(wavelet_writer *w)
     };
     ss_status st = ss_h5_write_lists(w->pieces->file, w->group, v, sizeof v / sizeof *v, w->n_scales);
     free(row);
-    if (st == SS_OK && !write_lattice(w->group, &w->scale[0]))
+    if (st == SS_OK && w->dense && !write_lattice(w->group, &w->scale[0]))
         st = ss_h5_fail_write(w->pieces->file, 0, "/wavelet");
     return st;
 }
@@ -126,9 +127,8 @@ ss_wavelet_writer_open(wavelet_writer *w, h5_pieces *pieces, const ss_coefficien
         || !ss_h5_write_number(w->group, "dense", H5T_STD_I8LE, w->dense)
         || !ss_h5_write_number(w->group, "scales", H5T_STD_I32LE, (double)w->n_scales))
         return ss_h5_fail_write(pieces->file, 0, "/wavelet");
-    if (w->dense)
-        return open_dense(w);
-    for (size_t i = 0; st == SS_OK && i < w->n_scales; i++)
+    st = write_scales(w);
+    for (size_t i = 0; st == SS_OK && !w->dense && i < w->n_scales; i++)
         st = open_scale(w, i);
     return st;
 }

@@ -54,13 +54,13 @@ try() {         # NAME: the commands on standard input, in a directory of their 
 }
 
 for page in "$SRC"/man/*.[157]; do
-    awk '/^\.Sh/ { here = /EXAMPLES|FROM A RECORDING/ } !here { next }
+    awk '/^\.Sh/ { here = /EXAMPLES|FROM A RECORDING/ } /^In Python:/ { here = 0 } !here { next }
         /^\.Dl/ { sub(/^\.Dl /, ""); print }
         /^\.Bd/ { block = 1; next } /^\.Ed/ { block = 0 } block { print }' "$page" |
         sed 's/\\e/\\/g' > text
     case $page in
     *-scene.5) ss-sim - < text > record && [ -s record ] ;;
-    *)         grep -v -e '^# ' -e '^w = ' -e '^abs(' text | try "$(basename "$page")" ;;
+    *)         grep -v '^# ' text | try "$(basename "$page")" ;;
     esac
 done
 grep -E '^    (ss-|sox)' "$SRC/README.md" | try README
