@@ -107,7 +107,7 @@ rpath    := $$ORIGIN/..:$$ORIGIN/../lib$(addprefix :,$(filter-out $(abspath $(BI
 TOOL_LIBS = -Wl,--disable-new-dtags,-rpath,$(call quote,$(rpath)) $(NUMERICS) -ldl
 endif
 OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o \
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
 all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
@@ -160,6 +160,7 @@ $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \
 	$(BUILD)/tests/test_rigs $(BUILD)/tests/test_chaos: $(BUILD)/tests/oracle.o
+$(BUILD)/tests/test_trade: $(BUILD)/tests/clock.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o $(STATIC)

@@ -301,7 +301,7 @@ invert(const request *req, const char *path)
     ss_signal *signal;
     ss_error err = { 0 };
     double error, accuracy = tool_given("accuracy") ? req->opts.accuracy : 1e-3;
-    const ss_progress progress = { tool_progress, NULL };
+    const ss_progress progress = { tool_progress, &error };
     check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
           path);
     tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,

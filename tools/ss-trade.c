@@ -196,7 +196,7 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     ss_scene scene = tool_read_scene(req->path, &req->settings);
     req->name = tool_name_scene(req->path, &req->settings);
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
-    opts.progress.function = tool_progress;
+    opts.progress = (ss_progress){ tool_progress, req };
     tool_check(ss_models_measure(&models, &scene, &opts, &err), &err);
     tool_note("%zu scene%s, samples of each that are compared: %zu", models->n, tool_s(models->n),
               models->samples);
@@ -254,7 +254,7 @@ main(int argc, char *argv[])
         tool_usage("--need writes an answer, not a picture");
 
     req.path = argv[first];
-    req.opts.progress.function = tool_progress;
+    req.opts.progress = (ss_progress){ tool_progress, &req };
     if (req.models)
         compare_models(&req, kind, &plot);
     else

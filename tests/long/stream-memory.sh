@@ -1,50 +1,38 @@
 # 10^8 samples as AU through a pipe, on each kind of grid, stay under 200 MB, as do fewer into HDF5
 # whose length is not known.
-[ -r /proc/self/status ] || { echo "no /proc"; exit 77; }
+[ "$(uname)" = Linux ] || { echo "other systems count memory in other units"; exit 77; }
 [ -z "$SAN" ] || { echo "sanitizers need memory of their own"; exit 77; }
-high_water() {  # PROCESS: the most memory that it takes until it ends, in KiB
-    most=0
-    while now=$(awk '/^VmHWM/ { print $2 }' "/proc/$1/status" 2> /dev/null) && [ -n "$now" ]; do
-        most=$now
-        sleep 0.2
-    done
-    echo "$most"
+$CCLD -o high_water "$SRC/tests/stop/high_water.c"
+below() {       # KIB COMMAND ...: takes less; what it writes is not wanted
+    limit=$1
+    shift
+    most=$(./high_water "$@" 2>&1 > /dev/null)
+    [ "$most" -lt "$limit" ] || echo "$*: $most KiB"
 }
-watch() {       # NAME SECONDS OPTIONS ...: of a signal of 10 kHz
-    name=$1
-    mkfifo in
-    ss-signal noise --rate 10000 --duration "$2" --format au > in &
-    shift 2
-    ss-morlet --stream "$@" < in > /dev/null &
-    tool=$!
-    most=$(high_water $tool)
-    wait $tool
-    rm in
-    [ "$most" -gt 0 ] && [ "$most" -lt 195312 ] || echo "$name: $most KiB"
+watch() {       # SECONDS OPTIONS ...: of a signal of 10 kHz
+    ss-signal noise --rate 10000 --duration "$1" --format au > in &
+    shift
+    below 195312 ss-morlet --stream "$@" < in
+    wait
 }
-watch dyadic 10000 --dyadic --octaves=-8:4 --format au
-watch dense 10000 --dense --voices 1 --octaves=-8:1 --format au
-watch stepped 10000 --voices 2 --octaves=-8:1.5 --format au
-watch 'dense into HDF5' 200 --dense --voices 2 --octaves=-8:1.5 -o x.h5
-watch 'stepped into HDF5' 1000 --voices 2 --octaves=-8:1.5 -o x.h5
+mkfifo in
+watch 10000 --dyadic --octaves=-8:4 --format au
+watch 10000 --dense --voices 1 --octaves=-8:1 --format au
+watch 10000 --voices 2 --octaves=-8:1.5 --format au
+watch 200 --dense --voices 2 --octaves=-8:1.5 -o x.h5
+watch 1000 --voices 2 --octaves=-8:1.5 -o x.h5
 rm x.h5
 
 # Delimited text in a file, of one kind or another, and HDF5, in constant memory.
 ss-signal noise --rate 10000 --duration 1000 --format csv > long.csv
 { tr ',' ';' < long.csv | tr . ,; } > comma.csv
 for command in ss-cat 'ss-noise --rms 1'; do
-    $command -o long.h5 long.csv &
-    most=$(high_water $!)
-    wait $!
-    [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command into HDF5: $most KiB"
+    below 50000 $command -o long.h5 long.csv
 done
 for file in long.csv comma.csv long.h5 long.h5:/signal/a; do
     for command in 'ss-cat --format au' 'ss-noise --rms 1 --format au' 'ss-noise --snr 9 --format au' \
             'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au'; do
-        $command $file > /dev/null &
-        most=$(high_water $!)
-        wait $!
-        [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command $file: $most KiB"
+        below 50000 $command $file
     done
 done
 
@@ -59,32 +47,21 @@ for command in 'ss-cat --format au -' 'ss-morlet --stream --voices 2 --octaves=-
         'ss-cat --format au --gaps=split --resample 12000 gaps.csv' 'ss-cat --format au --table 1 tables.csv' \
         'ss-cat --format au --gaps=split long.h5' 'ss-noise -q --rms 1 --format au --resample 9000 long.h5' \
         'ss-noise --snr 9 --format au' 'ss-cat --rate 1e4 --format au long.npy'; do
-    mkfifo in
     cat long.csv > in &
-    $command < in > /dev/null &
-    tool=$!
-    most=$(high_water $tool)
-    wait $tool
-    rm in
-    [ "$most" -gt 0 ] && [ "$most" -lt 50000 ] || echo "$command: $most KiB"
+    below 50000 $command < in
+    wait
 done
 rm gaps.csv tables.csv long.npy
 
 # A picture of each form, of files and through a pipe.
 for file in long.csv long.h5; do
     for form in '' "--over $file" '--xy a,a' --spectrum; do
-        ss-plot $form -o long.gp $file &
-        most=$(high_water $!)
-        wait $!
-        [ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot $form $file: $most KiB"
+        below 100000 ss-plot $form -o long.gp $file
     done
 done
-mkfifo in
 for form in '' '--xy a,a' --spectrum; do
     ss-signal noise --rate 10000 --duration 10000 --format au > in &
-    ss-plot $form -o long.gp < in &
-    most=$(high_water $!)
+    below 100000 ss-plot $form -o long.gp < in
     wait
-    [ "$most" -gt 0 ] && [ "$most" -lt 100000 ] || echo "ss-plot $form of 10^8 samples: $most KiB"
 done
 rm in long.gp long.csv comma.csv long.h5

@@ -1,6 +1,6 @@
-# Stopped at a moment of its own, each tool leaves the file that was there or a whole new one, and
-# nothing beside it unless it was killed.  TRIES times each; tests/long tries harder, half by HALF.
-timeout --foreground -s INT 10 true 2> /dev/null || { echo "no timeout of GNU"; exit 77; }
+# Stopped at a call of its own that writes, each tool leaves the file that was there or a whole new one,
+# and nothing beside it unless it was killed.  TRIES times each; tests/long tries harder, half by HALF.
+. "$SRC/tests/stop/stop.sh"
 command -v gnuplot > /dev/null || { echo "no gnuplot"; exit 77; }
 # shellcheck disable=SC3045
 ulimit -c 0 2> /dev/null || true
@@ -35,27 +35,27 @@ ss-sweep -m amplitude --vary mass=2:3:9 --vary friction=1:2:9 coulomb > sweep
 one='sim.tsv sim.au sim.h5 cat.au noise.tsv signal.h5 morlet.tsv morlet.h5 stream.h5'
 two='plot.svg contour.png contour.gp inverse.au features.tsv sweep.tsv fit.scene map.svg'
 case ${HALF:-} in 1) all=$one ;; 2) all=$two ;; *) all="$one $two" ;; esac
-cd whole
-for file in $all; do make_ "$file" env; done
-cd ../work
+cd work
 
 number=0
-for try in $(seq "${TRIES:-2}"); do
-    for made in $all; do
+for made in $all; do
+    calls=$(make_ "$made" calls_of)
+    mv "$made" ../whole
+    for try in $(seq "${TRIES:-2}"); do
         number=$((number + 1))
-        moment=$(awk -v seed=$number 'BEGIN { srand(seed); printf "%.3f", 0.3 * rand() }')
-        case $((number % 5)) in 0) signal=KILL ;; 1) signal=INT ;; 2) signal=TERM ;; 3) signal=HUP ;;
-            4) signal=QUIT ;; esac
+        moment=$((1 + calls * (2 * try - 1) / (2 * ${TRIES:-2})))
+        case $((number % 5)) in 0) signal=9 ;; 1) signal=2 ;; 2) signal=15 ;; 3) signal=1 ;; 4) signal=3 ;; esac
         [ $((try % 2)) = 0 ] || echo old > "$made"
-        (make_ "$made" timeout --foreground -s $signal "$moment") > ../words 2>&1 || true
-        [ $signal != KILL ] || rm -f ."$made".*
+        (make_ "$made" stopped $moment $signal) > ../words 2>&1 || true
+        [ $signal != 9 ] || rm -f ."$made".*
         if [ ! -e "$made" ]; then
-            [ $((try % 2)) = 0 ] || echo "$made, $signal after $moment s: what was there is gone"
+            [ $((try % 2)) = 0 ] || echo "$made, $signal at call $moment: what was there is gone"
         elif ! echo old | cmp -s - "$made" && ! cmp -s "$made" ../whole/"$made"; then
-            echo "$made, $signal after $moment s: a part of it"
+            echo "$made, $signal at call $moment: a part of it"
         fi
         rm -f "$made"
-        ls -A | sed "s/^/$made, $signal after $moment s: left /"
+        ls -A | sed "s/^/$made, $signal at call $moment: left /"
         rm -rf ../work/.[!.]*
     done
+    echo "$made: $(hits) of ${TRIES:-2} hit at work"
 done

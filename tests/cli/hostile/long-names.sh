@@ -7,7 +7,7 @@ x=$(ten x) nines=$(ten 9) list=$(ten 'x,') pairs=$(ten 'a:') key=$(ten 'k=') sla
 check() {
     what=$1 status=0
     shift
-    { timeout 20 "$@" 2> words < run.tsv || echo $? > status; } | head -c 1000000 > out
+    { "$@" 2> words < run.tsv || echo $? > status; } | head -c 1000000 > out
     [ ! -e status ] || { read -r status < status; rm status; }
     case $status in 0 | 1 | 2) : ;; *) echo "$what: exit status $status" ;; esac
     [ "$(wc -l < words)" -le 1 ] || echo "$what: $(wc words)"

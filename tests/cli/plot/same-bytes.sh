@@ -2,7 +2,8 @@
 command -v gnuplot > /dev/null || { echo "no gnuplot"; exit 77; }
 ss-signal sine > run.tsv
 for picture in png svg pdf; do ss-plot run.tsv -o first.$picture; done
-sleep 1.1
+second=$(date +%s)
+while [ "$(date +%s)" = "$second" ]; do :; done
 mkdir home
 echo 'set xlabel "mine"; set terminal dumb; system "touch pwned"' > home/.gnuplot
 export HOME="$PWD/home" GNUTERM="dumb; system 'touch pwned'" TZ=Asia/Tokyo LC_ALL=ja_JP.UTF-8

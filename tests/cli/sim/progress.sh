@@ -1,30 +1,27 @@
-# Progress is for terminals: a log has none of it, a terminal shows a line after a second.
-timeout -s INT 2 ss-sim --set duration=1e6 coulomb > /dev/null || true
+# Progress is for terminals: a log has none of it, a terminal shows a line after a second, here by a
+# clock that goes on by 1 s whenever a tool looks at it.
 # A session of its own: script of util-linux 2.34 ends its whole group when its input does.
 script() { setsid -w script "$@"; }
 script -qec true /dev/null < /dev/null > log 2>&1 || { echo "no pseudo-terminal to be had"; exit 77; }
-script -qec 'timeout -s INT 5 ss-sim --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
-tr '\r' '\n' < log | grep -q 'ss-sim:  *[0-9]* %, [0-9]* s left' || echo "no progress"
-script -qec 'timeout -s INT 3 ss-sim -q --set duration=1e6 coulomb > /dev/null' /dev/null < /dev/null > log || true
-grep '%' log || true
-# So do transforms and what looks at them, here stopped again and again, so that a second passes on every machine.
-cat > slowly <<'END'
-"$@" &
-while kill -STOP $! 2> /dev/null; do
-    sleep 0.5
-    kill -CONT $! 2> /dev/null && sleep 0.1
-done
-END
-ss-signal noise --rate 20000 --duration 4 -o short.au
-ss-signal noise --rate 20000 --duration 45 -o long.au
-slow='--method quadrature --accuracy 1e-13 --step 4 --voices 32 --center 200 --fmax 3000'
+. "$SRC/tests/link.sh"
+for tool in sim morlet features contour rank sweep trade; do link_tool ss-$tool "$BUILD/tests/clock.o"; done
+PATH=$PWD:$PATH CLOCK_STEP=1
+export PATH CLOCK_STEP
+ss-signal noise --rate 20000 --duration 9 -o noise.au
 ss-signal sine --amplitude 0 --rate 20000 --duration 3 |
     ss-morlet --dense --voices 16 --fmin 20 -o dense.h5
 ss-sim --set duration=10 compliant-light | ss-cat --column a -o run.au
-ss-sim --set duration=60 compliant-light | ss-cat --column a -o longer.au
-for command in "ss-morlet $slow short.au -o w.au" 'ss-features long.au -o f.tsv' \
-        'ss-contour dense.h5 -o c.gp' \
-        'ss-rank longer.au -o r.tsv' 'ss-rank --fit run.au -o f.scene'; do
-    script -qec "sh slowly $command" /dev/null < /dev/null > log || true
-    tr '\r' '\n' < log | grep -q "${command%% *}:  *[0-9]* %, [0-9]* s left" || echo "no progress: $command"
+shows() {       # how many lines of progress a command writes; their percentage never falls
+    script -qec "$1" /dev/null < /dev/null | tr '\r' '\n' > log
+    sed -n "s/.*${1%% *}:  *\([0-9]*\) %, [0-9]* s left.*/\1/p" log > percents
+    sort -n percents | cmp -s - percents || echo "$1: falls"
+    wc -l < percents | tr -d ' '
+}
+ss-sim --set duration=1000 coulomb 2> log > /dev/null && wc -c < log
+shows 'ss-sim -q --set duration=1000 coulomb > /dev/null'
+for command in 'ss-sim --set duration=1000 coulomb > /dev/null' 'ss-morlet noise.au -o w.au' \
+        'ss-features noise.au -o f.tsv' 'ss-contour dense.h5 -o c.gp' \
+        'ss-rank run.au -o r.tsv' 'ss-rank --fit run.au -o f.scene' \
+        'ss-sweep --vary friction=.5:1:50 coulomb -o s.tsv' 'ss-trade -b 60 -s duration=.2 coulomb -o t.tsv'; do
+    [ "$(shows "$command")" -gt 1 ] || echo "no progress: $command"
 done
