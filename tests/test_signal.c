@@ -108,7 +108,13 @@ replaces_a_note_of_the_same_key(void **state)
     assert_string_equal(ss_header_find_note(head, "scene"), "two lines");
     assert_string_equal(ss_header_find_note(head, "noise"), "some");
     assert_null(ss_header_find_note(head, "nois"));
+    assert_int_equal(ss_header_note(head, "noise", NULL), SS_OK);
+    assert_int_equal(ss_header_note(head, "nois*", NULL), SS_OK);
+    assert_int_equal(head->n_notes, 1);
+    assert_null(ss_header_find_note(head, "noise"));
+    assert_string_equal(ss_header_find_note(head, "scene"), "two lines");
     assert_int_equal(ss_header_note(head, "rate", "1"), SS_EINVAL);
+    assert_int_equal(ss_header_note(head, "rate", NULL), SS_EINVAL);
     assert_int_equal(ss_header_note(head, "a:b", "1"), SS_EINVAL);
     assert_int_equal(ss_header_note(head, "", "1"), SS_EINVAL);
     ss_header_free(head);

@@ -84,6 +84,7 @@ add_notes(ss_header *head)
         ss_number_format(number, range);
         snprintf(text, sizeof text, "%d bits, range %s", bits, number);
         tool_check(ss_header_note(head, "converter", text), NULL);
+        tool_check(ss_header_note(head, "clipped", NULL), NULL);    /* by another converter; ours comes last */
     }
 }
 

@@ -35,7 +35,7 @@ ss_header *ss_header_copy(const ss_header *head);
  * "_2", "_3", ...; unit may be NULL or "".  A first column t in s sets has_time, as readers would take it for the time
  * otherwise.  SS_EINVAL: there is no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
-/* Append a note; it replaces a note with the same key.  Control characters but tabs become blanks, in
+/* Append a note; it replaces a note with the same key, and NULL as its value deletes that one.  Control characters but tabs become blanks, in
  * the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or
  * contains a colon.  Writers and readers of files take up to 4096 notes. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value);

@@ -54,7 +54,7 @@ ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_
  * 32-bit floats. */
 ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first,
                                size_t n, const double *w, size_t samples, ss_error *err);
-/* Add a note that the header does not have yet. */
+/* Append a note; it replaces one with the same key. */
 ss_status ss_store_writer_note(ss_store_writer *writer, const char *key, const char *value, ss_error *err);
 /* Complete the file.  All samples of the record, so many, and their coefficients have been appended. */
 ss_status ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);

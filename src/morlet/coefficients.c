@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "morlet/plan.h"
+#include "signal/header.h"
 
 static const char *const norm_name[] = { "l2", "l1" };
 static const char *const engine_name[] = { "auto", "quadrature", "fft" };
@@ -63,6 +64,10 @@ note_number(ss_header *head, const char *key, double value)
     return ss_header_note(head, key, text);
 }
 
+const char *const ss_coefficient_notes[] = {
+    "samples", "stream", "column", "unit", "center", "voices", "dense", "step", "lattice", "norm", "admissible",
+    "detrend", "accuracy", "rounded", "method", "label", NULL };
+
 static ss_status
 note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
 {
@@ -95,6 +100,8 @@ ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, 
         return SS_EINVAL;
     *out = NULL;
     ss_status st = ss_header_select(out, signal, &column, 1, 0);
+    if (st == SS_OK)
+        ss_header_forget(*out, ss_coefficient_notes);
     if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {
         ss_header_free(*out);
         *out = NULL;

@@ -20,6 +20,7 @@
 #include "base/versions.h"
 #include "morlet/fft/blocks.h"
 #include "morlet/plan.h"
+#include "signal/header.h"
 
 /* A residual stays if twice as many passes, from STALL_FROM on, lower it by less than this part. */
 enum { PASSES = 500, STALL_FROM = 16, LANES = 8 };
@@ -393,6 +394,7 @@ ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double t
     if (st == SS_OK)
         st = ss_signal_new(out, coefficients->head, coefficients->n);
     if (st == SS_OK) {
+        ss_header_forget((*out)->head, ss_coefficient_notes);
         s.x = (*out)->values;
         st = solve(&s, tol, &residual, err);
         for (size_t i = 0; i < coefficients->n; i++)

@@ -9,6 +9,8 @@
 
 /* The note of a stepped grid whose translations are fractions of samples: without it they are n B_0 a. */
 #define SS_LATTICE "b = n B, B the largest 2^p/m samples <= step a, m of 1 3 5 7 9 15 21 25 35 45"
+/* The names of all notes that describe coefficients, as ss_header_forget takes them. */
+extern const char *const ss_coefficient_notes[];
 /* The share of the promised 16 eps for the parts of the wavelet that are left out. */
 #define TAIL_FLOOR (4 * DBL_EPSILON)
 #define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */

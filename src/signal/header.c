@@ -300,15 +300,50 @@ ss_header_find_note(const ss_header *head, const char *key)
     return value;
 }
 
+int
+ss_note_is(const char *note, const char *const name[])
+{
+    for (size_t length; *name != NULL; name++) {
+        length = strlen(*name);
+        if ((*name)[length - 1] == '*' ? strncmp(note, *name, length - 1) == 0
+                                       : strncmp(note, *name, length) == 0 && note[length] == ':')
+            return 1;
+    }
+    return 0;
+}
+
+/* Delete note i; there is none behind the last. */
+static void
+delete_note(ss_header *head, size_t i)
+{
+    if (i == head->n_notes)
+        return;
+    free(head->note[i]);
+    head->n_notes--;
+    memmove(&head->note[i], &head->note[i + 1], (head->n_notes - i) * sizeof *head->note);
+}
+
+void
+ss_header_forget(ss_header *head, const char *const name[])
+{
+    for (size_t i = head->n_notes; i > 0; i--)
+        if (ss_note_is(head->note[i - 1], name))
+            delete_note(head, i - 1);
+}
+
 ss_status
 ss_header_note(ss_header *head, const char *key, const char *value)
 {
     const char *old;
-    if (head == NULL || key == NULL || value == NULL)
+    if (head == NULL || key == NULL)
         return SS_EINVAL;
     if (is_blank(*key) || strchr(key, ':') != NULL || strcmp(key, "rate") == 0
         || strcmp(key, "start") == 0 || strcmp(key, "columns") == 0)
         return SS_EINVAL;
+    if (value == NULL) {
+        delete_note(head, find_note(head, key, strlen(key), &old));
+        return SS_OK;
+    }
     char *raw = malloc(strlen(key) + strlen(value) + 3);
     if (raw == NULL)
         return SS_ENOMEM;

@@ -163,7 +163,8 @@ ss_store_writer_note(ss_store_writer *w, const char *key, const char *value, ss_
     ss_status st = w->status;
     h5_file *file = &w->output.file;
     H5E_BEGIN_TRY {
-        if (st == SS_OK && H5Aexists(file->id, key) <= 0 && !ss_h5_write_text(file->id, key, value))
+        if (st == SS_OK && ((H5Aexists(file->id, key) > 0 && H5Adelete(file->id, key) < 0)
+                            || !ss_h5_write_text(file->id, key, value)))
             st = ss_h5_fail_write(file, 0, key);
         st = keep(w, st);
     } H5E_END_TRY

@@ -70,7 +70,7 @@ ss_event_writer_new(ss_event_writer **out_writer, FILE *out, ss_format format, c
         free(writer);
         return st;
     }
-    ss_rows_notes(&writer->rows, head, NULL);
+    ss_rows_notes(&writer->rows, head, (const char *const []){ NULL });    /* it has none */
     ss_rows_columns(&writer->rows, columns, sizeof columns / sizeof *columns);
     *out_writer = writer;
     return SS_OK;

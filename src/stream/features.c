@@ -181,6 +181,17 @@ write_summary(struct rows *rows, const ss_features *f, const ss_features_opts *o
     ss_summary_write(rows, f, opts);
 }
 
+/* Write the notes of a signal, except those that features write themselves, or may write: a scene's friction is
+ * not the one that was measured, and no file says of itself what was found in it. */
+static void
+write_notes(struct rows *rows, const ss_header *head)
+{
+    const char *own[SS_SUMMARY_NUMBERS + 8] = { "column", "threshold", "norm", "near_gaps", "spike", "spikes", "about_*" };
+    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++)
+        own[7 + i] = ss_summary_name(i);
+    ss_rows_notes(rows, head, own);
+}
+
 ss_status
 ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
                   const ss_features_opts *opts, FILE *out, ss_format format)
@@ -203,7 +214,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         || ss_rows_begin(&rows, out, format, SS_KIND_FEATURES) != SS_OK)
         return SS_EINVAL;
     const ss_header *head = signal->head;
-    ss_rows_notes(&rows, head, ss_summary_has_key);     /* without a scene's keys of the same names */
+    write_notes(&rows, head);
     ss_rows_note(&rows, "column: %s", head->column[column].name);
     ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
     ss_rows_note(&rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");

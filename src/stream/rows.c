@@ -33,10 +33,10 @@ ss_rows_note(struct rows *rows, const char *text, ...)
 }
 
 void
-ss_rows_notes(struct rows *rows, const ss_header *head, int (*is_left_out)(const char *note))
+ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[])
 {
     for (size_t i = 0; i < head->n_notes; i++)
-        if (is_left_out == NULL || !is_left_out(head->note[i]))
+        if (!ss_note_is(head->note[i], own))
             ss_rows_note(rows, "%s", head->note[i]);
 }
 

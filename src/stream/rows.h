@@ -19,8 +19,8 @@ ss_status ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind 
 /* Write a line "# key: value", if the format has notes. */
 SS_PRINTF(2, 3)
 void ss_rows_note(struct rows *rows, const char *text, ...);
-/* Write the notes of a header, except those for which is_left_out, unless it is NULL, returns 1. */
-void ss_rows_notes(struct rows *rows, const ss_header *head, int (*is_left_out)(const char *note));
+/* Write the notes of a header, except those with the names of a result's own, as ss_note_is takes them. */
+void ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[]);
 
 /* Write one column, and ss_rows_end after the last; or write all columns. */
 void ss_rows_column(struct rows *rows, const char *name, const char *unit);

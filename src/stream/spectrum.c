@@ -11,8 +11,9 @@ static void
 write_head(struct rows *rows, const ss_spectrum *first, const ss_header *head, const size_t column[], size_t n,
            int decibels)
 {
+    static const char *const own[] = { "resolution", "segments", NULL };
     char resolution[SS_NUMBER_MAX], unit[DENSITY_UNIT];
-    ss_rows_notes(rows, head, NULL);
+    ss_rows_notes(rows, head, own);
     ss_rows_note(rows, "resolution: %s Hz", ss_number_text(resolution, first->resolution));
     ss_rows_note(rows, "segments: %zu", first->segments);
     ss_rows_column(rows, "frequency", "Hz");

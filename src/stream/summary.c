@@ -32,17 +32,6 @@ belongs(number_group of, const ss_features *f, const ss_features_opts *opts)
     }
 }
 
-int
-ss_summary_has_key(const char *note)
-{
-    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++) {
-        size_t n = strlen(ss_feature_numbers[i].key);
-        if (strncmp(note, ss_feature_numbers[i].key, n) == 0 && note[n] == ':')
-            return 1;
-    }
-    return 0;
-}
-
 void
 ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
 {

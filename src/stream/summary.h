@@ -9,7 +9,4 @@
  * count of transitions.  A median also has the scatter of the events. */
 void ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts);
 
-/* 1 if a note has the key of such a number. */
-int ss_summary_has_key(const char *note);
-
 #endif
