@@ -7,6 +7,7 @@
 # $LIBS, $INCLUDES, $TOOL_PARTS (objects that tools share), $MAKE and $SAN set.  It must give what
 # NAME.out, NAME.err and NAME.exit beside it hold (nothing, nothing and 0 if they are absent).  Exit 77
 # skips it, its first line saying why.
+# python3 is the first that has NumPy, h5py, xarray and h5netcdf, or else the first.
 # ONLY='test_store cli/features/rows' runs these alone.
 set -u
 SRC=$(cd "$(dirname "$0")/.." && pwd)
@@ -98,6 +99,15 @@ ASAN_OPTIONS=detect_stack_use_after_return=1
 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export SRC WORK BUILD PATH HOME LC_ALL ASAN_OPTIONS UBSAN_OPTIONS LIMIT CC CCLD LIBS INCLUDES TOOL_PARTS MAKE SAN
 unset CDPATH GNUTERM DISPLAY
+for python in ${PYTHON-} $(command -v python3) /usr/bin/python3; do
+    if "$python" -c 'import numpy, h5py, xarray, h5netcdf' 2> /dev/null; then
+        mkdir "$WORK/bin"
+        printf '#!/bin/sh\nexec "%s" "$@"\n' "$python" > "$WORK/bin/python3"
+        chmod +x "$WORK/bin/python3"
+        PATH=$WORK/bin:$PATH
+        break
+    fi
+done
 
 cd "$SRC" || exit 1
 tests=$*
@@ -112,11 +122,18 @@ tests=${ONLY:-$tests}
 printf '%s\n' $tests | xargs -n 1 -P "$JOBS" sh tests/run.sh --one
 
 passed=0 failed=0 skipped=0
+: > "$WORK/reasons"
 for name in $tests; do
     result=$WORK/$(echo "$name" | tr / -)
     read -r p f s _ < "$result.count" || { p=0 f=1 s=0; }
     passed=$((passed + p)) failed=$((failed + f)) skipped=$((skipped + s))
+    [ "$s" = 0 ] || if [ "$p" = 0 ]; then echo "$(head -n 1 "$result.log"): $name"
+    else echo "as they say: $s in $name"; fi >> "$WORK/reasons"
     [ "$f" = 0 ] || { echo; echo "--- $name"; cat "$result.log"; }
 done
+[ $skipped = 0 ] || sort "$WORK/reasons" | awk -F ': ' '
+    { text = $1 == reason ? text ", " $2 : text end (text == "" ? "Not tested: " : "; ") $2 }
+    { reason = $1; end = " (" $1 ")" }
+    END { print text end "." }'
 echo "$passed passed, $failed failed, $skipped skipped"
 [ $failed = 0 ]

@@ -1,6 +1,7 @@
 #!/bin/sh
-# install-deps.sh [--report] [build] [check] [paper]: install what these need and is missing.
+# install-deps.sh [--report] [build] [check] [paper] [others]: install what these need and is missing.
 #
+# others are programs that tests compare with; without them these tests are skipped.
 # A machine that has everything is not touched.  --report, or INSTALL_DEPS=0 in the environment,
 # only says what is missing, and exits 1 if anything is; so does a system that is not known here.
 set -u
@@ -10,12 +11,22 @@ report=${INSTALL_DEPS:-1}
 # A want is named by what it is, and each system has its own name for the package.
 # shellcheck disable=SC2034  # used through eval
 {
-wants='compiler pkgconfig gsl fftw3 hdf5 cmocka gnuplot'
-debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libcmocka-dev gnuplot-nox'
-fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libcmocka-devel gnuplot'
-arch='gcc pkgconf gsl fftw hdf5 cmocka gnuplot'
-homebrew='gcc pkgconf gsl fftw hdf5 cmocka gnuplot'
-unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) CMocka gnuplot(with-cairo-terminals)'
+others='python arb sndfile sox h5dump clang mandoc shellcheck'
+wants="compiler pkgconfig gsl fftw3 hdf5 cmocka gnuplot $others"
+debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libcmocka-dev gnuplot-nox
+    python3-numpy:python3-h5py:python3-xarray:python3-h5netcdf libflint-arb-dev|libflint-dev
+    sndfile-programs sox hdf5-tools clang:libclang-rt-dev mandoc shellcheck'
+fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libcmocka-devel gnuplot
+    python3-numpy:python3-h5py:python3-xarray:python3-h5netcdf flint-devel
+    libsndfile-utils sox hdf5 clang:compiler-rt mandoc ShellCheck'
+arch='gcc pkgconf gsl fftw hdf5 cmocka gnuplot
+    python-numpy:python-h5py:python-xarray:python-h5netcdf flint
+    libsndfile sox hdf5 clang:compiler-rt mandoc shellcheck'
+homebrew='gcc pkgconf gsl fftw hdf5 cmocka gnuplot
+    numpy:h5py flint libsndfile sox hdf5 llvm mandoc shellcheck'
+unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) CMocka gnuplot(with-cairo-terminals)
+    Python(with-NumPy-h5py-xarray-h5netcdf) FLINT(with-Arb) sndfile-convert
+    sox h5dump clang(with-libFuzzer) mandoc shellcheck'
 }
 
 : "${CC:=cc}" "${PKG_CONFIG:=pkg-config}"
@@ -26,7 +37,8 @@ for word; do
     build) need="$need compiler pkgconfig gsl fftw3 hdf5" ;;
     check) need="$need cmocka gnuplot" ;;
     paper) need="$need gnuplot" ;;
-    *) echo "usage: install-deps.sh [--report] [build] [check] [paper]" >&2; exit 2 ;;
+    others) need="$need $others" ;;
+    *) echo "usage: install-deps.sh [--report] [build] [check] [paper] [others]" >&2; exit 2 ;;
     esac
 done
 
@@ -48,6 +60,15 @@ have() {
     pkgconfig)  command -v "$PKG_CONFIG" ;;
     hdf5)       have_library hdf5_hl.h hdf5-serial hdf5 ;;
     gnuplot)    GNUTERM=dumb gnuplot -e 'set terminal pngcairo; set terminal pdfcairo' ;;
+    python)     for p in python3 /usr/bin/python3; do
+                    ! $p -c 'import numpy, h5py, xarray, h5netcdf' || return 0
+                done
+                false ;;
+    arb)        have_library flint/arb.h || have_library arb.h ;;
+    sndfile)    command -v sndfile-convert ;;
+    clang)      echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' |
+                    clang -x c -fsanitize=fuzzer -o /dev/null - ;;
+    sox | h5dump | mandoc | shellcheck) command -v "$1" ;;
     *)          "$PKG_CONFIG" --exists "$1" ;;
     esac > /dev/null 2>&1
 }
@@ -89,11 +110,20 @@ name_packages() {
     done
 }
 
+# Of a package that has a name in one version of the system and another in the next, the one known here.
+known() {
+    for name; do
+        case $name in *'|'*) ! apt-cache show "${name%|*}" > /dev/null 2>&1 || name=${name%|*} ;; esac
+        echo "${name#*|}"
+    done
+}
+
 run_installer() {
+    # shellcheck disable=SC2046  # a list
     case $system in
     debian)   as_root apt-get update &&
               as_root env DEBIAN_FRONTEND=noninteractive \
-                  apt-get install -y --no-install-recommends "$@" ;;
+                  apt-get install -y --no-install-recommends $(known "$@") ;;
     fedora)   as_root dnf install -y "$@" ;;
     arch)     as_root pacman -S --needed --noconfirm "$@" ||      # its lists may be old, and
                   as_root pacman -Syu --needed --noconfirm "$@" ;;  # Arch upgrades whole or not

@@ -22,6 +22,12 @@ for like in 'ID=debian' 'ID=linuxmint ID_LIKE="ubuntu debian"' 'ID=fedora' 'ID="
     echo "-- $like"
     deps build check paper
 done
+echo '-- what tests compare with'
+cp bin/pkg-config bin/clang
+printf '#!/bin/sh\n[ "$2" != libflint-arb-dev ]\n' > bin/apt-cache
+chmod +x bin/*
+echo ID=debian > os-release
+deps others | grep -E '^apt-get|^installed' | tr ' ' '\n' | grep -x -e installed, -e 'libfl.*' -e arb -e clang
 echo '-- report'
 echo ID=debian > os-release
 deps --report build

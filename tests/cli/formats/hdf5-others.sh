@@ -1,8 +1,7 @@
 # Files that others wrote, and ours as others read them.
-python=${PYTHON:-python3}
-"$python" -c 'import h5py, xarray, h5netcdf' 2> /dev/null ||
+python3 -c 'import h5py, xarray, h5netcdf' 2> /dev/null ||
     { echo "no Python with h5py, xarray and h5netcdf"; exit 77; }
-"$python" - <<'END'
+python3 - <<'END'
 import h5py, numpy as np
 with h5py.File("matlab.mat", "w", userblock_size=512) as f:
     f["y"] = np.arange(6.0).reshape(1, 6)
@@ -20,9 +19,9 @@ awk '/^In Python:/ { here = 1 } /^\.Ed/ { block = 0; if (here) n++ } block { pri
     here && /^\.Bd/ { block = 1 }' n=0 "$SRC/man/stickslip-hdf5.5"
 for example in dense:0 stepped:1; do
     { echo 'import xarray'; sed 's/run\.h5/'"${example%:*}"'.h5/; s/^abs(\(.*\))\.plot.*/print(abs(\1).dims)/' \
-        "example${example#*:}.py"; } | "$python" -
+        "example${example#*:}.py"; } | python3 -
 done
-"$python" - <<'END'
+python3 - <<'END'
 import xarray as xr
 def show(path, group):
     d = xr.open_dataset(path, engine="h5netcdf", group=group)
