@@ -135,6 +135,47 @@ pieces_do_not_matter_and_noise_is_measured(void **state)
     ss_signal_free(signal);
 }
 
+/* A bowed string: harmonics of 49 Hz, which rise and fall by their own, and noise of this rms. */
+static ss_signal *
+tone(int seed, int harmonics, double noise)
+{
+    ss_signal *signal;
+    ss_wave_opts opts = ss_wave_defaults;
+    opts.duration = 6;
+    opts.rate = 8000;
+    assert_int_equal(ss_wave_new(&signal, SS_NOISE, &opts, NULL), SS_OK);
+    for (size_t i = 0; i < signal->n; i++) {
+        double t = (double)i / 8000, begins = fmin(t / 0.3, 1) * fmin((6 - t) / 0.5, 1);
+        signal->values[i] *= noise;
+        for (int k = 1; k <= harmonics; k++) {
+            double phase = fmod(seed * k * k * 0.377, 2 * M_PI), beat = fmod(seed * k * 1.234, 3);
+            double size = fmod(seed * k * 0.618, 1) / sqrt(k) * exp(-t * fmod(k * 0.271, 1.5));
+            signal->values[i] += begins * size * (1 + 0.3 * sin(beat * t)) * sin(2 * M_PI * 49 * k * t + phase);
+        }
+    }
+    return signal;
+}
+
+/* The harmonics of a tone have the distribution of noise over whole octaves, but they repeat: only what is
+ * added to them is noise, as in scenes to which noise is added. */
+static void
+harmonics_are_no_noise(void **state)
+{
+    ss_morlet_opts opts = grid();
+    (void)state;
+    opts.fmin = 30;
+    for (int seed = 1; seed <= 4; seed++)
+        for (int noisy = 0; noisy < 2; noisy++) {
+            ss_signal *signal = tone(seed, noisy ? 12 : 60, noisy ? 0.02 : 0);
+            ss_overview *o = look_at(signal, &opts, 4096);
+            double level = ss_overview_noise(o), truth = 0.02 * sqrt(log(6e4) / 8000);
+            if (noisy ? !(fabs(20 * log10(level / truth)) <= 3) : level != 0)
+                fail_msg("tone %d: noise at %g, not %g", seed, level, noisy ? truth : 0);
+            ss_overview_free(o);
+            ss_signal_free(signal);
+        }
+}
+
 /* Signals whose |W|^2 overflows or underflows have the same picture, and the time near gaps, as that
  * of the ends, does not count for the largest. */
 static void
@@ -203,6 +244,7 @@ main(void)
         cmocka_unit_test(blocks_have_the_largest_of_their_translations),
         cmocka_unit_test(the_signal_keeps_its_extremes_and_times),
         cmocka_unit_test(pieces_do_not_matter_and_noise_is_measured),
+        cmocka_unit_test(harmonics_are_no_noise),
         cmocka_unit_test(sizes_do_not_matter_and_gaps_are_left_out),
         cmocka_unit_test(what_is_too_short_or_wrong_is_refused),
     };

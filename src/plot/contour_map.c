@@ -58,7 +58,7 @@ survey(filling *f, size_t i, const double *w)
             continue;
         f->outside = fmax(f->outside, level);
         if (f->noise != NULL)
-            ss_noise_level_add(f->noise, i, &(double){ level * level }, 0, 1, 1);
+            ss_noise_level_add(f->noise, &f->c->scale[i], i, &(double){ level * level }, k, 1);
     }
     return 1;
 }

@@ -87,29 +87,20 @@ are_inside(const ss_overview *o, const ss_scale *scale, size_t first, size_t las
                          (to - from) / 2 + wavelet_cone(scale->a));
 }
 
-/* Two coefficients per length of the wavelet, 2 sqrt(pi) a, measure noise as well as all do, since
- * those between follow from them.  Each counts for all up to the next. */
-static size_t
-noise_step(const ss_scale *scale)
-{
-    double step = floor(sqrt(M_PI) * scale->a * scale->b_den / scale->b_num);
-    return step > 1 ? (size_t)step : 1;
-}
-
 /* Add the levels of n translations from first on, which lie all in the cone of influence or all
  * outside. */
 static void
 add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, double *level, int squares,
             int edge)
 {
-    size_t i = (size_t)(scale - ss_stream_scale(o->stream, 0)), step = noise_step(scale);
+    size_t i = (size_t)(scale - ss_stream_scale(o->stream, 0));
     double most = add_levels(&o->scale[i], level, n, squares);
     if (edge)
         return;
     o->top = most > o->top ? most : o->top;
     for (size_t k = 0; !squares && k < n; k++)
         level[k] *= level[k];
-    ss_noise_level_add(o->noise, i, level, (step - first % step) % step, n, step);
+    ss_noise_level_add(o->noise, scale, i, level, first, n);
 }
 
 /* The sink of the stream: add coefficients of a scale to the picture. */
