@@ -280,8 +280,8 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
       "between commas, semicolons, tabs or blanks" },
     { BYTES("t,x\n0,1\n"), "in: one row has no sample rate" },
     { BYTES("t\n0\n1\n"), "in: no column but time" },
-    { BYTES("t,x\n0,1\n0,1\n"), "in:3: time stamps do not ascend" },
-    { BYTES("elapsed (s),x\n0,1\n2,1\n1,1\n0,1\n"), "in:4: time stamps do not ascend" },
+    { BYTES("t,x\n0,1\n0,1\n"), "in:3: time stamps do not ascend: this one is that of the row above" },
+    { BYTES("elapsed (s),x\n0,1\n2,1\n1,1\n0,1\n"), "in:4: time stamps do not ascend: this one is before that of the row above" },
     { BYTES("t (furlong),x\n0,1\n1,1\n"), "in: column t: unit 'furlong' is not one of time" },
     { BYTES("x,y\n3,1\n1,1\n"), NO_CLOCK },
     { BYTES("deflection,force\n1,1\n2,1\n3,1\n"), NO_CLOCK },  /* ascends, but is no time */
@@ -338,7 +338,7 @@ status_says_what_may_help(void **state)
     static const struct { const char *text; ss_status status; } row[] = {
         { "# stickslip features 1\n", SS_EKIND }, { "x,y\n3,1\n2,1\n", SS_ECLOCK },
         { "t,x\n0,1\n", SS_ECLOCK }, { "t,x\n0,1\n0.1,\n", SS_EGAPS },
-        { "t,x\n0,1\n1,1\n2,1\n3,1\n5,1\n", SS_EGAPS }, { "t,x\n0,1\n2,1\n1,1\n", SS_EUNEVEN },
+        { "t,x\n0,1\n1,1\n2,1\n3,1\n5,1\n", SS_EGAPS }, { "t,x\n0,1\n2,1\n1,1\n", SS_ECLOCK },
         { "t,x\n0,1\n1,1\n2,1\n3.4,1\n4.4,1\n", SS_EUNEVEN }, { "t,x\n0,1\n1,a\n", SS_EDATA },
     };
     (void)state;

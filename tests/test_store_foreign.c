@@ -235,6 +235,28 @@ a_clock_of_its_own_is_not_exchanged(void **state)
     ss_signal_free(signal);
 }
 
+/* Time stamps would all be 1e17. */
+static void
+a_start_too_late_for_its_rate_is_refused(void **state)
+{
+    static const char *const dataset[] = { NULL, "/signal/a" };
+    ss_signal *signal = new_signal(10), *back = NULL;
+    (void)state;
+    write_ok(&(ss_record){ .signal = signal });
+    put_attribute("/signal", "start", 1e17);
+    for (size_t i = 0; i < 2; i++) {
+        ss_error err = { 0 };
+        assert_int_equal(ss_store_read_signal(&back, path, dataset[i], NULL, &err), SS_EDATA);
+        assert_non_null(strstr(err.text, "starts at 1e+17 s has equal time stamps"));
+    }
+    signal->head->start = 1e17;
+    ss_signal *other = NULL;
+    assert_int_equal(ss_signal_resample(&other, signal, 2 * signal->head->rate, NULL), SS_EDATA);
+    assert_null(back);
+    assert_null(other);
+    ss_signal_free(signal);
+}
+
 static void
 attributes_that_are_no_notes_are_skipped(void **state)
 {
@@ -289,6 +311,7 @@ main(void)
         cmocka_unit_test(what_cannot_be_read_is_refused_in_clear_words),
         cmocka_unit_test(a_file_without_coefficients_says_so),
         cmocka_unit_test(a_clock_of_its_own_is_not_exchanged),
+        cmocka_unit_test(a_start_too_late_for_its_rate_is_refused),
         cmocka_unit_test(attributes_that_are_no_notes_are_skipped),
         cmocka_unit_test(a_missing_signal_is_told_from_a_damaged_one),
         cmocka_unit_test(a_fifo_keeps_its_first_bytes),

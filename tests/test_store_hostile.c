@@ -639,7 +639,7 @@ a_grid_that_is_not_one_is_refused(void **state)
         { "/wavelet", "rate", -1, "attribute 'rate'" },
         { "/wavelet", "rate", NAN, "attribute 'rate'" },
         { "/wavelet", "rate", INFINITY, "attribute 'rate'" },
-        { "/wavelet", "rate", 1e200, "attribute 'rate'" },
+        { "/wavelet", "rate", 1e200, "has equal time stamps" },
         { "/wavelet", "center", 7, "do not agree" },
         { "/wavelet/scale001", "frequency", 1, ":/wavelet/scale001: scale, m and frequency do not" },
         { "/wavelet/scale001", "scale", INFINITY, "attribute 'scale'" },

@@ -8,7 +8,7 @@ static const char usage[] =
 "Read a signal in any supported form, write it as a signal stream.\n"
 "  -c, --column=NAME|N  write this column (repeatable, in order), default all\n"
 "  -t, --time=NAME|N    the column of time\n"
-"      --time-unit=UNIT what it counts: s, ms, us, ns, min or h\n"
+"      --time-unit=UNIT what it counts: s, ms, us, ns, min, h or d\n"
 "  -r, --rate=HZ        the sample rate of input without a clock\n"
 "      --table=N        of a file with several tables, this one\n"
 "      --gaps=HOW       missing samples: refuse (default), split (write 0),\n"

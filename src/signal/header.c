@@ -3,6 +3,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/error.h"
 #include "base/utf8.h"
 #include "signal/header.h"
 
@@ -367,4 +368,17 @@ ss_header_note(ss_header *head, const char *key, const char *value)
     free(head->note[i]);
     head->note[i] = note;
     return SS_OK;
+}
+
+ss_status
+ss_refuse_range(const char *name, double rate, double start, ss_error *err)
+{
+    if (!(rate >= RATE_MIN && rate <= RATE_MAX && fabs(start) <= START_MAX))
+        return ss_fail(err, SS_EDATA, "%s: a clock of %.3g Hz that starts at %.3g s is out of range: "
+                       RATE_RANGE " Hz, -1e300 ... 1e300 s", name, rate, start);
+    double apart = nextafter(fabs(start), INFINITY) - fabs(start);
+    if (apart * rate <= 1)
+        return SS_OK;
+    return ss_fail(err, SS_EDATA, "%s: a clock of %.3g Hz that starts at %.3g s has equal time stamps: doubles are "
+                   "%.3g s apart there", name, rate, start, apart);
 }

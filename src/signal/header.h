@@ -48,4 +48,8 @@ void ss_density_unit(char text[DENSITY_UNIT], const char *unit, int decibels);
 /* Split "name", "name/unit" or "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);
 
+/* SS_EDATA: the clock is so fast or slow that its times might not be finite, or starts so late that they would be
+ * equal. */
+ss_status ss_refuse_range(const char *name, double rate, double start, ss_error *err);
+
 #endif

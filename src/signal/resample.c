@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/header.h"
 #include "signal/resample.h"
 
 #define AT_END 1e-6             /* a sample may lie so many periods beyond the last stamp */
@@ -252,10 +253,13 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_err
     if (n < 2 || !(rate > 0) || !isfinite(rate))
         return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n,
                        PLURAL(n), rate);
+    ss_status st = ss_refuse_range("signal", rate, head->start, err);
+    if (st != SS_OK)
+        return st;
     double last = head->start + (double)(n - 1) / head->rate, samples = ss_resample_count(head->start, last, rate);
     ss_header *new_head = ss_header_copy(head);
     int fits = samples < (double)(SIZE_MAX / sizeof last / (head->n_columns + 1) / 2);
-    ss_status st = new_head != NULL && fits ? SS_OK : ss_fail_memory(err, NULL);
+    st = new_head != NULL && fits ? SS_OK : ss_fail_memory(err, NULL);
     if (st == SS_OK) {
         new_head->rate = rate;
         st = ss_signal_new(out, new_head, (size_t)samples);

@@ -428,6 +428,8 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
         || (status = ss_h5_need_number(file, group, "start", -START_MAX, START_MAX, &start)) != SS_OK
         || (status = ss_h5_need_number(file, group, "has_time", 0, 1, &has_time)) != SS_OK)
         return status;
+    if ((status = ss_refuse_range(file->path, rate, start, file->err)) != SS_OK)
+        return status;
     *head = ss_header_new(rate, start);
     if (*head == NULL)
         return SS_ENOMEM;

@@ -128,7 +128,9 @@ check_stamps(const struct stamps *s, size_t *n, ss_error *err)
         if (p.n == 1)
             first = p.stamp;
         else if (!(p.stamp > p.before))
-            return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps do not ascend", s->file, p.line);
+            return ss_fail(err, SS_ECLOCK, "%s:%lu: time stamps do not ascend: %s", s->file, p.line,
+                           p.stamp < p.before ? "this one is before that of the row above"
+                           : "this one is that of the row above");
     *n = p.n;
     if (p.status != SS_OK)
         return p.status;
@@ -263,15 +265,6 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
                    "sample periods, %.1f is allowed", s->file, worst.line, off, TOLERANCE);
 }
 
-ss_status
-ss_refuse_range(const char *name, double rate, double start, ss_error *err)
-{
-    if (rate >= RATE_MIN && rate <= RATE_MAX && fabs(start) <= START_MAX)
-        return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s: a clock of %.3g Hz that starts at %.3g s is out of range: "
-                   RATE_RANGE " Hz, -1e300 ... 1e300 s", name, rate, start);
-}
-
 /* The decimal number with the fewest digits in [lo, hi]; *digits becomes their number. */
 static double
 roundest(double lo, double hi, int *digits)
@@ -289,6 +282,14 @@ roundest(double lo, double hi, int *digits)
     return middle;
 }
 
+int
+ss_clock_digits(double x)
+{
+    int digits;
+    roundest(x * (1 - 1e-9), x * (1 + 1e-9), &digits);
+    return digits;
+}
+
 ss_status
 ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
 {
@@ -300,7 +301,7 @@ ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
         return SS_EUNEVEN;
 
     /* each stamp is off by at most the deviation, so the period over all of them by at most twice that */
-    double rounding = 2 * DBL_EPSILON * fmax(fabs(f->first.stamp), fabs(f->last.stamp));
+    double rounding = 2 * DBL_EPSILON * fmax(fabs(f->taken + f->first.stamp), fabs(f->taken + f->last.stamp));
     double slack = 2 * (deviation + rounding) / f->last.sample + 4 * DBL_EPSILON * l.period;
     int rate_digits, period_digits;
     ss_status st = ss_refuse_range(file, 1 / (l.period - slack), f->first.stamp, err);

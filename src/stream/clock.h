@@ -14,6 +14,7 @@ struct clock_point {
 typedef struct clock_fit {
     size_t n;
     struct clock_point first, last, mean;       /* mean: from the first on */
+    double taken;               /* [s] from all stamps, which were rounded before */
     double product, square;     /* sums of products of sample and stamp, and of sample, about the mean */
     struct clock_side {         /* corners of the convex hull: below and above all points */
         struct clock_point *corner;
@@ -26,6 +27,8 @@ int ss_clock_add(clock_fit *f, double sample, double stamp);
 /* The rate; SS_EUNEVEN, without a text, if the stamps are not uniform. */
 ss_status ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err);
 void ss_clock_free(clock_fit *f);
+/* The fewest digits of a number that is x, but for 1e-9 of it. */
+int ss_clock_digits(double x);
 
 /* Stamps of a file that are read several times: from the first on, the next with the number of its line;
  * *there = 0: there is none. */
@@ -44,7 +47,7 @@ struct sample_count {
 };
 size_t ss_clock_sample(struct sample_count *c, double stamp);
 
-/* Find the uniform clock of the stamps; *fit, from zeros, is to be freed.  usual > 0: that step, and some may
+/* Find the uniform clock of the stamps; *fit, from zeros but for what was taken from them, is to be freed.  usual > 0: that step, and some may
  * be missing. */
 ss_status ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err);
 /* The median step of stamps, which must ascend. */
@@ -55,7 +58,5 @@ int ss_is_on_clock(double stamp, double rate, double start, uint64_t row);
 
 /* Refuse options for input without a clock; this input has the rate own. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
-/* SS_EDATA: the clock is so fast or slow that its times might not be finite. */
-ss_status ss_refuse_range(const char *name, double rate, double start, ss_error *err);
 
 #endif

@@ -76,10 +76,11 @@ add_stamp(struct table *t, const double *row, ss_error *err)
     if (t->rows.n == 1) {
         *c = ss_delimited_time(t);
         t->ascends = c->column != NONE;
+        t->fit.taken = c->zero * c->factor / c->divisor;
     }
     if (!t->ascends)
         return SS_OK;
-    double stamp = row[c->column] * c->factor / c->divisor;
+    double stamp = ss_delimited_stamp(c, row);
     t->ascends = t->fit.n == 0 || stamp > t->fit.last.stamp;
     return !t->ascends || ss_clock_add(&t->fit, (double)t->fit.n, stamp) ? SS_OK : ss_delimited_no_memory(t, err);
 }
@@ -385,8 +386,8 @@ ss_delimited_new(ss_reader *reader, const ss_read_opts *opts)
     struct table *t = reader->table = malloc(sizeof *t);
     if (t == NULL)
         return NULL;
-    *t = (struct table){ .in = &reader->in, .opts = opts, .time = { NONE, 0, 1, 1 }, .fitted = { NONE, 0, 1, 1 },
-                         .layout = LAYOUT_ONE, .names = ss_header_new(0, 0) };
+    *t = (struct table){ .in = &reader->in, .opts = opts, .time = { NONE, 0, 0, 1, 1 },
+                         .fitted = { NONE, 0, 0, 1, 1 }, .layout = LAYOUT_ONE, .names = ss_header_new(0, 0) };
     return t->names != NULL ? t : NULL;
 }
 

@@ -40,13 +40,14 @@ struct table_column {
     int fits[ORDERS];           /* may their day and month stand in this order? */
     long first[ORDERS];         /* the first row's day in it */
     long before[ORDERS];        /* and that of the row before */
-    double last;                /* the stamp of the row before */
+    double last;                /* the stamp of the row before, without leap seconds */
+    int leap, leaps;            /* leap: may it lie in a leap second?  leaps: so many have ended */
 };
 
-/* A column of times: seconds are origin + its values * factor / divisor. */
+/* A column of times: seconds are origin + (its values - zero) * factor / divisor. */
 struct time_column {
     size_t column;              /* NONE: there is none */
-    double origin, factor, divisor;
+    double origin, zero, factor, divisor;
 };
 
 struct table_line {             /* above the data, to be freed */
@@ -172,7 +173,7 @@ struct time_column ss_delimited_time(const struct table *t);
 ss_status ss_delimited_mark_spare(struct table *t, ss_error *err);
 
 /* The time of a row (delimited_samples.c). */
-double ss_delimited_stamp(const struct table *t, const double *row);
+double ss_delimited_stamp(const struct time_column *c, const double *row);
 /* Go back to the first sample; and up to max more of them as rows of the columns kept, NaN where there is
  * none. */
 ss_status ss_delimited_begin_samples(struct table *t, ss_error *err);

@@ -18,6 +18,8 @@ enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
 
 #define LEAST_RATE (1 / 3600. * (1 - 1e-9))     /* a sample an hour */
 #define MOST_RATE 1e10
+#define MOST_IN_SECONDS 1e6     /* [Hz] a faster clock that begins with the number of a day counts days */
+#define LEAST_IN_DAYS .1        /* [Hz] slower records of days are not looked for */
 #define DOUBTED_RATE 100.       /* [Hz] a slower clock without a unit may count milliseconds */
 
 /* --- the stamps of the rows ---------------------------------------------------------------- */
@@ -36,7 +38,7 @@ next_stamp(void *source, int *there, double *stamp, unsigned long *line, ss_erro
     ss_status st = ss_delimited_next(t, &row, err);
     *there = row != NULL;
     if (*there) {
-        *stamp = ss_delimited_stamp(t, row);
+        *stamp = ss_delimited_stamp(&t->time, row);
         *line = (unsigned long)row[t->n_columns];
     }
     return st;
@@ -50,10 +52,10 @@ find_clock(struct table *t, const struct stamps *s, ss_error *err)
     ss_header *head = t->names;
     int gaps = t->opts->gaps != SS_GAPS_REFUSE;
     head->start = t->fit.first.stamp;
-    if (!gaps && t->ascends && a->column == b->column && a->origin == b->origin && a->factor == b->factor
-        && a->divisor == b->divisor && ss_clock_rate(&t->fit, s->file, &head->rate, NULL) == SS_OK)
+    if (!gaps && t->ascends && a->column == b->column && a->origin == b->origin && a->zero == b->zero
+        && a->factor == b->factor && a->divisor == b->divisor && ss_clock_rate(&t->fit, s->file, &head->rate, NULL) == SS_OK)
         return SS_OK;
-    clock_fit fit = { 0 };
+    clock_fit fit = { .taken = a->zero * a->factor / a->divisor };
     ss_status st = gaps ? ss_usual_step(s, &t->count.usual, err) : SS_OK;
     if (st == SS_OK)
         st = ss_find_clock(s, t->count.usual, &fit, &head->rate, err);
@@ -75,7 +77,7 @@ survey_stamps(struct table *t, double *gap, double *last, size_t *n, ss_error *e
     *gap = -1;
     *last = 0;
     for (*n = 0; st == SS_OK && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL; ++*n) {
-        double stamp = ss_delimited_stamp(t, row), start = t->names->start;
+        double stamp = ss_delimited_stamp(&t->time, row), start = t->names->start;
         if (*n == 0)
             t->names->start = stamp;
         else if (*gap < 0 && stamp - *last > t->longest)
@@ -123,10 +125,11 @@ read_stamps(struct table *t, struct time_column time, double *own, ss_error *err
 
 /* --- a column of numbers ------------------------------------------------------------------- */
 
-/* The unit of a column of numbers that are times: given by the caller, the file or the column's name, or
- * that of a date (*is_date is 1); NULL if it is not known. */
+/* The unit of a column of numbers that are times, from `first` on: given by the caller, the file or the column's
+ * name, or that of a date (*is_date is 1); NULL if it is not known. */
 static ss_status
-unit_of_times(const struct table *t, size_t column, const struct time_unit **unit, int *is_date, ss_error *err)
+unit_of_times(const struct table *t, size_t column, double first, const struct time_unit **unit, int *is_date,
+              ss_error *err)
 {
     size_t length;
     const ss_column *c = &t->names->column[column];
@@ -136,18 +139,32 @@ unit_of_times(const struct table *t, size_t column, const struct time_unit **uni
     if (*unit == NULL && *own != '\0')
         return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->in->name,
                        c->name, own);
-    *is_date = *unit == NULL && (*unit = ss_time_unit_of_date(t->first[column])) != NULL;
+    *is_date = *unit == NULL && (*unit = ss_time_unit_of_date(first)) != NULL;
     return SS_OK;
+}
+
+/* Are times from `first` on, which give this rate if they are seconds, rather days?  Seconds that begin late may
+ * have such numbers, but then not a rate that is round in days only. */
+static int
+are_days(double first, double rate)
+{
+    return ss_is_day_now(first)
+        && (rate > MOST_IN_SECONDS || (rate >= LEAST_IN_DAYS * SECONDS_A_DAY * (1 - 1e-9)
+                                       && ss_clock_digits(rate / SECONDS_A_DAY) < ss_clock_digits(rate)));
 }
 
 /* SS_EUNIT for a clock that no laboratory has, unless the caller gave its unit.  Warn of a clock without a
  * unit that would be usual in another unit. */
 static ss_status
-check_rate(const struct table *t, const char *name, const struct time_unit *given, double rate, ss_error *err)
+check_rate(const struct table *t, const char *name, const struct time_unit *given, double first, double rate,
+           ss_error *err)
 {
     const char *unit = given == NULL ? "s" : given->name;
     if (t->opts->time_unit != NULL)
         return SS_OK;
+    if (given == NULL && are_days(first, rate))
+        return ss_fail(err, SS_EUNIT, "%s: column %s has no unit and looks like days, %.4g Hz from day %.9g on; "
+                       "seconds would give %.3g Hz", t->in->name, name, rate / SECONDS_A_DAY, first, rate);
     if (!(rate >= LEAST_RATE && rate <= MOST_RATE))
         return ss_fail(err, SS_EUNIT, "%s: column %s, read in %s, gives a clock of %.3g Hz, which no laboratory "
                        "has", t->in->name, name, unit, rate);
@@ -157,22 +174,50 @@ check_rate(const struct table *t, const char *name, const struct time_unit *give
     return SS_OK;
 }
 
+/* The first time in a column of numbers; NaN: there is none. */
+static ss_status
+first_time(struct table *t, size_t column, double *first, ss_error *err)
+{
+    const double *row;
+    t->time.column = column;                    /* rows without a time are passed over */
+    ss_status st = ss_delimited_rewind(t, err);
+    if (st == SS_OK)
+        st = ss_delimited_next(t, &row, err);
+    *first = st == SS_OK && row != NULL ? row[column] : NAN;
+    return st;
+}
+
+/* The number of the day from whose midnight on the seconds of a column of days are counted. */
+static ss_status
+note_zero(struct table *t, double zero)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.0f", zero);
+    return fabs(zero) > 0 ? ss_header_note(t->names, "day", text) : SS_OK;
+}
+
 static ss_status
 read_clock(struct table *t, size_t column, ss_error *err)
 {
     const struct time_unit *known;
     const char *name = t->names->column[column].name;
     int is_date;
-    double rate = 0;
-    ss_status st = unit_of_times(t, column, &known, &is_date, err);
+    double rate = 0, first;
+    ss_status st = first_time(t, column, &first, err);
+    if (st == SS_OK)
+        st = unit_of_times(t, column, first, &known, &is_date, err);
     if (st != SS_OK)
         return st;
     if (is_date)
         ss_delimited_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->in->name,
                           name, known->name);
     const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
-    st = read_stamps(t, (struct time_column){ column, t->counted.origin, unit->factor, unit->divisor }, &rate, err);
-    return st == SS_OK ? check_rate(t, name, known, rate, err) : st;
+    double zero = ss_time_unit_zero(unit, first);
+    st = read_stamps(t, (struct time_column){ column, t->counted.origin, zero, unit->factor, unit->divisor }, &rate,
+                     err);
+    if (st == SS_OK)
+        st = check_rate(t, name, known, first, rate, err);
+    return st == SS_OK && note_zero(t, zero) != SS_OK ? ss_delimited_no_memory(t, err) : st;
 }
 
 /* --- dates and times of day ---------------------------------------------------------------- */
@@ -202,7 +247,7 @@ read_stamp_clock(struct table *t, size_t column, ss_error *err)
             day = ss_delimited_day(&t->column[i]);
     if (!isnan(ss_delimited_day(&t->column[column])))
         day = ss_delimited_day(&t->column[column]);
-    ss_status st = read_stamps(t, (struct time_column){ column, t->counted.origin, 1, 1 }, &rate, err);
+    ss_status st = read_stamps(t, (struct time_column){ column, t->counted.origin, 0, 1, 1 }, &rate, err);
     if (st == SS_OK && !isnan(day) && note_date(t, day) != SS_OK)
         st = ss_delimited_no_memory(t, err);
     return st;
@@ -243,6 +288,13 @@ no_such_column(const struct table *t, const char *name, ss_error *err)
     return ss_fail(err, SS_EDATA, "%s: no column '%.40s', there are %s", t->in->name, name, list);
 }
 
+static ss_status
+refuse_text(const struct table *t, size_t column, ss_status st, ss_error *err)
+{
+    return ss_fail(err, st, "%s: column %s holds text, not times such as 10:12:13.5, 12:13.5, 2024-03-05 10:12:13.5",
+                   t->in->name, t->names->column[column].name);
+}
+
 /* Find the clock of the column that the caller has named. */
 static ss_status
 read_chosen(struct table *t, size_t chosen, ss_error *err)
@@ -255,8 +307,7 @@ read_chosen(struct table *t, size_t chosen, ss_error *err)
     case COLUMN_NUMBERS: return read_clock(t, chosen, err);
     case COLUMN_TEXT:    break;
     }
-    return ss_fail(err, SS_EDATA, "%s: column %s holds text, not times", t->in->name,
-                   t->names->column[chosen].name);
+    return refuse_text(t, chosen, SS_EDATA, err);
 }
 
 /* The rows follow each other at a step that the header gives. */
@@ -335,15 +386,16 @@ struct time_column
 ss_delimited_time(const struct table *t)
 {
     int guessed, is_date;
-    struct time_column time = { find_time(t, &guessed), 0, 1, 1 };
+    struct time_column time = { find_time(t, &guessed), 0, 0, 1, 1 };
     const struct time_unit *unit;
     if (time.column == NONE || t->column[time.column].kind == COLUMN_STAMPS)
         return time;
     if (t->column[time.column].kind == COLUMN_TEXT
-        || unit_of_times(t, time.column, &unit, &is_date, NULL) != SS_OK)
-        return (struct time_column){ NONE, 0, 1, 1 };
+        || unit_of_times(t, time.column, t->first[time.column], &unit, &is_date, NULL) != SS_OK)
+        return (struct time_column){ NONE, 0, 0, 1, 1 };
     if (unit != NULL)
-        time = (struct time_column){ time.column, 0, unit->factor, unit->divisor };
+        time = (struct time_column){ time.column, 0, ss_time_unit_zero(unit, t->first[time.column]), unit->factor,
+                                     unit->divisor };
     return time;
 }
 
@@ -393,17 +445,22 @@ ss_delimited_choose_clock(struct table *t, ss_error *err)
     }
     if (t->counted.increment > 0)
         return t->counted.numbered
-            ? read_stamps(t, (struct time_column){ 0, t->counted.origin, t->counted.increment, 1 }, &rate, err)
+            ? read_stamps(t, (struct time_column){ 0, t->counted.origin, 0, t->counted.increment, 1 }, &rate, err)
             : count_rows(t);
     if (column != NONE && !guessed)
         return t->column[column].kind == COLUMN_STAMPS ? read_stamp_clock(t, column, err)
             : read_clock(t, column, err);
     ss_status st = guessed ? read_clock(t, column, NULL) : SS_ECLOCK;
+    if (st == SS_EUNIT)
+        return read_clock(t, column, err);      /* again, with its message */
     if (st == SS_OK || st == SS_ENOMEM)
         return st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
     const struct table_line *line = find_rate_line(t);
     if (line != NULL)
         return ss_fail(err, SS_ECLOCK, "%s: no column of time, but line %lu may give the rate: '%.80s'", t->in->name,
                        line->number, line->text);
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_TEXT && ss_is_called_time(t->names->column[i].name))
+            return refuse_text(t, i, SS_ECLOCK, err);
     return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->in->name);
 }

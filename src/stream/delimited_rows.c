@@ -87,17 +87,24 @@ count_days(struct table_column *c, const long day[ORDERS])
     return c->fits[order] ? (double)(day[order] - c->first[order]) : NAN;
 }
 
-/* The seconds of a stamp since the midnight before the first row.  Times without a date go on at midnight. */
+/* The seconds of a stamp since the midnight before the first row.  Times without a date go on at midnight, and those
+ * without hours at the hour.  Second 60 is the next minute's second 0 unless that follows, too: then it was a leap
+ * second. */
 static double
 read_stamp(struct table_column *c, const char *cell)
 {
     const time_stamp s = ss_stamp_read(cell);
+    double seconds = s.seconds;
     if (s.parts != c->parts)
         return NAN;
     if (c->parts & STAMP_DATE)
-        return 86400 * count_days(c, s.day) + s.seconds;
-    double days = isnan(c->last) ? 0 : floor((c->last - s.seconds) / 86400 + 0.5);
-    return c->last = s.seconds + 86400 * days;  /* on the day that brings it nearest to the row before */
+        seconds += 86400 * count_days(c, s.day);
+    else if (!isnan(c->last))                   /* on the day that brings it nearest to the row before */
+        seconds += s.turn * floor((c->last - s.seconds) / s.turn + 0.5);
+    c->leaps += c->leap && !s.leap && seconds <= c->last;
+    c->leap = s.leap;
+    c->last = seconds;
+    return seconds + c->leaps;
 }
 
 /* Give NaN as the value of a column that nobody needs. */

@@ -7,10 +7,9 @@
 #include "stream/delimited.h"
 
 double
-ss_delimited_stamp(const struct table *t, const double *row)
+ss_delimited_stamp(const struct time_column *c, const double *row)
 {
-    const struct time_column *c = &t->time;
-    return c->origin + row[c->column] * c->factor / c->divisor;
+    return c->origin + (row[c->column] - c->zero) * c->factor / c->divisor;
 }
 
 static void
@@ -28,7 +27,7 @@ next_row(void *source, int *there, double *stamp, double *to, ss_error *err)
     ss_status st = ss_delimited_next(t, &row, err);
     *there = row != NULL;
     if (*there) {
-        *stamp = ss_delimited_stamp(t, row);
+        *stamp = ss_delimited_stamp(&t->time, row);
         keep_values(t, row, to);
     }
     return st;
@@ -59,7 +58,7 @@ ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_er
             ss_status st = ss_delimited_next(t, &t->row, err);
             if (st != SS_OK || t->row == NULL)
                 return st;
-            t->sample = t->time.column == NONE ? t->given : ss_clock_sample(&t->count, ss_delimited_stamp(t, t->row));
+            t->sample = t->time.column == NONE ? t->given : ss_clock_sample(&t->count, ss_delimited_stamp(&t->time, t->row));
         }
         if (t->sample == t->given) {
             keep_values(t, t->row, to);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/gaps.h"
+#include "signal/header.h"
 #include "stream/calibration.h"
 #include "stream/clock.h"
 #include "stream/delimited.h"

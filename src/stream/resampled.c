@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/header.h"
 #include "signal/resample.h"
 #include "stream/reader.h"
 
@@ -69,6 +70,9 @@ ss_reader_resample(ss_reader **reader, double rate, ss_error *err)
     if (!(rate / head->rate <= MOST))
         return ss_fail(err, SS_EDATA, "%s: each sample would become %.3g at %g Hz; at most %g are made",
                        (*reader)->in.name, rate / head->rate, rate, MOST);
+    ss_status st = ss_refuse_range((*reader)->in.name, rate, head->start, err);
+    if (st != SS_OK)
+        return st;
     size_t columns = head->n_columns;
     ss_reader *r = ss_reader_like(*reader);
     struct inner *in = calloc(1, sizeof *in);

@@ -29,9 +29,9 @@ read_part(const char *p, const char *marks, long *x)
 static long
 day_number(long year, long month, long day)
 {
-    year -= month < 3;
+    year += 400 - (month < 3);                  /* an era more, as year 0 begins in year -1 */
     month += month < 3 ? 9 : -3;
-    return 365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - 1 - 719468;
+    return 365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - 1 - 719468 - 146097;
 }
 
 static long
@@ -43,12 +43,14 @@ find_day(long year, long month, long day)
     return day <= next - first ? first + day - 1 : NO_DAY;
 }
 
-/* Read two digits or one, likewise. */
+/* Read as many digits as there are, from 1 to `most`, likewise. */
 static const char *
-read_one_or_two(const char *p, long *x)
+read_up_to(const char *p, int most, long *x)
 {
-    const char *two = read_digits(p, 2, x);
-    return two != NULL ? two : read_digits(p, 1, x);
+    const char *end = NULL;
+    for (int n = most; end == NULL && n > 0; n--)
+        end = read_digits(p, n, x);
+    return end;
 }
 
 /* Read a date whose year comes last: with points the day is first, else day and month may stand in either
@@ -57,10 +59,10 @@ static const char *
 read_date_of_year_last(const char *p, long day[ORDERS])
 {
     long a, b, y;
-    const char *mark = (p = read_one_or_two(p, &a));
+    const char *mark = (p = read_up_to(p, 2, &a));
     if (p == NULL || *p == '\0' || strchr("./-", *p) == NULL)
         return NULL;
-    p = read_one_or_two(p + 1, &b);
+    p = read_up_to(p + 1, 2, &b);
     if (p == NULL || *p != *mark || (p = read_digits(p + 1, 4, &y)) == NULL)
         return NULL;
     day[DAY_FIRST] = find_day(y, b, a);
@@ -99,13 +101,26 @@ read_half(const char *p, long *hour)
     return half + 2;
 }
 
+/* Read h:m:s, or m:s.f where a fraction shows that these are no hours and minutes.  In times without a date hours may
+ * exceed a day, and minutes without hours an hour. */
 static const char *
-read_time(const char *p, double *seconds)
+read_time(const char *p, time_stamp *to)
 {
-    long h, m, s;
-    p = read_part(read_part(read_one_or_two(p, &h), ":", &m), ":", &s);
-    if (p == NULL || h > 23 || m > 59 || s > 60)
+    long h, m, s, dated = to->parts & STAMP_DATE;
+    const char *minutes = read_part(read_up_to(p, dated ? 2 : 3, &h), ":", &m);
+    if ((p = read_part(minutes, ":", &s)) == NULL) {
+        if (dated || minutes == NULL || (*minutes != '.' && *minutes != ','))
+            return NULL;
+        p = minutes;
+        s = m;
+        m = h;
+        h = -1;
+    }
+    if ((dated && h > 23) || (h >= 0 && m > 59) || s > 60)
         return NULL;
+    to->turn = h < 0 ? 3600 : 86400;
+    to->leap = s == 60;
+    h = h < 0 ? 0 : h;
     long digits = 0;
     double fraction = 0, unit = 1;
     if (*p == '.' || *p == ',')
@@ -114,7 +129,7 @@ read_time(const char *p, double *seconds)
             unit *= 10;
         }
     p = read_half(p, &h);
-    *seconds = (double)(3600 * h + 60 * m + s) + fraction / unit;
+    to->seconds = (double)(3600 * h + 60 * m + s) + fraction / unit;
     return p;
 }
 
@@ -150,7 +165,7 @@ ss_stamp_read(const char *cell)
             return none;
         p += *p == 'T' ? 1 : strspn(p, " ");
     }
-    p = read_time(p != NULL ? p : cell, &found.seconds);
+    p = read_time(p != NULL ? p : cell, &found);
     p = p != NULL ? read_zone(p, &ahead) : NULL;
     if (p == NULL || *p != '\0')
         return none;

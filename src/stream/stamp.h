@@ -12,11 +12,14 @@ typedef struct time_stamp {
     unsigned parts;             /* STAMP_...; 0: the cell is not a stamp */
     long day[ORDERS];           /* since 1970-01-01, in either order; the same if the form tells the order */
     double seconds;             /* of the day in UTC: the offset of a zone is subtracted */
+    double turn;                /* [s] a time without a date begins anew after a day or, without hours, an hour */
+    int leap;                   /* is it second 60 of its minute? */
 } time_stamp;
 
 /* Read a stamp of ISO 8601: 2024-03-05, 10:12:13.125, 2024-03-05T10:12:13,125Z.  The date may have
  * slashes, a blank may replace the T, and hours and minutes of a zone may follow.  Or read what others write:
- * 5.3.2024, 03/05/2024 and 03-05-2024 in either order, 9:12:13, 09:12:13 PM. */
+ * 5.3.2024, 03/05/2024 and 03-05-2024 in either order, 9:12:13, 09:12:13 PM; times that have elapsed, 100:12:13 and
+ * without hours 12:13.125. */
 time_stamp ss_stamp_read(const char *cell);
 
 #endif

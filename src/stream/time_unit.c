@@ -1,6 +1,7 @@
 /* time_unit.c -- the units of numbers that are times, and the names of columns that hold times. */
 #include <stickslip/signal.h>
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 #include "stream/time_unit.h"
@@ -11,7 +12,8 @@ static const struct time_unit units_of_time[] = {
     { "us", "usec microsecond microseconds \u00b5s \u03bcs", 1, 1e6, 1 },
     { "ns", "nsec nanosecond nanoseconds", 1, 1e9, 1 },
     { "min", "minute minutes", 60, 1, 0 },
-    { "h", "hr hour hours", 3600, 1, 0 }
+    { "h", "hr hour hours", 3600, 1, 0 },
+    { "d", "day days", SECONDS_A_DAY, 1, 0 }
 };
 enum { UNITS_OF_TIME = sizeof units_of_time / sizeof *units_of_time };
 
@@ -73,4 +75,18 @@ ss_time_unit_of_date(double number)
             return &units_of_time[i];
     }
     return NULL;
+}
+
+double
+ss_time_unit_zero(const struct time_unit *unit, double first)
+{
+    return unit->factor < SECONDS_A_DAY ? 0 : trunc(first);
+}
+
+int
+ss_is_day_now(double number)
+{
+    return (number >= 20000 && number < 80000)          /* Excel's days of 1954 to 2119, MJD of 1913 to 2077 */
+        || (number >= 690000 && number < 770000)        /* MATLAB's of 1889 to 2108 */
+        || (number >= 2430000 && number < 2490000);     /* Julian days of 1911 to 2105 */
 }

@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#define SECONDS_A_DAY 86400.
+
 /* Seconds are numbers * factor / divisor. */
 struct time_unit {
     const char *name, *others;  /* the usual name; other names, with blanks between them */
@@ -18,6 +20,11 @@ const struct time_unit *ss_time_unit_find(const char *name);
 const struct time_unit *ss_time_unit_in(const char *name, size_t *length);
 /* The unit in which a number is a date between 2000 and 2100, counted from 1970; NULL: there is none. */
 const struct time_unit *ss_time_unit_of_date(double number);
+/* What is taken from all times of a column with this first time, before they become seconds: whole days, so that
+ * no digit is lost; of other units 0. */
+double ss_time_unit_zero(const struct time_unit *unit, double first);
+/* Is this the number of a day of our time, as Excel, MATLAB or astronomers count days? */
+int ss_is_day_now(double number);
 
 /* Does a column with this name hold times, as Time, t, time_ms, ms and Seconds do? */
 int ss_is_called_time(const char *name);
