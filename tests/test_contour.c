@@ -218,7 +218,7 @@ every_level_has_its_colour(void **state)
     static int painted[ROWS * COLUMNS];
     double f[ROWS], step = 5;
     const script_span span = { 0, 1, 0, 0 };
-    const contour_map map = { &span, span.from, span.to, ROWS, f, level, LEVELS * step, NAN };
+    const contour_map map = { &span, span.from, span.to, ROWS, f, level, 1, LEVELS * step, NAN };
     char *text = NULL;
     size_t size, checked = 0;
     (void)state;
@@ -268,7 +268,7 @@ lightness(const char *colour)
 }
 
 static void
-palettes_darken_evenly(void **state)
+palettes_darken_or_lighten_evenly(void **state)
 {
     (void)state;
     for (size_t i = 0; ss_palette_name(i) != NULL; i++)
@@ -282,6 +282,13 @@ palettes_darken_evenly(void **state)
             for (char *c = text; (c = strchr(c, '#')) != NULL; c++)
                 l[n++] = lightness(c);
             assert_int_equal(n, areas ? 11 : 9);
+            const char *ground = ss_palette_ground(ss_palette_name(i));
+            if (strstr(ss_palette_name(i), "_r") != NULL)
+                assert_memory_equal(ground, strchr(text, '#'), 7);
+            else
+                assert_null(ground);
+            for (size_t k = 0; ground != NULL && k < n; k++)
+                l[k] = -l[k];
             double mean = (l[0] - l[n - 1]) / (double)(n - 1);
             for (size_t k = 1; k < n; k++)
                 if (!(fabs(l[k - 1] - l[k] - mean) <= 0.4 * mean))
@@ -425,7 +432,7 @@ main(void)
         cmocka_unit_test(a_steady_oscillation_is_no_noise),
         cmocka_unit_test(a_span_that_is_given_stays),
         cmocka_unit_test(every_level_has_its_colour),
-        cmocka_unit_test(palettes_darken_evenly),
+        cmocka_unit_test(palettes_darken_or_lighten_evenly),
         cmocka_unit_test(the_ridge_lies_on_a_steady_oscillation),
         cmocka_unit_test(labels_that_are_asked_for_are_drawn),
         cmocka_unit_test(marks_beyond_the_map_are_arrows),

@@ -137,6 +137,8 @@ void tool_signal_rows(tool_signal *signal, const double *rows, size_t n);
 void tool_signal_note(tool_signal *signal, const char *key, const char *value);
 void tool_signal_end(tool_signal *signal);
 
+/* Call before work for tool_draw with the path after -o: dies if a script would go to a terminal unasked. */
+void tool_script_to(const char *path);
 /* Write a script to the output that -o names, a .gp or standard output, or the picture that
  * gnuplot makes of it; opts get the format of the picture.  Dies with the message of gnuplot if
  * that fails. */

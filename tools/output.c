@@ -316,6 +316,14 @@ run_gnuplot(FILE *script, FILE *out)
 }
 
 void
+tool_script_to(const char *path)
+{
+    if (path == NULL && isatty(STDOUT_FILENO))
+        tool_die("a script of many lines is no use on a terminal: draw a picture with -o FILE.png, or open a window "
+                 "with | gnuplot -p");
+}
+
+void
 tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
 {
     ss_error err = { 0 };

@@ -14,9 +14,12 @@ static const char usage[] =
 "      --levels=N       contour lines (18)\n"
 "      --span=DB        their range below the largest |W| (80, or down to noise)\n"
 "      --fill           colours between the lines, too\n"
-"      --palette=NAME   viridis, cividis, plasma, inferno, magma or grey\n"
+"      --level=DB       0 dB is |W| of DB re 1, not the largest |W|\n"
+"      --palette=NAME   viridis, cividis, plasma, inferno, magma or grey, where\n"
+"                       dark is loud; with _r behind it, light is loud\n"
 "      --ridge          mark at each time the frequencies where |W| is largest\n"
 "      --fmin=HZ, --fmax=HZ  draw these frequencies (all); for times see --from\n"
+"      --detrend=NAME   of a recording, subtract none, mean or linear first (none)\n"
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
@@ -39,6 +42,7 @@ typedef struct drawing {
     ss_contour_opts opts;
     double *event;
     ss_overlay *overlay;
+    ss_detrend detrend;
     tool_reading reading;
 } drawing;
 
@@ -98,18 +102,55 @@ end_overview(drawing *d)
     d->opts.fmin = d->opts.fmax = 0;
 }
 
+/* What is subtracted from a recording's sample i: first + mean + slope (i - middle). */
+typedef struct trend {
+    long double first, mean, slope, middle;
+} trend;
+
+/* Find the mean of a column, or its line of least squares, as ss-morlet does, and begin again. */
+static trend
+find_trend(ss_reader *reader, size_t column, ss_detrend detrend, double *rows)
+{
+    ss_error err = { 0 };
+    size_t columns = ss_reader_header(reader)->n_columns, piece = ss_reader_piece(reader), n;
+    long double sum = 0, moment = 0, count = 0;
+    trend t = { 0 };
+    while ((n = tool_rows(reader, rows, piece)) > 0)
+        for (size_t i = 0; i < n; i++, count++) {
+            double x = rows[i * columns + column];
+            if (count == 0)
+                t.first = x;
+            sum += x - t.first;
+            moment += count * (x - t.first);
+        }
+    t.mean = count > 0 ? sum / count : 0;
+    t.middle = (count - 1) / 2;
+    if (detrend == SS_DETREND_LINEAR && count > 1)
+        t.slope = (moment - t.middle * sum) / (count * (count * count - 1) / 12);
+    tool_check(ss_reader_rewind(reader, &err), &err);
+    return t;
+}
+
 /* Draw rows as they come.  The place in the file `in`, unless it is NULL, shows the progress. */
 static void
-draw_rows(drawing *d, ss_reader *reader, FILE *in)
+draw_rows(drawing *d, ss_reader **source, FILE *in)
 {
+    ss_error err = { 0 };
+    if (d->detrend != SS_DETREND_NONE)
+        tool_check(ss_reader_keep(source, d->reading.opts.folder, &err), &err);
+    ss_reader *reader = *source;
     const ss_header *head = ss_reader_header(reader);
     size_t columns = head->n_columns, column = open_overview(d, head), piece = ss_reader_piece(reader), n;
     double *rows = tool_room(NULL, (columns + 1) * piece, sizeof *rows), *x = rows + columns * piece;
+    trend t = { 0 };
+    if (d->detrend != SS_DETREND_NONE)
+        t = find_trend(reader, column, d->detrend, rows);
+    long double at = 0;
     struct stat st;
     double size = in != NULL && fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
     while ((n = tool_rows(reader, rows, piece)) > 0) {
-        for (size_t i = 0; i < n; i++)
-            x[i] = rows[i * columns + column];
+        for (size_t i = 0; i < n; i++, at++)
+            x[i] = (double)(rows[i * columns + column] - t.first - t.mean - t.slope * (at - t.middle));
         push(d, x, n);
         if (in != NULL)
             tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
@@ -133,7 +174,7 @@ draw_recording(drawing *d)
     if (is_signal) {
         tool_check(st, &err);
         tool_resample(&reader, d->path, &d->reading.opts);
-        draw_rows(d, reader, in);
+        draw_rows(d, &reader, in);
     }
     ss_reader_free(reader);
     fclose(in);
@@ -155,7 +196,7 @@ open_input(drawing *d)
     ss_status st = ss_store_reader_new(&d->reader, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
         ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
-        draw_rows(d, reader, NULL);
+        draw_rows(d, &reader, NULL);
         ss_reader_free(reader);
         return;
     }
@@ -223,12 +264,15 @@ is_stdin(const char *path)
     return path != NULL && strcmp(path, "-") == 0;
 }
 
+static const char *const detrends[] = { "none", "mean", "linear", NULL };
+
 static void
 parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
 {
     const tool_option options[] = {
         TOOL_WHOLE(0, "levels", &d->opts.levels, ss_contour_levels),
         TOOL_NUMBER(0, "span", &d->opts.span, ss_contour_spans), TOOL_FLAG(0, "fill", &d->opts.fill),
+        TOOL_NUMBER(0, "level", &d->opts.level, ss_contour_tops), TOOL_CHOICE(0, "detrend", &d->detrend, detrends),
         TOOL_NAME(0, "palette", &d->opts.palette, ss_palette_name),
         TOOL_FLAG(0, "ridge", &d->opts.ridge),
         TOOL_NUMBER(0, "fmin", &d->opts.fmin, ss_morlet_ranges.frequency),
@@ -237,11 +281,12 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         TOOL_TEXT(0, "events", &d->events), TOOL_TEXT(0, "features", &d->features),
         TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output) };
     d->path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &d->reading));
-    if (tool_given("span"))
+    if (tool_given("span") || tool_given("level"))
         d->opts.noise = 0;
     if (d->opts.fmin > 0 && d->opts.fmax > 0 && d->opts.fmin >= d->opts.fmax)
         tool_usage("--fmin does not lie below --fmax");
     tool_output_kind(d->output, TOOL_PICTURES, TOOL_GP);
+    tool_script_to(d->output);
     tool_reading_end(&d->reading, d->column);
     tool_reading_needs(&d->reading, &d->column, d->column != NULL);
     if (is_stdin(d->path) + is_stdin(d->signal_path) + is_stdin(d->events) + is_stdin(d->features) > 1)
@@ -269,6 +314,8 @@ main(int argc, char *argv[])
     open_input(&d);
     if (d.overview != NULL && d.signal_path != NULL)
         tool_usage("--signal is for coefficients; %s is a signal", d.path);
+    if (d.overview == NULL && d.detrend != SS_DETREND_NONE)
+        tool_usage("--detrend is for a recording; %s has coefficients, for which ss-morlet --detrend is", d.path);
     opts.from = d.reading.from;         /* so that lines reach the border */
     opts.to = d.reading.to;
     d.reading.opts.from = d.reading.opts.to = 0;

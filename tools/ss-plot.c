@@ -330,6 +330,8 @@ main(int argc, char *argv[])
         tool_usage("--xy and --column exclude each other");
     const char *path = tool_input(argc, argv, first);
     d.kind = tool_output_kind(output, TOOL_PICTURES | (d.spectrum ? TOOL_WORDS : 0), d.kind);
+    if (d.kind == TOOL_GP)
+        tool_script_to(output);
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     tool_reading_needs(&reading, xy.n > 0 ? xy.text : wanted.text, xy.n + wanted.n);
     opts.from = reading.from;           /* so that lines reach the border */

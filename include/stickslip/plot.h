@@ -79,7 +79,8 @@ typedef struct ss_contour_opts {
     double span;                /* [dB] from the largest |W| down to the lowest line, at most */
     double noise;               /* |W| at which noise begins; the lines end there, but they always span
                                    10 dB; NaN: it is measured, see below; 0: the lines span all of span */
-    double top;                 /* |W| of 0 dB; 0: the largest outside the cone of influence */
+    double top;                 /* the largest |W|; 0: it is measured, outside the cone of influence */
+    double level;               /* [dB] re 1: the |W| of 0 dB, so that pictures compare; NaN: the largest */
     const char *palette;        /* one of ss_palette_name; NULL: viridis */
     int fill;                   /* 1: draw colours between the lines */
     int ridge;                  /* 1: mark the ridges, see below */
@@ -95,12 +96,13 @@ typedef struct ss_contour_opts {
 } ss_contour_opts;
 extern const ss_range ss_contour_levels;
 extern const ss_range ss_contour_spans;         /* [dB] */
+extern const ss_range ss_contour_tops;          /* [dB] of level */
 extern const ss_contour_opts ss_contour_defaults;   /* 18 levels over 80 dB, or down to the noise */
-/* The name of the i-th palette, each with even steps of lightness: "viridis", ...; NULL after the
- * last. */
+/* The name of the i-th palette, each with even steps of lightness: "viridis", ..., and those with
+ * "_r", whose loudest level is light; NULL after the last. */
 const char *ss_palette_name(size_t i);
 
-/* Draw contours of L = 20 log10(|W| / top) at -k span/levels, k = 1 ... levels.
+/* Draw contours of L = 20 log10(|W| / |W| of 0 dB) at -k span/levels, k = 1 ... levels.
  *
  * Noise: outside the cone of influence, Gaussian noise has |W| above a value with the probability
  * exp(-|W|^2/s^2).  A scale is noise if the ratios of its 10, 25 and 50 % quantiles are those of

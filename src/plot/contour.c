@@ -10,8 +10,9 @@
 #include "base/range.h"
 #include "morlet/wavelet.h"
 
-const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1e-3, 1000 };
-const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80, .noise = NAN };
+const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1e-3, 1000 },
+    ss_contour_tops = { -2000, 2000 };
+const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80, .noise = NAN, .level = NAN };
 
 /* --- axes and cone --------------------------------------------------------------------------- */
 
@@ -111,7 +112,7 @@ static const char panel_b[] =
     "set palette defined (@colours) maxcolors levels\n";
 
 static const char colour_box[] =
-    "set cbtics scale 0.4 offset -0.7,0; set cblabel 'level / dB re largest |W|' noenhanced offset -0.6,0\n"
+    "set cbtics scale 0.4 offset -0.7,0; set cblabel reference noenhanced offset -0.6,0\n"
     "set colorbox user origin screen right + 0.02, screen bottom size screen 0.025, screen top_b - bottom\n";
 
 /* What the script draws. */
@@ -127,6 +128,13 @@ typedef struct drawing {
     contour_marks marks;
     size_t ridge;               /* points */
 } drawing;
+
+/* The colour below the areas; NULL: that of the paper. */
+static const char *
+ground_of(const ss_contour_opts *contour)
+{
+    return contour->fill && contour->palette != NULL ? ss_palette_ground(contour->palette) : NULL;
+}
 
 /* A colour is that of a line, or that of the area between two lines. */
 static void
@@ -154,6 +162,8 @@ write_panel_b(FILE *out, const drawing *d)
     write_frequency_tics(out, d->map->f[0], d->map->f[d->map->rows - 1]);
     if (contour->signal == NULL)
         fputs("unset label 1\n", out);
+    if (ground_of(contour) != NULL)
+        fputs("set object rectangle from graph 0,0 to graph 1,1 back fc rgb ground_colour fs solid noborder\n", out);
     if (contour->fill)
         st = ss_contour_write_fill(out, d->map, contour->levels);
     fprintf(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
@@ -210,6 +220,8 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     if (contour->noise < 0 || isinf(contour->noise) || !(contour->top >= 0 && contour->top <= DBL_MAX)
         || !(contour->fmin >= 0) || !(contour->fmax >= 0))
         return ss_fail(err, SS_EINVAL, "noise, top, fmin or fmax is negative or not finite");
+    if (!isnan(contour->level) && (st = ss_range_check(contour->level, ss_contour_tops, "level [dB]", err)) != SS_OK)
+        return st;
     if (contour->palette != NULL && !ss_palette_is_known(contour->palette))
         return ss_fail(err, SS_EINVAL, "no palette '%.40s'", contour->palette);
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
@@ -262,7 +274,11 @@ write_variables(FILE *out, const drawing *d)
     fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ",
             contour->levels);
     ss_script_write(out, d->map->span, 6,
-                    "           # dB below the largest |W|\nstep = 1.0*span/levels\n");
+                    "           # dB below 0 dB\nstep = 1.0*span/levels\n");
+    if (d->map->top > 0)
+        fprintf(out, "level = %.2f       # dB re 1, the |W| that is 0 dB\n", 20 * log10(d->map->top));
+    fputs(isnan(contour->level) ? "reference = 'level / dB re largest |W|'\n"
+                                : "reference = sprintf('level / dB re |W| of %g dB', level)\n", out);
     if (!isnan(d->map->noise))
         fprintf(out, "noise = %g         # dB\n", d->map->noise);
     fputs("fmin = ", out);
@@ -272,6 +288,8 @@ write_variables(FILE *out, const drawing *d)
         fputs("colours = \"" LEVEL_COLOURS "\"\n", out);
     else
         ss_palette_write(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
+    if (contour->fill)
+        fprintf(out, "ground_colour = '%s'\n", ground_of(contour) != NULL ? ground_of(contour) : "white");
     fputs("cone_colour = '" CONE_COLOUR "'; event_colour = '" VERMILION "'\n", out);
     if (contour->fill)
         fputs("line_colour = '" LEVEL_COLOUR "'\n", out);

@@ -9,7 +9,7 @@
 #define CONTOUR_LEVELS 100      /* the most levels */
 #define CONTOUR_FLOOR 1000.0    /* [dB] below the largest |W|: the level of |W| = 0 */
 
-/* |W| in decibels relative to the largest, with CONTOUR_COLUMNS + 1 values in a row.  A row is a
+/* |W| in decibels relative to that of 0 dB, with CONTOUR_COLUMNS + 1 values in a row.  A row is a
  * scale; the first and the last row are at the ends of the range of labels that is drawn. */
 typedef struct contour_map {
     const script_span *span_of_time;
@@ -17,6 +17,7 @@ typedef struct contour_map {
     size_t rows;
     double *f;                  /* [Hz] of each row */
     double *level;
+    double top;                 /* |W| of 0 dB */
     double span;                /* [dB] of the lines */
     double noise;               /* [dB] where noise begins; NaN: not measured, or below the lines */
 } contour_map;
@@ -41,7 +42,9 @@ void ss_contour_write_point(FILE *out, const contour_map *map, const double poin
 size_t ss_contour_next_point(const contour_map *map, const double (*point)[2], size_t n, size_t first);
 
 int ss_palette_is_known(const char *name);
-/* Write the variable colours: those of a palette from light to dark, for lines on white or for areas. */
+/* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
+const char *ss_palette_ground(const char *name);
+/* Write the variable colours: those of a palette from quiet to loud, for lines on white or for areas. */
 void ss_palette_write(FILE *out, const char *name, int areas);
 
 #endif

@@ -74,7 +74,7 @@ larger_first(const void *a, const void *b)
         : (p->first > q->first) - (p->first < q->first);
 }
 
-/* An area below the last line is white, as the paper is. */
+/* An area below the last line has the colour of the ground. */
 static void
 write_polygon(FILE *out, const painting *p, const polygon *area, int levels)
 {
@@ -85,7 +85,7 @@ write_polygon(FILE *out, const painting *p, const polygon *area, int levels)
     if (area->band < levels)
         fprintf(out, " back fc palette cb -%d.5*step fs solid 1 noborder\n", area->band);
     else
-        fputs(" back fc rgb 'white' fs solid 1 noborder\n", out);
+        fputs(" back fc rgb ground_colour fs solid 1 noborder\n", out);
 }
 
 ss_status

@@ -98,11 +98,12 @@ fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
 static void
 set_levels(contour_map *map, const filling *f)
 {
-    double max = f->contour->top > 0 ? f->contour->top : f->outside >= 0 ? f->outside : f->anywhere;
+    double max = !isnan(f->contour->level) ? pow(10, f->contour->level / 20) : f->contour->top > 0 ? f->contour->top : f->outside >= 0 ? f->outside : f->anywhere;
     double noise = f->noise != NULL ? ss_noise_level(f->noise, f->c->scale) : f->contour->noise;
     for (size_t i = 0; i < map->rows * (CONTOUR_COLUMNS + 1); i++)
         map->level[i] = max > 0 && map->level[i] > 0
             ? fmin(fmax(20 * log10(map->level[i] / max), -CONTOUR_FLOOR), CONTOUR_FLOOR) : -CONTOUR_FLOOR;
+    map->top = max;
     map->span = f->contour->span;
     map->noise = max > 0 && noise > 0 ? round(20 * log10(noise / max)) : NAN;
     if (!(map->noise > -map->span))

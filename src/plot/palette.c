@@ -1,4 +1,4 @@
-/* palette.c -- colours whose lightness falls in even steps, for levels on white paper.
+/* palette.c -- colours whose lightness falls in even steps, for levels on white paper, or rises.
  *
  * viridis, plasma, inferno and magma are those of S. van der Walt and N.  Smith for matplotlib
  * (2015), which they dedicated to the public domain (CC0), cividis that of J.  Nunez, C.  Anderton
@@ -11,20 +11,20 @@
 enum { TENTHS = 11 };
 
 static const struct palette {
-    const char *name;
+    const char *name, *reversed;
     const char *colour[TENTHS];         /* dark to light */
 } palettes[] = {
-    { "viridis", { "#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70",
+    { "viridis", "viridis_r", { "#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70",
                    "#7ad151", "#bddf26", "#fde725" } },
-    { "cividis", { "#00224e", "#083370", "#35456c", "#4f576c", "#666970", "#7d7c78", "#948e77", "#aea371",
+    { "cividis", "cividis_r", { "#00224e", "#083370", "#35456c", "#4f576c", "#666970", "#7d7c78", "#948e77", "#aea371",
                    "#c8b866", "#e5cf52", "#fee838" } },
-    { "plasma", { "#0d0887", "#41049d", "#6a00a8", "#8f0da4", "#b12a90", "#cc4778", "#e16462", "#f2844b",
+    { "plasma", "plasma_r", { "#0d0887", "#41049d", "#6a00a8", "#8f0da4", "#b12a90", "#cc4778", "#e16462", "#f2844b",
                   "#fca636", "#fcce25", "#f0f921" } },
-    { "inferno", { "#000004", "#160b39", "#420a68", "#6a176e", "#932667", "#bc3754", "#dd513a", "#f37819",
+    { "inferno", "inferno_r", { "#000004", "#160b39", "#420a68", "#6a176e", "#932667", "#bc3754", "#dd513a", "#f37819",
                    "#fca50a", "#f6d746", "#fcffa4" } },
-    { "magma", { "#000004", "#140e36", "#3b0f70", "#641a80", "#8c2981", "#b73779", "#de4968", "#f7705c",
+    { "magma", "magma_r", { "#000004", "#140e36", "#3b0f70", "#641a80", "#8c2981", "#b73779", "#de4968", "#f7705c",
                  "#fe9f6d", "#fecf92", "#fcfdbf" } },
-    { "grey", { "#000000", "#1b1b1b", "#303030", "#474747", "#5e5e5e", "#777777", "#919191", "#ababab",
+    { "grey", "grey_r", { "#000000", "#1b1b1b", "#303030", "#474747", "#5e5e5e", "#777777", "#919191", "#ababab",
                 "#c6c6c6", "#e2e2e2", "#ffffff" } },
 };
 enum { PALETTES = sizeof palettes / sizeof *palettes };
@@ -32,30 +32,44 @@ enum { PALETTES = sizeof palettes / sizeof *palettes };
 const char *
 ss_palette_name(size_t i)
 {
-    return i < PALETTES ? palettes[i].name : NULL;
+    return i < PALETTES ? palettes[i].name : i < 2 * PALETTES ? palettes[i - PALETTES].reversed : NULL;
 }
 
+/* *reversed becomes 1 if the loudest level is light. */
 static const struct palette *
-find(const char *name)
+find(const char *name, int *reversed)
 {
-    for (size_t i = 0; i < PALETTES; i++)
-        if (strcmp(palettes[i].name, name) == 0)
+    for (size_t i = 0; i < PALETTES; i++) {
+        *reversed = strcmp(palettes[i].reversed, name) == 0;
+        if (*reversed || strcmp(palettes[i].name, name) == 0)
             return &palettes[i];
+    }
     return NULL;
 }
 
 int
 ss_palette_is_known(const char *name)
 {
-    return find(name) != NULL;
+    int reversed;
+    return find(name, &reversed) != NULL;
+}
+
+const char *
+ss_palette_ground(const char *name)
+{
+    int reversed;
+    const struct palette *p = find(name, &reversed);
+    return reversed ? p->colour[0] : NULL;
 }
 
 void
 ss_palette_write(FILE *out, const char *name, int areas)
 {
-    const struct palette *p = find(name);
+    int reversed;
+    const struct palette *p = find(name, &reversed);
     int lightest = areas ? TENTHS - 1 : TENTHS - 3;     /* a line of the last two is lost on white */
     fputs("colours = \"", out);
-    for (int k = lightest; k >= 0; k--)
-        fprintf(out, "%g '%s'%s", 1 - (double)k / lightest, p->colour[k], k > 0 ? ", " : "\"\n");
+    for (int k = 0; k <= lightest; k++)
+        fprintf(out, "%g '%s'%s", (double)k / lightest, p->colour[reversed ? k : lightest - k],
+                k < lightest ? ", " : "\"\n");
 }
