@@ -14,6 +14,6 @@ cmp a b
 ss-contour --level x one.tsv || echo $?
 # A palette that is reversed has a dark ground under its colours, and the same colours.
 for name in viridis viridis_r; do
-    ss-contour --fill --palette $name one.tsv | sed -n -e '/^colours/p' -e '/^ground/p' -e '/ground_colour fs/p'
+    ss-contour --fill --palette $name one.tsv | sed -n -e '/^colours/p' -e '/^ground/p' -e '/rectangle.*ground_colour fs/p'
 done
 ss-contour --palette grey_r one.tsv | grep -c ground || true
