@@ -41,6 +41,7 @@ typedef struct request {
     size_t n_picks;
     ss_sweep_text text;
     FILE *out;
+    char *due;                          /* the row that must come next, as it is in the file to be resumed; or NULL */
     size_t rows, failed;
 } request;
 
@@ -153,15 +154,34 @@ parse(request *req, int argc, char *argv[])
         tool_usage("SCENE is missing: give a file, or the name of a shipped scene");
     req->scene_path = tool_input(argc, argv, first);
     req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, req->kind));
+    const char *ending = req->resume != NULL ? strrchr(req->resume, '.') : NULL;
+    ss_format named;
+    if (ending != NULL && ss_format_find(&named, ending + 1) && ss_format_has_words(named))
+        req->text.format = named;
     if (req->resume != NULL && strcmp(req->resume, "-") == 0)
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
-    if (req->resume != NULL && req->kind != TOOL_TSV)
-        tool_usage("--resume needs rows of tsv, which say what sweep they are of");
     if (req->resume != NULL && req->path != NULL)
         tool_usage("--resume and --output exclude each other");
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */
+
+/* A file without notes does not say of what scene it is: its last row is computed again, and must be the same. */
+static void
+check_due(request *req, const ss_sweep_row *row)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *again = open_memstream(&text, &length);
+    if (again == NULL || ss_sweep_row_write(&req->text, row, again) != SS_OK || fclose(again) != 0)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    if (strncmp(text, req->due, strlen(req->due)) != 0)
+        tool_die("%s: another sweep than this: its last point, %zu, has other numbers", req->resume, row->index);
+    tool_cut(req->out, ftell(req->out));
+    free(text);
+    free(req->due);
+    req->due = NULL;
+}
 
 static int
 write_row(const ss_sweep_row *row, void *user)
@@ -169,6 +189,8 @@ write_row(const ss_sweep_row *row, void *user)
     request *req = user;
     if (tool_stopping())
         return 1;
+    if (req->due != NULL)
+        check_due(req, row);
     req->rows++;
     req->failed += row->status != SS_OK;
     return ss_sweep_row_write(&req->text, row, req->out) != SS_OK;
@@ -180,6 +202,21 @@ report(double done, void *user)
 {
     request *req = user;
     return (req->resume != NULL && fflush(req->out) != 0) || tool_progress(done, NULL) != 0;
+}
+
+/* The whole line from here on, if the file has one and no notes; NULL: it has not. */
+static char *
+read_due(const request *req, long at)
+{
+    char *line = NULL;
+    size_t room = 0;
+    if (req->text.format == SS_TSV || fseek(req->out, at, SEEK_SET) != 0)
+        return NULL;
+    ssize_t n = getline(&line, &room, req->out);
+    if (fseek(req->out, at, SEEK_SET) == 0 && at > 0 && n > 0 && line[n - 1] == '\n')
+        return line;
+    free(line);
+    return NULL;
 }
 
 /* Open the output of the rows, and write the header unless it is there already. */
@@ -195,7 +232,9 @@ open_rows(request *req)
         req->out = tool_output_kept(req->resume);
         tool_check(ss_sweep_resume(&req->text, req->out, req->resume, &req->opts.first, &end, &err),
                    &err);
-        tool_cut(req->out, end);
+        req->due = read_due(req, end);
+        if (req->due == NULL)
+            tool_cut(req->out, end);
         tool_note("%s: rows that are there: %zu", req->resume, req->opts.first);
     }
     tool_check(ss_sweep_header(&header, &req->text), NULL);

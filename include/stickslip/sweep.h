@@ -191,8 +191,9 @@ ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep);
 ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out);
 /* Find where to continue a file of such rows that may have been cut off anywhere.  *rows becomes
  * the number of whole rows of the shard (use it as opts->first), and *end the byte behind them,
- * where the next row belongs; if *end is 0, the header belongs there first.  file is read from its
- * present place, which must be its start.  SS_EDATA: these are not rows of this sweep; SS_EIO. */
+ * where the next row belongs; if *end is 0, the header belongs there first.  The last row is not
+ * counted, but to be computed again, if the format has no notes to say of what scene it is; nor are
+ * those of a last point with several.  file is read from its present place, which must be its start.  SS_EDATA: these are not rows of this sweep; SS_EIO. */
 ss_status ss_sweep_resume(const ss_sweep_text *sweep, FILE *file, const char *name, size_t *rows,
                           long *end, ss_error *err);
 

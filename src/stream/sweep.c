@@ -169,20 +169,19 @@ ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *ou
 
 /* --- going on ------------------------------------------------------------------------------ */
 
-/* Read the next line, as much of it as there is room for, without its end.  Returns the length of the
- * whole line in the file, or 0 if the file ends within it. */
+enum { LONGEST_ROW = 8192 };        /* of some 60 numbers and a reason */
+
+/* Read the next line without its end, cut off if it is too long.  Returns the length of the whole line in the
+ * file, or 0 if the file ends within it. */
 static long
-read_line(FILE *in, char *line, size_t room)
+read_line(FILE *in, char line[LONGEST_ROW])
 {
     long length = 0;
-    size_t n = 0;
     int c;
-    while ((c = getc(in)) != EOF && c != '\n') {
-        length++;
-        if (n + 1 < room)
-            line[n++] = (char)c;
-    }
-    line[n] = '\0';
+    for (; (c = getc(in)) != EOF && c != '\n'; length++)
+        if (length + 1 < LONGEST_ROW)
+            line[length] = (char)c;
+    line[length < LONGEST_ROW ? length : LONGEST_ROW - 1] = '\0';
     return c == '\n' ? length + 1 : 0;
 }
 
@@ -195,32 +194,112 @@ has_header(FILE *in, const char *header, char *start, size_t *got)
     return memcmp(start, header, *got) == 0;
 }
 
-/* Count the whole rows, which must be in the order of the points.  The last point is left out if it may
- * have several rows, as some of them may be missing. */
+/* Cut the next cell off a line, which begins behind it afterwards; NULL: it is the last. */
+static char *
+next_cell(char **line, char separator)
+{
+    char *cell = *line, *end = strchr(cell, separator);
+    if (end == NULL)
+        return NULL;
+    *end = '\0';
+    *line = end + 1;
+    return cell;
+}
+
+static int
+is_number(const char *cell, double *x)
+{
+    char *end;
+    *x = ss_number_parse(cell, &end);
+    return end > cell && *end == '\0' && isfinite(*x);
+}
+
+/* The value of an axis at this point of the grid, whose last axis varies fastest. */
+static double
+value_at(const ss_sweep_opts *opts, size_t axis, size_t index)
+{
+    for (size_t i = opts->n_axes - 1; i > axis; i--)
+        index /= opts->axis[i].n;
+    return ss_axis_value(&opts->axis[axis], index % opts->axis[axis].n);
+}
+
+/* What is wrong with the cells behind the index of a row, or NULL: they are what a row of this point may have.
+ * *name becomes the column of the wrong one. */
+static const char *
+wrong_cell(const ss_sweep_text *sweep, char *line, size_t index, const char **name)
+{
+    const struct format *format = ss_format_table(sweep->format);
+    const char *unknown = format->has_notes ? "-" : "", *cell;
+    double x;
+    int unknowns = 0;
+    for (size_t i = 0; i < sweep->opts->n_axes; i++) {
+        double wanted = value_at(sweep->opts, i, index);
+        *name = sweep->opts->axis[i].key;
+        if ((cell = next_cell(&line, format->separator)) == NULL)
+            return "is missing";
+        if (!is_number(cell, &x) || !(fabs(x - wanted) <= 1e-14 * fabs(wanted)))    /* pow differs between machines */
+            return "is not the grid's";
+    }
+    for (size_t i = 0; i < sweep->n_measures; i++) {
+        *name = ss_measure_name(sweep->measure[i]);
+        if ((cell = next_cell(&line, format->separator)) == NULL)
+            return "is missing";
+        unknowns += strcmp(cell, unknown) == 0;
+        if (!is_number(cell, &x) && strcmp(cell, unknown) != 0
+            && (sweep->measure[i] != SS_PERIOD || strcmp(cell, "aperiodic") != 0))
+            return "is not a number";
+    }
+    *name = "status";
+    if (line[0] == '\0' || (line[0] != '"' && strchr(line, format->separator) != NULL))
+        return line[0] == '\0' ? "is missing" : "is not the last";
+    return unknowns > 0 && strcmp(line, "ok") == 0 ? "is ok, but a measure is not known" : NULL;
+}
+
+static size_t
+count_lines(const char *text)
+{
+    size_t n = 0;
+    for (; *text != '\0'; text++)
+        n += *text == '\n';
+    return n;
+}
+
+/* Count the whole rows, which must be those of the points in their order.  The last point is left out if it may
+ * have several rows, as some of them may be missing, or if the format has no notes, so that only its numbers tell
+ * whether it is of this sweep. */
 static ss_status
-count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t *rows, long *end,
+count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t header_lines, size_t *rows, long *end,
            ss_error *err)
 {
     const ss_sweep_opts *opts = sweep->opts;
-    char line[64], *behind, separator = ss_format_table(sweep->format)->separator;
-    size_t points = 0;
+    const struct format *format = ss_format_table(sweep->format);
+    char line[LONGEST_ROW], *behind;
+    int leaves_last = opts->steady.strobe > 0 || !format->has_notes;
+    size_t points = 0, all, number = header_lines + 1;
     long at = *end;
-    for (long n; (n = read_line(in, line, sizeof line)) > 0; at += n) {
+    ss_status st = ss_sweep_points(opts, &all, err);
+    for (long n; st == SS_OK && (n = read_line(in, line)) > 0; at += n, number++) {
         size_t due = opts->shard + points * opts->shards, index = strtoul(line, &behind, 10);
-        if (opts->steady.strobe > 0 && points > 0 && index == due - opts->shards)
+        const char *wrong, *column = "index";
+        int again = opts->steady.strobe > 0 && points > 0 && index == due - opts->shards;
+        if ((size_t)n != strlen(line) + 1)
+            return ss_fail(err, SS_EDATA, "%s:%zu: a NUL byte, or longer than a row", name, number);
+        if (line[0] < '0' || line[0] > '9' || (*behind != format->separator && *behind != '\0') || (index != due && !again)
+            || index >= all)
+            return ss_fail(err, SS_EDATA, "%s:%zu: the row of '%.*s', but point %zu is due: another sweep or shard",
+                           name, number, (int)strcspn(line, (char[]){ format->separator, '\0' }), line, due);
+        if ((wrong = wrong_cell(sweep, behind + (*behind != '\0'), index, &column)) != NULL)
+            return ss_fail(err, SS_EDATA, "%s:%zu: not a row of this sweep: %s %s", name, number, column, wrong);
+        if (again)
             continue;
-        if (behind == line || *behind != separator || index != due)
-            return ss_fail(err, SS_EDATA, "%s: row %zu is '%.*s', but point %zu is due: another sweep "
-                           "or shard", name, points + 1,
-                           (int)strcspn(line, (char[]){ separator, '\0' }), line, due);
         *rows = points++;
         *end = at;
     }
-    if (opts->steady.strobe == 0) {
+    if (st == SS_OK && !leaves_last) {
         *rows = points;
         *end = at;
     }
-    return SS_OK;
+    return st;
 }
 
 ss_status
@@ -244,7 +323,7 @@ ss_sweep_resume(const ss_sweep_text *sweep, FILE *in, const char *name, size_t *
         st = ss_fail(err, SS_EDATA, "%s: another sweep than this: its header differs", name);
     else if (got == length) {
         *end = (long)length;
-        st = count_rows(sweep, in, name, rows, end, err);
+        st = count_rows(sweep, in, name, count_lines(header), rows, end, err);
     }
     if (st == SS_OK && ferror(in))
         st = ss_fail_errno(err, name, errno);

@@ -41,4 +41,3 @@ ss-cat run.csv 2> warning | sed -n 2,4p
 wc -l < warning
 refused() { "$@" || echo $?; }
 refused ss-features --format au run.tsv
-refused ss-sweep --vary friction=0.5:2:3 --format csv --resume sweep coulomb
