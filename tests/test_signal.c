@@ -331,17 +331,38 @@ knows_what_is_near_a_gap(void **state)
 }
 
 static void
-reads_no_gaps_from_a_damaged_note(void **state)
+refuses_gaps_of_a_damaged_note(void **state)
 {
     (void)state;
-    static const char *const note[] = { "", "1", "1:", ":2", "2:1", "1:1", "a:b", "1:2x", "nan:2" };
+    static const char *const note[] = { "1", "1:", ":2", "2:1", "1:1", "a:b", "1:2x", "nan:2", "1:2 3", "1:2 4:3",
+                                        "1:inf", "1:1e999", "1:2:3", "1:2,3:4", "1:2 3:4 x" };
+    for (size_t i = 0; i < sizeof note / sizeof *note; i++) {
+        ss_header *head = ss_header_new(1, 0);
+        ss_span *span;
+        size_t n;
+        assert_int_equal(ss_header_note(head, "gaps", note[i]), SS_OK);
+        assert_int_equal(ss_header_gaps(&span, &n, head), SS_EDATA);
+        assert_null(span);
+        assert_int_equal(n, 0);
+        ss_header_free(head);
+    }
+}
+
+static void
+reads_gaps_in_any_order(void **state)
+{
+    (void)state;
+    static const char *const note[] = { "1:2 4:6 8:9", "8:9 4:6 1:2", "4:6 8:9  1:2 ", "1:2 4:5.5 4.5:6 8:9 8.25:8.5",
+                                        "8:9 5:6 4:5.25 1:2" };
+    static const ss_span right[] = { { 1, 2 }, { 4, 6 }, { 8, 9 } };
     for (size_t i = 0; i < sizeof note / sizeof *note; i++) {
         ss_header *head = ss_header_new(1, 0);
         ss_span *span;
         size_t n;
         assert_int_equal(ss_header_note(head, "gaps", note[i]), SS_OK);
         assert_int_equal(ss_header_gaps(&span, &n, head), SS_OK);
-        assert_int_equal(n, 0);
+        assert_int_equal(n, 3);
+        assert_memory_equal(span, right, sizeof right);
         free(span);
         ss_header_free(head);
     }
@@ -365,7 +386,8 @@ main(void)
         cmocka_unit_test(resamples_a_signal_at_its_own_samples),
         cmocka_unit_test(fills_gaps_and_says_where),
         cmocka_unit_test(knows_what_is_near_a_gap),
-        cmocka_unit_test(reads_no_gaps_from_a_damaged_note),
+        cmocka_unit_test(refuses_gaps_of_a_damaged_note),
+        cmocka_unit_test(reads_gaps_in_any_order),
     };
     return cmocka_run_group_tests_name("signal", tests, NULL, NULL);
 }

@@ -674,6 +674,22 @@ a_grid_that_is_not_one_is_refused(void **state)
     ss_signal_free(signal);
 }
 
+static void
+gaps_that_are_reversed_are_refused(void **state)
+{
+    (void)state;
+    static const char *const note[] = { "2:1", "1", "a:b", "1:2 x" };
+    for (size_t i = 0; i < sizeof note / sizeof *note; i++) {
+        ss_signal *signal = new_signal(10), *back = NULL;
+        ss_error err = { 0 };
+        assert_int_equal(ss_header_note(signal->head, "gaps", note[i]), SS_OK);
+        write_ok(&(ss_record){ .signal = signal });
+        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, &err), SS_EDATA);
+        assert_non_null(strstr(err.text, "the note 'gaps' is not"));
+        ss_signal_free(signal);
+    }
+}
+
 int
 main(void)
 {
@@ -694,6 +710,7 @@ main(void)
         cmocka_unit_test(dimensions_are_multiplied_without_end),
         cmocka_unit_test(names_that_are_packed_are_not_unpacked),
         cmocka_unit_test(a_grid_that_is_not_one_is_refused),
+        cmocka_unit_test(gaps_that_are_reversed_are_refused),
     };
     return cmocka_run_group_tests_name("store hostile", tests, make_dir, remove_dir);
 }

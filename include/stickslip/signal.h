@@ -114,8 +114,9 @@ typedef struct ss_span {
 } ss_span;
 
 /* The spans in which samples were missing, in time order, from the note "gaps: from:to from:to
- * ...".  Each goes from its first missing sample to the next sample that is there.  The caller
- * frees *out with free(). */
+ * ..." in any order.  Each goes from its first missing sample to the next sample that is there;
+ * those that overlap are one.  The caller frees *out with free().  SS_EDATA: the note is something
+ * else; readers of files refuse it. */
 ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
 /* 1 if t lies in one of n gaps, which are in time order, or nearer than margin to one; else 0. */
 int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);

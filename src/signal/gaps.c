@@ -186,6 +186,42 @@ ss_gaps_free(gap_filler *g)
 
 /* --- the note ------------------------------------------------------------------------------ */
 
+/* Read "from:to" and the blanks behind it; 0: it is no span. */
+static int
+read_span(ss_span *span, char **p)
+{
+    char *colon, *end;
+    span->from = ss_number_parse(*p, &colon);
+    if (colon == *p || *colon != ':')
+        return 0;
+    span->to = ss_number_parse(colon + 1, &end);
+    if (end == colon + 1 || (*end != ' ' && *end != '\0'))
+        return 0;
+    *p = end + strspn(end, " ");
+    return isfinite(span->from) && isfinite(span->to) && span->from < span->to;
+}
+
+static int
+is_earlier(const void *a, const void *b)
+{
+    const ss_span *p = a, *q = b;
+    return (p->from > q->from) - (p->from < q->from);
+}
+
+/* Put spans into the order of time, and join those that overlap. */
+static size_t
+order(ss_span *span, size_t n)
+{
+    size_t kept = 0;
+    qsort(span, n, sizeof *span, is_earlier);
+    for (size_t i = 0; i < n; i++)
+        if (kept > 0 && span[i].from < span[kept - 1].to)
+            span[kept - 1].to = fmax(span[kept - 1].to, span[i].to);
+        else
+            span[kept++] = span[i];
+    return kept;
+}
+
 ss_status
 ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
 {
@@ -197,21 +233,28 @@ ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
     *n = 0;
     for (const char *p = text; p != NULL && *p != '\0'; p++)
         room += *p == ':';
-    *out = malloc((room + 1) * sizeof **out);
-    if (*out == NULL)
+    ss_span *span = malloc((room + 1) * sizeof *span);
+    if (span == NULL)
         return SS_ENOMEM;
-    for (char *p = (char *)text; p != NULL && *p != '\0' && *n < room; ++*n) {
-        ss_span *span = *out + *n;
-        char *end;
-        span->from = ss_number_parse(p, &end);
-        if (end == p || *end != ':')
-            break;
-        span->to = ss_number_parse(end + 1, &p);
-        if (p == end + 1 || (*p != ' ' && *p != '\0') || !(span->from < span->to))
-            break;
-        p += *p == ' ';
-    }
+    size_t read = 0;
+    for (char *p = (char *)text; p != NULL && *p != '\0'; read++)
+        if (read == room || !read_span(&span[read], &p)) {
+            free(span);
+            return SS_EDATA;
+        }
+    *n = order(span, read);
+    *out = span;
     return SS_OK;
+}
+
+ss_status
+ss_header_check_gaps(const ss_header *head)
+{
+    ss_span *span;
+    size_t n;
+    ss_status st = ss_header_gaps(&span, &n, head);
+    free(span);
+    return st;
 }
 
 int

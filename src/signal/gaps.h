@@ -18,6 +18,9 @@ int ss_gaps_fill(gap_filler *g, double *rows, size_t n);
 void ss_gaps_rewind(gap_filler *g);
 void ss_gaps_free(gap_filler *g);               /* NULL is allowed */
 
+/* SS_EDATA: the note of the gaps is not what ss_header_gaps reads. */
+ss_status ss_header_check_gaps(const ss_header *head);
+
 /* The gaps of a record of so many rows, which head notes, in seconds from its first sample.  Each
  * is a whole number of samples and lies within the record.  *out is to be freed. */
 ss_status ss_gaps_of(ss_span **out, size_t *n, const ss_header *head, size_t rows);

@@ -30,6 +30,7 @@ int ss_note_is(const char *note, const char *const name[]);
 void ss_header_forget(ss_header *head, const char *const name[]);
 /* SS_EDATA: readers would refuse the header, as it has too many notes. */
 ss_status ss_header_check_notes(const ss_header *head, ss_error *err);
+#define WRONG_GAPS "the note 'gaps' is not from:to from:to ..., numbers of which each from is below its to"
 /* The lines of a header, to be freed, or NULL if there is no memory. */
 char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
 /* Read a "# key: value" line, which is changed; reason is set if the status is SS_EDATA. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/gaps.h"
 #include "signal/header.h"
 
 void
@@ -127,5 +128,9 @@ ss_header_read_line(ss_header *head, char *line, const char **reason)
     *reason = "more than 4096 notes";
     if (head->n_notes == MAX_NOTES)
         return SS_EDATA;
-    return *key == '\0' ? SS_OK : ss_header_note(head, key, value);
+    if (*key == '\0')
+        return SS_OK;
+    ss_status st = ss_header_note(head, key, value);
+    *reason = WRONG_GAPS;
+    return st == SS_OK && strcmp(key, "gaps") == 0 ? ss_header_check_gaps(head) : st;
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/gaps.h"
 #include "signal/header.h"
 
 ss_status
@@ -405,6 +406,8 @@ read_notes(h5_file *file, ss_header *head)
     H5Gclose(root);
     if (stopped < 0)
         return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
+    if (notes.status == SS_OK && (notes.status = ss_header_check_gaps(head)) == SS_EDATA)
+        return ss_h5_fail(file, SS_EDATA, 0, "/", WRONG_GAPS);
     return notes.status;
 }
 

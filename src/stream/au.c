@@ -29,11 +29,10 @@ big_endian(const unsigned char *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Read our header from the annotation; *out becomes NULL if this is not one, or is malformed. */
+/* Read our header from the annotation; *out becomes NULL if this is not one.  SS_EDATA: it is malformed. */
 static ss_status
-read_annotation(ss_header **out, const char *magic, char *text)
+read_annotation(ss_header **out, const char *magic, char *text, const char **reason)
 {
-    const char *reason;
     ss_status st = SS_OK;
     ss_header *head = *out = NULL;
     size_t length_of_magic = strlen(magic);
@@ -46,11 +45,11 @@ read_annotation(ss_header **out, const char *magic, char *text)
         size_t length = strcspn(line, "\n");
         next = line + length + (line[length] == '\n');
         line[length] = '\0';
-        st = ss_header_read_line(head, line, &reason);
+        st = ss_header_read_line(head, line, reason);
     }
     if (st != SS_OK) {
         ss_header_free(head);
-        return st == SS_ENOMEM ? st : SS_OK;
+        return st;
     }
     *out = head;
     return SS_OK;
@@ -64,12 +63,15 @@ whole_rate(double rate)
 }
 
 static ss_status
-make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
+make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels, ss_error *err)
 {
     ss_header *head;
-    ss_status st = read_annotation(&head, ss_kind_magic(reader->kind), annotation);
+    const char *reason = "";
+    ss_status st = read_annotation(&head, ss_kind_magic(reader->kind), annotation, &reason);
+    if (st == SS_EDATA)
+        return ss_fail(err, st, "%s: AU annotation: %s", reader->in.name, reason);
     if (st != SS_OK)
-        return st;
+        return ss_fail_memory(err, reader->in.name);
     if (head != NULL && head->n_columns == channels) {
         ss_header_free(reader->head);
         reader->head = head;
@@ -79,7 +81,7 @@ make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels)
     }
     if (!(reader->head->rate > 0) || whole_rate(reader->head->rate) != rate)
         reader->head->rate = rate;
-    return st;
+    return st == SS_OK ? st : ss_fail_memory(err, reader->in.name);
 }
 
 static ss_status
@@ -118,10 +120,11 @@ open_au(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         free(annotation);
         return SS_EKIND;
     }
-    st = annotation != NULL ? make_header(reader, annotation, field[4], channels) : SS_ENOMEM;
+    st = annotation != NULL ? make_header(reader, annotation, field[4], channels, err)
+        : ss_fail_memory(err, in->name);
     free(annotation);
     if (st != SS_OK)
-        return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
+        return st;
     in->lo += offset;
     /* a program that meant to fill in the size at the end leaves 0 */
     ss_frames_begin(reader, (sample_type){ .bytes = width[encoding],
