@@ -79,10 +79,14 @@ ss_status ss_finder_measure(finder *f, int cycles, int period, ss_steady *out);
 
 /* --- the searches ------------------------------------------------------------------------------ */
 
+/* Of the motions that Newton's method may find, accept a stable one; the one that the motion approaches as
+ * its derivative predicts; or one that it crawls to, too slowly for the cycles that there are. */
+typedef enum which_motion { STABLE, APPROACHED, CRAWLED_TO } which_motion;
+
 /* shoot.c: from the present state, find by Newton's method a state that repeats after *period
- * cycles, and measure it.  If approached is 1, accept only the one that the motion approaches.
+ * cycles, and measure it, if it is one that is accepted.
  * *period becomes its period; 0 if there is none or it is not stable. */
-ss_status ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out);
+ss_status ss_finder_shoot(finder *f, which_motion which, int *period, ss_steady *out);
 /* settle.c: simulate until the motion is periodic, or if shooting is allowed, until it is near
  * enough to a period for shooting; and measure it. */
 ss_status ss_finder_settle(finder *f, int may_shoot, ss_steady *out);

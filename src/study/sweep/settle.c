@@ -81,12 +81,32 @@ comes_near(const finder *f, int p)
         && difference < ss_section_distance(f, before, section_before(f, 2 * p));
 }
 
+/* The first period that it comes near to; 0: none. */
+static int
+nearest_period(const finder *f)
+{
+    for (int p = 1; p <= f->opts->max_period; p++)
+        if (comes_near(f, p))
+            return p;
+    return 0;
+}
+
+/* A motion that is still coming nearer after all cycles, and has changed by less than this in the last
+ * period, crawls.  One without a period changes by about its own size. */
+#define CRAWL 1e-4
+
+static int
+crawls(const finder *f, int p)
+{
+    return p > 0 && ss_section_distance(f, section_before(f, 0), section_before(f, p)) <= CRAWL;
+}
+
 static ss_status
-try_to_shoot(finder *f, int p, ss_steady *out, int *period)
+try_to_shoot(finder *f, which_motion which, int p, ss_steady *out, int *period)
 {
     const motion here = f->w.m;
     *period = p;
-    ss_status st = ss_finder_shoot(f, 1, period, out);
+    ss_status st = ss_finder_shoot(f, which, period, out);
     return st == SS_OK && *period == 0 ? ss_finder_begin_at(f, &here) : st;
 }
 
@@ -105,13 +125,15 @@ settle(finder *f, int may_shoot, int *period, int *measured, ss_steady *out)
         *period = find_period(f);
         if (!may_shoot || i < next_try || st != SS_OK)
             continue;
-        int p = 1;
-        while (p <= f->opts->max_period && !comes_near(f, p))
-            p++;
-        if (p > f->opts->max_period)
+        int p = nearest_period(f);
+        if (p == 0)
             continue;
         next_try = 2 * i;
-        st = try_to_shoot(f, p, out, period);
+        st = try_to_shoot(f, APPROACHED, p, out, period);
+        *measured = *period > 0;
+    }
+    if (st == SS_OK && *period == 0 && may_shoot && crawls(f, nearest_period(f))) {
+        st = try_to_shoot(f, CRAWLED_TO, nearest_period(f), out, period);
         *measured = *period > 0;
     }
     return st;

@@ -166,6 +166,48 @@ is_approached(finder *f, const motion *from, const motion *at, const tangent *t,
     return st;
 }
 
+/* *yes becomes 1 if a motion that has crawled for all cycles that it was given crawls to `at`, which must
+ * attract: from all the way between the two, neighbours come nearer to it, too, and none passes it.  Their
+ * speed may change on the way, as it does far from the limit, by more than is_approached allows. */
+static ss_status
+crawls_to(finder *f, const motion *from, const motion *at, const tangent *t, int cycles, int *yes)
+{
+    enum { PLACES = 8 };
+    double unit[D_MOST], all[D_MOST], scale;
+    tangent once = *t;
+    ss_finder_coordinate_units(f, unit);
+    for (int i = 0; i < D_MOST; i++)
+        for (int j = 0; j < D_MOST; j++)
+            once.d[i][j] *= unit[j] / unit[i];
+    const tangent slow = slow_part(&once, &scale);
+    away_from(at, from, unit, all);
+    ss_status st = SS_OK;
+    *yes = alike(from, at) && f->multiplier < 1 - NEUTRAL
+        && pow(f->multiplier, (double)f->opts->max_cycles) > f->opts->tol;
+    for (int k = 0; st == SS_OK && *yes && k < PLACES; k++) {
+        motion here = *from;
+        double by[D_MOST], d[D_MOST], before[D_MOST], after[D_MOST], part = 0, whole = 0;
+        for (int i = 0; i < D_MOST; i++)
+            by[i] = -all[i] * unit[i] * k / PLACES;
+        *yes = ss_finder_move(&here, by);
+        st = ss_finder_begin_at(f, &here);
+        if (st == SS_OK)                /* what shrinks fast is gone after these */
+            st = ss_finder_go(f, REPETITIONS * cycles, NULL, NULL);
+        away_from(at, &f->w.m, unit, d);
+        times(&slow, d, before);
+        if (st == SS_OK)
+            st = ss_finder_go(f, cycles, NULL, NULL);
+        away_from(at, &f->w.m, unit, d);
+        times(&slow, d, after);
+        for (int i = 0; i < D_MOST; i++) {
+            part += before[i] * after[i];
+            whole += before[i] * before[i];
+        }
+        *yes = *yes && alike(&f->w.m, at) && part > 0 && part < whole;
+    }
+    return st;
+}
+
 /* Without a closed form a derivative costs as much as three steps.  When a step is as short as CLOSE, the
  * next one uses the derivative of the last, unless such steps shrink too little (SHRINKS).  Where the
  * multiplier is near 1, the error of the derivative is magnified, so CLOSE is multiplied by the rest. */
@@ -218,7 +260,7 @@ measure(finder *f, const motion *at, int cycles, int *period, ss_steady *out)
 }
 
 static ss_status
-find_periodic(finder *f, int approached, int *period, ss_steady *out)
+find_periodic(finder *f, which_motion which, int *period, ss_steady *out)
 {
     tangent t = { 0 };
     const motion from = f->w.m;
@@ -228,15 +270,17 @@ find_periodic(finder *f, int approached, int *period, ss_steady *out)
     ss_status st = converge(f, cycles, &at, &t, &wanted);
     if (wanted)
         wanted = f->multiplier <= 1 + (f->in_closed_form ? 1e-9 : 1e-5);
-    if (wanted && approached)
+    if (wanted && which == APPROACHED)
         st = is_approached(f, &from, &at, &t, cycles, &wanted);
+    else if (wanted && which == CRAWLED_TO)
+        st = crawls_to(f, &from, &at, &t, cycles, &wanted);
     return wanted && st == SS_OK ? measure(f, &at, cycles, period, out) : st;
 }
 
 ss_status
-ss_finder_shoot(finder *f, int approached, int *period, ss_steady *out)
+ss_finder_shoot(finder *f, which_motion which, int *period, ss_steady *out)
 {
-    ss_status st = find_periodic(f, approached, period, out);
+    ss_status st = find_periodic(f, which, period, out);
     f->multiplier = 0;
     ss_finder_keep(f, 0);
     if (st != SS_EDATA)

@@ -159,7 +159,7 @@ shoot(finder *f, ss_steady *out, int *period)
     ss_status st = ss_finder_go(f, APPROACH, NULL, NULL);
     *period = 1;
     if (st == SS_OK)
-        st = ss_finder_shoot(f, 0, period, out);
+        st = ss_finder_shoot(f, STABLE, period, out);
     if (st != SS_OK || *period > 0)
         return st;
     ss_walk_end(&f->w);
