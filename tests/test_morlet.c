@@ -170,7 +170,7 @@ blocks_keep_the_bound(void **state)
                 in_blocks += ss_blocks_covers(plan->blocks, j);
             assert_true(in_blocks + 8 > ss_morlet_scales(plan));
             double worst = worst_error(plan, x, n, row[i].rate, &opts, w,
-                                       1 + ss_morlet_total(plan) / 80);
+                                       1 + ss_morlet_total(plan) / 40);
             if (!(worst <= 1))
                 fail_msg("row %zu, %s: %g times the bound", i, kind_name[which], worst);
             ss_morlet_free(plan);
@@ -203,7 +203,7 @@ low_accuracy_keeps_the_bound(void **state)
                     x[k] *= amplitude[(i + j) % 3] / (which == OFFSET ? 1000 : 1);
                 ss_morlet *plan = plan_of(n, 2048, &opts);
                 double *w = transform(plan, x);
-                double worst = worst_error(plan, x, n, 2048, &opts, w, opts.dense ? 211 : 7);
+                double worst = worst_error(plan, x, n, 2048, &opts, w, opts.dense ? 431 : 17);
                 if (!(worst <= 1))
                     fail_msg("%s, n %zu, accuracy %g, center %g, %s: %g times the bound",
                              kind_name[which], n, accuracy[i], opts.center,

@@ -326,7 +326,7 @@ measures_every_method(void **state)
     (void)state;
     for (size_t i = 0; ss_shipped_scenes[i].name != NULL; i++) {
         ss_scene s = shipped(i, 0, 0.5, 4000);
-        const ss_trade_opts opts = { .budget = 0.02 };
+        const ss_trade_opts opts = { .budget = 0.01 };
         ss_trade *trade = NULL;
         int linear = s.model != SS_STATE_VARIABLE;
         assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_OK);
@@ -337,7 +337,7 @@ measures_every_method(void **state)
             const ss_trade_row *row = &trade->row[k];
             assert_true(row->seconds > 0);
             if (row->status == SS_EBUDGET)
-                assert_true(row->seconds > 0.02 && !row->frontier);
+                assert_true(row->seconds > 0.01 && !row->frontier);
             else
                 assert_true(row->status == SS_OK && row->error_x >= trade->known_x);
         }
@@ -374,7 +374,7 @@ counts_the_events_that_a_method_loses(void **state)
     ss_trade *trade = NULL;
     (void)state;
     size_t events = truth(&s, &a);
-    assert_int_equal(ss_trade_measure(&trade, &s, &(ss_trade_opts){ .budget = 0.2 }, NULL), SS_OK);
+    assert_int_equal(ss_trade_measure(&trade, &s, &(ss_trade_opts){ .budget = 0.02 }, NULL), SS_OK);
     const ss_trade_row *row = row_of(trade, "rk1imp", 1e-2);
     assert_int_equal(trade->events, events);
     assert_int_equal(row->status, SS_OK);

@@ -1,11 +1,12 @@
 #!/bin/sh
-# run.sh HARNESS ...: fuzz each for $FUZZ_SECONDS, from $BUILD/tests, and say what came of it.
+# run.sh HARNESS ...: fuzz each for $FUZZ_SECONDS, or $FUZZ_RUNS times, from $BUILD/tests, and say what
+# came of it.
 #
 # What libFuzzer finds to be new goes to $BUILD/corpus/NAME, what fails to $BUILD/findings/NAME.
 # A finding does not end a run.  Those of which HDF5 itself is to blame are counted apart: its
 # parser is not ours to mend, and README.md says what that means.
 set -u
-: "${FUZZ_SECONDS:=60}"
+if [ -n "${FUZZ_RUNS-}" ]; then limit=-runs=$FUZZ_RUNS; else limit=-max_total_time=${FUZZ_SECONDS:=60}; fi
 SRC=$(cd "$(dirname "$0")/../.." && pwd)
 BUILD=$(cd "$BUILD" && pwd) || exit 1
 LSAN_OPTIONS=suppressions=$SRC/tests/fuzz/leaks:print_suppressions=0
@@ -33,7 +34,7 @@ fuzz() {
     leaks=1
     [ "$name" != hdf5 ] || leaks=0      # looked for at the end only: those of HDF5 are many
     "$program" -fork=1 -detect_leaks=$leaks -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 \
-        -timeout=10 -rss_limit_mb=2048 -max_total_time="$FUZZ_SECONDS" -max_len=65536 \
+        -timeout=10 -rss_limit_mb=2048 "$limit" -max_len=65536 \
         -dict="$dictionary" -artifact_prefix="$found/" "$new" "$SRC/tests/fuzz/corpus/$name" \
         > "$found.log" 2>&1
     ours=0 theirs=0
