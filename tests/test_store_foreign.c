@@ -218,7 +218,7 @@ a_file_without_coefficients_says_so(void **state)
 static void
 a_clock_of_its_own_is_not_exchanged(void **state)
 {
-    static const ss_read_opts other = { .rate = 5 }, column = { .time = "a" };
+    static const ss_read_opts other = { .rate = 5 }, column = { .time = "none" };
     ss_signal *signal = new_signal(10), *back = NULL;
     const ss_read_opts same = { .rate = signal->head->rate };
     ss_error err = { 0 };
@@ -228,7 +228,7 @@ a_clock_of_its_own_is_not_exchanged(void **state)
     assert_non_null(strstr(err.text, "has a clock of its own"));
     assert_int_equal(ss_store_read_signal(&back, path, NULL, &column, NULL), SS_EDATA);
     assert_int_equal(ss_store_read_signal(&back, path, "/signal/a", &column, &err), SS_EDATA);
-    assert_non_null(strstr(err.text, "has no column of time to choose"));
+    assert_non_null(strstr(err.text, ":/signal/none: no such dataset"));
     assert_null(back);
     assert_int_equal(ss_store_read_signal(&back, path, NULL, &same, NULL), SS_OK);
     ss_signal_free(back);
@@ -255,6 +255,165 @@ a_start_too_late_for_its_rate_is_refused(void **state)
     assert_null(back);
     assert_null(other);
     ss_signal_free(signal);
+}
+
+/* Write n numbers as an array of one column, which MATLAB stores as a row. */
+static void
+put_column(hid_t group, const char *name, const double *x, hsize_t n, int in_row, hsize_t chunk)
+{
+    const hsize_t dims[2] = { in_row ? 1 : n, in_row ? n : 1 }, chunks[2] = { in_row ? 1 : chunk, in_row ? chunk : 1 };
+    hid_t space = H5Screate_simple(in_row ? 2 : 1, dims, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
+    if (chunk > 0) {
+        H5Pset_chunk(how, in_row ? 2 : 1, chunks);
+        H5Pset_deflate(how, 1);
+    }
+    hid_t id = H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x) >= 0);
+    H5Dclose(id);
+    H5Pclose(how);
+    H5Sclose(space);
+}
+
+/* A file of x, n values, in /daq/ch0, and of their times: milliseconds there, seconds in /t; and of others. */
+static void
+write_times(size_t n, int in_row, hsize_t chunk, hsize_t chunk_of_times)
+{
+    double *t = malloc(2 * n * sizeof *t), *other = t + n;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t daq = H5Gcreate2(file, "daq", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t ch0 = H5Gcreate2(daq, "ch0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    for (size_t i = 0; i < n; i++) {
+        t[i] = 7 + (double)i / 800;
+        other[i] = value_at(i, 0);
+    }
+    put_column(ch0, "x", other, n, in_row, chunk);
+    put_column(file, "t", t, n, in_row, chunk_of_times);
+    put_column(file, "short", t, n - 1, in_row, 0);
+    for (size_t i = 0; i < n; i++)
+        other[i] = 738000.25 + t[i] / 86400;
+    put_column(file, "datenum", other, n, in_row, 0);
+    for (size_t i = 0; i < n; i++)
+        other[i] = t[i] + (i > n / 2 ? 3. / 800 : 0);
+    put_column(file, "gap", other, n, in_row, 0);
+    for (size_t i = 0; i < n; i++)
+        other[i] = t[i] + (i == 50 ? 4e-4 : 0);
+    put_column(file, "uneven", other, n, in_row, 0);
+    for (size_t i = 0; i < n; i++)
+        other[i] = i == 5 ? NAN : t[i];
+    put_column(file, "nan", other, n, in_row, 0);
+    for (size_t i = 0; i < n; i++)
+        other[i] = 1000 * t[i];
+    put_column(ch0, "time", other, n, in_row, chunk_of_times);
+    hid_t type = H5Tcopy(H5T_C_S1), id = H5Dopen2(ch0, "time", H5P_DEFAULT);
+    H5Tset_size(type, 40);
+    put_scalar(id, "units", type, "milliseconds since 2024-03-05 10:12:13\0\0");
+    H5Dclose(id);
+    H5Tclose(type);
+    H5Gclose(ch0);
+    H5Gclose(daq);
+    H5Fclose(file);
+    free(t);
+}
+
+static void
+assert_timed(const char *time, const char *unit, size_t n, double start)
+{
+    const ss_read_opts opts = { .time = time, .time_unit = unit };
+    ss_signal *signal = NULL;
+    ss_error err = { 0 };
+    if (ss_store_read_signal(&signal, path, "/daq/ch0/x", &opts, &err) != SS_OK)
+        fail_msg("%s: %s", time, err.text);
+    assert_true(signal->head->rate == 800);
+    assert_true(fabs(signal->head->start - start) <= 1e-5);
+    assert_int_equal(signal->head->n_columns, 1);
+    assert_string_equal(signal->head->column[0].name, "x");
+    assert_int_equal(signal->n, n);
+    for (size_t i = 0; i < n; i++)
+        assert_true(signal->values[i] == value_at(i, 0));
+    ss_signal_free(signal);
+}
+
+/* In memory and in a temporary file; with chunks that do not divide each other. */
+static void
+times_of_a_dataset_give_the_clock(void **state)
+{
+    static const struct { size_t n; int in_row; hsize_t chunk, chunk_of_times; } row[] = {
+        { 2, 0, 0, 0 }, { 1000, 0, 0, 0 }, { 1000, 1, 0, 0 }, { 1000, 1, 7, 11 }, { 400000, 0, 1000, 300000 },
+        { 400000, 1, 300000, 1000 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        write_times(row[i].n, row[i].in_row, row[i].chunk, row[i].chunk_of_times);
+        assert_timed("/t", NULL, row[i].n, 7);
+        assert_timed("/daq/ch0/time", NULL, row[i].n, 7);
+        assert_timed("time", NULL, row[i].n, 7);
+        if (row[i].n > 2)
+            assert_timed("/datenum", "d", row[i].n, 21607);
+    }
+}
+
+static void
+times_of_a_dataset_are_checked_as_those_of_text(void **state)
+{
+    static const struct { ss_read_opts opts; ss_status status; size_t n; const char *words; } row[] = {
+        { { .time = "/none" }, SS_EDATA, 0, ":/none: no such dataset" },
+        { { .time = "none" }, SS_EDATA, 0, ":/daq/ch0/none: no such dataset" },
+        { { .time = "/daq" }, SS_EDATA, 0, ":/daq: no such dataset" },
+        { { .time = "/short" }, SS_EDATA, 0, ":/short: not one time for each row of the signal" },
+        { { .time = "/uneven" }, SS_EUNEVEN, 0, "time stamps are not uniform" },
+        { { .time = "/gap" }, SS_EGAPS, 0, ":/daq/ch0/x:52: 3 samples are missing before this time stamp" },
+        { { .time = "/nan" }, SS_EGAPS, 0, "row 6, column nan: not a finite number" },
+        { { .time = "/datenum" }, SS_EUNIT, 0, "looks like days, 800 Hz from day 738000.25 on" },
+        { { .time = "x" }, SS_ECLOCK, 0, "time stamps do not ascend" },
+        { { .time = "/gap", .gaps = SS_GAPS_SPLIT }, SS_OK, 103, "" },
+        { { .time = "/nan", .gaps = SS_GAPS_INTERPOLATE }, SS_OK, 100, "" },
+        { { .time = "/uneven", .resample = 400 }, SS_OK, 50, "" },
+        { { .time = "/t", .from = 7.05, .to = 7.1 }, SS_OK, 40, "" },
+    };
+    (void)state;
+    write_times(100, 1, 0, 0);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_signal *signal = NULL;
+        ss_error err = { 0 };
+        ss_status st = ss_store_read_signal(&signal, path, "/daq/ch0/x", &row[i].opts, &err);
+        if (st != row[i].status || strstr(err.text, row[i].words) == NULL)
+            fail_msg("%s: %d: %s", row[i].opts.time, st, err.text);
+        assert_int_equal(st == SS_OK ? signal->n : 0, row[i].n);
+        ss_signal_free(signal);
+    }
+}
+
+/* An array of time and two channels, as MATLAB's users save them. */
+static void
+a_column_of_an_array_gives_its_clock(void **state)
+{
+    static const char *const time[] = { "data1", "1" };
+    double x[3][20];
+    const hsize_t dims[2] = { 3, 20 };
+    (void)state;
+    for (int i = 0; i < 20; i++) {
+        x[0][i] = i / 50.;
+        x[1][i] = i * i;
+        x[2][i] = -i;
+    }
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), space = H5Screate_simple(2, dims, NULL);
+    hid_t id = H5Dcreate2(file, "data", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x) >= 0);
+    H5Dclose(id);
+    H5Sclose(space);
+    H5Fclose(file);
+    for (size_t i = 0; i < 2; i++) {
+        const ss_read_opts opts = { .time = time[i] };
+        ss_signal *signal = NULL;
+        ss_error err = { 0 };
+        if (ss_store_read_signal(&signal, path, "/data", &opts, &err) != SS_OK)
+            fail_msg("%s", err.text);
+        assert_true(signal->head->rate == 50);
+        assert_int_equal(signal->head->n_columns, 2);
+        assert_string_equal(signal->head->column[0].name, "data2");
+        assert_same_bits(signal->values, x[1], 40);
+        ss_signal_free(signal);
+    }
 }
 
 static void
@@ -311,6 +470,9 @@ main(void)
         cmocka_unit_test(what_cannot_be_read_is_refused_in_clear_words),
         cmocka_unit_test(a_file_without_coefficients_says_so),
         cmocka_unit_test(a_clock_of_its_own_is_not_exchanged),
+        cmocka_unit_test(times_of_a_dataset_give_the_clock),
+        cmocka_unit_test(times_of_a_dataset_are_checked_as_those_of_text),
+        cmocka_unit_test(a_column_of_an_array_gives_its_clock),
         cmocka_unit_test(a_start_too_late_for_its_rate_is_refused),
         cmocka_unit_test(attributes_that_are_no_notes_are_skipped),
         cmocka_unit_test(a_missing_signal_is_told_from_a_damaged_one),

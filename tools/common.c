@@ -181,7 +181,7 @@ tool_hint(ss_status status, const ss_error *err)
 {
     switch (status) {
     case SS_EKIND:   return err != NULL ? kind_hint(err->found, err->wanted) : "";
-    case SS_ECLOCK:  return "; --time NAME names a column of time, --rate HZ gives the sample rate";
+    case SS_ECLOCK:  return "; --time NAME names a column or dataset of time, --rate HZ gives the sample rate";
     case SS_EGAPS:   return "; --gaps=split or interpolate fills the gap";
     case SS_EUNEVEN: return tool_given("resample") ? "; --rate HZ takes the rows as uniform"
         : "; --resample HZ makes time stamps uniform, --rate HZ takes the rows so";

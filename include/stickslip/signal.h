@@ -82,14 +82,16 @@ const char *ss_time_unit_name(size_t i);
 typedef struct ss_read_opts {
     const char *time;           /* delimited text and .npy: name or number of the column of time; NULL:
                                    the one named t, time, ..., or the first column if its unit is one
-                                   of time, or if no column has a name and it ascends uniformly */
+                                   of time, or if no column has a name and it ascends uniformly.
+                                   Arrays in HDF5: path of the dataset of times, or its name in the
+                                   group of the array, or a column of the array; NULL: none */
     double rate;                /* [Hz] for input without a clock; 0: the input must have a clock.  With
                                    delimited text the first row is then at 0, whatever its columns */
     ss_gaps gaps;               /* delimited text and arrays in HDF5; filled gaps become a note of the
                                    header, see ss_header_gaps */
     double resample;            /* [Hz] delimited text: rate of the clock to which stamps of any spacing
                                    are brought, by cubic splines; 0: the stamps must be uniform */
-    const char *time_unit;      /* delimited text: unit of the column of time; NULL: the unit in the
+    const char *time_unit;      /* where there is a column or dataset of time: unit of the column of time; NULL: the unit in the
                                    file, or if it has none seconds, or the unit with which the stamps
                                    are dates of this century */
     const char *const *needed;  /* delimited text: names or numbers of the n_needed columns that the caller

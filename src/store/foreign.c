@@ -1,8 +1,8 @@
 /* foreign.c -- datasets of files from other programs: any 1-D or 2-D array of real numbers.
  *
  * The columns of a 2-D array are its shorter dimension, whichever comes first: MATLAB stores its
- * arrays transposed.  The clock is the caller's, or the attributes rate and start of the dataset
- * or its group, which our own files have. */
+ * arrays transposed.  The clock is the caller's, that of a dataset of times (timed_rows.c), or the
+ * attributes rate and start of the dataset or its group, which our own files have. */
 #include "store/groups.h"
 
 #include <math.h>
@@ -130,6 +130,14 @@ ss_h5_fail_listing(h5_file *file)
 
 /* --- one dataset --------------------------------------------------------------------------- */
 
+/* The path of the group of a dataset, to be freed; NULL: no memory. */
+static char *
+parent_of(const char *dataset)
+{
+    const char *slash = strrchr(dataset, '/');
+    return slash == NULL ? strdup("") : strndup(dataset, slash > dataset ? (size_t)(slash - dataset) : 1);
+}
+
 /* Find rate and start: the caller's, else those in attributes of the dataset or its group. */
 static ss_status
 find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *start)
@@ -137,13 +145,10 @@ find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *s
     *start = 0;
     if (*rate > 0)
         return SS_OK;
-    char *parent = strdup(dataset);
+    char *parent = parent_of(dataset);
     if (parent == NULL)
         return SS_ENOMEM;
-    char *slash = strrchr(parent, '/');
-    if (slash != NULL)
-        slash[slash == parent] = '\0';
-    hid_t group = slash != NULL ? ss_h5_open_group(file->id, parent) : -1;
+    hid_t group = parent[0] != '\0' ? ss_h5_open_group(file->id, parent) : -1;
     free(parent);
     int found = ss_h5_get_number(id, "rate", rate);
     if (found)
@@ -186,6 +191,49 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
     return status;
 }
 
+/* Open the dataset of times at a path, if there is one. */
+static ss_status
+open_times(signal_rows *s, const char *path)
+{
+    array shape;
+    const char *wrong;
+    hid_t found = ss_h5_open_pieces(s->file.id, path);
+    if (found < 0)
+        return SS_OK;
+    ss_status status = check_type(&s->file, found, &wrong);
+    if (status == SS_OK)
+        wrong = get_shape(found, &shape);
+    if (wrong == NULL && status == SS_OK && (shape.columns > 1 || shape.rows != s->n))
+        wrong = "not one time for each row of the signal";
+    if (wrong != NULL)
+        return ss_h5_fail(&s->file, SS_EDATA, 0, path, wrong);
+    if (status == SS_OK) {
+        s->stamps = found;
+        s->stamps_by_columns = shape.transposed;
+    }
+    return status;
+}
+
+/* Find the dataset of times of an array: at a path, or with a name in the group of the array, unless a column of
+ * the array has this name. */
+static ss_status
+find_times(signal_rows *s, const ss_header *head, const char *dataset, const char *time)
+{
+    char *parent = time[0] != '/' ? parent_of(dataset) : strdup("");
+    char *path = parent != NULL ? malloc(strlen(parent) + strlen(time) + 2) : NULL;
+    ss_status status = path != NULL ? SS_OK : SS_ENOMEM;
+    if (status == SS_OK) {
+        const char *between = parent[0] != '\0' && strcmp(parent, "/") != 0 ? "/" : "";
+        stpcpy(stpcpy(stpcpy(path, parent), between), time);
+        status = open_times(s, path);
+    }
+    if (status == SS_OK && s->stamps == 0 && ss_header_column(head, time) < 0)
+        status = ss_h5_fail(&s->file, SS_EDATA, 0, path, "no such dataset");
+    free(path);
+    free(parent);
+    return status;
+}
+
 ss_status
 ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss_read_opts *opts)
 {
@@ -207,13 +255,13 @@ ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss
     ss_status status = check_type(file, id, &wrong);
     if (status == SS_OK)
         wrong = get_shape(id, &shape);
-    if (status == SS_OK && wrong == NULL && opts->time != NULL)
-        wrong = "an array has no column of time to choose, only a rate";
     if (wrong != NULL)
         status = ss_h5_fail(file, SS_EDATA, 0, dataset, wrong);
     s->dataset[s->n_datasets++] = id;
     s->n = shape.rows;
     s->by_columns = shape.transposed;
     s->gaps = opts->gaps != SS_GAPS_REFUSE;
-    return status == SS_OK ? make_header(file, id, dataset, &shape, opts->rate, head) : status;
+    if (status == SS_OK)
+        status = make_header(file, id, dataset, &shape, opts->time != NULL ? 1 : opts->rate, head);
+    return status == SS_OK && opts->time != NULL ? find_times(s, *head, dataset, opts->time) : status;
 }

@@ -28,6 +28,8 @@ typedef struct signal_rows {
     char *path;                 /* of the file */
     hid_t *dataset;             /* one for all columns, or one for each */
     hid_t times;                /* of the rows, to be checked, or 0 */
+    hid_t stamps;               /* of the rows of an array, from which the clock comes, or 0 */
+    int stamps_by_columns;
     size_t n_datasets, n, row;  /* n: rows; row: of these, the next to be read */
     int by_columns;             /* what is read at a time from a dataset is column after column */
     int gaps;                   /* values that are not finite are missing, not wrong */
@@ -43,6 +45,9 @@ ss_status ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *datase
 ss_status ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts);
 ss_status ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset,
                            const ss_read_opts *opts);
+/* The rows of a reader, which gives those of an array, become those of a table with opts->time as its column of
+ * time (timed_rows.c). */
+ss_status ss_h5_time_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts);
 
 /* /events (events_writer.c). */
 ss_status ss_h5_write_events(h5_file *file, const ss_event *event, size_t n);

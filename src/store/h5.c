@@ -463,6 +463,18 @@ ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], 
     return good;
 }
 
+int
+ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *values)
+{
+    hsize_t at[H5S_MAX_RANK] = { 0 }, count[H5S_MAX_RANK];
+    hid_t space = H5Dget_space(id);
+    int rank = H5Sget_simple_extent_dims(space, count, NULL), along = rank == 2 && by_columns;
+    H5Sclose(space);
+    at[along] = row;
+    count[along] = n;
+    return ss_h5_read_piece(id, rank, at, count, values);
+}
+
 ss_status
 ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n)
 {

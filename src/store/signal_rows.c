@@ -9,26 +9,6 @@
 
 enum { PIECE = 1 << 18 };       /* values that are read at a time, unless chunks are larger */
 
-/* The index of the dimension, of one or two, along which the rows of a dataset go. */
-static int
-rows_dimension(int rank, int by_columns)
-{
-    return rank == 2 && by_columns;
-}
-
-/* Read n rows of a dataset, from the row-th on; 0 if HDF5 fails. */
-static int
-read_rows_of(hid_t id, int by_columns, size_t row, size_t n, double *to)
-{
-    hsize_t first[H5S_MAX_RANK] = { 0 }, count[H5S_MAX_RANK];
-    hid_t space = H5Dget_space(id);
-    int rank = H5Sget_simple_extent_dims(space, count, NULL), along = rows_dimension(rank, by_columns);
-    H5Sclose(space);
-    first[along] = row;
-    count[along] = n;
-    return ss_h5_read_piece(id, rank, first, count, to);
-}
-
 /* The number of rows in a chunk of a dataset; 0: it is not in chunks. */
 static hsize_t
 chunk_rows(hid_t id, int by_columns)
@@ -37,7 +17,7 @@ chunk_rows(hid_t id, int by_columns)
     hid_t how = H5Dget_create_plist(id);
     int rank = H5Pget_layout(how) == H5D_CHUNKED ? H5Pget_chunk(how, H5S_MAX_RANK, chunk) : 0;
     H5Pclose(how);
-    return rank > 0 ? chunk[rows_dimension(rank, by_columns)] : 0;
+    return rank > 0 ? chunk[rank == 2 && by_columns] : 0;
 }
 
 /* The number of rows to read at a time: whole chunks of the dataset with the longest chunks, about PIECE
@@ -50,6 +30,8 @@ piece_rows(const signal_rows *s, size_t columns)
         hsize_t own = chunk_rows(s->dataset[d], s->by_columns);
         chunk = own > chunk ? own : chunk;
     }
+    if (s->stamps > 0 && chunk_rows(s->stamps, s->stamps_by_columns) > chunk)
+        chunk = chunk_rows(s->stamps, s->stamps_by_columns);
     hsize_t rows = chunk < target ? target / chunk * chunk : chunk;
     return rows < s->n ? (size_t)rows : s->n;
 }
@@ -76,7 +58,7 @@ static ss_status
 check_times(signal_rows *s, const ss_reader *reader, size_t n)
 {
     char text[64];
-    if (!read_rows_of(s->times, 0, s->row, n, s->raw))
+    if (!ss_h5_read_rows(s->times, 0, s->row, n, s->raw))
         return ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
     for (size_t i = 0; i < n; i++)
         if (!ss_is_on_clock(s->raw[i], reader->head->rate, reader->start, s->row + i)) {
@@ -94,7 +76,7 @@ read_piece(ss_reader *reader, signal_rows *s, size_t n)
     ss_status status = s->times > 0 && n > 0 ? check_times(s, reader, n) : SS_OK;
     for (size_t d = 0; status == SS_OK && d < s->n_datasets; d++) {
         double *x = s->by_columns ? s->raw : reader->values;
-        if (n > 0 && !read_rows_of(s->dataset[d], s->by_columns, s->row, n, x))
+        if (n > 0 && !ss_h5_read_rows(s->dataset[d], s->by_columns, s->row, n, x))
             return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
         status = check_finite(s, d, x, n, columns);
         for (size_t c = 0; status == SS_OK && s->by_columns && c < columns; c++)
@@ -161,7 +143,7 @@ begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
         s->raw = malloc((s->piece * (columns > 0 ? columns : 1) + 1) * sizeof *s->raw);
     if (reader->values == NULL || ((s->by_columns || s->times > 0) && s->raw == NULL))
         return SS_ENOMEM;
-    return s->gaps ? ss_reader_fill_gaps(reader, opts->gaps, s->file.err) : SS_OK;
+    return s->gaps && opts->time == NULL ? ss_reader_fill_gaps(reader, opts->gaps, s->file.err) : SS_OK;
 }
 
 ss_status
@@ -185,5 +167,7 @@ ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *dataset, const s
     reader->close = close_rows;
     ss_status status = is_array ? ss_h5_find_array(s, &reader->head, dataset, opts)
         : ss_h5_find_signal(s, &reader->head, opts);
-    return status == SS_OK ? begin_rows(reader, s, opts) : status;
+    if (status == SS_OK)
+        status = begin_rows(reader, s, opts);
+    return status == SS_OK && opts->time != NULL ? ss_h5_time_rows(reader, s, opts) : status;
 }

@@ -115,6 +115,9 @@ ss_status ss_delimited_read_row(struct table *t, char *text, const double **row,
 /* Or room for the values of one more row, and, when they are there, add it. */
 ss_status ss_delimited_new_row(struct table *t, double **row, ss_error *err);
 ss_status ss_delimited_add_row(struct table *t, const double *row, ss_error *err);
+/* The same for row i of a table that is no text; its values are checked when it is added. */
+ss_status ss_delimited_begin_numbers(struct table *t, uint64_t i, double **row, ss_error *err);
+ss_status ss_delimited_add_numbers(struct table *t, uint64_t i, double *row, ss_error *err);
 /* After ss_kept_end: go back to the first row, before each reading of them; and the next that has a time, if there
  * is a column of time, or NULL. */
 ss_status ss_delimited_rewind(struct table *t, ss_error *err);

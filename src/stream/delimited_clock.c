@@ -163,7 +163,7 @@ check_rate(const struct table *t, const char *name, const struct time_unit *give
     if (t->opts->time_unit != NULL)
         return SS_OK;
     if (given == NULL && are_days(first, rate))
-        return ss_fail(err, SS_EUNIT, "%s: column %s has no unit and looks like days, %.4g Hz from day %.9g on; "
+        return ss_fail(err, SS_EUNIT, "%s: column %s has no unit and looks like days, %.3g Hz from day %.9g on; "
                        "seconds would give %.3g Hz", t->in->name, name, rate / SECONDS_A_DAY, first, rate);
     if (!(rate >= LEAST_RATE && rate <= MOST_RATE))
         return ss_fail(err, SS_EUNIT, "%s: column %s, read in %s, gives a clock of %.3g Hz, which no laboratory "

@@ -226,6 +226,27 @@ ss_delimited_add_row(struct table *t, const double *row, ss_error *err)
 }
 
 ss_status
+ss_delimited_begin_numbers(struct table *t, uint64_t i, double **row, ss_error *err)
+{
+    t->in->line = (unsigned long)i + 1;
+    return ss_delimited_new_row(t, row, err);
+}
+
+ss_status
+ss_delimited_add_numbers(struct table *t, uint64_t i, double *row, ss_error *err)
+{
+    for (size_t c = 0; c < t->n_columns; c++) {
+        if (isfinite(row[c]))
+            continue;
+        if (t->opts->gaps == SS_GAPS_REFUSE)
+            return ss_fail(err, SS_EGAPS, "%s: row %llu, column %s: not a finite number", t->in->name,
+                           (unsigned long long)i + 1, t->names->column[c].name);
+        row[c] = NAN;
+    }
+    return ss_delimited_add_row(t, row, err);
+}
+
+ss_status
 ss_delimited_read_row(struct table *t, char *text, const double **row, ss_error *err)
 {
     double *new_row;

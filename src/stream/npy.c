@@ -253,39 +253,17 @@ name_columns(struct table *t, const struct npy *a, ss_error *err)
     return t->column != NULL && st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
 }
 
-/* Check the values of row number i and add it. */
-static ss_status
-add_row(struct table *t, uint64_t i, double *row, ss_error *err)
-{
-    for (size_t c = 0; c < t->n_columns; c++) {
-        if (isfinite(row[c]))
-            continue;
-        if (t->opts->gaps == SS_GAPS_REFUSE)
-            return ss_fail(err, SS_EGAPS, "%s: row %llu, column %s: not a finite number", t->in->name,
-                           (unsigned long long)i + 1, t->names->column[c].name);
-        row[c] = NAN;
-    }
-    return ss_delimited_add_row(t, row, err);
-}
-
-static ss_status
-begin_row(struct table *t, uint64_t i, double **row, ss_error *err)
-{
-    t->in->line = (unsigned long)i + 1;
-    return ss_delimited_new_row(t, row, err);
-}
-
 static ss_status
 read_by_rows(struct table *t, const struct npy *a, ss_error *err)
 {
     ss_status st = SS_OK;
     double *row;
     for (uint64_t i = 0; st == SS_OK && i < a->rows; i++) {
-        st = begin_row(t, i, &row, err);
+        st = ss_delimited_begin_numbers(t, i, &row, err);
         for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields)
             st = read_record(t->in, a, i * a->columns + c, row + c, err);
         if (st == SS_OK)
-            st = add_row(t, i, row, err);
+            st = ss_delimited_add_numbers(t, i, row, err);
     }
     return st;
 }
@@ -302,11 +280,11 @@ add_rows(struct table *t, const struct npy *a, struct kept *value, ss_error *err
         for (size_t c = 0; st == SS_OK && c < a->columns; c++)
             st = ss_kept_copy(value, c * a->rows + first, n, x + c * n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++) {
-            st = begin_row(t, first + i, &row, err);
+            st = ss_delimited_begin_numbers(t, first + i, &row, err);
             for (size_t c = 0; st == SS_OK && c < a->columns; c++)
                 row[c] = x[c * n + i];
             if (st == SS_OK)
-                st = add_row(t, first + i, row, err);
+                st = ss_delimited_add_numbers(t, first + i, row, err);
         }
     }
     free(x);

@@ -61,13 +61,14 @@ read_coefficients(const uint8_t *bytes, size_t size)
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT }, none;
+    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT }, none, timed = { .time = "t" };
     if (size == 0)
         return 0;
     H5E_BEGIN_TRY {
         read_signal(bytes, size, NULL, &none);
         read_signal(bytes, size, "/y", &opts);
         read_signal(bytes, size, "/signal/a", &none);
+        read_signal(bytes, size, "/signal/a", &timed);
         read_coefficients(bytes, size);
     } H5E_END_TRY
     return 0;
