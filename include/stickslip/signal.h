@@ -98,7 +98,8 @@ typedef struct ss_read_opts {
                                    uses.  In the others a cell without a number is 0, with a warning for
                                    each column, and no gap.  n_needed 0: all are needed */
     size_t n_needed;
-    size_t table;               /* number of a table in delimited text, from 1; 0: the only one */
+    size_t table;               /* number of a table in delimited text, from 1; 0: the only one.  This and
+                                   the options of a clock are refused where they mean nothing */
     double from, to;            /* [s] on the source's clock: only samples at from or later and before
                                    to are read; from >= to: all are */
     const char *folder;         /* folder of a temporary file; NULL: /var/tmp, or else /tmp */

@@ -255,6 +255,10 @@ ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss
     ss_status status = check_type(file, id, &wrong);
     if (status == SS_OK)
         wrong = get_shape(id, &shape);
+    if (status == SS_OK && wrong == NULL && opts->table > 0)
+        wrong = "not delimited text: no table can be chosen";
+    if (status == SS_OK && wrong == NULL && opts->time_unit != NULL && opts->time == NULL)
+        wrong = "a unit of time is that of a dataset of times, which must be chosen";
     if (wrong != NULL)
         status = ss_h5_fail(file, SS_EDATA, 0, dataset, wrong);
     s->dataset[s->n_datasets++] = id;

@@ -56,7 +56,9 @@ ss_status ss_usual_step(const struct stamps *s, double *usual, ss_error *err);
 /* Is the stamp start + row / rate, but for rounding and 1e-6 sample periods? */
 int ss_is_on_clock(double stamp, double rate, double start, uint64_t row);
 
-/* Refuse options for input without a clock; this input has the rate own. */
+/* Refuse an option for delimited text alone. */
+ss_status ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err);
+/* Refuse it, and options for input without a clock; this input has the rate own. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
 
 #endif

@@ -443,6 +443,9 @@ ss_delimited_choose_clock(struct table *t, ss_error *err)
         t->names->rate = t->opts->rate;
         return SS_OK;
     }
+    if (t->counted.increment > 0 && t->opts->time_unit != NULL)
+        return ss_fail(err, SS_EDATA, "%s: its header gives the clock in seconds: no unit of time can be chosen",
+                       t->in->name);
     if (t->counted.increment > 0)
         return t->counted.numbered
             ? read_stamps(t, (struct time_column){ 0, t->counted.origin, 0, t->counted.increment, 1 }, &rate, err)

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/header.h"
+#include "stream/clock.h"
 #include "stream/delimited.h"
 #include "stream/format.h"
 #include "stream/frames.h"
@@ -336,10 +337,12 @@ open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     struct input *in = &reader->in;
     struct table *t = ss_delimited_new(reader, opts);
     struct npy a = { .field = NULL };
-    char *text;
+    char *text = NULL;
     if (t == NULL)
         return ss_fail_memory(err, in->name);
-    ss_status st = read_header(in, &text, err);
+    ss_status st = ss_refuse_table(in->name, opts, err);
+    if (st == SS_OK)
+        st = read_header(in, &text, err);
     if (st == SS_OK && (!read_dictionary(&a, text) || !arrange(&a)))
         st = a.no_memory ? ss_fail_memory(err, in->name)
             : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "

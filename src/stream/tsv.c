@@ -140,7 +140,7 @@ open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     if (!(opts->rate > 0))
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# rate:' line in the header", in->name, in->line);
     reader->head->rate = opts->rate;
-    return SS_OK;
+    return ss_refuse_table(in->name, opts, err);
 }
 
 /* --- writing ------------------------------------------------------------------------------- */
