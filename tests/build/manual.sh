@@ -10,6 +10,18 @@ done
     done
 cd "$SRC/man"
 mandoc -T lint ./*.[1-9]
+# Each fits a terminal of 80 columns, and tables keep their columns.
+for page in *.[1-9]; do
+    mandoc -T utf8 -O width=80 "$page" | LC_ALL=C tr -d '\200-\277' | LC_ALL=C sed "s/.$(printf '\b')//g" |
+        awk -v page="$page" 'length($0) > 80 { print "wider than 80 columns: " page ": " $0 }'
+    ! grep -q '^\.Bl -column' "$page" || awk -v page="$page" '
+        /^\.Bl -column/ { n = split($0, width, "\""); column = 1 }
+        /^\.El/ { column = 0 }
+        column && /^\.It / {
+            gsub(/^\.It |Sy /, ""); k = split($0, cell, / Ta /)
+            for (i = 1; i < k; i++) if (length(cell[i]) > length(width[2 * i])) print "wider than its column: " page ": " cell[i]
+        }' "$page"
+done
 # stickslip(3) names every public function, those that free apart.
 echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#' |
     tr '\n;{}' ' \n\n\n' | grep -v typedef | sed -n 's/^.*[ *]\(ss_[a-z0-9_]*\) *(.*/\1/p' |

@@ -40,10 +40,11 @@ cp run.wav bass.wav
 
 try() {         # NAME: the commands on standard input, in a directory of their own
     mkdir "$1"
+    cat > "$1.sh"
     cp recording "$1/run.csv"
     ss-cat recording -o "$1/run.tsv"
+    ! grep -q 'no-clock\.csv' "$1.sh" || cut -d , -f 2- recording > "$1/no-clock.csv"
     cp run.wav bass.wav "$1"
-    cat > "$1.sh"
     ! grep -q 'log\.csv' "$1.sh" || cp log.csv "$1"   # it has a gap, and *.csv would be it, too
     [ -s "$1.sh" ] || echo "$1: no examples"
     (cd "$1" && sh -eu "../$1.sh" > ../out 2> ../err < /dev/null) || echo "$1: exit status $?"
