@@ -85,13 +85,33 @@ crc_further(unsigned long crc, unsigned long byte)
     return crc;
 }
 
-/* Write the checksum of a file to text; a path may go on behind the file's name with ":/" and a place. */
-static ss_status
-sum_file(char text[48], const char *path, ss_error *err)
+/* The file of a path, which may go on behind the file's name with ":/" and a place; to be freed. */
+static char *
+file_of(const char *path)
 {
     struct stat st;
     const char *colon = stat(path, &st) == 0 ? NULL : strstr(path, ":/");
-    char *file = strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+    return strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+}
+
+/* Refuse what is not read to its end, or only once: a pipe, a device. */
+static ss_status
+check_regular(const char *path, ss_error *err)
+{
+    struct stat st;
+    char *file = file_of(path);
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    int regular = stat(file, &st) != 0 || S_ISREG(st.st_mode) || S_ISDIR(st.st_mode);   /* these fail when opened */
+    free(file);
+    return regular ? SS_OK : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
+}
+
+/* Write the checksum of a file to text. */
+static ss_status
+sum_file(char text[48], const char *path, ss_error *err)
+{
+    char *file = file_of(path);
     if (file == NULL)
         return ss_fail_memory(err, path);
     FILE *in = fopen(file, "rb");
@@ -129,7 +149,9 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     ss_error why = { 0 };
     if (base == NULL || path == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_signal_load(&signal, path, &opts, err);
+    ss_status st = check_regular(path, err);
+    if (st == SS_OK)
+        st = ss_signal_load(&signal, path, &opts, err);
     if (st != SS_OK)
         return st;
     int c = base_column(signal->head, column);

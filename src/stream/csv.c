@@ -1,19 +1,32 @@
 /* csv.c -- write comma-separated values as RFC 4180 describes: a line of names, then rows.  A cell
  * that contains a comma, a quote or the end of a line is quoted; a number that is not known is an
- * empty cell. */
+ * empty cell.  Spreadsheets take what begins with =, +, - or @ for a formula, so a word that does
+ * has an apostrophe before it, which makes it text. */
 #include <string.h>
+#include <stickslip/number.h>
 #include "stream/csv.h"
+
+static int
+is_formula(const char *word)
+{
+    char *end;
+    if (strchr("=+-@", word[0]) == NULL || word[0] == '\0' || strcmp(word, "-inf") == 0)
+        return 0;
+    ss_number_parse(word, &end);
+    return end == word || *end != '\0';
+}
 
 void
 ss_csv_word(FILE *out, const char *word)
 {
+    const char *before = is_formula(word) ? "'" : "";
     if (strcmp(word, "-") == 0)
         return;
     if (strpbrk(word, ",\"\r\n") == NULL) {
-        fputs(word, out);
+        fprintf(out, "%s%s", before, word);
         return;
     }
-    fputc('"', out);
+    fprintf(out, "\"%s", before);
     for (; *word != '\0'; word++)
         fputs(*word == '"' ? "\"\"" : (char[]){ *word, '\0' }, out);
     fputc('"', out);
