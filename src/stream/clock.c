@@ -13,6 +13,7 @@
 #include "stream/clock.h"
 
 #define TOLERANCE 0.1           /* a stamp may be off by so many sample periods */
+#define BY_DIGITS 0.25          /* or by so many if it has no more digits: a missing row is farther off */
 enum { DIGIT = 16 };            /* so many bits of a step are found at a time */
 
 /* --- the straight line through stamps, by least squares ------------------------------------- */
@@ -290,6 +291,12 @@ ss_clock_digits(double x)
     return digits;
 }
 
+static int
+is_uniform(const clock_fit *f, struct line l, double deviation)
+{
+    return l.period > 0 && deviation <= fmax(TOLERANCE * l.period, fmin(f->digit, BY_DIGITS * l.period));
+}
+
 ss_status
 ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
 {
@@ -297,7 +304,7 @@ ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
         return SS_EUNEVEN;
     struct line l = line_of(f);
     double deviation = largest_distance(f, l);
-    if (!(l.period > 0 && deviation <= TOLERANCE * l.period))
+    if (!is_uniform(f, l, deviation))
         return SS_EUNEVEN;
 
     /* each stamp is off by at most the deviation, so the period over all of them by at most twice that */
@@ -329,6 +336,10 @@ ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate
         st = ss_clock_rate(fit, s->file, rate, err);
     else
         st = p.status;
+    double period = line_of(fit).period;
+    if (st == SS_EUNEVEN && period > 0 && fit->digit > 2 * BY_DIGITS * period)
+        return ss_fail(err, st, "%s: time stamps have too few digits: 1 in the last of them is %.2g sample periods, "
+                       "%.1f is allowed", s->file, fit->digit / period, 2 * BY_DIGITS);
     return st == SS_EUNEVEN ? refuse(s, usual, line_of(fit), err) : st;
 }
 

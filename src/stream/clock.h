@@ -15,6 +15,7 @@ typedef struct clock_fit {
     size_t n;
     struct clock_point first, last, mean;       /* mean: from the first on */
     double taken;               /* [s] from all stamps, which were rounded before */
+    double digit;               /* [s] what 1 in the last digit of a stamp is; 0: not known */
     double product, square;     /* sums of products of sample and stamp, and of sample, about the mean */
     struct clock_side {         /* corners of the convex hull: below and above all points */
         struct clock_point *corner;
@@ -47,7 +48,7 @@ struct sample_count {
 };
 size_t ss_clock_sample(struct sample_count *c, double stamp);
 
-/* Find the uniform clock of the stamps; *fit, from zeros but for what was taken from them, is to be freed.  usual > 0: that step, and some may
+/* Find the uniform clock of the stamps; *fit, from zeros but for taken and digit, is to be freed.  usual > 0: that step, and some may
  * be missing. */
 ss_status ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err);
 /* The median step of stamps, which must ascend. */

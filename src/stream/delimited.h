@@ -81,6 +81,7 @@ struct table {
     double *first;              /* the first of them */
     struct time_column fitted;  /* fit is that of its stamps, if they ascend */
     clock_fit fit;
+    double digit;               /* [s] in the last digit of times in days, which is no round number of seconds, or 0 */
     int ascends;
     size_t *kept, n_kept;       /* the columns of the signal */
     struct sample_count count;

@@ -20,6 +20,7 @@ enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
 #define MOST_RATE 1e10
 #define MOST_IN_SECONDS 1e6     /* [Hz] a faster clock that begins with the number of a day counts days */
 #define LEAST_IN_DAYS .1        /* [Hz] slower records of days are not looked for */
+enum { ROUND = 4 };             /* digits of a rate in days; those of scattered stamps have more */
 #define DOUBTED_RATE 100.       /* [Hz] a slower clock without a unit may count milliseconds */
 
 /* --- the stamps of the rows ---------------------------------------------------------------- */
@@ -55,7 +56,7 @@ find_clock(struct table *t, const struct stamps *s, ss_error *err)
     if (!gaps && t->ascends && a->column == b->column && a->origin == b->origin && a->zero == b->zero
         && a->factor == b->factor && a->divisor == b->divisor && ss_clock_rate(&t->fit, s->file, &head->rate, NULL) == SS_OK)
         return SS_OK;
-    clock_fit fit = { .taken = a->zero * a->factor / a->divisor };
+    clock_fit fit = { .taken = a->zero * a->factor / a->divisor, .digit = gaps ? 0 : t->digit };
     ss_status st = gaps ? ss_usual_step(s, &t->count.usual, err) : SS_OK;
     if (st == SS_OK)
         st = ss_find_clock(s, t->count.usual, &fit, &head->rate, err);
@@ -110,11 +111,17 @@ resample_stamps(struct table *t, const struct stamps *s, double *own, ss_error *
                    t->names->start + gap / rate, usual);
 }
 
+static struct stamps
+stamps_of(struct table *t)
+{
+    return (struct stamps){ t->in->name, rewind_rows, next_stamp, t };
+}
+
 /* Find the clock of the times in a column.  *own becomes their rate. */
 static ss_status
 read_stamps(struct table *t, struct time_column time, double *own, ss_error *err)
 {
-    const struct stamps s = { t->in->name, rewind_rows, next_stamp, t };
+    const struct stamps s = stamps_of(t);
     t->time = time;
     if (t->opts->resample > 0)
         return resample_stamps(t, &s, own, err);
@@ -148,9 +155,17 @@ unit_of_times(const struct table *t, size_t column, double first, const struct t
 static int
 are_days(double first, double rate)
 {
-    return ss_is_day_now(first)
-        && (rate > MOST_IN_SECONDS || (rate >= LEAST_IN_DAYS * SECONDS_A_DAY * (1 - 1e-9)
-                                       && ss_clock_digits(rate / SECONDS_A_DAY) < ss_clock_digits(rate)));
+    if (!ss_is_day_now(first) || !(rate >= LEAST_IN_DAYS * SECONDS_A_DAY * (1 - 1e-9)))
+        return 0;
+    int digits = ss_clock_digits(rate / SECONDS_A_DAY);
+    return rate > MOST_IN_SECONDS || (digits <= ROUND && digits < ss_clock_digits(rate));
+}
+
+static ss_status
+ask_about_days(const struct table *t, const char *name, double first, double rate, ss_error *err)
+{
+    return ss_fail(err, SS_EUNIT, "%s: column %s has no unit and looks like days, %.3g Hz from day %.9g on; "
+                   "seconds would give %.3g Hz", t->in->name, name, rate / SECONDS_A_DAY, first, rate);
 }
 
 /* SS_EUNIT for a clock that no laboratory has, unless the caller gave its unit.  Warn of a clock without a
@@ -163,8 +178,7 @@ check_rate(const struct table *t, const char *name, const struct time_unit *give
     if (t->opts->time_unit != NULL)
         return SS_OK;
     if (given == NULL && are_days(first, rate))
-        return ss_fail(err, SS_EUNIT, "%s: column %s has no unit and looks like days, %.3g Hz from day %.9g on; "
-                       "seconds would give %.3g Hz", t->in->name, name, rate / SECONDS_A_DAY, first, rate);
+        return ask_about_days(t, name, first, rate, err);
     if (!(rate >= LEAST_RATE && rate <= MOST_RATE))
         return ss_fail(err, SS_EUNIT, "%s: column %s, read in %s, gives a clock of %.3g Hz, which no laboratory "
                        "has", t->in->name, name, unit, rate);
@@ -187,6 +201,20 @@ first_time(struct table *t, size_t column, double *first, ss_error *err)
     return st;
 }
 
+/* Find the last digit of the times in a column of days, as far as doubles have it. */
+static ss_status
+find_digit(struct table *t, size_t column, double zero, ss_error *err)
+{
+    const double *row;
+    double days = 1, apart = nextafter(fabs(zero), INFINITY) - fabs(zero);
+    ss_status st = ss_delimited_rewind(t, err);
+    while (st == SS_OK && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL)
+        while (days > 10 * apart && fabs(remainder(row[column] - zero, days)) > apart)
+            days /= 10;
+    t->digit = SECONDS_A_DAY * days;
+    return st;
+}
+
 /* The number of the day from whose midnight on the seconds of a column of days are counted. */
 static ss_status
 note_zero(struct table *t, double zero)
@@ -194,6 +222,15 @@ note_zero(struct table *t, double zero)
     char text[32];
     snprintf(text, sizeof text, "%.0f", zero);
     return fabs(zero) > 0 ? ss_header_note(t->names, "day", text) : SS_OK;
+}
+
+/* The rate that the usual step of a column of times gives; 0: there is none. */
+static double
+usual_rate(struct table *t)
+{
+    double step;
+    const struct stamps s = stamps_of(t);
+    return ss_usual_step(&s, &step, NULL) == SS_OK ? 1 / step : 0;
 }
 
 static ss_status
@@ -213,10 +250,14 @@ read_clock(struct table *t, size_t column, ss_error *err)
                           name, known->name);
     const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
     double zero = ss_time_unit_zero(unit, first);
+    if (fabs(zero) > 0 && (st = find_digit(t, column, zero, err)) != SS_OK)
+        return st;
     st = read_stamps(t, (struct time_column){ column, t->counted.origin, zero, unit->factor, unit->divisor }, &rate,
                      err);
     if (st == SS_OK)
         st = check_rate(t, name, known, first, rate, err);
+    else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL && are_days(first, rate = usual_rate(t)))
+        st = ask_about_days(t, name, first, rate, err);
     return st == SS_OK && note_zero(t, zero) != SS_OK ? ss_delimited_no_memory(t, err) : st;
 }
 

@@ -11,10 +11,16 @@ for rate in 0.1 1 50 1000 51.2; do days $rate 44197.5 11 | refused ss-features; 
 days 100 44197.5 11 | sed 1d | refused ss-cat
 days 100 44197.5 11 | sed '1000,1020d' | refused ss-cat --gaps=split
 days 100 44197.5 11 | awk 'NR != 500' | refused ss-cat --resample 50
+days 100 44197.5 11 | sed '1000,1020d' | refused ss-cat
+days 500 44197.5 8 | refused ss-cat
 echo "-- read as days: 100 Hz to 1 ms and better"
 for day in 25570.25 44197.5 60310.75 738000.5 2460310.5; do days 100 $day 12 | head_of ss-cat --time-unit d; done
 for rate in 0.1 1 50 1000 51.2; do days $rate 44197.5 11 | head_of ss-cat --time-unit d; done
 for digits in 8 9 10; do days 100 44197.5 $digits | head_of ss-cat --time-unit d; done
+echo "-- no more digits than needed: 0.22 periods, with and without a row missing; 0.43 periods"
+days 500 44197.5 8 | head_of ss-cat --time-unit d
+for row in 3 1000 1999; do days 500 44197.5 8 | sed "${row}d" | refused ss-cat -q --time-unit d; done
+days 1000 44197.5 8 | refused ss-cat -q --time-unit d
 days 100 44197.99999 12 | ss-cat --time-unit d | sed -n '4p; 90,93p'
 days 100 -1.5 12 | head_of ss-cat --time-unit d
 days 100 0 12 | head_of ss-cat --time-unit d
@@ -32,6 +38,11 @@ echo "-- seconds"
 days 100 44197.5 11 | head_of ss-cat --time-unit s
 seconds() { awk -v rate="$1" 'BEGIN {
     printf "time,x\n"; for (i = 0; i < 2000; i++) printf "%.9f,%d\n", 45000 + i / rate, i % 7 }'; }
+for rate in 100 1000 9600 96000; do
+    seconds $rate | awk 'NR != 500' | refused ss-cat
+    seconds $rate | awk 'NR != 500' | ss-cat --gaps=split | sed -n 2,4p
+    seconds $rate | awk 'NR != 500' | ss-cat --resample "$rate" --gaps=split | sed -n 2,4p
+done
 for rate in 100 1000 1440 9600 19200 25600 44100 48000 51200 65536 96000 100000 192000 1000000; do
     seconds $rate | refused ss-cat | sed -n 2,3p
 done
