@@ -267,6 +267,14 @@ read_over(const drawing *d, const char *path, const ss_header *head, const char 
     return other;
 }
 
+/* For the legend: without folders. */
+static const char *
+file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL && slash[1] != '\0' ? slash + 1 : tool_input_name(path);
+}
+
 /* Draw the named columns of a signal, or all, or one over another, in the form of d. */
 static void
 draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *features,
@@ -278,6 +286,8 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
     size_t rows;
     d.head = ss_reader_header(reader);
     choose_columns(&d, d.head, path, name);
+    opts->name = file_name(path);
+    opts->over_name = over != NULL ? file_name(over) : NULL;
     if (over != NULL)
         opts->over = other = read_over(&d, over, d.head, reading->folder, opts);
     if (d.xy)

@@ -31,6 +31,7 @@ typedef struct ss_plot_opts {
     ss_plot_style style;
     const ss_signal *over;      /* a second signal for ss_plot_signal and ss_plot_xy; NULL: none */
     double over_start;          /* [s] when its first row is drawn; NaN: with the first of the signal */
+    const char *name, *over_name;   /* of the two in a legend, if there is a second; NULL: those of its columns */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
 } ss_plot_opts;
 extern const ss_plot_opts ss_plot_defaults;

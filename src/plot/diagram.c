@@ -1,7 +1,8 @@
 /* diagram.c -- draw a sweep over one parameter: columns of its rows over the key that was varied.
  *
  * If the rows of one value differ, as the points of a stroboscopic map do, they are drawn as
- * points (a bifurcation diagram), else as a line. */
+ * points (a bifurcation diagram), else as a line.  Counts have no values between two: they are drawn as steps
+ * and points. */
 #include "plot/map.h"
 #include "plot/script.h"
 #include "plot/style.h"
@@ -25,6 +26,15 @@ is_line(const double *x, const double *y, size_t n)
 {
     for (size_t i = 1; i < n; i++)
         if (x[i] == x[i - 1] && y[i] != y[i - 1] && !(isnan(y[i]) && isnan(y[i - 1])))
+            return 0;
+    return 1;
+}
+
+static int
+are_whole(const double *y, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(y[i]) && y[i] != floor(y[i]))
             return 0;
     return 1;
 }
@@ -60,16 +70,20 @@ write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, si
     script_extent e = ss_script_extent(y, n);
     script_scale of_y = ss_script_scale(e);
     script_label label = ss_map_label(column[i].label, of_y, ROOM);
-    int line = is_line(x, y, n);
+    int line = is_line(x, y, n), steps = line && are_whole(y, n);
     fprintf(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
     fprintf(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
     ss_script_write_side_label(out, 1, &label);
     ss_script_write_tics(out, "ytics", (script_extent){ ss_script_scaled(e.lo, of_y), ss_script_scaled(e.hi, of_y) },
                          i == 1 ? 6 : 4);
-    fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
-            line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '" ZERO_COLOUR "' lw 0.7, " : "", i,
-            line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
+    if (steps)
+        fprintf(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, $panel%zu using 1:2 with points "
+                "pt 7 ps 4*size lc rgb colour\nunset title\n", i, i);
+    else
+        fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
+                line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '" ZERO_COLOUR "' lw 0.7, " : "", i,
+                line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
 }
 
 static ss_status

@@ -10,6 +10,7 @@
 
 #define PANEL 2.1               /* height of one panel [cm] */
 #define TIME 1.0                /* and below them [cm] */
+#define LEGEND 0.4              /* and above them, of two signals [cm] */
 #define ROOM 8.2                /* for the label of a panel [ems] */
 #define XY_ROOM 17.0            /* and for those of one column over another */
 
@@ -117,6 +118,17 @@ write_bands(FILE *out, const ss_overlay *features, const script_span *span)
 static const char plot_bands[] = "$spans using 1:(0):1:2:(0):(1) axes x1y2 with boxxyerror fill solid "
     "noborder lc rgb feature_colour, ";
 
+/* The legend of a signal and another over it, above their panel. */
+static void
+write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *column, const ss_column *over)
+{
+    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\nname = ", out);
+    ss_script_quote(out, opts->name != NULL ? opts->name : column->name);
+    fputs("; over_name = ", out);
+    ss_script_quote(out, opts->over_name != NULL ? opts->over_name : over->name);
+    putc('\n', out);
+}
+
 /* Panel i of n, from 1 on; the lowest has the labels of time.  A line of one sample would be invisible. */
 static void
 plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int bands, int over)
@@ -129,9 +141,10 @@ plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int ba
     ss_script_write_side_label(out, 1, &p->label);
     ss_script_write_tics(out, "ytics", p->drawn, 5);
     fprintf(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", bands ? plot_bands : "", i,
-            samples > 1 ? "lines" : "points pt 7 ps 1", over ? ", $over using 1:2 with lines lw 1 lc rgb over" : "");
+            samples > 1 ? "lines" : "points pt 7 ps 1",
+            over ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name" : "");
     if (i == 1)
-        fputs("unset title\n", out);
+        fputs(over ? "unset title; unset key\n" : "unset title\n", out);
 }
 
 ss_status
@@ -146,7 +159,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     panel *p = NULL;
     int over = opts->over != NULL;
     size_t panels = n > 0 ? n : head->n_columns, bands = 0;
-    double title = ss_script_title_height(opts, head), height = title + TIME + PANEL * (double)panels;
+    double title = ss_script_title_height(opts, head) + (over ? LEGEND : 0), height = title + TIME + PANEL * (double)panels;
     ss_status status = make_panels(&p, signal, n > 0 ? column : NULL, panels, err);
     if (status == SS_OK)
         status = ss_script_find_span(&span, head, signal->n, opts, err);
@@ -174,6 +187,8 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
                 1 - title / height, panels);
         fputs(layout, out);
+        if (over)
+            write_legend(out, opts, p[0].column, opts->over->head->column);
         for (size_t i = 1; i <= panels; i++)
             plot_panel(out, &p[i - 1], i, panels, span.n, bands > 0, over && i == 1);
         fputs("unset multiplot\n", out);
@@ -276,7 +291,7 @@ write_path(FILE *out, const char *name, const path *p, const script_scale scale[
 
 /* The path, and another over it unless it is NULL. */
 static ss_status
-write_xy(FILE *out, const path *p, const path *over)
+write_xy(FILE *out, const path *p, const path *over, const ss_plot_opts *opts)
 {
     script_scale scale[2];
     script_extent drawn[2] = { SCRIPT_NO_EXTENT, SCRIPT_NO_EXTENT };
@@ -298,13 +313,15 @@ write_xy(FILE *out, const path *p, const path *over)
         fputs("over = '" VERMILION "'\n", out);
         write_path(out, "$over", over, scale);
     }
-    fputs("unset key\n"
-          "set lmargin at screen 0.175; set rmargin at screen 0.965\n"
-          "set tmargin at screen 0.91; set bmargin at screen 0.16\n"
+    if (over != NULL)
+        write_legend(out, opts, p->column[1], over->column[1]);
+    fputs(over != NULL ? "rim = 0.85\n" : "unset key; rim = 0.91\n", out);
+    fputs("set lmargin at screen 0.175; set rmargin at screen 0.965\n"
+          "set tmargin at screen rim; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
           "set tics nomirror out scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour", out);
-    fputs(over != NULL ? ", $over using 1:2 with lines lw 1 lc rgb over\n" : "\n", out);
+    fputs(over != NULL ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name\n" : "\n", out);
     return ss_script_end(out);
 }
 
@@ -328,7 +345,7 @@ ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot
         status = ss_script_begin(out, opts, 6.5, err);
     if (status == SS_OK) {
         ss_script_write_title(out, opts, head, NULL);
-        status = write_xy(out, &p, opts->over != NULL ? &over : NULL);
+        status = write_xy(out, &p, opts->over != NULL ? &over : NULL, opts);
     }
     free(over.clock.gap);
     free(p.clock.gap);

@@ -32,6 +32,9 @@ ss-sweep --simulate --strobe 4 --max-cycles 100 -m x_phase,period,floquet --vary
 draw --map base_frequency,x_phase,floquet d.tsv -o d.gp
 sed -n '/^\$panel2/,/^EOD/p; /^plot/p' d.gp | sed 's/\(\.[0-9][0-9]\)[0-9]*/\1/g' | uniq
 sed -n '/^\$panel1/,/^EOD/p' d.gp | awk 'NF == 2 { n[$1]++ } END { for (r in n) print r, n[r] }' | sort -n
+# counts have no values between two
+ss-sweep -m stops,stick --vary base_frequency=2:4:5 coulomb -o e.tsv
+draw --map base_frequency,stops,stick e.tsv | grep '^plot'
 draw --map base_frequency d.tsv
 draw --map base_frequency,x_phase --line a.tsv d.tsv
 draw --map base_frequency,status d.tsv
