@@ -268,6 +268,10 @@ bench: all
 to     = $(call quote,$(DESTDIR)$($1))
 remove = ! cd $(call to,$1) 2> /dev/null || rm -f $2
 
+# An archive does not name what it needs: these may be what HDF5's does, where they are there.
+archives = for l in -lsz -laec -lz -lcrypto -ldl -lm; do \
+	echo 'int main(void) { return 0; }' | $(CC) -x c -o /dev/null - $$l 2> /dev/null && printf ' %s' $$l; done
+
 install: all
 	$(INSTALL) -d $(call to,BINDIR) $(call to,LIBDIR)/pkgconfig $(call to,SCENEDIR) $(call to,EXAMPLEDIR) \
 		$(call to,INCLUDEDIR)/stickslip
@@ -277,7 +281,7 @@ install: all
 	$(INSTALL) -m 755 $(BUILD)/$(SHARED) $(call to,LIBDIR)
 	cd $(call to,LIBDIR) && for l in $(LINKS); do ln -sf $(SHARED) $$l; done
 	sed -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' -e 's|@VERSION@|$(VERSION)|' \
-		-e 's|@LIBS@|$(LIBS)|' stickslip.pc.in > $(call to,LIBDIR)/pkgconfig/stickslip.pc
+		-e "s|@LIBS@|$(LIBS)$$($(archives))|" stickslip.pc.in > $(call to,LIBDIR)/pkgconfig/stickslip.pc
 	$(INSTALL) -m 644 $(SCENES) $(call to,SCENEDIR)
 	$(INSTALL) -m 644 $(EXAMPLES) $(call to,EXAMPLEDIR)
 	for t in $(TOOLS) $(SCRIPTS); do $(INSTALL) -m 755 $(BUILD)/bin/$$t $(call to,BINDIR) || exit 1; done

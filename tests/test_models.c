@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_errno.h>
 
 #include <stickslip.h>
 #include "shipped.h"
@@ -289,6 +288,5 @@ main(void)
         cmocka_unit_test(laws_come_to_their_limits),
         cmocka_unit_test(lists_what_a_scene_may_lose),
     };
-    gsl_set_error_handler_off();        /* the library copes; GSL would abort */
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

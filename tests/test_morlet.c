@@ -3,7 +3,6 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <gsl/gsl_errno.h>
 #include "morlet/fft/blocks.h"
 #include "morlet_plan.h"
 #include "unit.h"
@@ -446,6 +445,5 @@ main(void)
         cmocka_unit_test(engines_agree_and_damage_is_seen),
         cmocka_unit_test(error_of_one_point_is_rounding),
     };
-    gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

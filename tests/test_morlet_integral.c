@@ -1,6 +1,5 @@
 /* test_morlet_integral.c -- wavelet coefficients against the integral of a continuous signal by GSL. */
 #include <stdlib.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include "morlet_plan.h"
 #include "unit.h"
@@ -126,6 +125,5 @@ main(void)
         cmocka_unit_test(agrees_with_the_integral_of_what_the_sampling_resolves),
         cmocka_unit_test(sampling_error_of_an_abrupt_start_is_of_first_order),
     };
-    gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

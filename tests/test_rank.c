@@ -1,7 +1,6 @@
 /* test_rank.c -- ranking: signals whose model is known; fits: signals whose parameters are. */
 #include <stdlib.h>
 #include <string.h>
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
 #include "foreign.h"
@@ -625,7 +624,6 @@ static int
 no_abort(void **state)
 {
     (void)state;
-    gsl_set_error_handler_off();
     return 0;
 }
 

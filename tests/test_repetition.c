@@ -5,7 +5,6 @@
  * has one with an error that covers its mean frequency. */
 #include <stdlib.h>
 #include <math.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <stickslip.h>
@@ -322,6 +321,5 @@ main(void)
         cmocka_unit_test(errors_cover_jitter),
         cmocka_unit_test(errors_cover_hum),
     };
-    gsl_set_error_handler_off();
     return cmocka_run_group_tests_name("repetition", tests, NULL, NULL);
 }

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <complex.h>
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stickslip.h>
 #include "new_signal.h"
@@ -646,6 +645,5 @@ main(void)
         cmocka_unit_test(gaps_leave_out_what_they_reach_and_nothing_else),
         cmocka_unit_test(refuses_what_is_out_of_range),
     };
-    gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

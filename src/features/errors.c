@@ -167,7 +167,7 @@ add_line(fitter *k, const ss_window *window, size_t n, ss_value value[2])
     double left = (double)(samples - (ss_varpro_columns(&k->fit) + 2) * used);
     double noise = fmax(least / left, FIT_MISFIT * FIT_MISFIT * plain.ring / (double)samples);
     double F = (plain.rss - least) / more / noise;
-    if (F > gsl_cdf_fdist_Qinv(FIT_CHANCE / LINES, more, left)) {
+    if (gsl_cdf_fdist_Q(F, more, left) < FIT_CHANCE / LINES) {
         double variance = -1, with[2];
         k->fit.line = best;
         if (ss_varpro_fit(&k->fit, window, n, FIT_FINE)) {

@@ -61,6 +61,13 @@ int ss_sticks_split(const fitter *k, ss_window *window, size_t n, size_t at, int
 /* Trim both ends as growth found them; empty: the rest is shorter than the least length. */
 ss_window ss_sticks_trim(const fitter *k, ss_window win);
 
+/* What a chi-squared of two degrees of freedom exceeds with this chance. */
+static inline double
+ss_chisq2(double chance)
+{
+    return -2 * log(chance);
+}
+
 /* --- slips.c: micro-slips too weak for any one window, and what rings behind the windows ------ */
 
 /* Find where the gain changes most, so many samples behind the starts of the windows, or before their ends;

@@ -205,14 +205,18 @@ less_harmonic(double period, void *user)
     return sum;
 }
 
-/* Move *at to where f is least, to a thousandth of a bin (Brent). */
+/* Move *at to where f is least, to a thousandth of a bin (Brent), unless f is less at an end. */
 static ss_status
 narrow(gsl_function *f, double bin, double *at)
 {
+    double low = *at - 0.3 * bin, high = *at + 0.3 * bin;
+    double f_at = GSL_FN_EVAL(f, *at), f_low = GSL_FN_EVAL(f, low), f_high = GSL_FN_EVAL(f, high);
+    if (!(f_at < f_low && f_at < f_high))
+        return SS_OK;
     gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
     if (m == NULL)
         return SS_ENOMEM;
-    int failed = gsl_min_fminimizer_set(m, f, *at, *at - 0.3 * bin, *at + 0.3 * bin);
+    int failed = gsl_min_fminimizer_set_with_values(m, f, *at, f_at, low, f_low, high, f_high);
     double wide = 0.6 * bin;
     for (int i = 0; i < 30 && !failed && wide > 1e-3 * bin; i++) {
         failed = gsl_min_fminimizer_iterate(m);

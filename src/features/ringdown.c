@@ -9,7 +9,6 @@
  * starts.  errors.c finds the errors of w and s. */
 #include "features/ringdown.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -128,7 +127,7 @@ static int
 stands_out(fitter *k, const ss_window *window, size_t n)
 {
     linear all = ss_varpro_project_all(&k->fit, window, n);
-    return all.ring > (double)all.windows * k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+    return all.ring > (double)all.windows * k->noise * ss_chisq2(FIT_CHANCE);
 }
 
 /* Cores to fit: one of so many; the cores beside them, up to which they may grow; or all others. */

@@ -2,8 +2,6 @@
  * windows. */
 #include "features/fitter.h"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_linalg.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/sort.h"
@@ -127,19 +125,23 @@ add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places,
     }
 }
 
-/* g' H^-1 g; destroys H. */
+/* g' H^-1 g by H = L D L', or 0 if H is not positive definite, since no window reaches there; destroys both. */
 static double
 statistic(score *at)
 {
-    double y[PARAMETERS], sum = 0;
-    gsl_matrix_view h = gsl_matrix_view_array(at->h, PARAMETERS, PARAMETERS);
-    gsl_vector_view v = gsl_vector_view_array(y, PARAMETERS);
-    memcpy(y, at->g, sizeof y);
-    if (gsl_linalg_cholesky_decomp1(&h.matrix) != GSL_SUCCESS)
-        return 0;                       /* no window reaches there */
-    gsl_linalg_cholesky_svx(&h.matrix, &v.vector);
-    for (int p = 0; p < PARAMETERS; p++)
-        sum += at->g[p] * y[p];
+    double sum = 0;
+    for (int p = 0; p < PARAMETERS; p++) {
+        const double *pivot = at->h + p * PARAMETERS;
+        if (!(pivot[p] > 0))
+            return 0;
+        sum += at->g[p] * at->g[p] / pivot[p];
+        for (int q = p + 1; q < PARAMETERS; q++) {
+            double *row = at->h + q * PARAMETERS, part = row[p] / pivot[p];
+            at->g[q] -= part * at->g[p];
+            for (int r = p; r < PARAMETERS; r++)
+                row[r] -= part * pivot[r];
+        }
+    }
     return sum;
 }
 
@@ -161,7 +163,7 @@ ss_slips_find(fitter *k, const ss_window *window, size_t n, int from_end, size_t
     for (size_t l = 0; l < n_places; l++) {
         size_t here = (l + 1) * step, longer = here > longest - here ? here : longest - here;
         double chance = longer < periods(k, FIT_LEAST) ? BREAK_EARLY : BREAK;
-        double limit = k->noise * gsl_cdf_chisq_Qinv(chance / (double)n_places, 2);
+        double limit = k->noise * ss_chisq2(chance / (double)n_places);
         double over = statistic(&place[l]) / limit;
         if (over > most) {
             most = over;
@@ -182,7 +184,7 @@ ss_slips_recur(fitter *k, const ss_window *window, size_t n)
     for (size_t i = 0; i < n; i++)
         if (ss_window_length(window[i]) > 0)
             add_scores(k, window[i], step, step, PHASES, 0, 1, phase);
-    double limit = k->noise * gsl_cdf_chisq_Qinv(BREAK / PHASES, 2);
+    double limit = k->noise * ss_chisq2(BREAK / PHASES);
     for (size_t l = 0; l < PHASES; l++)
         if (statistic(&phase[l]) > limit)
             return 1;
@@ -249,7 +251,7 @@ rings_there(fitter *k, tail behind)
     int is_one = fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss)
         || ss_sticks_belong(k, fitted.rss, ss_window_length(behind.at) - ss_varpro_columns(&k->fit));
     return is_one && fitted.ring > LOUDER * LOUDER * m * behind.left
-        + k->noise * gsl_cdf_chisq_Qinv(FIT_CHANCE, 2);
+        + k->noise * ss_chisq2(FIT_CHANCE);
 }
 
 /* Does it ring on, or hum at a frequency nearby, behind more than half of the windows? */

@@ -1,5 +1,5 @@
-# The example programs compile against an installed copy, with pkg-config, shared and static, and
-# work.
+# The example programs compile against an installed copy by the line that the README gives, shared and
+# static, and work; so does one in C++.
 "$MAKE" -s -C "$SRC" BUILD="$BUILD" PREFIX="$PWD/usr" install > log 2>&1 || cat log
 PKG_CONFIG_PATH=$PWD/usr/lib/pkgconfig
 export PKG_CONFIG_PATH
@@ -8,11 +8,11 @@ printf 't,force (N)\n' > run.csv
 awk 'BEGIN { for (i = 0; i < 4000; i++) print i / 1000 "," 3 + exp(-((i - 2000) / 200)^2) * sin(6.283185307179586 * i / 25) }' >> run.csv
 { echo 't,accel (m/s^2)'; ss-sim -c t,a compliant-heavy | ss-noise --snr 40 | grep -v '^#' | tr '\t' ','; } > accel.csv
 
-build() {       # shared|static [FLAG]: all examples, in a directory of this name
+build() {       # NAME [FLAG] [FLAG OF PKG-CONFIG]: all examples, in a directory of this name
     mkdir "$1"
     for source in "$SRC"/tests/examples/*.c; do
         # shellcheck disable=SC2046,SC2086  # flags are a list
-        $CCLD -o "$1/$(basename "$source" .c)" "$source" $(pkg-config $2 --cflags --libs stickslip gsl) -lpthread -lm
+        $CCLD ${2-} -o "$1/$(basename "$source" .c)" "$source" $(pkg-config ${3-} --cflags --libs stickslip)
     done
 }
 run() {
@@ -32,12 +32,45 @@ run() {
     cd ..
 }
 
-build shared ''
+build shared
 LD_LIBRARY_PATH=$PWD/usr/lib DYLD_LIBRARY_PATH=$PWD/usr/lib
 export LD_LIBRARY_PATH DYLD_LIBRARY_PATH
 run shared
+cat > events.cc <<'C'
+#include <cstdio>
+#include <stickslip.h>
+int main()
+{
+    ss_scene scene = ss_scene_defaults;
+    scene.model = SS_COULOMB;
+    std::printf("C++: %zu samples\n", ss_scene_samples(&scene));
+}
+C
+for c in "${CXX:-c++}" g++ clang++ ''; do
+    if [ -n "$c" ] && command -v "$c" > /dev/null; then break; fi
+done
+# shellcheck disable=SC2046,SC2086
+if [ -n "$c" ]; then
+    $c ${SAN:+-fsanitize=address -fsanitize=undefined} -o events events.cc $(pkg-config --cflags --libs stickslip)
+    ./events
+else
+    echo "C++: 20000 samples"
+fi
 unset LD_LIBRARY_PATH DYLD_LIBRARY_PATH
 
 rm usr/lib/libstickslip.*[!a]
-build static --static
-run static
+build static '' --static
+run static > static.out
+cat static.out
+
+# wholly static, where the compiler and HDF5 can
+cat > least.c <<'C'
+#include <hdf5.h>
+int main(void) { return H5open() < 0; }
+C
+# shellcheck disable=SC2046,SC2086
+if [ -z "$SAN" ] && $CCLD -static $INCLUDES -o least least.c $(pkg-config --static --libs stickslip) 2> log; then
+    build all-static -static --static 2> log         # of dlopen, in HDF5
+    run all-static > all
+    sed 's/^-- static/-- all-static/' static.out | cmp - all
+fi

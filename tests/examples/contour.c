@@ -9,7 +9,6 @@
  * in err. */
 #include <stickslip.h>
 
-#include <gsl/gsl_errno.h>
 #include <stdio.h>
 
 static ss_status
@@ -41,7 +40,6 @@ main(int argc, char *argv[])
 
     /* GSL's default handler ends the program at the first error, lack of memory included.  The
      * library checks GSL's statuses itself, but leaves this setting, a global one, to the program. */
-    gsl_set_error_handler_off();
 
     const char *path = argc > 1 ? argv[1] : "compliant-light";
     ss_status status = ss_scene_load(&scene, path, NULL, 0, &err);

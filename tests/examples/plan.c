@@ -5,7 +5,6 @@
  * Two sines: the amplitude of each comes out of its record's coefficients, to 1e-9. */
 #include <stickslip.h>
 
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -48,7 +47,6 @@ main(void)
     ss_morlet *plan;
     ss_error err = { 0 };
     ss_morlet_opts opts = ss_morlet_defaults;
-    gsl_set_error_handler_off();
     opts.norm = SS_NORM_L1;
     opts.dense = 1;
     opts.accuracy = 1e-9;

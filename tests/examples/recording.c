@@ -7,7 +7,6 @@
  * the cone of influence. */
 #include <stickslip.h>
 
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -42,7 +41,6 @@ main(int argc, char *argv[])
         fputs("usage: recording FILE COLUMN\n", stderr);
         return 2;
     }
-    gsl_set_error_handler_off();        /* or GSL ends the program where memory runs out */
     opts.detrend = SS_DETREND_MEAN;
     opts.norm = SS_NORM_L1;             /* a sine then reads at its own frequency */
 

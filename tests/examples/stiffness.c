@@ -7,7 +7,6 @@
  * number that is not known is NaN, and why_ringing says why. */
 #include <stickslip.h>
 
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -47,7 +46,6 @@ main(int argc, char *argv[])
         fputs("usage: stiffness FILE COLUMN MASS STIFFNESS\n", stderr);
         return 2;
     }
-    gsl_set_error_handler_off();        /* or GSL ends the program where memory runs out */
 
     const char *const needed[] = { argv[2] };
     ss_read_opts read = { .needed = needed, .n_needed = 1 };

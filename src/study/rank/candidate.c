@@ -9,6 +9,7 @@
  * Mead 1965) from the best of them. */
 #include "study/rank/candidate.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -166,7 +167,8 @@ height(const gsl_vector *u, void *user)
     if (p->c->steps > p->c->budget)
         return 0;
     keys_of(p->c, u->data, key);
-    return log(misfit(p, key, &size, &shift) / p->goal.c->power + 1e-12);
+    double h = log(misfit(p, key, &size, &shift) / p->goal.c->power + 1e-12);
+    return isfinite(h) ? h : log(DBL_MAX);
 }
 
 /* --- search -------------------------------------------------------------------------------- */
