@@ -198,7 +198,7 @@ read_streams(int variant)
         "time (ms);\"x\";f\ns;m;N\n0,0;1,5;2\n1,0;2,5;3\n2,0;3;4\n",
         "# x y\n 0 1\n 0.25 2\n 0.5 4\n",
         "\"t\",\"Kraft \xe4\"\n0,1\n1,2\n",
-        "1\t2\n2\tx\n",             /* two are malformed, and memory fails before that is found */
+        "1\t2\n2\tx\n",             /* three are malformed, and memory fails before that is found */
         "t;x\n0;1\n0,1;2\n7;3\n",
         "t;x\n0;1\n1;\n2;3\n4;5\n",
         "t;x\n0;1\n1;2\n1,5;3\n3;4\n4;5\n",
@@ -208,12 +208,16 @@ read_streams(int variant)
         "X0\t0\t0\nDelta_X\t0,1\t0,1\n***End_of_Header***\nX_Value\ta\tX_Value\tb\tComment\n0\t1\t0\t2\tnow\n0,1\t3\t0,1\t4\n",
         "t,x\n0,1\nStep 2\nt,y\n0,1\n0.1,2\n",
         array,
+        "time,x\n44197.5,1\n44197.50000011574,2\n44197.50000023148,3\n44197.500009,4\n",
+        "time,x\n44197.5,1\n44197.50000011574,2\n44197.50000023148,3\n",
     };
     static const ss_calibration first = { "1", 2, "N" };
     static const ss_read_opts gaps = { .gaps = SS_GAPS_SPLIT }, uneven = { .resample = 7 },
+        days = { .time_unit = "d" },
         second = { .table = 2, .from = 0, .to = 1, .calibration = &first, .n_calibrations = 1 };
     ss_signal *back = NULL;
-    const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : variant == 12 ? &second : NULL;
+    const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : variant == 12 ? &second
+        : variant == 15 ? &days : NULL;
     const char *from = variant < 2 ? text[variant] : table[variant - 2];
     FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : strlen(from), "r");
     ss_status st = ss_signal_read(&back, in, "in", opts, &err);
@@ -704,6 +708,7 @@ store_pieces(int variant)
 static ss_status
 loads(int variant)
 {
+    static const ss_read_opts timed = { .time = "t" };
     ss_signal *back = NULL;
     ss_coefficients *c = NULL;
     char member[80];
@@ -712,6 +717,7 @@ loads(int variant)
     ss_status st = variant == 0 ? ss_signal_load(&back, path, NULL, &err)
                    : variant == 1 ? ss_signal_load(&back, member, NULL, &err)
                    : variant == 2 ? ss_store_read_coefficients(&c, path, &err)
+                   : variant == 3 ? ss_signal_load(&back, member, &timed, &err)
                    : ss_store_reader_new(&reader, path, &err);
     if (st == SS_OK && reader != NULL) {
         static double w[2 * 100000];
@@ -731,7 +737,7 @@ static const struct row {
     size_t most;                /* allocations that fail in turn, spread over all; 20 times that
                                    with LONG=1, which is all of them for most rows */
 } row[] = {
-    { "headers", headers, 1, 100 }, { "reading streams", read_streams, 14, 100 },
+    { "headers", headers, 1, 100 }, { "reading streams", read_streams, 16, 100 },
     { "reading twice", read_twice, 3, 100 },
     { "writing streams", write_streams, 3, 100 }, { "signals", signals, 8, 100 },
     { "noises", noises, 1, 100 }, { "bases", bases, 1, 100 },
@@ -748,7 +754,7 @@ static const struct row {
     { "reductions", reductions, 3, 100 },
     { "overviews", overviews, 1, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
-    { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 4, 30 },
+    { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 5, 60 },
 };
 
 /* --- the tests ----------------------------------------------------------------------------- */

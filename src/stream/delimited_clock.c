@@ -224,13 +224,17 @@ note_zero(struct table *t, double zero)
     return fabs(zero) > 0 ? ss_header_note(t->names, "day", text) : SS_OK;
 }
 
-/* The rate that the usual step of a column of times gives; 0: there is none. */
-static double
-usual_rate(struct table *t)
+/* The status of times without a unit, from `first` on, that are not uniform: SS_EUNIT if their usual step shows
+ * days. */
+static ss_status
+doubt_stamps(struct table *t, const char *name, double first, ss_status refused, ss_error *err)
 {
     double step;
     const struct stamps s = stamps_of(t);
-    return ss_usual_step(&s, &step, NULL) == SS_OK ? 1 / step : 0;
+    ss_status st = ss_is_day_now(first) ? ss_usual_step(&s, &step, NULL) : refused;
+    if (st == SS_ENOMEM)
+        return ss_delimited_no_memory(t, err);
+    return st == SS_OK && are_days(first, 1 / step) ? ask_about_days(t, name, first, 1 / step, err) : refused;
 }
 
 static ss_status
@@ -256,8 +260,8 @@ read_clock(struct table *t, size_t column, ss_error *err)
                      err);
     if (st == SS_OK)
         st = check_rate(t, name, known, first, rate, err);
-    else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL && are_days(first, rate = usual_rate(t)))
-        st = ask_about_days(t, name, first, rate, err);
+    else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL)
+        st = doubt_stamps(t, name, first, st, err);
     return st == SS_OK && note_zero(t, zero) != SS_OK ? ss_delimited_no_memory(t, err) : st;
 }
 
