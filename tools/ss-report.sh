@@ -28,7 +28,8 @@ END
 
 (: >&2) || exec 2> /dev/null
 exec 3>&2
-die() { printf 'ss-report: %s\n' "$2" | tr '\001-\011\013-\037\177' '?' >&3; exit "$1"; }
+say() { printf 'ss-report: %s\n' "$1" | tr '\001-\011\013-\037\177' '?' >&3; }
+die() { say "$2"; exit "$1"; }
 quote() { printf "'"; printf %s "$1" | sed "s/'/'\\\\''/g"; printf "'"; }
 # Text as HTML shows it, on one line or more.
 escape() {
@@ -189,19 +190,44 @@ done
 [ $# -gt 0 ] || die 2 "no recordings; name files"
 # Neither an option nor, to awk, an assignment.
 case $dir in -*|[!/]*=*) dir=./$dir ;; esac
-[ ! -e "$dir" ] || die 1 "$dir: is there already; remove it, or name another folder"
-for file; do
-    case $file in -|/dev/stdin|/dev/fd/*|/proc/self/fd/*) die 2 "standard input can be read only once; name files" ;; esac
-    [ ! -p "$file" ] || die 2 "$file: a pipe can be read only once; name files"
-done
+refuse_dir() { die 1 "$dir: is there already; remove it, or name another folder"; }
+if [ -e "$dir" ] || [ -L "$dir" ]; then refuse_dir; fi
 
-new=$dir.new.$$ work=$dir.new.$$/work
-trap 'rm -rf "$new"' EXIT
+# A file of results, ours, which a pattern such as *.csv names beside recordings.
+is_table() {
+    case $(head -c 300 -- "$1" 2> /dev/null | tr -d '\000' | sed 1q) in
+    '# stickslip signal '*) return 1 ;;
+    '# stickslip '*|onset,end,spikes,*|file,unit,transitions,*|rank,scene,*|index,*,status|index,*,stops,*|\
+    method,tol,x_error,*|model,x,x_rms,*|m,a,b,f,re,im,edge|t,kind,x,v,direction) return 0 ;;
+    esac
+    return 1
+}
+n=$#
+while [ $n -gt 0 ]; do
+    file=$1 n=$((n - 1))
+    shift
+    case $file in -|/dev/stdin|/dev/fd/*|/proc/self/fd/*) die 2 "standard input can be read only once; name files" ;; esac
+    path=$file                          # of HDF5, maybe with a dataset
+    [ -e "$path" ] || path=${file%%:/*}
+    if [ -e "$path" ] && ! [ -f "$path" ] && ! [ -d "$path" ]; then
+        die 2 "$file: not a regular file, and can be read only once; name files"
+    elif [ -f "$path" ] && is_table "$path"; then
+        case $quiet in -q|--quiet) ;; *) say "$file: a table of results, not a recording: left out" ;; esac
+    else
+        set -- "$@" "$file"
+    fi
+done
+[ $# -gt 0 ] || die 1 "no recordings among the files"
+
+n=$$ made=''
+while [ -e "$dir.new.$n" ]; do n=$((n + 1)); done       # one that was killed left it
+new=$dir.new.$n work=$dir.new.$n/work
+trap 'rm -rf "$new" ${made:+"$made"}' EXIT
 trap 'exit 130' HUP INT TERM
 mkdir -- "$new" "$work" 2> /dev/null || die 1 "$dir: cannot be made here"
 eval "ss-features --summary $quiet $jobs $options $finding -o \"\$new/summaries.tsv\" -- \"\$@\""
 status=$?
-[ -f "$new/summaries.tsv" ] || exit $status
+[ $status = 0 ] || exit $status
 exec 2> /dev/null                       # what the shell says of a full disk: die says it in one line
 escape < "$new/summaries.tsv" > "$work/escaped" || die 1 "$dir: not written"
 for file; do
@@ -219,5 +245,12 @@ index() {
 }
 write index.html "$(index)"
 rm -r "$work"
-mv "$new" "$dir" || die 1 "$dir: cannot be made here"
-exit $status
+# Who makes the folder has its name: another run, or user, who did so meanwhile is told.  It is replaced at once where
+# mv can do that, and never gets the report as a folder within it.
+if ! mkdir -- "$dir"; then
+    [ ! -e "$dir" ] || refuse_dir
+    die 1 "$dir: cannot be made here"
+fi
+made=$dir
+mv -T -- "$new" "$dir" || mv -- "$new"/* "$dir" || die 1 "$dir: not written"
+made=''

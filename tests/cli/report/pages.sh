@@ -38,7 +38,7 @@ grep -ho 'id=["'\''][^"'\'' ]*' $page | sort | uniq -d
 
 # whole or absent
 ss-report -q -o pages run.tsv || echo "status $?"
-ss-report -q -o nothing empty.csv none.csv 2> /dev/null || echo "status $?, $(ls nothing | wc -l) files"
+ss-report -q -o nothing empty.csv none.csv 2> /dev/null || echo "status $?"
 ss-report -q --mass=-1 -o bad run.tsv || echo "status $?"
 ss-report -q -o none/pages run.tsv || echo "status $?"
 [ ! -c /dev/full ] || ss-report --version > /dev/full || echo "status $?"
@@ -50,5 +50,4 @@ ss-report -o y - || echo "status $?"
 ss-report -o y /dev/stdin < run.tsv || echo "status $?"
 mkfifo pipe
 ss-report -o y pipe || echo "status $?"
-ss-report -o stopped run.tsv run.tsv run.tsv run.tsv run.tsv run.tsv run.tsv run.tsv & sleep 1; kill $! && wait $! || echo "status $?"
-ls -d bad* y* stopped* none* 2> /dev/null || echo "nothing left"
+ls -d bad* y* nothing* none* 2> /dev/null || echo "nothing left"

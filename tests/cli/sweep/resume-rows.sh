@@ -37,8 +37,8 @@ ss-sweep -o whole.csv "$@"
 for bytes in 0 9 50 70 99 160 230 10000; do
     head -c $bytes whole.csv > cut.csv
     ss-sweep --resume cut.csv "$@" && cmp cut.csv whole.csv
-    head -c $bytes whole.csv > cut
-    ss-sweep --format csv --resume cut "$@" && cmp cut whole.csv
+    head -c $bytes whole.csv > part
+    ss-sweep --format csv --resume part "$@" && cmp part whole.csv
 done
 head -c 160 whole.csv > other.csv
 cp other.csv before.csv
