@@ -13,7 +13,7 @@ static const struct time_unit units_of_time[] = {
     { "ns", "nsec nanosecond nanoseconds", 1, 1e9, 1 },
     { "min", "minute minutes", 60, 1, 0 },
     { "h", "hr hour hours", 3600, 1, 0 },
-    { "d", "day days", SECONDS_A_DAY, 1, 0 }
+    { "d", "day days datenum mjd", SECONDS_A_DAY, 1, 0 }
 };
 enum { UNITS_OF_TIME = sizeof units_of_time / sizeof *units_of_time };
 
@@ -58,7 +58,7 @@ ss_is_called_time(const char *name)
 {
     static const char words[] = "t time timestamp time_stamp datetime date_time epoch unix_time zeit temps "
         "tempo tiempo elapsed elapsed_time x_value";
-    static const char alone[] = "sec second seconds";
+    static const char alone[] = "sec second seconds datenum mjd";
     size_t length;
     const struct time_unit *unit = ss_time_unit_in(name, &length);
     if (unit != NULL && length == 0)

@@ -28,6 +28,8 @@ days 100 44197.5 12 | sed '2s/^[^,]*//' | head_of ss-cat --time-unit d --gaps=sp
 days 100 44197.5 11 | head_of ss-cat --time-unit d --resample 50
 days 100 44197.5 11 | sed '1s/time/time (days)/' | head_of ss-cat
 days 100 44197.5 11 | sed '1s/time/t_d/' | head_of ss-cat
+days 100 738000.5 12 | sed '1s/time/datenum/' | head_of ss-cat
+days 100 60310.5 12 | sed '1s/time/MJD/' | head_of ss-cat
 days 100 44197.5 11 > run.csv
 for tool in ss-noise ss-morlet ss-features ss-plot; do
     case $tool in ss-noise) set -- --rms 1 ;; *) set -- ;; esac
