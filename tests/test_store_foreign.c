@@ -291,7 +291,7 @@ write_times(size_t n, int in_row, hsize_t chunk, hsize_t chunk_of_times)
     put_column(file, "short", t, n - 1, in_row, 0);
     for (size_t i = 0; i < n; i++)
         other[i] = 738000.25 + t[i] / 86400;
-    put_column(file, "datenum", other, n, in_row, 0);
+    put_column(file, "serial", other, n, in_row, 0);
     for (size_t i = 0; i < n; i++)
         other[i] = t[i] + (i > n / 2 ? 3. / 800 : 0);
     put_column(file, "gap", other, n, in_row, 0);
@@ -348,7 +348,7 @@ times_of_a_dataset_give_the_clock(void **state)
         assert_timed("/daq/ch0/time", NULL, row[i].n, 7);
         assert_timed("time", NULL, row[i].n, 7);
         if (row[i].n > 2)
-            assert_timed("/datenum", "d", row[i].n, 21607);
+            assert_timed("/serial", "d", row[i].n, 21607);
     }
 }
 
@@ -363,7 +363,7 @@ times_of_a_dataset_are_checked_as_those_of_text(void **state)
         { { .time = "/uneven" }, SS_EUNEVEN, 0, "time stamps are not uniform" },
         { { .time = "/gap" }, SS_EGAPS, 0, ":/daq/ch0/x:52: 3 samples are missing before this time stamp" },
         { { .time = "/nan" }, SS_EGAPS, 0, "row 6, column nan: not a finite number" },
-        { { .time = "/datenum" }, SS_EUNIT, 0, "looks like days, 800 Hz from day 738000.25 on" },
+        { { .time = "/serial" }, SS_EUNIT, 0, "looks like days, 800 Hz from day 738000.25 on" },
         { { .time = "x" }, SS_ECLOCK, 0, "time stamps do not ascend" },
         { { .time = "/gap", .gaps = SS_GAPS_SPLIT }, SS_OK, 103, "" },
         { { .time = "/nan", .gaps = SS_GAPS_INTERPOLATE }, SS_OK, 100, "" },
