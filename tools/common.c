@@ -55,14 +55,33 @@ seconds_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* The part of the work that reading is, where all of a signal is read before other work begins. */
+#define READING 0.3
+static double begun_at;                 /* progress when that other work begins */
+
+int
+tool_reading_progress(double done, void *user)
+{
+    return tool_progress(READING * done, user);
+}
+
+void
+tool_reading_done(void)
+{
+    begun_at = progress_shown ? READING : 0;
+}
+
 int
 tool_progress(double done, void *user)
 {
     static double began, shown;
-    static int terminal = -1;
-    if (terminal < 0)
-        terminal = tool_verbosity >= 0 && isatty(STDERR_FILENO)
-            && (user != NULL || files_writing() || !isatty(STDOUT_FILENO));
+    static int here = -1, data = -1;    /* are standard error and output terminals? */
+    if (here < 0) {
+        here = isatty(STDERR_FILENO);
+        data = isatty(STDOUT_FILENO);
+    }
+    int terminal = here && tool_verbosity >= 0 && (user != NULL || files_writing() || !data);
+    done = begun_at + (1 - begun_at) * done;
     if (terminal && !tool_stopping()) {
         double now = seconds_now();
         if (began == 0)

@@ -157,5 +157,8 @@ int tool_stopping(void);
  * with the time left.  user is not NULL if data are written only later.  Returns 1 if the user has
  * asked to stop. */
 int tool_progress(double done, void *user);
+/* The same while a signal is read of which work begins when all of it is read; and the end of reading. */
+int tool_reading_progress(double done, void *user);
+void tool_reading_done(void);
 
 #endif

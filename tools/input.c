@@ -104,6 +104,8 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
         tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_signal_load(&signal, path, opts, &err), &err);
+    if (opts != NULL && opts->progress.function != NULL)
+        tool_reading_done();
     if (!is_resampled(signal->head, path, opts))
         return signal;
     if (signal->n < 2)

@@ -87,6 +87,7 @@ main(int argc, char *argv[])
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     tool_reading_needs(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
+    reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
     copy_rows(kind, &reading.opts);
     tool_reading_free(&reading);
     free(wanted.text);

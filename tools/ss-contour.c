@@ -100,6 +100,7 @@ end_overview(drawing *d)
     if (isnan(d->opts.noise))
         d->opts.noise = ss_overview_noise(d->overview);
     d->opts.fmin = d->opts.fmax = 0;
+    d->opts.progress = (ss_progress){ NULL, NULL };     /* the rest takes no time */
 }
 
 /* What is subtracted from a recording's sample i: first + mean + slope (i - middle). */
@@ -131,9 +132,9 @@ find_trend(ss_reader *reader, size_t column, ss_detrend detrend, double *rows)
     return t;
 }
 
-/* Draw rows as they come.  The place in the file `in`, unless it is NULL, shows the progress. */
+/* Draw rows as they come. */
 static void
-draw_rows(drawing *d, ss_reader **source, FILE *in)
+draw_rows(drawing *d, ss_reader **source)
 {
     ss_error err = { 0 };
     if (d->detrend != SS_DETREND_NONE)
@@ -146,14 +147,10 @@ draw_rows(drawing *d, ss_reader **source, FILE *in)
     if (d->detrend != SS_DETREND_NONE)
         t = find_trend(reader, column, d->detrend, rows);
     long double at = 0;
-    struct stat st;
-    double size = in != NULL && fstat(fileno(in), &st) == 0 && st.st_size > 0 ? (double)st.st_size : 1;
     while ((n = tool_rows(reader, rows, piece)) > 0) {
         for (size_t i = 0; i < n; i++, at++)
             x[i] = (double)(rows[i * columns + column] - t.first - t.mean - t.slope * (at - t.middle));
         push(d, x, n);
-        if (in != NULL)
-            tool_progress(fmin((double)lseek(fileno(in), 0, SEEK_CUR) / size, 1), d);
     }
     free(rows);
     end_overview(d);
@@ -174,7 +171,7 @@ draw_recording(drawing *d)
     if (is_signal) {
         tool_check(st, &err);
         tool_resample(&reader, d->path, &d->reading.opts);
-        draw_rows(d, &reader, in);
+        draw_rows(d, &reader);
     }
     ss_reader_free(reader);
     fclose(in);
@@ -187,7 +184,7 @@ static void
 open_input(drawing *d)
 {
     ss_error err = { 0 };
-    d->opts.progress = (ss_progress){ tool_progress, d };
+    d->opts.progress = d->reading.opts.progress = (ss_progress){ tool_progress, d };
     if (!tool_is_hdf5(d->path)) {
         if (!draw_recording(d))
             d->coefficients = d->own = tool_read_coefficients(d->path);
@@ -196,7 +193,7 @@ open_input(drawing *d)
     ss_status st = ss_store_reader_new(&d->reader, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
         ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
-        draw_rows(d, &reader, NULL);
+        draw_rows(d, &reader);
         ss_reader_free(reader);
         return;
     }
@@ -228,6 +225,7 @@ find_signal(drawing *d)
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
     const char *path = d->signal_path, *column = d->column;
+    d->reading.opts.progress = (ss_progress){ NULL, NULL };
     if (path != NULL)
         compare_clocks(signal = tool_read_signal(path, &d->reading.opts), path, d->coefficients);
     else if (tool_is_hdf5(d->path) && ss_store_has_signal(d->path))

@@ -232,6 +232,8 @@ main(int argc, char *argv[])
     req.opts.progress = (ss_progress){ tool_progress, &req };
     char *standard[] = { "-" }, **file = argc > first ? argv + first : standard;
     size_t n = argc > first ? (size_t)(argc - first) : 1, good = 1;
+    if (n == 1 && !req.summary)
+        req.reading.opts.progress = (ss_progress){ tool_reading_progress, &req };
     if (n > 1 || req.summary)
         good = write_table(&req, file, n, kind);
     else

@@ -271,7 +271,9 @@ transform_whole(const request *req, const char *path)
     flow f = { .text = NULL };
     ss_morlet *plan = NULL;
     ss_error err = { 0 };
-    ss_signal *signal = tool_read_signal(path, &req->reading.opts);
+    ss_read_opts reading = req->reading.opts;
+    reading.progress = (ss_progress){ tool_reading_progress, NULL };
+    ss_signal *signal = tool_read_signal(path, &reading);
     size_t column = tool_column(signal->head, path, req->column);
     const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = req->opts;

@@ -392,6 +392,7 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-rank", usage);
     parse(&j, argc, argv);
+    j.reading.opts.progress = (ss_progress){ tool_reading_progress, &j };
     ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);
     size_t column = tool_column(signal->head, j.signal_path, j.column_name);
     j.signal_name = signal_name(j.signal_path);

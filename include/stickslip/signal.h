@@ -109,6 +109,7 @@ typedef struct ss_read_opts {
      * whose remedy helps, or SS_OK.  NULL: no warnings. */
     void (*warn)(ss_status about, const char *text, void *user);
     void *user;                 /* passed to warn */
+    ss_progress progress;       /* called while a file is read, with the part that is done; it cannot stop it */
 } ss_read_opts;
 
 /* The times t with from <= t < to, on the source's clock [s]. */

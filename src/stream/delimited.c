@@ -347,6 +347,12 @@ keep_columns(struct table *t, ss_header **head)
     return ss_header_select(head, t->names, t->kept, t->n_kept, 0);
 }
 
+double
+ss_delimited_given(const struct table *t)
+{
+    return READING + (1 - READING) * (t->rows.n > 0 ? (double)t->rows.given / (double)t->rows.n : 1);
+}
+
 static ss_status
 rewind_samples(ss_reader *reader, ss_error *err)
 {
@@ -388,6 +394,7 @@ ss_delimited_new(ss_reader *reader, const ss_read_opts *opts)
         return NULL;
     *t = (struct table){ .in = &reader->in, .opts = opts, .time = { NONE, 0, 0, 1, 1 },
                          .fitted = { NONE, 0, 0, 1, 1 }, .layout = LAYOUT_ONE, .names = ss_header_new(0, 0) };
+    reader->in.share = READING;
     return t->names != NULL ? t : NULL;
 }
 

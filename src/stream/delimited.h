@@ -96,6 +96,9 @@ ss_status ss_delimited_no_memory(const struct table *t, ss_error *err);
 SS_PRINTF(3, 4)
 void ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...);
 
+/* The part of the work in reading a table to its end, before its rows are given; and the part that is done. */
+#define READING 0.5
+double ss_delimited_given(const struct table *t);
 /* A table of the reader, which frees it.  NULL: no memory. */
 struct table *ss_delimited_new(ss_reader *reader, const ss_read_opts *opts);
 /* Hand the rows of a table, whose names and rows are complete, to the reader: with a clock, without the

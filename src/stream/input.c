@@ -7,9 +7,11 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <stickslip/number.h>
 #include "base/error.h"
+#include "base/progress.h"
 #include "stream/input.h"
 
 enum { PIECE = 65536 };
@@ -24,6 +26,9 @@ ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err)
     in->buffer = malloc(in->capacity + 1);      /* 1 for a NUL behind the last line */
     if (in->name == NULL || in->buffer == NULL)
         return ss_fail_memory(err, name);
+    struct stat st;
+    in->share = 1;
+    in->size = fileno(file) >= 0 && fstat(fileno(file), &st) == 0 && S_ISREG(st.st_mode) ? (double)st.st_size : 0;
     fflush(file);       /* moves the descriptor of a file (not a pipe) to where the FILE is */
     return SS_OK;
 }
@@ -80,6 +85,9 @@ fill(struct input *in, ss_error *err)
         return ss_fail_errno(err, in->name, errno);
     in->ended = n == 0;
     in->hi += (size_t)n;
+    in->had += (double)n;
+    if (in->size > 0)
+        ss_progress_at(&in->progress, in->share * fmin(in->had / in->size, 1));
     return SS_OK;
 }
 

@@ -20,6 +20,8 @@ struct input {
     size_t capacity, lo, hi;    /* unread bytes: buffer[lo ... hi) */
     size_t scanned;             /* there is no newline before this byte */
     int ended;
+    ss_progress progress;       /* told the part of the file that was read, times share; set after opening */
+    double share, size, had;    /* size, had [bytes]; size 0: not known */
     unsigned long line;         /* the number of the line read last, from 1 */
 };
 ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error *err);

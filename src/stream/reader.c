@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/list.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
@@ -59,6 +60,8 @@ ss_reader_open(ss_reader *reader, FILE *in, const char *name, ss_kind kind, cons
     reader->length = UINT64_MAX;
     reader->head = ss_header_new(0, 0);
     ss_status st = ss_input_open(&reader->in, in, name, err);
+    if (opts != NULL)
+        reader->in.progress = opts->progress;
     if (st == SS_OK && reader->head == NULL)
         st = ss_fail_memory(err, name);
     if (st == SS_OK)
@@ -139,6 +142,8 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
     } while (st == SS_OK && *n > 0 && reader->passed <= reader->first);
     int none = reader->passed <= reader->first;
     *n = none ? 0 : *n;
+    if (reader->in.size > 0 && reader->table != NULL)
+        ss_progress_at(&reader->in.progress, ss_delimited_given(reader->table));
     if (st == SS_OK && none && max > 0 && reader->from < reader->to)
         return ss_fail_no_rows(reader->in.name, reader->from, reader->to, err);
     ss_status scaled = ss_calibrate_rows(rows, *n, columns, columns, 1, reader->factor, reader->in.name, err);

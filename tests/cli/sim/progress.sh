@@ -4,7 +4,7 @@
 script() { setsid -w script "$@"; }
 script -qec true /dev/null < /dev/null > log 2>&1 || { echo "no pseudo-terminal to be had"; exit 77; }
 . "$SRC/tests/link.sh"
-for tool in sim morlet features contour rank sweep trade; do link_tool ss-$tool "$BUILD/tests/clock.o"; done
+for tool in sim cat morlet features contour rank sweep trade; do link_tool ss-$tool "$BUILD/tests/clock.o"; done
 PATH=$PWD:$PATH CLOCK_STEP=1
 export PATH CLOCK_STEP
 ss-signal noise --rate 20000 --duration 9 -o noise.au
@@ -24,4 +24,14 @@ for command in 'ss-sim --set duration=1000 coulomb > /dev/null' 'ss-morlet noise
         'ss-rank run.au -o r.tsv' 'ss-rank --fit run.au -o f.scene' \
         'ss-sweep --vary friction=.5:1:50 coulomb -o s.tsv' 'ss-trade -b 60 -s duration=.2 coulomb -o t.tsv'; do
     [ "$(shows "$command")" -gt 1 ] || echo "no progress: $command"
+done
+# A table is read to its end before its rows are given: half of the work, and the rest shows, too.
+ss-cat --to 3 noise.au -o noise.csv
+for command in 'ss-cat noise.csv -o copy.tsv' 'ss-cat noise.au -o copy.tsv' 'ss-cat noise.csv > copy.tsv' \
+        'ss-contour noise.csv -o c.gp' 'ss-contour noise.au -o c.gp' 'ss-features noise.csv -o f.tsv' \
+        'ss-morlet noise.csv -o w.au'; do
+    lines=$(shows "$command")
+    [ "$lines" -gt 9 ] || echo "no progress: $command, $lines"
+    [ "$(grep -c '^100$' percents)" -le 2 ] || echo "waits at 100 %: $command"
+    [ "$(awk '$1 > 10 && $1 < 45' percents | wc -l)" -gt 2 ] || echo "no reading: $command"
 done
