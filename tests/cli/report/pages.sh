@@ -16,6 +16,7 @@ echo "transitions $(grep -vc '^#' found), rows $(sed -n '/<h2>Transitions/,/<h2>
 sed -n 's/^# transition_frequency: //p' found | awk '{ printf "%.6f &plusmn; %.6f\n", $1, $2 }' > number
 grep -c "<td>transition frequency</td><td>$(cat number)</td>" $page
 grep -o '<svg' $page | wc -l
+grep -c 'Triangles at the top: ' $page
 grep -c "by cksum: $(cksum < run.tsv)<" $page
 # the commands shown make the page's features again
 sed -n '/<pre>/,/<\/pre>/p' $page | sed 's/<[^>]*>//g' > commands.sh
