@@ -308,15 +308,53 @@ multiply(struct decimal d, double *x)
     return 1;
 }
 
+struct locales {
+    locale_t c, old;
+};
+
+/* Use the locale C in this thread, until end_c. */
+static struct locales
+begin_c(void)
+{
+    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    return (struct locales){ c, uselocale(c) };
+}
+
+static void
+end_c(struct locales used)
+{
+    uselocale(used.old);
+    if (used.c != (locale_t)0)
+        freelocale(used.c);
+}
+
+int
+ss_print(FILE *out, const char *format, ...)
+{
+    va_list args;
+    struct locales used = begin_c();
+    va_start(args, format);
+    int n = vfprintf(out, format, args);
+    va_end(args);
+    end_c(used);
+    return n;
+}
+
+int
+ss_print_text(char *text, size_t size, const char *format, va_list args)
+{
+    struct locales used = begin_c();
+    int n = vsnprintf(text, size, format, args);
+    end_c(used);
+    return n;
+}
+
 static double
 strtod_in_c(const char *text)
 {
-    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    locale_t old = uselocale(c);                /* of this thread only */
+    struct locales used = begin_c();
     double x = strtod(text, NULL);
-    uselocale(old);
-    if (c != (locale_t)0)
-        freelocale(c);
+    end_c(used);
     return x;
 }
 

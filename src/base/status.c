@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/utf8.h"
 
 const char *
@@ -54,7 +55,7 @@ static void
 format_text(char *text, size_t size, const char *format, va_list args)
 {
     char whole[8192] = "";
-    vsnprintf(whole, sizeof whole, format, args);
+    ss_print_text(whole, sizeof whole, format, args);
     size_t length = strlen(whole), first = size / 4;
     if (length < size)
         memcpy(text, whole, length + 1);

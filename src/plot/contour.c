@@ -77,7 +77,7 @@ write_frequency_tics(FILE *out, double lo, double hi)
                 continue;
             ss_number_format(at, f);
             ss_number_format(text, e < exponent ? i / (fine * pow(10, exponent - e)) : i * pow(10, e - exponent) / fine);
-            fprintf(out, "%s'%s' %s %d", between, major ? text : "", at, !major);
+            ss_print(out, "%s'%s' %s %d", between, major ? text : "", at, !major);
             between = ", ";
         }
     fputs(between[0] == ',' ? ")\n" : "", out);
@@ -166,7 +166,7 @@ write_panel_b(FILE *out, const drawing *d)
         fputs("set object rectangle from graph 0,0 to graph 1,1 back fc rgb ground_colour fs solid noborder\n", out);
     if (contour->fill)
         st = ss_contour_write_fill(out, d->map, contour->levels);
-    fprintf(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
+    ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
             "fs %s noborder lc rgb cone_colour", d->c->n_gaps + 1,
             contour->fill ? "transparent solid 0.6" : "solid 1");
     ss_contour_plot_events(out, &d->marks, contour->n_events);
@@ -271,16 +271,16 @@ write_variables(FILE *out, const drawing *d)
     const ss_contour_opts *contour = d->contour;
     double fmin = d->map->f[0], fmax = d->map->f[d->map->rows - 1];
     ss_script_write_span(out, d->map->span_of_time);
-    fprintf(out, "levels = %d          # contour lines, computed for this number and span\nspan = ",
+    ss_print(out, "levels = %d          # contour lines, computed for this number and span\nspan = ",
             contour->levels);
     ss_script_write(out, d->map->span, 6,
                     "           # dB below 0 dB\nstep = 1.0*span/levels\n");
     if (d->map->top > 0)
-        fprintf(out, "level = %.2f       # dB re 1, the |W| that is 0 dB\n", 20 * log10(d->map->top));
+        ss_print(out, "level = %.2f       # dB re 1, the |W| that is 0 dB\n", 20 * log10(d->map->top));
     fputs(isnan(contour->level) ? "reference = 'level / dB re largest |W|'\n"
                                 : "reference = sprintf('level / dB re |W| of %g dB', level)\n", out);
     if (!isnan(d->map->noise))
-        fprintf(out, "noise = %g         # dB\n", d->map->noise);
+        ss_print(out, "noise = %g         # dB\n", d->map->noise);
     fputs("fmin = ", out);
     ss_script_write(out, fmin, ss_contour_decimals(fmin), "    # Hz\nfmax = ");
     ss_script_write(out, fmax, ss_contour_decimals(fmax), "  # Hz\n");
@@ -289,7 +289,7 @@ write_variables(FILE *out, const drawing *d)
     else
         ss_palette_write(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
     if (contour->fill)
-        fprintf(out, "ground_colour = '%s'\n", ground_of(contour) != NULL ? ground_of(contour) : "white");
+        ss_print(out, "ground_colour = '%s'\n", ground_of(contour) != NULL ? ground_of(contour) : "white");
     fputs("cone_colour = '" CONE_COLOUR "'; event_colour = '" VERMILION "'\n", out);
     if (contour->fill)
         fputs("line_colour = '" LEVEL_COLOUR "'\n", out);

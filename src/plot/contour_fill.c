@@ -83,7 +83,7 @@ write_polygon(FILE *out, const painting *p, const polygon *area, int levels)
         ss_contour_write_point(out, p->map, p->point[area->first + i % area->n], ',',
                                i < area->n ? " to " : "");
     if (area->band < levels)
-        fprintf(out, " back fc palette cb -%d.5*step fs solid 1 noborder\n", area->band);
+        ss_print(out, " back fc palette cb -%d.5*step fs solid 1 noborder\n", area->band);
     else
         fputs(" back fc rgb ground_colour fs solid 1 noborder\n", out);
 }

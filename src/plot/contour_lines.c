@@ -87,6 +87,6 @@ ss_contour_write_lines(FILE *out, const contour_map *map, int levels, int *any)
         }
     }
     *any = drawn[0] != '\0';
-    fprintf(out, "EOD\ndrawn = '%s'     # levels that have lines\n", drawn + (drawn[0] == ' '));
+    ss_print(out, "EOD\ndrawn = '%s'     # levels that have lines\n", drawn + (drawn[0] == ' '));
     return status;
 }

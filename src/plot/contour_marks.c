@@ -73,11 +73,11 @@ point_to(border *b, double t, double height)
         return;
     *taken = 1;
     if (b->n++ == 0)
-        fprintf(b->out, "$%s_arrows << EOD\n", b->kind);
+        ss_print(b->out, "$%s_arrows << EOD\n", b->kind);
     ss_script_write(b->out, b->span->from + (at - dt) * range, ss_script_decimals(range), " ");
-    fprintf(b->out, "%.3f ", height - rise);
+    ss_print(b->out, "%.3f ", height - rise);
     ss_script_write(b->out, dt * range, ss_script_decimals(range) + 1, " ");
-    fprintf(b->out, "%.3f\n", rise);
+    ss_print(b->out, "%.3f\n", rise);
 }
 
 static size_t
@@ -171,7 +171,7 @@ ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts 
         fputs(seen.event_arrows > 0 ? rim : "", out);
         return seen;
     }
-    fprintf(out, "feature_colour = '" MARK_COLOUR "'; %s", rim);
+    ss_print(out, "feature_colour = '" MARK_COLOUR "'; %s", rim);
     write_features(out, map, contour->overlay, &seen);
     seen.feature_arrows = write_feature_arrows(out, map, contour->overlay);
     return seen;
@@ -182,7 +182,7 @@ ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts 
 static void
 plot_arrows(FILE *out, const char *kind)
 {
-    fprintf(out, ", \\\n    $%s_arrows using 1:(rim($2)):3:(rim($2+$4)-rim($2)) with vectors head filled "
+    ss_print(out, ", \\\n    $%s_arrows using 1:(rim($2)):3:(rim($2+$4)-rim($2)) with vectors head filled "
             "size screen 0.012,20 lw 1 lc rgb %s_colour", kind, kind);
 }
 

@@ -57,7 +57,7 @@ write_points(FILE *out, const double *x, script_scale of_x, const double *y, scr
         if (seen[cell])
             continue;
         seen[cell] = 1;
-        fprintf(out, "%.9g ", ss_script_scaled(x[i], of_x));
+        ss_print(out, "%.9g ", ss_script_scaled(x[i], of_x));
         ss_script_write(out, ss_script_scaled(y[i], of_y), decimals, "\n");
     }
 }
@@ -71,17 +71,17 @@ write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, si
     script_scale of_y = ss_script_scale(e);
     script_label label = ss_map_label(column[i].label, of_y, ROOM);
     int line = is_line(x, y, n), steps = line && are_whole(y, n);
-    fprintf(out, "$panel%zu << EOD\n", i);
+    ss_print(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
-    fprintf(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
+    ss_print(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
     ss_script_write_side_label(out, 1, &label);
     ss_script_write_tics(out, "ytics", (script_extent){ ss_script_scaled(e.lo, of_y), ss_script_scaled(e.hi, of_y) },
                          i == 1 ? 6 : 4);
     if (steps)
-        fprintf(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, $panel%zu using 1:2 with points "
+        ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, $panel%zu using 1:2 with points "
                 "pt 7 ps 4*size lc rgb colour\nunset title\n", i, i);
     else
-        fprintf(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
+        ss_print(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
                 line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '" ZERO_COLOUR "' lw 0.7, " : "", i,
                 line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
 }
@@ -103,7 +103,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, &titled, NULL, NULL);
-    fprintf(out, "colour = '" BLUE "'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
+    ss_print(out, "colour = '" BLUE "'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
             "set border lw 0.8; set lmargin at screen 0.175; set rmargin at screen 0.965\n"
             "set xrange [%.9g:%.9g]%s; set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
             "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set xtics format ''\n", log ? x.lo * (1 - 1e-8) : x.lo,

@@ -206,7 +206,7 @@ static void
 write_font(FILE *out, const script_label *l)
 {
     if (l->font < 1)
-        fprintf(out, " font ','.(exists('font') ? sprintf('%%.1f', %.2f*word(substr(font, 6, 9), 1)) "
+        ss_print(out, " font ','.(exists('font') ? sprintf('%%.1f', %.2f*word(substr(font, 6, 9), 1)) "
                 ": '%.1f')", l->font, 10 * l->font);
 }
 
@@ -215,7 +215,7 @@ ss_script_write_x_label(FILE *out, const script_label *l, const char *offset)
 {
     fputs("set xlabel ", out);
     write_label(out, l);
-    fprintf(out, " noenhanced offset %s", offset);
+    ss_print(out, " noenhanced offset %s", offset);
     write_font(out, l);
     putc('\n', out);
 }
@@ -223,9 +223,9 @@ ss_script_write_x_label(FILE *out, const script_label *l, const char *offset)
 void
 ss_script_write_side_label(FILE *out, int n, const script_label *l)
 {
-    fprintf(out, "set label %d ", n);
+    ss_print(out, "set label %d ", n);
     write_label(out, l);
-    fprintf(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.0135" : "0.03");
+    ss_print(out, " at screen %s,graph 0.5 center rotate noenhanced", l->second > 0 ? "0.0135" : "0.03");
     write_font(out, l);
     putc('\n', out);
 }
@@ -237,16 +237,16 @@ ss_script_write_decades(FILE *out, const char *axis, double lo, double hi)
     int every = 1 + (last - first) / DECADES;
     if (last <= first || (lo >= 1e-3 && hi <= 1e5))
         return;
-    fprintf(out, "set %stics (", axis);
+    ss_print(out, "set %stics (", axis);
     for (int i = first - 1; i <= last; i++) {
         script_label l = { .n = 0 };
         if (i % every == 0) {
             add(&l, "10");
             add_superscript(&l, i);
         }
-        fprintf(out, "'%s' 1e%d", l.text, i);
+        ss_print(out, "'%s' 1e%d", l.text, i);
         for (int j = 2; j < 10 && every == 1; j++)
-            fprintf(out, ", '' %de%d 1", j, i);
+            ss_print(out, ", '' %de%d 1", j, i);
         fputs(i < last ? ", " : ")\n", out);
     }
 }
@@ -257,7 +257,7 @@ ss_script_write_decade_range(FILE *out, double lo, double hi)
     if (lo > hi)
         return;
     int first = (int)floor(log10(lo)), last = (int)floor(log10(hi)) + 1;
-    fprintf(out, "set yrange [1e%d:1e%d]; set ytics autofreq\n", first, last);
+    ss_print(out, "set yrange [1e%d:1e%d]; set ytics autofreq\n", first, last);
     ss_script_write_decades(out, "y", pow(10, first), pow(10, last));
 }
 

@@ -145,7 +145,7 @@ static void
 write_regions(FILE *out, const map_grid *g, const double *column, const regions *r)
 {
     for (size_t i = 0; i < r->n; i++) {
-        fprintf(out, "$region%zu << EOD\n", i);
+        ss_print(out, "$region%zu << EOD\n", i);
         write_boxes(out, g, column, r->value[i]);
         fputs("EOD\n", out);
     }
@@ -179,11 +179,11 @@ write_axis(FILE *out, const char *name, const map_axis *a)
 {
     double lo = a->value[0], hi = a->value[a->n - 1];
     if (a->log) {
-        fprintf(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, lo * (1 - 1e-8), hi * (1 + 1e-8), name);
+        ss_print(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, lo * (1 - 1e-8), hi * (1 + 1e-8), name);
         ss_script_write_decades(out, name, lo, hi);
         return;
     }
-    fprintf(out, "set %srange [", name);
+    ss_print(out, "set %srange [", name);
     ss_map_write_coordinate(out, a, lo, ':');
     ss_map_write_coordinate(out, a, hi, ']');
     putc('\n', out);
@@ -197,28 +197,28 @@ write_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
     const char *comma = "plot ";
     for (size_t i = 0; i < r->n; i++, comma = ", \\\n     ") {
         size_t s = r->n > 1 ? i * (REGIONS_MAX - 1) / (r->n > 5 ? r->n - 1 : 5) : 0;
-        fprintf(out, "%s$region%zu using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder "
+        ss_print(out, "%s$region%zu using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder "
                 "lc rgb '%s' title ", comma, i, shade[s]);
         if (r->rest && i == 0)
             fputs("'rest'", out);
         else
-            fprintf(out, "'%.6g'", r->value[i]);
+            ss_print(out, "'%.6g'", r->value[i]);
     }
     if (has_lines) {
-        fprintf(out, "%s$line using 1:2 with lines lw 0.7 lc rgb line_colour notitle", comma);
+        ss_print(out, "%s$line using 1:2 with lines lw 0.7 lc rgb line_colour notitle", comma);
         comma = ", \\\n     ";
     }
     if (r->missing) {
-        fprintf(out, "%s$missing using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb "
+        ss_print(out, "%s$missing using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb "
                 "missing_colour title 'none'", comma);
         comma = ", \\\n     ";
     }
     if (map->n_curve > 0) {
-        fprintf(out, "%s$curve using 1:2 with lines lw 2 lc rgb curve_colour notitle", comma);
+        ss_print(out, "%s$curve using 1:2 with lines lw 2 lc rgb curve_colour notitle", comma);
         comma = ", \\\n     ";
     }
     if (has_lines)
-        fprintf(out, "%s$label using 1:2:(sprintf('%%g', $3)) with labels boxed font fine tc rgb "
+        ss_print(out, "%s$label using 1:2:(sprintf('%%g', $3)) with labels boxed font fine tc rgb "
                 "line_colour notitle", comma);
     putc('\n', out);
 }
@@ -277,10 +277,10 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     st = write_data(out, d, g, r, line, map, err);
     if (st != SS_OK)
         return st;
-    fprintf(out, "set lmargin at screen %g; set tmargin at screen %s; "
+    ss_print(out, "set lmargin at screen %g; set tmargin at screen %s; "
             "set bmargin at screen 0.14\n", 0.14 + 0.025 * fmax(0, ss_map_letters(drawn_range(&g->y), g->y.log) - 3),
             line > 0 && titled.title[0] != '\0' ? "0.88" : "0.92");
-    fprintf(out, "set rmargin at screen %s\n", r->n > 0 || r->missing ? "0.835" : "0.965");
+    ss_print(out, "set rmargin at screen %s\n", r->n > 0 || r->missing ? "0.835" : "0.965");
     write_axis(out, "x", &g->x);
     write_axis(out, "y", &g->y);
     fputs("set tics nomirror out scale 0.6; set border lw 0.8 front\n"

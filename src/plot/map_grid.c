@@ -135,7 +135,7 @@ ss_map_along(const map_axis *a, double at)
 void
 ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind)
 {
-    fprintf(out, "%.*g%c", a->digits, ss_script_scaled(x, a->scale), behind);
+    ss_print(out, "%.*g%c", a->digits, ss_script_scaled(x, a->scale), behind);
 }
 
 void

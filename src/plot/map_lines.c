@@ -49,7 +49,7 @@ write_point(FILE *out, const map_grid *g, const double point[2], double level)
 {
     ss_map_write_coordinate(out, &g->x, ss_map_along(&g->x, point[0]), ' ');
     ss_map_write_coordinate(out, &g->y, ss_map_along(&g->y, point[1]), ' ');
-    fprintf(out, "%.6g\n", level);
+    ss_print(out, "%.6g\n", level);
 }
 
 /* Are all corners of the cell around a point known? */

@@ -34,7 +34,7 @@ write_points(FILE *out, const ss_models *models, double unit)
     for (size_t i = 1; i < models->n; i++)
         for (size_t k = 0; k < DRAWN; k++)
             if (!isnan(error_of(&models->row[i], k)))
-                fprintf(out, "%.4g %.3g %zu %zu\n", models->row[i].seconds / unit,
+                ss_print(out, "%.4g %.3g %zu %zu\n", models->row[i].seconds / unit,
                         error_of(&models->row[i], k), k, i);
     fputs("EOD\n", out);
 }
@@ -49,7 +49,7 @@ write_decades(FILE *out, const ss_models *models)
             lo = fmin(lo, error_of(&models->row[i], k));
             hi = fmax(hi, error_of(&models->row[i], k));
         }
-    fprintf(out, "set yrange [%.3g:%.3g]\n", pow(10, floor(log10(lo / 1.1))),
+    ss_print(out, "set yrange [%.3g:%.3g]\n", pow(10, floor(log10(lo / 1.1))),
             pow(10, ceil(log10(hi * 1.1))));
 }
 
@@ -59,7 +59,7 @@ write_scenes(FILE *out, const ss_models *models, size_t from, size_t to)
     const char *comma = "plot ";
     for (size_t i = 1; i < models->n; i++)
         for (size_t k = from; k < to; k++, comma = ", \\\n     ")
-            fprintf(out, "%s$error using 1:($3 == %zu && $4 == %zu ? $2 : NaN) with points pt %d ps 1.2 "
+            ss_print(out, "%s$error using 1:($3 == %zu && $4 == %zu ? $2 : NaN) with points pt %d ps 1.2 "
                     "lc rgb '%s'", comma, k, i, drawn[k].point, colour[(i - 1) % COLOURS]);
     putc('\n', out);
 }
@@ -80,7 +80,7 @@ write_entry(FILE *out, const char *name, size_t row, size_t column, int point, c
 {
     fputs("set label ", out);
     ss_script_quote(out, name);
-    fprintf(out, " at screen %.3f,row*%zu + 0.035 left noenhanced offset 0.8,-0.15 point pt %d ps 1.2 "
+    ss_print(out, " at screen %.3f,row*%zu + 0.035 left noenhanced offset 0.8,-0.15 point pt %d ps 1.2 "
             "lc rgb '%s'\n", 0.165 + 0.118 * (double)column, row, point, rgb);
 }
 
@@ -101,7 +101,7 @@ write_key(FILE *out, const ss_models *models)
 static void
 write_upper(FILE *out, const ss_models *models)
 {
-    fprintf(out, "row = 0.045; bottom = row*%zu + 0.175; between = bottom + 0.18\n",
+    ss_print(out, "row = 0.045; bottom = row*%zu + 0.175; between = bottom + 0.18\n",
             (count_scenes(models) + 1) / 2);
     fputs("set lmargin at screen 0.16; set rmargin at screen 0.95\n"
           "set tmargin at screen 0.94; set bmargin at screen between + 0.03\n"
@@ -156,10 +156,10 @@ ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, opts, NULL, NULL);
-    fprintf(out, "scene = %.3g        # s of CPU time\n", models->row[0].seconds);
+    ss_print(out, "scene = %.3g        # s of CPU time\n", models->row[0].seconds);
     write_points(out, models, models->row[0].seconds);
-    fprintf(out, "set multiplot\nset logscale x; set xrange [%.3g:%.3g]\n", least / 1.6, most * 1.6);
-    fprintf(out, "set xtics nomirror scale 0.6%s; set ytics nomirror scale 0.6; set border lw 0.8; unset key\n",
+    ss_print(out, "set multiplot\nset logscale x; set xrange [%.3g:%.3g]\n", least / 1.6, most * 1.6);
+    ss_print(out, "set xtics nomirror scale 0.6%s; set ytics nomirror scale 0.6; set border lw 0.8; unset key\n",
             most / least > 30 ? "" : " (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)");
     fputs("set grid xtics ytics lc rgb '" GRID_COLOUR "' lt 1\n"
           "set arrow 1 from 1,graph 0 to 1,graph 1 nohead lc rgb '#888888' dt 2\n", out);

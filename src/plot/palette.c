@@ -70,6 +70,6 @@ ss_palette_write(FILE *out, const char *name, int areas)
     int lightest = areas ? TENTHS - 1 : TENTHS - 3;     /* a line of the last two is lost on white */
     fputs("colours = \"", out);
     for (int k = 0; k <= lightest; k++)
-        fprintf(out, "%g '%s'%s", (double)k / lightest, p->colour[reversed ? k : lightest - k],
+        ss_print(out, "%g '%s'%s", (double)k / lightest, p->colour[reversed ? k : lightest - k],
                 k < lightest ? ", " : "\"\n");
 }

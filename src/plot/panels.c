@@ -135,12 +135,12 @@ plot_panel(FILE *out, const panel *p, size_t i, size_t n, size_t samples, int ba
 {
     if (i == n)
         fputs(SCRIPT_TIME_LABELS, out);
-    fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
+    ss_print(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel "
             "+ 0.1*panel*(%zu)\n", i - 1, i, (size_t)(i < n));
     fputs("unset label 1; ", out);
     ss_script_write_side_label(out, 1, &p->label);
     ss_script_write_tics(out, "ytics", p->drawn, 5);
-    fprintf(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", bands ? plot_bands : "", i,
+    ss_print(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n", bands ? plot_bands : "", i,
             samples > 1 ? "lines" : "points pt 7 ps 1",
             over ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name" : "");
     if (i == 1)
@@ -176,7 +176,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
     if (status == SS_OK) {
         ss_script_write_title(out, opts, head, NULL);
         ss_script_write_span(out, &span);
-        fprintf(out, "colour = '" BLUE "'\n%s", over ? "over = '" VERMILION "'\n" : "");
+        ss_print(out, "colour = '" BLUE "'\n%s", over ? "over = '" VERMILION "'\n" : "");
         if (opts->features != NULL)
             bands = write_bands(out, opts->features, &span);
         write_traces(out, p, panels, &clock, &span);
@@ -184,7 +184,7 @@ ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t
         if (over)
             ss_script_write_trace(out, "$over", opts->over->values, &over_clock, &over_span, p[0].scale,
                                   &p[0].drawn);
-        fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
+        ss_print(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", TIME / height,
                 1 - title / height, panels);
         fputs(layout, out);
         if (over)
@@ -272,7 +272,7 @@ write_path(FILE *out, const char *name, const path *p, const script_scale scale[
         near[i] = (e.hi - e.lo) / scale[i].unit / (2 * SCRIPT_COLUMNS);
         decimals[i] = ss_script_decimals((e.hi - e.lo) / scale[i].unit);
     }
-    fprintf(out, "%s << EOD\n", name);
+    ss_print(out, "%s << EOD\n", name);
     for (size_t k = p->span.first; k < end; k++) {
         double at[2] = { ss_script_scaled(p->x[0][k], scale[0]), ss_script_scaled(p->x[1][k], scale[1]) };
         if (ss_script_is_missing(&p->clock, k)) {

@@ -118,7 +118,7 @@ add_gap(reduction *r, ss_error *err)
 {
     if (r->n == 0)
         return SS_OK;
-    fprintf(r->gaps, "%s%zu:%zu", ftell(r->gaps) > 0 ? " " : "", r->n, r->n + 1);
+    ss_print(r->gaps, "%s%zu:%zu", ftell(r->gaps) > 0 ? " " : "", r->n, r->n + 1);
     return keep_cell(r, r->last, err);
 }
 

@@ -58,7 +58,7 @@ write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
         int is_plain = memchr(plain, bytes[i], sizeof plain - 1) != NULL;
         escaped = !is_plain || (escaped && isdigit((unsigned char)bytes[i]));
         if (escaped)
-            fprintf(out, "\\%03o", (unsigned char)bytes[i]);
+            ss_print(out, "\\%03o", (unsigned char)bytes[i]);
         else
             putc(bytes[i], out);
     }
@@ -140,7 +140,7 @@ ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int inter
 {
     int decimals = ss_script_decimals(0), same = !(drawn.lo < drawn.hi);
     double step = same ? 0 : ss_script_step(drawn.hi - drawn.lo, intervals, &decimals);
-    fprintf(out, "set %s %s", axis, same ? "(" : "");
+    ss_print(out, "set %s %s", axis, same ? "(" : "");
     ss_script_write(out, same ? drawn.lo : step, decimals, same ? ")\n" : "\n");
 }
 
@@ -234,13 +234,13 @@ write_terminal(FILE *out, const char *format, const char *output, double width, 
     ss_script_write(out, pdf ? width : round(width * per_cm), 3, pdf ? "        # cm\n" : "\n");
     fputs("height = ", out);
     ss_script_write(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
-    fprintf(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
-    fprintf(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
+    ss_print(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
+    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
             terminal(format), unit, unit, pdf ? "0.6" : "2",
             pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
         /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
-        fprintf(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
+        ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
         write_bytes(out, output, strlen(output), 0);
         fputs("\"\n", out);
     }
@@ -260,9 +260,9 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
     if (format != NULL)
         write_terminal(out, format, opts->output, scale * WIDTH, scale * height);
     else
-        fprintf(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
+        ss_print(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
-    fprintf(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", size_of_marks(format));
+    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", size_of_marks(format));
     return SS_OK;
 }
 
@@ -409,7 +409,7 @@ ss_script_write_trace(FILE *out, const char *name, const double *x, const script
     t.decimals[0] = ss_script_decimals(span->to - span->from);
     t.decimals[1] = ss_script_decimals((e.hi - e.lo) / scale.unit);
     size_t columns = span->n > 2 * SCRIPT_COLUMNS ? SCRIPT_COLUMNS : span->n;
-    fprintf(out, "%s << EOD\n", name);
+    ss_print(out, "%s << EOD\n", name);
     for (size_t c = 0, i = span->first; c < columns; c++) {
         size_t end = span->first + (size_t)((double)span->n * (double)(c + 1) / (double)columns);
         write_column(&t, i, end);

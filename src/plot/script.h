@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stickslip/plot.h>
+#include "base/number.h"
 
 #define SCRIPT_COLUMNS 1000     /* pixel columns of a line over time, after thinning */
 

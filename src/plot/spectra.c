@@ -33,7 +33,7 @@ static void
 write_density(FILE *out, const ss_spectrum *s, size_t k, int decibels)
 {
     if (s->density[k] > 0)
-        fprintf(out, "%.7g %.6g\n", (double)k * s->step, decibels ? 10 * log10(s->density[k]) : s->density[k]);
+        ss_print(out, "%.7g %.6g\n", (double)k * s->step, decibels ? 10 * log10(s->density[k]) : s->density[k]);
 }
 
 /* $panel: the least and the most of each column of pixels, in the order of frequency. */
@@ -41,7 +41,7 @@ static void
 write_densities(FILE *out, size_t panel, const ss_spectrum *s, int decibels)
 {
     double columns = SCRIPT_COLUMNS / log((double)s->n);
-    fprintf(out, "$panel%zu << EOD\n", panel);
+    ss_print(out, "$panel%zu << EOD\n", panel);
     for (size_t k = 1, low, high; k < s->n;) {
         double column = floor(columns * log((double)k));
         for (low = high = k; k < s->n && floor(columns * log((double)k)) == column; k++) {
@@ -79,11 +79,11 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
               "noenhanced offset 0,0.5\n", out);
         ss_script_write_decades(out, "x", s->step, (double)(s->n - 1) * s->step);
     }
-    fprintf(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel + "
+    ss_print(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel + "
             "0.08*panel*(%zu)\nunset label 1; ", i - 1, i, (size_t)(i < n));
     ss_script_write_side_label(out, 1, label);
     if (any)
-        fprintf(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
+        ss_print(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
     else
         fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
               "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
@@ -175,12 +175,12 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, opts, head, NULL);
-    fprintf(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
+    ss_print(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
             s->step, (double)(s->n - 1) * s->step, s->resolution, s->segments);
     fputs("colour = '" BLUE "'\n", out);
     for (size_t i = 0; i < n; i++)
         write_densities(out, i + 1, spectrum[i], decibels);
-    fprintf(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - title / height, n);
+    ss_print(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - title / height, n);
     fputs(layout, out);
     fputs(decibels ? "" : "set logscale y\n", out);
     for (size_t i = 0; i < n; i++) {

@@ -15,7 +15,7 @@ enum { COLOURS = sizeof colour / sizeof *colour, POINTS = sizeof point / sizeof 
 static void
 write_point(FILE *out, const ss_trade_row *row, double fastest)
 {
-    fprintf(out, "%.4g %.3g\n", row->seconds / fastest, row->error_x);
+    ss_print(out, "%.4g %.3g\n", row->seconds / fastest, row->error_x);
 }
 
 /* The points of one method as datablock number k, from row i on.  Returns the row after them. */
@@ -23,7 +23,7 @@ static size_t
 write_method(FILE *out, const ss_trade *trade, size_t i, size_t k, double fastest)
 {
     const char *method = trade->row[i].method;
-    fprintf(out, "$method%zu << EOD\n", k);
+    ss_print(out, "$method%zu << EOD\n", k);
     for (; i < trade->n && strcmp(trade->row[i].method, method) == 0; i++)
         if (trade->row[i].status == SS_OK)
             write_point(out, &trade->row[i], fastest);
@@ -46,7 +46,7 @@ write_plot(FILE *out, const ss_trade *trade)
     fputs("plot $frontier using 1:2 with points pt 6 ps 1.6 lc rgb '" BLACK "' title 'frontier'", out);
     for (size_t i = 0, method = 0; i < trade->n; i = next_method(trade, i), method++)
         if (trade->row[i].status == SS_OK) {
-            fprintf(out, ", \\\n     $method%zu using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
+            ss_print(out, ", \\\n     $method%zu using 1:2 with linespoints lw 1 dt %d pt %d ps 0.7 "
                     "lc rgb '%s' title ", method, method < COLOURS ? 1 : 2, point[method % POINTS],
                     colour[method % COLOURS]);
             ss_script_quote(out, trade->row[i].method);
@@ -77,7 +77,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, opts, NULL, NULL);
-    fprintf(out, "fastest = %.3g        # s of CPU time\n", fastest);
+    ss_print(out, "fastest = %.3g        # s of CPU time\n", fastest);
     for (size_t i = 0, k = 0; i < trade->n; k++)
         i = trade->row[i].status == SS_OK ? write_method(out, trade, i, k, fastest)
             : next_method(trade, i);
@@ -95,7 +95,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
           "set key at screen 0.54,screen 0.265 center top horizontal maxcols 3 samplen 2 "
           "noenhanced\n", out);
     ss_script_write_decade_range(out, least, most);
-    fprintf(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
+    ss_print(out, "set ylabel 'worst error of %s' noenhanced offset 0.5,0\n",
             trade->transform ? "W / largest |W| of its scale" : "x / max|x|");
     write_plot(out, trade);
     return ss_script_end(out);

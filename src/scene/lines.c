@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "scene/model.h"
 #include "scene/value.h"
 
@@ -24,7 +25,7 @@ fail_at(struct key_origin at, ss_error *err, const char *format, ...)
     char text[256];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    ss_print_text(text, sizeof text, format, args);
     va_end(args);
     if (at.line < 0)
         return ss_fail(err, SS_EINVAL, "%s", text);

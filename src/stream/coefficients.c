@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/list.h"
 #include "morlet/plan.h"
 #include "stream/coefficient_rows.h"
@@ -44,7 +45,7 @@ refuse(const coefficient_reader *r, const char *format, ...)
     unsigned long line = r->in.in.line;
     va_list args;
     va_start(args, format);
-    vsnprintf(why, sizeof why, format, args);
+    ss_print_text(why, sizeof why, format, args);
     va_end(args);
     return ss_fail(r->err, SS_EDATA, "%s:%s%lu: %s", r->in.in.name, line > 0 ? "" : " row ",
                    line > 0 ? line : (unsigned long)r->in.row, why);

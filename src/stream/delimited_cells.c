@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/list.h"
 #include "stream/delimited.h"
 #include "stream/stamp.h"
@@ -24,7 +25,7 @@ ss_delimited_warn(const struct table *t, ss_status about, const char *format, ..
     if (t->opts->warn == NULL)
         return;
     va_start(args, format);
-    vsnprintf(text.text, sizeof text.text, format, args);
+    ss_print_text(text.text, sizeof text.text, format, args);
     va_end(args);
     t->opts->warn(about, text.text, t->opts->user);
 }
