@@ -444,12 +444,12 @@ rankings_refuse_null(FILE *out)
     static const char *const names[] = { "mine" };
     static ss_rank_row row;
     const ss_ranking ranking = { .n = 1, .row = &row }, empty = { .n = 0 };
-    const ss_ranking_text about = { "s", "a", "its name", names };
+    const ss_ranking_text about = { "s", "a", "its name", names, 0 };
     const ss_rank_opts unknown = { .quantity = (ss_quantity)SS_QUANTITIES };
     assert_int_equal(ss_ranking_write(NULL, &about, NULL, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_ranking_write(&empty, &about, NULL, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_ranking_write(&ranking, NULL, NULL, out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_ranking_write(&ranking, &(ss_ranking_text){ "s", "a", "its name", NULL }, NULL,
+    assert_int_equal(ss_ranking_write(&ranking, &(ss_ranking_text){ "s", "a", "its name", NULL, 0 }, NULL,
                                       out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_ranking_write(&ranking, &about, &unknown, out, SS_TSV), SS_EINVAL);
     assert_int_equal(ss_ranking_write(&ranking, &about, NULL, NULL, SS_TSV), SS_EINVAL);

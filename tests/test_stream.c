@@ -688,7 +688,7 @@ static void
 reads_back_the_ranking_that_it_writes(void **state)
 {
     static const char *const scene[] = { "mine", "other[x=1]" };
-    const ss_ranking_text about = { "run.tsv", "acc", "its unit", scene };
+    const ss_ranking_text about = { "run.tsv", "acc", "its unit", scene, 0 };
     (void)state;
     for (ss_verdict verdict = SS_UNDECIDED; verdict <= SS_NAMED; verdict++) {
         ss_rank_row row[2];

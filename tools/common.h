@@ -92,7 +92,7 @@ size_t tool_column(const ss_header *head, const char *path, const char *name);
 /* --- output -------------------------------------------------------------------------------- */
 
 typedef enum tool_kind {        /* chosen by the ending of the file after -o, or by --format */
-    TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF,
+    TOOL_H5, TOOL_GP, TOOL_PNG, TOOL_SVG, TOOL_PDF, TOOL_EPS,
     TOOL_STREAM,                /* and from here on a format of streams: see tool_stream */
     TOOL_TSV = TOOL_STREAM + SS_TSV
 } tool_kind;
@@ -100,7 +100,7 @@ typedef enum tool_kind {        /* chosen by the ending of the file after -o, or
 /* Sets of output kinds, to be combined with |: pictures, formats of streams that hold words, all
  * formats of streams, signals. */
 enum {
-    TOOL_PICTURES = 1 << TOOL_GP | 1 << TOOL_PNG | 1 << TOOL_SVG | 1 << TOOL_PDF,
+    TOOL_PICTURES = 1 << TOOL_GP | 1 << TOOL_PNG | 1 << TOOL_SVG | 1 << TOOL_PDF | 1 << TOOL_EPS,
     TOOL_WORDS = 1 << TOOL_STREAM,
     TOOL_NUMBERS = TOOL_WORDS | 1 << (TOOL_STREAM + 1),
     TOOL_SIGNALS = TOOL_NUMBERS | 1 << TOOL_H5

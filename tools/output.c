@@ -5,12 +5,13 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 /* --- by the ending of a name, or by --format ----------------------------------------------- */
 
-static const char *const ending[] = { "h5", "gp", "png", "svg", "pdf" };
+static const char *const ending[] = { "h5", "gp", "png", "svg", "pdf", "eps" };
 
 ss_format
 tool_stream(tool_kind kind)
@@ -23,7 +24,7 @@ is_name(char *list, size_t size, const char *name, const char *wanted)
 {
     size_t n = strlen(list);
     snprintf(list + n, size - n, " .%s", name);
-    return wanted != NULL && strcmp(wanted, name) == 0;
+    return wanted != NULL && strcasecmp(wanted, name) == 0;
 }
 
 tool_kind
@@ -32,7 +33,7 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     char list[256] = "";
     ss_format format;
     tool_writes(path);
-    if (path == NULL || strcmp(path, "-") == 0)
+    if (path == NULL || strcmp(path, "-") == 0 || strcmp(path, "/dev/null") == 0)
         return fallback;
     const char *dot = strrchr(path, '.'), *wanted = dot != NULL ? dot + 1 : NULL, *name;
     for (size_t i = 0; (allowed & TOOL_NUMBERS) && (name = ss_format_name(i)) != NULL; i++)
@@ -260,16 +261,18 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
     return child;
 }
 
-/* Replace the time at which Cairo wrote a PDF, which would make two pictures of one script differ. */
+/* Replace the time at which Cairo wrote a PDF or EPS, which would make two pictures of one script differ. */
 static void
 fix_date(char *picture, size_t n)
 {
-    static const char key[] = "/CreationDate (D:", date[] = "20000101000000";
-    size_t key_length = sizeof key - 1, length = sizeof date - 1;
-    for (size_t i = 0; i + key_length + length <= n; i++)
-        if (memcmp(picture + i, key, key_length) == 0
-            && strspn(picture + i + key_length, "0123456789") == length)
-            memcpy(picture + i + key_length, date, length);
+    static const struct { const char *key, *date; } form[] = {
+        { "/CreationDate (D:", "20000101000000" }, { "\n%%CreationDate: ", "Sat Jan  1 00:00:00 2000" } };
+    for (size_t k = 0; k < sizeof form / sizeof *form; k++) {
+        size_t key = strlen(form[k].key), date = strlen(form[k].date);
+        for (size_t i = 0; i + key + date <= n; i++)
+            if (memcmp(picture + i, form[k].key, key) == 0 && memchr(picture + i + key, '\n', date) == NULL)
+                memcpy(picture + i + key, form[k].date, date);
+    }
 }
 
 /* Read all bytes of a pipe; they are to be freed. */

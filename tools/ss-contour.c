@@ -15,10 +15,11 @@ static const char usage[] =
 "      --span=DB        their range below the largest |W| (80, or down to noise)\n"
 "      --fill           colours between the lines, too\n"
 "      --level=DB       0 dB is |W| of DB re 1, not the largest |W|\n"
-"      --palette=NAME   viridis, cividis, plasma, inferno, magma, grey; or NAME_r\n"
+"      --palette=NAME   viridis, cividis, plasma, inferno, magma or grey, where\n"
+"                       dark is loud; with _r behind it, light is loud\n"
 "      --ridge          mark at each time the frequencies where |W| is largest\n"
 "      --fmin=HZ, --fmax=HZ  draw these frequencies (all); for times see --from\n"
-"      --detrend=NAME   of a recording, subtract none, mean or linear first\n"
+"      --detrend=NAME   of a recording, subtract none, mean or linear first (none)\n"
 "      --signal=FILE    the signal for panel (a)\n"
 "  -c, --column=NAME|N  its column, default the one transformed\n"
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
@@ -26,7 +27,7 @@ static const char usage[] =
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
-"  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf);\n"
+"  -o, --output=FILE    a gnuplot script (.gp) or a picture (.png, .svg, .pdf, .eps);\n"
 "                       default: the script on standard output\n"
 "  -q, --quiet          no warnings; -v, --verbose: report the input\n"
 "  -h, --help           show this text; --version: show the version\n";

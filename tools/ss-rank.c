@@ -20,6 +20,7 @@ static const char usage[] =
 "  -p, --spread=PERCENT  how far the rig's parameters may be from a scene's\n"
 "                        (default 30)\n"
 "  -F, --forcing=HZ      frequency of the base (default: found)\n"
+"  -l, --long            every criterion of each scene, and what was compared\n"
 "      --fit             write instead the compliant scene that moves as the\n"
 "                        signal does, from SCENE's mass, stiffness and release\n"
 "                        rule (default compliant-light); or of a pulled SCENE\n"
@@ -33,7 +34,7 @@ TOOL_READING_USAGE
 typedef struct job {
     const char *signal_path, *column_name, *known_by, *output;
     char *signal_name;
-    int as, fits;               /* as: of ss_quantity_names; -1: not given */
+    int all, as, fits;          /* all: criteria; as: of ss_quantity_names; -1: not given */
     tool_texts settings;
     const char **scenes;
     size_t n_scenes;
@@ -193,7 +194,7 @@ rank(const job *j, const ss_signal *signal, size_t column)
     note_work(r, name, &j->opts);
     const ss_ranking_text about = {
         .signal = j->signal_name, .column = signal->head->column[column].name,
-        .known_by = j->known_by, .scene = (const char *const *)name };
+        .known_by = j->known_by, .scene = (const char *const *)name, .brief = !j->all };
     tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind)), NULL);
     for (size_t i = 0; i < j->n_scenes; i++)
         free(name[i]);
@@ -372,7 +373,7 @@ parse(job *j, int argc, char *argv[])
         TOOL_TEXT('c', "column", &j->column_name), TOOL_CHOICE('a', "as", &j->as, ss_quantity_names),
         TOOL_TEXTS('s', "set", &j->settings), TOOL_NUMBER('p', "spread", &percent, percents),
         TOOL_NUMBER('F', "forcing", &j->opts.forcing_frequency, frequencies),
-        TOOL_FLAG(0, "fit", &j->fits), TOOL_OUTPUT(&j->output), TOOL_FORMAT_OF_WORDS(&j->kind) };
+        TOOL_FLAG(0, "fit", &j->fits), TOOL_FLAG('l', "long", &j->all), TOOL_OUTPUT(&j->output), TOOL_FORMAT_OF_WORDS(&j->kind) };
     int first = TOOL_PARSE(argc, argv, options, &j->reading);
     j->opts.spread = percent / 100;
     tool_reading_end(&j->reading, j->column_name);

@@ -114,6 +114,8 @@ typedef struct ss_ranking_text {
     const char *column;         /* the name of the column that was ranked */
     const char *known_by;       /* how the column's quantity was found: "its unit" */
     const char *const *scene;   /* the names of the scenes, in the order in which they were given */
+    int brief;                  /* 1: the answer, and of each scene the total, the residual and the worst
+                                   criterion; 0: every criterion, and orders by other thresholds */
 } ss_ranking_text;
 
 /* Write the text of a ranking, as ss-rank(1) describes; opts are those of ss_ranking_new, or NULL.

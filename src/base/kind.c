@@ -25,6 +25,9 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 #define NETCDF "a netCDF 3 file", "; nccopy -k nc4 makes HDF5 of it"
 #define UTF16 "text in UTF-16", "; iconv -f UTF-16 -t UTF-8 converts it"
 #define SOUND "a sound file", "; sox FILE -t au - makes a signal of it"
+#define PANDAS(form) "; in Python, pandas.read_" form "('FILE').to_csv('run.csv', index=False)"
+#define JSON "a JSON file", PANDAS("json")
+#define PICKLE "a pickle of Python", "; in Python, numpy.save or to_csv of what it holds writes a readable file"
 
 /* Files of other programs, and a way to make a readable file of them. */
 static const struct foreign {
@@ -34,7 +37,11 @@ static const struct foreign {
     { "\211PNG", PICTURE }, { "%PDF-", PICTURE }, { "<?xml", PICTURE }, { "<svg", PICTURE },
     { "\377\330\377", PICTURE },
     { "RIFF", SOUND }, { "fLaC", SOUND }, { "OggS", SOUND },
-    { "ID3\003", SOUND }, { "ID3\004", SOUND },
+    { "ID3\003", SOUND }, { "ID3\004", SOUND }, { "FORM", SOUND },
+    { "PAR1", "a Parquet file", PANDAS("parquet") }, { "ARROW1", "a Feather file", PANDAS("feather") },
+    { "FEA1", "a Feather file", PANDAS("feather") },
+    { "{\"", JSON }, { "{\n", JSON }, { "{\r", JSON }, { "{ ", JSON }, { "[{", JSON }, { "[[", JSON },
+    { "\200\002", PICKLE }, { "\200\003", PICKLE }, { "\200\004", PICKLE }, { "\200\005", PICKLE },
     { "\037\213", "a gzip file", "; gunzip unpacks it" },
     { "\377\376", UTF16 }, { "\376\377", UTF16 },
     { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV, or an array of it by numpy.save" },

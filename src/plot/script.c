@@ -217,7 +217,7 @@ static const char *
 terminal(const char *format)
 {
     static const char *const name[][2] = {
-        { "png", "pngcairo" }, { "svg", "svg" }, { "pdf", "pdfcairo" } };
+        { "png", "pngcairo" }, { "svg", "svg" }, { "pdf", "pdfcairo" }, { "eps", "epscairo" } };
     for (size_t i = 0; i < sizeof name / sizeof *name; i++)
         if (strcmp(format, name[i][0]) == 0)
             return name[i][1];
@@ -227,17 +227,17 @@ terminal(const char *format)
 static void
 write_terminal(FILE *out, const char *format, const char *output, double width, double height)
 {
-    int pdf = strcmp(format, "pdf") == 0;
-    double per_cm = pdf ? 1 : PIXELS_PER_CM;
-    const char *unit = pdf ? " cm" : "";
+    int print = strcmp(format, "pdf") == 0 || strcmp(format, "eps") == 0;
+    double per_cm = print ? 1 : PIXELS_PER_CM;
+    const char *unit = print ? " cm" : "";
     fputs("width = ", out);
-    ss_script_write(out, pdf ? width : round(width * per_cm), 3, pdf ? "        # cm\n" : "\n");
+    ss_script_write(out, print ? width : round(width * per_cm), 3, print ? "        # cm\n" : "\n");
     fputs("height = ", out);
-    ss_script_write(out, pdf ? height : round(height * per_cm), 3, pdf ? "        # cm\n" : "\n");
-    ss_print(out, "font = 'Sans,%s'\n", pdf ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
+    ss_script_write(out, print ? height : round(height * per_cm), 3, print ? "        # cm\n" : "\n");
+    ss_print(out, "font = 'Sans,%s'\n", print ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
     ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
-            terminal(format), unit, unit, pdf ? "0.6" : "2",
-            pdf ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
+            terminal(format), unit, unit, print ? "0.6" : "2",
+            print ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
     if (output != NULL) {
         /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
         ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");

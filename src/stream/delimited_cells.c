@@ -93,7 +93,8 @@ ss_delimited_may_lack(const struct table *t)
 static int
 is_no_number(const char *cell)
 {
-    static const char *const word[] = { "nan", "inf", "infinity", "na", "n/a", "null",
+    static const char *const word[] = { "nan", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "1.#inf", "inf", "infinity",
+        "na", "n/a", "#n/a", "#nv", "null", "none", "ovr", "ovl", "ol", "ovld", "overload", "overrange", "overflow",
         "\u221e", NULL };
     cell += *cell == '-' || *cell == '+';
     for (int i = 0; word[i] != NULL; i++)

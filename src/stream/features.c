@@ -214,6 +214,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         || ss_rows_begin(&rows, out, format, SS_KIND_FEATURES) != SS_OK)
         return SS_EINVAL;
     const ss_header *head = signal->head;
+    write_summary(&rows, f, opts);
     write_notes(&rows, head);
     ss_rows_note(&rows, "column: %s", head->column[column].name);
     ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
@@ -229,6 +230,5 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         ss_rows_end(&rows);
     }
     write_spikes(&rows, f->spikes, head->start);
-    write_summary(&rows, f, opts);
     return ss_output_flush(out);
 }

@@ -80,7 +80,11 @@ write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const 
     write_criteria(out, "signal", SS_BY_MAXIMUM, SS_BY_MAP, r);
     fprintf(out, "# noise: %s %% of the power, at most\n",
             ss_number_rounded(text, 100 * r->noise, DIGITS));
-    write_answer(out, r, about->scene);
+}
+
+static void
+write_unfit(FILE *out, const ss_ranking *r, const ss_ranking_text *about)
+{
     for (size_t i = 0; i < r->n && is_compared(r); i++)
         if (isnan(r->row[i].total))
             fprintf(out, "# does not fit: %s, which is %s\n", about->scene[r->row[i].scene],
@@ -112,12 +116,17 @@ write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *o
 /* --- rows ---------------------------------------------------------------------------------- */
 
 static void
-write_columns(struct rows *rows)
+write_columns(struct rows *rows, int brief)
 {
+    static const char *const label[][2] = { { "rank", "" }, { "scene", "" }, { "total", "" },
+                                            { "residual", "dB" }, { "worst", "" } };
     char score[64];
-    ss_rows_column(rows, "rank", "");
-    ss_rows_column(rows, "scene", "");
-    ss_rows_column(rows, "total", "");
+    if (brief) {
+        ss_rows_columns(rows, label, 5);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        ss_rows_column(rows, label[i][0], "");
     for (int i = 0; i < SS_CRITERIA; i++) {
         const ss_criterion_rule *rule = &ss_criterion_rules[i];
         ss_rows_column(rows, rule->name, rule->unit);
@@ -127,8 +136,24 @@ write_columns(struct rows *rows)
     ss_rows_end(rows);
 }
 
+/* The criterion of the largest score above 0, or a hyphen. */
+static const char *
+worst_of(const ss_rank_row *row)
+{
+    const char *name = "-";
+    double most = 0;
+    for (int k = 0; k < SS_CRITERIA; k++) {
+        double score = ss_rank_score(row, (ss_criterion)k, 1);
+        if (score > most) {
+            most = score;
+            name = ss_criterion_rules[k].name;
+        }
+    }
+    return name;
+}
+
 static void
-write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene)
+write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene, int brief)
 {
     const ss_rank_row *row = &r->row[i];
     int compared = !isnan(row->total);
@@ -138,7 +163,11 @@ write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *s
         ss_rows_number(rows, NAN);
     ss_rows_word(rows, scene[row->scene]);
     ss_rows_rounded(rows, compared ? row->total : NAN, DIGITS);
-    for (int k = 0; k < SS_CRITERIA; k++) {
+    if (brief) {
+        ss_rows_rounded(rows, compared ? row->value[SS_BY_RESIDUAL] : NAN, DIGITS);
+        ss_rows_word(rows, compared ? worst_of(row) : "-");
+    }
+    for (int k = 0; k < SS_CRITERIA && !brief; k++) {
         ss_rows_rounded(rows, compared ? row->value[k] : NAN, DIGITS);
         ss_rows_rounded(rows, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
     }
@@ -161,13 +190,18 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
         return SS_ENOMEM;
     ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING);
     if (st == SS_OK) {
-        if (rows.format->has_notes)
+        int notes = rows.format->has_notes, all = notes && !about->brief;
+        if (notes)
+            write_answer(out, ranking, about->scene);
+        if (all)
             write_notes(out, ranking, about, opts);
-        if (rows.format->has_notes && is_compared(ranking))
+        if (notes)
+            write_unfit(out, ranking, about);
+        if (all && is_compared(ranking))
             write_orders(out, ranking, about->scene, order);
-        write_columns(&rows);
+        write_columns(&rows, about->brief);
         for (size_t i = 0; i < ranking->n; i++)
-            write_row(&rows, ranking, i, about->scene);
+            write_row(&rows, ranking, i, about->scene, about->brief);
         st = ss_output_flush(out);
     }
     free(order);

@@ -92,7 +92,7 @@ head -n 3 ring.fish
 ss-cat ring.fish --format fish | cmp - ring.fish
 ss-sim -s duration=0.01 coulomb --format fish | head -n 2
 echo '-- what reads them: the same as of text'
-for command in ss-cat 'ss-noise --rms 1' ss-morlet ss-plot 'ss-features -q' 'ss-rank -q'; do
+for command in ss-cat 'ss-noise --rms 1' ss-morlet ss-plot 'ss-features -q' 'ss-rank -q --long'; do
     $command ring.tsv | grep -v -e '^# signal' > one
     $command ring.fish | grep -v -e '^# signal' > two
     cmp one two && [ "$(wc -l < two)" -gt 9 ] && echo "$command: the same"

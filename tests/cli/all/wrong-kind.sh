@@ -23,6 +23,11 @@ printf 'PK\003\004aaaaaaaaaaaaaaaaaaaaaaa\n' > book.xlsx
 printf '\320\317\021\340aaaaaaaaaaaaaaaaaaaaaaa\n' > book.xls
 printf 'MATLAB 5.0 MAT-file, Platform: GLNXA64\0\0' > old.mat
 printf 'TDSm\016\0\0\0aaaaaaaaaaaaaa' > log.tdms
+printf 'PAR1\025\004\025\020aaaaaaaa' > run.parquet
+printf 'ARROW1\0\0\377\377\377\377' > run.feather
+printf '{"t": [0, 1], "a": [2, 3]}\n' > run.json
+printf '\200\004\225\025\0\0\0\0\0\0\0]' > run.pkl
+printf 'FORM\0\0\0\056AIFFCOMM' > run.aiff
 printf 'CDF\001\0\0\0\0aaaaaaaaaaaaaa' > log.nc
 echo 'hello world' > hello.txt
 printf 't,a\n0,1\n0.1,2\n' > table.csv
@@ -34,7 +39,7 @@ refused() {     # COMMAND ...: exit 1, one line, nothing on standard output
     [ "$status" = 1 ] && [ ! -s out ] || echo "$*: exit status $status"
 }
 for file in coefficients.tsv coefficients.au features.tsv events.tsv sweep.tsv trade.tsv ranking.tsv \
-        my.scene plot.gp plot.png plot.pdf plot.svg sound.wav sound.mp3 signal.tsv.gz utf16.csv \
+        my.scene plot.gp plot.png plot.pdf plot.svg sound.wav sound.mp3 run.parquet run.feather run.json run.pkl run.aiff signal.tsv.gz utf16.csv \
         book.xlsx book.xls old.mat log.tdms log.nc hello.txt empty; do
     refused ss-cat $file
 done

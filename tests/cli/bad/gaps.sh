@@ -21,3 +21,11 @@ LC_ALL=C sed 's/gaps: 0.5:0.7/gaps: 0.7:0.5/' run.au > wrong.au
 ss-features wrong.au || echo $?
 ss-morlet --fmin 20 sorted.tsv | sed 's/^# gaps: .*/# gaps: 2:1/' > wrong.w
 ss-contour wrong.w || echo $?
+# What recorders write where there is no number is a gap.
+for word in OVR '#NV' '-nan(ind)' '1.#QNAN' Overload null; do
+    printf 't_s,a\n0,1\n0.1,2\n0.2,%s\n0.3,4\n0.4,5\n' "$word" > word.csv
+    ss-cat word.csv > none && echo "$word: read as a number"
+    ss-cat --gaps interpolate word.csv | sed -n '8p'
+done
+printf 't_s,a\n0,1\n0.1,2\n0.2,later\n0.3,4\n' > word.csv
+ss-cat --gaps interpolate word.csv || echo "$?"

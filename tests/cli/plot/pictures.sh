@@ -4,7 +4,7 @@ ss-sim -o run.tsv compliant-light
 ss-sim --events compliant-light > events
 ss-morlet run.tsv -o run.h5
 ss-morlet run.tsv > run.coef
-for form in png svg pdf; do
+for form in png svg pdf eps; do
     ss-plot run.tsv -o panels.$form
     ss-plot --spectrum -c a -c x run.tsv -o spectrum.$form
     ss-contour --from 0.2 --fmin 5 run.tsv -o recording.$form
@@ -18,6 +18,10 @@ head -c 4 panels.png | tail -c 3
 grep -c '<svg' contour.svg
 head -c 4 loop.pdf
 echo
+head -c 4 loop.eps
+echo
+ss-plot run.tsv -o capitals.PNG && cmp capitals.PNG panels.png
+ss-plot run.tsv -o /dev/null && ss-cat run.tsv -o /dev/null && ss-contour run.h5 -o /dev/null && [ -c /dev/null ]
 
 # The script draws by itself, on any terminal, and the tool draws nothing else.
 ss-contour run.h5 > contour.gp

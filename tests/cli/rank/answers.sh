@@ -1,6 +1,6 @@
 # What is told and what is not; columns are as many as their names.
 answer() {
-    ss-rank "$@" > rows && sed -n 's/^# answer: //p' rows | sed 's/[0-9.e+]* \(times\|%\)/N \1/g'
+    ss-rank --long "$@" > rows && sed -n 's/^# answer: //p' rows | sed 's/[0-9.e+]* \(times\|%\)/N \1/g'
     awk -F '\t' '/^# columns:/ { n = split($0, name, " ") - 2 }
                  !/^#/ { rows++; if (NF != n) print "columns", NF, n }
                  END { if (rows != 4) print "rows", rows + 0 }' rows
@@ -22,12 +22,12 @@ grep -c '^# order' rows
 # the quantity by name, by unit, by the unit a name ends in; V may be volts: nothing tells
 for name in F displacement_in Friction-Force_kip slip_velocity_mm_s acc_raw slip_mm 'load (kN)' \
             load_kN table_mm_s2 V stress_MPa; do
-    printf '%s\n' "$name" 0 1 2 3 4 5 6 7 | ss-cat --rate 1 - | ss-rank 2> err |
+    printf '%s\n' "$name" 0 1 2 3 4 5 6 7 | ss-cat --rate 1 - | ss-rank --long 2> err |
         sed -n 's/^# quantity: //p'
     sed 's/^ss-rank: /    /' err
 done
 # the per cents of a refusal are those of the row that leaves least, but for the samples at events
-ss-sim state-variable --columns v | ss-rank --as a > rows
+ss-sim state-variable --columns v | ss-rank --long --as a > rows
 grep -o 'none of these: each leaves at least' rows
 awk -F '\t' '/^# answer/ { left = $0; sub(/.*at least /, "", left); part = $0; sub(/.*most, /, "", part) }
     !/^#/ { power = 100 * 10^($4 / 10); least = least == "" || power < least ? power : least }
