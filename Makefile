@@ -103,8 +103,8 @@ SOFLAGS  = -shared -Wl,-soname,libstickslip.so.$(SOVERSION)
 # HDF5 comes with the shared library, which tools open when a file needs it (tools/hdf5.c): in the
 # build tree, or where it is installed, before any other that is found.
 TOOL_OBJ += $(BUILD)/tools/hdf5.o
-rpath    := $$ORIGIN/..:$$ORIGIN/../lib$(addprefix :,$(filter-out $(abspath $(BINDIR)/../lib),$(abspath $(LIBDIR))))
-TOOL_LIBS = -Wl,--disable-new-dtags,-rpath,$(call quote,$(rpath)) $(NUMERICS) -ldl
+libdir   := $(LIBDIR)
+TOOL_LIBS = $(NUMERICS) -ldl
 endif
 OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
 	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o \
@@ -127,6 +127,9 @@ $(BUILD)/scenes.c: data/embed.sh $(SCENES)
 	@mkdir -p $(@D)
 	sh data/embed.sh ss_shipped_scenes $(PAPER) -- ss_catalogue_scenes $(PUBLISHED) > $@.new && mv $@.new $@
 
+$(BUILD)/tools/hdf5.o: ALL_CFLAGS += -DLIBDIR=$(call quote,"$(LIBDIR)")
+$(BUILD)/tools/hdf5.o: $(BUILD)/libdir
+
 $(BUILD)/src/base/number.o: ALL_CFLAGS += -I$(BUILD)
 $(BUILD)/src/base/number.o: $(BUILD)/number_pow10.h
 
@@ -141,9 +144,9 @@ $(BUILD)/$(SHARED): $(LIB_OBJ)
 	$(CC) $(SOFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 	cd $(@D) && for l in $(LINKS); do ln -sf $(@F) $$l; done
 
-$(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC) $(BUILD)/rpath | $(BUILD)/$(SHARED)
+$(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC) | $(BUILD)/$(SHARED)
 	@mkdir -p $(@D)
-	$(CC) $(ALL_LDFLAGS) -o $@ $(filter-out %/rpath,$^) $(TOOL_LIBS)
+	$(CC) $(ALL_LDFLAGS) -o $@ $^ $(TOOL_LIBS)
 
 # A script has the style of its pages within.
 $(BUILD)/bin/%: tools/%.sh data/report.css include/stickslip/status.h
@@ -176,7 +179,7 @@ $(OBJECTS): Makefile $(BUILD)/flags | needs
 
 quote = '$(subst ','\'',$1)'
 flags := $(CC) $(ALL_CFLAGS) : $(ALL_LDFLAGS) $(LIBS)
-$(BUILD)/flags $(BUILD)/rpath: $(BUILD)/%: always
+$(BUILD)/flags $(BUILD)/libdir: $(BUILD)/%: always
 	@mkdir -p $(@D)
 	@printf '%s\n' $(call quote,$($*)) | cmp -s - $@ || \
 		printf '%s\n' $(call quote,$($*)) > $@
@@ -264,7 +267,7 @@ bench: all
 	@$(MAKE) --no-print-directory bench-errors
 
 # --- install ---------------------------------------------------------------------------------
-# DESTDIR may have blanks; PREFIX may not, it stands in rpath.
+# DESTDIR may have blanks; PREFIX may not, tools have it within.
 to     = $(call quote,$(DESTDIR)$($1))
 remove = ! cd $(call to,$1) 2> /dev/null || rm -f $2
 

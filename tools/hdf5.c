@@ -4,10 +4,34 @@
  * tool.  So tools are not linked with the store (src/store): these functions have its names, open
  * the shared library libstickslip where the store is, and call the same function there. */
 #include <dlfcn.h>
+#include <limits.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 #include <stickslip/store.h>
 
 #define LIBRARY "libstickslip.so." SS_VERSION
+
+/* Open the library beside the tool, in the build tree or installed, or where it was to be installed, before any other
+ * of its name. */
+static void *
+open_library(void)
+{
+    static const char *const place[] = { "/../", "/../lib/" };
+    char tool[PATH_MAX], path[PATH_MAX + 64];
+    ssize_t n = readlink("/proc/self/exe", tool, sizeof tool - 1);
+    void *library = NULL;
+    tool[n > 0 ? n : 0] = '\0';
+    char *slash = strrchr(tool, '/');
+    for (size_t i = 0; slash != NULL && library == NULL && i < sizeof place / sizeof *place; i++) {
+        *slash = '\0';
+        snprintf(path, sizeof path, "%s%s%s", tool, place[i], LIBRARY);
+        library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    }
+    if (library == NULL)
+        library = dlopen(LIBDIR "/" LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    return library != NULL ? library : dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
+}
 
 /* *function becomes the store's function with this name.  Returns 0, with the reason, if there is none. */
 static int
@@ -15,7 +39,7 @@ find(void *function, const char *name, ss_error *err)
 {
     static void *library;
     if (library == NULL)
-        library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
+        library = open_library();
     void *found = library != NULL ? dlsym(library, name) : NULL;
     *(void **)function = found;             /* the form of dlsym(3), as C has no such conversion */
     if (found == NULL && err != NULL)

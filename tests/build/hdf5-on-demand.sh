@@ -11,10 +11,13 @@ ss-cat run.h5 > run.tsv
 
 # Installed, the library in the usual place or one of its own, it is found before any other of its name.
 mkdir tree elsewhere
-cp -a "$BUILD"/src "$BUILD"/tools "$BUILD"/bin "$BUILD"/flags "$BUILD"/rpath "$BUILD"/*.* tree
+cp -a "$BUILD"/src "$BUILD"/tools "$BUILD"/bin "$BUILD"/flags "$BUILD"/libdir "$BUILD"/*.* tree
 echo none > elsewhere/"${library##*/}"
 for place in lib own/place; do
     "$MAKE" -s -C "$SRC" BUILD="$PWD/tree" PREFIX="$PWD/root" LIBDIR="$PWD/root/$place" install > log 2>&1 || cat log
+    for file in root/bin/ss-* root/$place/*.so; do
+        ! readelf -d "$file" 2> /dev/null | grep -E 'RPATH|RUNPATH' || echo "in ${file##*/}"
+    done
     LD_LIBRARY_PATH=elsewhere root/bin/ss-cat run.h5 | cmp - run.tsv || echo "$place: not read"
     rm -r root
 done
