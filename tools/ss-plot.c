@@ -26,7 +26,7 @@ static const char usage[] =
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp, the default), a picture (.png,\n"
-"                       .svg, .pdf, .eps), or the numbers of a spectrum (.tsv, .csv)\n"
+"                       .svg, .pdf, .eps), or numbers of a spectrum (.tsv, .csv)\n"
 "      --format=tsv|csv these numbers on standard output\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 

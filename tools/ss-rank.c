@@ -26,8 +26,7 @@ static const char usage[] =
 "                        rule (default compliant-light); or of a pulled SCENE\n"
 "                        the one whose slips are those of the spring's force\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv or .csv; --format=tsv|csv of standard output; with\n"
-"                        --fit any name\n"
+"  -o, --output=FILE     .tsv or .csv, with --fit any name; --format=tsv|csv\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 

@@ -27,7 +27,7 @@ TOOL_READING_USAGE
 "  -n, --need=LIST       the cheapest that keeps a list of NAME=ERROR, such as\n"
 "                        x=1e-2,a=0.1,map=3dB,microslips, in one sentence\n"
 "  -o, --output=FILE     .tsv or .csv, or a picture of error against time as .gp,\n"
-"                        .png, .svg, .pdf or .eps; --format=tsv|csv of standard output\n"
+"                        .png, .svg, .pdf, .eps; --format=tsv|csv on stdout\n"
 "  -q, --quiet           no progress; -v, --verbose: report the measurement\n"
 "  -h, --help            show this text; --version: show the version\n";
 

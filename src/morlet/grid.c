@@ -11,6 +11,7 @@
  * (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below twice the reach of the wavelet; steps above
  * B_0 = 1 are few and stay exact.  The grid follows from options, rate and j alone. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/range.h"
@@ -84,6 +85,23 @@ requested_range(size_t n, double rate, const ss_morlet_opts *opts, range use)
     return ask;
 }
 
+/* Refuse scales that are not usable, by the limit as it was given. */
+static ss_status
+refuse(range use, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
+{
+    double low = n > 0 ? label(use.hi, opts) : 0, high = label(use.lo, opts);
+    int by_fmax = opts->fmax > 0 && (opts->fmax > high || opts->fmax < low || !(opts->fmin > 0));
+    char what[32] = "";
+    if (n > 0)
+        snprintf(what, sizeof what, "%zu ", n);
+    if (opts->octaves)
+        return ss_fail(err, SS_ESCALE, "%ssamples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy %g, "
+                       "not octaves %g to %g", what, rate, low, high, opts->accuracy, opts->m0, opts->m1);
+    return ss_fail(err, SS_ESCALE, "%ssamples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy %g, "
+                   "not %s %g Hz", what, rate, low, high, opts->accuracy, by_fmax ? "fmax" : "fmin",
+                   by_fmax ? opts->fmax : opts->fmin);
+}
+
 static ss_status
 check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts *opts,
               ss_error *err)
@@ -96,15 +114,8 @@ check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts 
                        "needed%s", n, PLURAL(n), rate, opts->accuracy, need,
                        opts->force ? ", or both limits of frequency" : "");
     }
-    if (!opts->force && n == 0 && ask.lo < use.lo)
-        return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within "
-                       "accuracy %g, not %.6g Hz", rate, label(use.lo, opts), opts->accuracy,
-                       label(ask.lo, opts));
     if (!opts->force && (ask.lo < use.lo || ask.hi > use.hi))
-        return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz "
-                       "within accuracy %g, not from %.6g to %.6g Hz", n, rate,
-                       label(use.hi, opts), label(use.lo, opts), opts->accuracy,
-                       label(ask.hi, opts), label(ask.lo, opts));
+        return refuse(use, n, rate, opts, err);
     if (ask.lo > ask.hi)
         return ss_fail(err, SS_EINVAL, "no scale lies between these limits of frequency; %d voices "
                        "an octave are next to them at %.6g and %.6g Hz", opts->voices,

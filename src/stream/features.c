@@ -207,7 +207,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         { "recurrence", "s" }, { "recurrence_error", "s" }, { "stick", "s" }, { "stick_error", "s" },
         { "static_friction", "" }, { "static_friction_error", "" }, { "friction", "" },
         { "friction_error", "" }, { "k_over_m", "1/s^2" }, { "k_over_m_error", "1/s^2" } };
-    enum { ALL = sizeof columns / sizeof *columns, OF_LOADING = 18 };
+    enum { EVERY = sizeof columns / sizeof *columns, OF_LOADING = 18 };
     struct rows rows;
     char threshold[SS_NUMBER_MAX];
     if (f == NULL || signal == NULL || column >= signal->head->n_columns || opts == NULL || out == NULL
@@ -222,11 +222,22 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
     if (ss_header_find_note(head, "gaps") != NULL)
         ss_rows_note(&rows, "near_gaps: nothing is claimed: no spike within 12 scales, no event "
                      "within 6, no local maximum within sqrt(2), no fit over one");
-    ss_rows_columns(&rows, columns, f->loading != NULL ? ALL : ALL - OF_LOADING);
-    for (size_t i = 0; i < f->n; i++) {
-        write_transition(&rows, &f->transition[i], head->start, f->spikes->conclusive);
-        if (f->loading != NULL)
+    size_t n_columns = f->loading != NULL ? EVERY : EVERY - OF_LOADING;
+    int repeats = !rows.format->has_notes;      /* the summary, then also in a row without a transition */
+    for (size_t i = 0; i < n_columns; i++)
+        ss_rows_column(&rows, columns[i][0], columns[i][1]);
+    if (repeats)
+        ss_summary_columns(&rows, f, opts);
+    ss_rows_end(&rows);
+    for (size_t i = 0; i < f->n + (repeats && f->n == 0); i++) {
+        if (i < f->n)
+            write_transition(&rows, &f->transition[i], head->start, f->spikes->conclusive);
+        if (i < f->n && f->loading != NULL)
             write_loading(&rows, &f->loading[i]);
+        for (size_t k = 0; i == f->n && k < n_columns; k++)
+            ss_rows_number(&rows, NAN);
+        if (repeats)
+            ss_summary_cells(&rows, f, opts);
         ss_rows_end(&rows);
     }
     write_spikes(&rows, f->spikes, head->start);

@@ -32,16 +32,53 @@ belongs(number_group of, const ss_features *f, const ss_features_opts *opts)
     }
 }
 
+/* The next number from i on that the features have and the options ask for, or NULL.  A median also has the
+ * scatter of the events. */
+static const feature_number *
+next_number(size_t *i, const ss_features *f, const ss_features_opts *opts, ss_median *m)
+{
+    while (*i < SS_SUMMARY_NUMBERS) {
+        const feature_number *n = &ss_feature_numbers[(*i)++];
+        if (!belongs(n->of, f, opts))
+            continue;
+        *m = (ss_median){ NAN, NAN, NAN };
+        memcpy(m, (const char *)f + n->at, n->is_median ? sizeof *m : sizeof (ss_value));
+        return n;
+    }
+    return NULL;
+}
+
+void
+ss_summary_columns(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
+{
+    const feature_number *n;
+    ss_median m;
+    for (size_t i = 1; (n = next_number(&i, f, opts, &m)) != NULL; ) {
+        char name[64];
+        snprintf(name, sizeof name, "all_%s", n->key);
+        ss_rows_column(rows, name, "");
+        snprintf(name, sizeof name, "all_%s_error", n->key);
+        ss_rows_column(rows, name, "");
+    }
+}
+
+void
+ss_summary_cells(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
+{
+    ss_median m;
+    for (size_t i = 1; next_number(&i, f, opts, &m) != NULL; ) {
+        ss_rows_number(rows, m.value);
+        ss_rows_number(rows, m.error);
+    }
+}
+
 void
 ss_summary_write(struct rows *rows, const ss_features *f, const ss_features_opts *opts)
 {
     char text[3][SS_NUMBER_MAX];
-    for (size_t i = 1; i < SS_SUMMARY_NUMBERS; i++) {
-        const feature_number *n = &ss_feature_numbers[i];
-        ss_median m = { NAN, NAN, NAN };
-        if (!belongs(n->of, f, opts))
-            continue;
-        memcpy(&m, (const char *)f + n->at, n->is_median ? sizeof m : sizeof (ss_value));
+    const feature_number *n;
+    ss_median m;
+    for (size_t i = 1; (n = next_number(&i, f, opts, &m)) != NULL; ) {
         ss_rows_note(rows, "%s: %s %s%s%s", n->key, ss_number_text(text[0], m.value),
                      ss_number_text(text[1], m.error), n->is_median ? " " : "",
                      n->is_median ? ss_number_text(text[2], m.scatter) : "");

@@ -100,7 +100,7 @@ done
 ss-trade -q -b 0.01 ring.fish | grep '^# compared'
 echo '-- what writes rows'
 ss-morlet --voices 1 --format fish ring.fish | head -n 2 | tail -n 1
-ss-features ring.fish -o features.fish && head -n 1 features.fish
+ss-features ring.fish -o features.fish && head -n 1 features.fish | cut -d '|' -f 1-12
 ss-sim --events -s settle=0 -s duration=0.5 coulomb -o events.fish && head -n 2 events.fish
 ss-rank -q ring.fish coulomb -o ranking.fish && head -n 1 ranking.fish | cut -d '|' -f 1-5
 ss-sweep coulomb --vary friction=0.5:1:2 --measure stops -o sweep.fish && cat sweep.fish
