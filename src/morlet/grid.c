@@ -11,7 +11,6 @@
  * (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below twice the reach of the wavelet; steps above
  * B_0 = 1 are few and stay exact.  The grid follows from options, rate and j alone. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/range.h"
@@ -91,14 +90,17 @@ refuse(range use, size_t n, double rate, const ss_morlet_opts *opts, ss_error *e
 {
     double low = n > 0 ? label(use.hi, opts) : 0, high = label(use.lo, opts);
     int by_fmax = opts->fmax > 0 && (opts->fmax > high || opts->fmax < low || !(opts->fmin > 0));
-    char what[32] = "";
-    if (n > 0)
-        snprintf(what, sizeof what, "%zu ", n);
+    if (n == 0 && opts->octaves)
+        return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within accuracy %g, not octaves "
+                       "%g to %g", rate, high, opts->accuracy, opts->m0, opts->m1);
+    if (n == 0)
+        return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within accuracy %g, not %s %g Hz",
+                       rate, high, opts->accuracy, by_fmax ? "fmax" : "fmin", by_fmax ? opts->fmax : opts->fmin);
     if (opts->octaves)
-        return ss_fail(err, SS_ESCALE, "%ssamples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy %g, "
-                       "not octaves %g to %g", what, rate, low, high, opts->accuracy, opts->m0, opts->m1);
-    return ss_fail(err, SS_ESCALE, "%ssamples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy %g, "
-                   "not %s %g Hz", what, rate, low, high, opts->accuracy, by_fmax ? "fmax" : "fmin",
+        return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy "
+                       "%g, not octaves %g to %g", n, rate, low, high, opts->accuracy, opts->m0, opts->m1);
+    return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy %g, "
+                   "not %s %g Hz", n, rate, low, high, opts->accuracy, by_fmax ? "fmax" : "fmin",
                    by_fmax ? opts->fmax : opts->fmin);
 }
 

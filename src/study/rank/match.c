@@ -218,6 +218,7 @@ solve(descent *w, descent_point *at, double misfit, const match *others, size_t 
     if (copy_same(m, others, n_others))
         return;
     w->n_moved += 2;
+    w->slopes = NO_SLOPES;              /* those by the start are not known yet */
     for (size_t i = 0; i < 2 && m->compared > 0 && m->left <= UNLIKELY * m->power; i++) {
         double before = m->left;
         if (!free_start(w, cycles[i], at, m->power))
